@@ -1,0 +1,49 @@
+// Clock.h - the only source of time in core; nothing else asks the system.
+//
+// A SteadyClock runs in real time; a VirtualClock moves only when the control loop moves it, so that a
+// two-hour session takes seconds and the same seed gives the same bytes.
+//
+// Thread-safety: now() may be called from any thread. VirtualClock::advanceTo() has one caller, the
+// control loop.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "core/base/Units.h"
+
+namespace tacto {
+
+class Clock {
+public:
+    virtual ~Clock() = default;
+    /// Time since this clock was made. Never goes back.
+    [[nodiscard]] virtual Instant now() const noexcept = 0;
+    [[nodiscard]] virtual bool isVirtual() const noexcept = 0;
+};
+
+class SteadyClock final : public Clock {
+public:
+    SteadyClock() noexcept;
+    [[nodiscard]] Instant now() const noexcept override;
+    [[nodiscard]] bool isVirtual() const noexcept override { return false; }
+
+private:
+    const std::chrono::steady_clock::time_point start_;
+};
+
+class VirtualClock final : public Clock {
+public:
+    [[nodiscard]] Instant now() const noexcept override;
+    [[nodiscard]] bool isVirtual() const noexcept override { return true; }
+    /// Moves time forward; a moment already past is ignored.
+    void advanceTo(Instant moment) noexcept;
+
+private:
+    std::atomic<Instant::rep> now_{0};
+};
+
+/// Wall time as ISO 8601 UTC, e.g. "2026-11-20T14:03:05Z". For a session's header and names, nothing else.
+[[nodiscard]] std::string wallTimeUtc();
+
+}  // namespace tacto

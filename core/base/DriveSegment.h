@@ -1,0 +1,29 @@
+// DriveSegment.h - a stretch of time in which a source does one thing: what encoding writes, electrode
+// models answer, safety integrates and the twin plays.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace tacto {
+
+enum class Drive { Voltage, Current, HighImpedance };
+
+/// The source's level goes from `start` to `end` in a straight line. SI units: volts or amperes by `drive`;
+/// levels carry the sign of the phase; ignored for HighImpedance (no current flows).
+struct DriveSegment {
+    Drive drive = Drive::Voltage;
+    double start = 0;      ///< V or A
+    double end = 0;        ///< V or A
+    double duration_s = 0; ///< > 0
+};
+
+/// The segments of one pulse, in time order: leading phase, gap (if any), second phase (if any). Never allocates.
+struct PulseSegments {
+    std::array<DriveSegment, 3> items{};
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const DriveSegment> span() const noexcept { return {items.data(), count}; }
+};
+
+}  // namespace tacto

@@ -1,0 +1,83 @@
+// SpscRing.h - a bounded queue between exactly one producer thread and one consumer thread.
+//
+// Neither side ever waits or allocates. When the ring is full the producer drops the oldest element and
+// counts it: the newest data matter most to a control loop, and a loss must be seen, not guessed.
+//
+// Memory order. `head_` counts elements ever pushed, `tail_` elements ever taken or dropped; both only
+// grow. A slot is published by the release store of `head_` and read after the acquire load of it, so
+// the consumer sees the element whole. Because the producer too may advance `tail_` (to drop), the
+// consumer claims a slot by compare-exchange on `tail_` *after* copying the element out: if the
+// producer dropped that slot meanwhile the exchange fails, and the copy, which may be torn, is thrown
+// away. The producer in turn overwrites a slot only after it moved `tail_` past it (acq_rel), so no
+// claimed copy can overlap a write. Elements are copied word by word through atomics, which makes the
+// discarded torn copy defined behaviour rather than a data race; the words are stored with release and
+// loaded with acquire, so a consumer that saw any new word also sees the `tail_` moved before it was
+// written, and its exchange must fail. (Fences would do too; the thread sanitizer cannot see those.)
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+namespace tacto {
+
+template <class T>
+class SpscRing {
+    static_assert(std::is_trivially_copyable_v<T>, "a slot may be copied while the producer drops it");
+
+public:
+    /// Room for `capacity` elements (at least 1). Allocates here and never again.
+    explicit SpscRing(std::size_t capacity) : capacity_(capacity == 0 ? 1 : capacity), slots_(capacity_ * kWords) {}
+
+    /// Producer only. Drops the oldest element when full.
+    void push(const T& element) noexcept {
+        const std::uint64_t head = head_.load(std::memory_order_relaxed);
+        std::uint64_t tail = tail_.load(std::memory_order_acquire);
+        if (head - tail >= capacity_ &&
+            tail_.compare_exchange_strong(tail, tail + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
+            dropped_.fetch_add(1, std::memory_order_relaxed);
+        }
+        std::uint64_t words[kWords] = {};
+        std::memcpy(words, &element, sizeof(T));
+        auto* slot = slotAt(head);
+        for (std::size_t i = 0; i < kWords; ++i) slot[i].store(words[i], std::memory_order_release);
+        head_.store(head + 1, std::memory_order_release);
+    }
+
+    /// Consumer only. The oldest element, or nothing when empty.
+    [[nodiscard]] std::optional<T> pop() noexcept {
+        std::uint64_t tail = tail_.load(std::memory_order_acquire);
+        for (;;) {
+            if (tail == head_.load(std::memory_order_acquire)) return std::nullopt;
+            std::uint64_t words[kWords];
+            const auto* slot = slotAt(tail);
+            for (std::size_t i = 0; i < kWords; ++i) words[i] = slot[i].load(std::memory_order_acquire);
+            if (tail_.compare_exchange_weak(tail, tail + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
+                T element;
+                std::memcpy(static_cast<void*>(&element), words, sizeof(T));
+                return element;
+            }
+        }
+    }
+
+    /// Elements lost to overflow since construction. Any thread.
+    [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+
+private:
+    static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+    using Slot = std::atomic<std::uint64_t>;
+    [[nodiscard]] Slot* slotAt(std::uint64_t position) noexcept { return &slots_[(position % capacity_) * kWords]; }
+
+    const std::size_t capacity_;  // Constant after construction
+    std::vector<Slot> slots_;
+    alignas(64) std::atomic<std::uint64_t> head_{0};
+    alignas(64) std::atomic<std::uint64_t> tail_{0};
+    alignas(64) std::atomic<std::uint64_t> dropped_{0};
+};
+
+}  // namespace tacto

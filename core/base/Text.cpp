@@ -1,0 +1,80 @@
+#include "core/base/Text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <algorithm>
+#include <cmath>
+
+namespace tacto {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    const auto first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    std::size_t begin = 0;
+    for (;;) {
+        const auto end = text.find(separator, begin);
+        parts.push_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
+        if (end == std::string_view::npos) return parts;
+        begin = end + 1;
+    }
+}
+
+std::optional<double> parseNumber(std::string_view text) {
+    text = trimmed(text);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+namespace {
+struct Prefix {
+    std::string_view symbol;
+    int exponent;
+};
+constexpr std::array<Prefix, 9> kParsed{
+    {{"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"k", 3}, {"M", 6}, {"G", 9}}};
+constexpr std::array<Prefix, 8> kPrinted{
+    {{"p", -12}, {"n", -9}, {"µ", -6}, {"m", -3}, {"", 0}, {"k", 3}, {"M", 6}, {"G", 9}}};
+}  // namespace
+
+std::optional<double> parseQuantity(std::string_view text, std::string_view unit) {
+    text = trimmed(text);
+    if (text.ends_with(unit)) text = trimmed(text.substr(0, text.size() - unit.size()));
+    if (const auto plain = parseNumber(text)) return plain;
+    for (const auto& prefix : kParsed) {
+        if (!text.ends_with(prefix.symbol)) continue;
+        // Parsing "1.5e3" keeps the nearest double, which 1.5 * 1000.0 might miss.
+        const std::string number = fmt::format("{}e{}", trimmed(text.substr(0, text.size() - prefix.symbol.size())),
+                                               prefix.exponent);
+        return parseNumber(number);
+    }
+    return std::nullopt;
+}
+
+std::string formatQuantity(double value, std::string_view unit, int significantDigits) {
+    if (!std::isfinite(value)) return "–";
+    // Round first: 999.96 is 1.00 k, not 1000.
+    const std::string rounded = fmt::format("{:.{}e}", value, significantDigits - 1);
+    const auto mark = rounded.find('e');
+    const int exponent = value == 0 ? 0 : std::stoi(rounded.substr(mark + 1));
+    const int group = static_cast<int>(std::floor(exponent / 3.0)) * 3;
+    const Prefix* prefix = &kPrinted[4];
+    for (const auto& candidate : kPrinted) {
+        if (candidate.exponent == group) prefix = &candidate;
+    }
+    const int decimals = std::max(0, significantDigits - 1 - (exponent - prefix->exponent));
+    return fmt::format("{:.{}f}{}{}{}", value * std::pow(10.0, -prefix->exponent), decimals,
+                       unit.empty() && prefix->symbol.empty() ? "" : " ", prefix->symbol, unit);
+}
+
+}  // namespace tacto

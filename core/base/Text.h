@@ -1,0 +1,28 @@
+// Text.h - numbers to and from text, the same way in every language setting.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto {
+
+/// The whole of `text`, blanks trimmed, as a number ("1e-3", "-4"). Nothing for an empty text, trailing
+/// characters or a decimal comma. Accepts "nan" and "inf": whether those are welcome is the caller's rule.
+[[nodiscard]] std::optional<double> parseNumber(std::string_view text);
+
+/// A number with an optional engineering prefix and the given unit: "1.5 kohm", "500ohm", "50 nF", "500".
+/// Prefixes p n u µ m k M G. Nothing when the text is something else.
+[[nodiscard]] std::optional<double> parseQuantity(std::string_view text, std::string_view unit);
+
+/// Three or four significant digits with an engineering prefix and a thin space: "2.26 mA", "10.0 kΩ".
+/// A value that is not finite gives "–".
+[[nodiscard]] std::string formatQuantity(double value, std::string_view unit, int significantDigits = 3);
+
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+}  // namespace tacto

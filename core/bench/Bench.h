@@ -1,0 +1,91 @@
+// Bench.h - the running bench: reads the sensors, encodes, has every train judged, drives the stimulator,
+// watches its answers, captures what came out, records all of it.
+//
+// On the virtual clock wait(), capture() and arm() run the control loop on the caller's thread and time
+// moves only inside them. On the steady clock the loop and one session thread per device run by
+// themselves and the same calls wait. The step code is the same.
+//
+// Thread-safety: stop(), pause(), resume() and telemetry() from any thread; everything else has one
+// caller (a script's thread, or the program).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/bench/Profile.h"
+#include "core/bench/Telemetry.h"
+#include "core/devices/Driver.h"
+#include "core/measure/Capture.h"
+#include "core/safety/Interlock.h"
+
+namespace tacto {
+
+class SessionWriter;
+
+struct BenchConfig {
+    DeviceSet devices;
+    std::shared_ptr<Clock> clock;              ///< a VirtualClock makes the bench step itself
+    Profile profile;
+    std::vector<LimitSet> limits;
+    OutputMode mode = OutputMode::BenchLoad;
+    SessionWriter* session = nullptr;          ///< not owned; null records nothing
+};
+
+/// What the operator states when arming.
+struct ArmRequest {
+    std::string load = "1 kohm";                     ///< declared load, as parseLoad() reads it (bench loads)
+    bool declaredLoadConfirmed = true;               ///< the operator's word, where the device cannot read back
+};
+
+/// Where R and P come from.
+enum class DriveSource { Off, Manual, Sensor };
+
+class Bench {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<Bench>> create(BenchConfig config);
+    ~Bench();  ///< outputs off, threads joined
+
+    /// Disarmed → Checking (one small pulse) → Armed. Errors: NotArmed with what is missing; LimitExceeded; Device;
+    /// Stopped.
+    [[nodiscard]] Result<void> arm(const ArmRequest& request);
+    /// Ends output and goes to Disarmed (a fault stays). Never fails.
+    void disarm() noexcept;
+    /// Output off, every approval void, Disarmed, and every waiting call returns Stopped. Bypasses every queue.
+    void stop(const char* by) noexcept;
+    /// Clears a stop so that the next arm() may run. A new script run does this once, at its start.
+    void clearStop() noexcept;
+    void pause() noexcept;
+    void resume() noexcept;
+    /// Leaves Faulted. Errors: NotArmed while the cause persists.
+    [[nodiscard]] Result<void> resetFault();
+
+    /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
+    /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor.
+    [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
+    /// Replaces reference surfaces and other settings; takes effect at once, with the output off until then.
+    [[nodiscard]] Result<void> setProfile(const Profile& profile);
+    [[nodiscard]] const Profile& profile() const noexcept;
+
+    /// Lets `duration` pass on the bench's clock. Errors: Stopped, Device, LimitExceeded never (refused trains are skipped
+    /// and counted).
+    [[nodiscard]] Result<void> wait(Seconds duration);
+    /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
+    /// oscilloscope; Timeout when fewer came; Stopped.
+    [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
+    /// True when a replayed sensor has no more samples.
+    [[nodiscard]] bool sensorFinished() const noexcept;
+
+    [[nodiscard]] Telemetry telemetry() const;
+    [[nodiscard]] DeviceSet& devices() noexcept;
+    [[nodiscard]] const Clock& clock() const noexcept;
+    /// Asked in loops of waiting calls; lets a script host report progress. May be null.
+    void onProgress(void (*callback)(void* context), void* context) noexcept;
+
+private:
+    explicit Bench(BenchConfig config);
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,32 @@
+// Device.h - what every device has. A device is opened by its driver, owned by one session thread and
+// closed by destruction. What it can do is which of the interfaces below it implements: a missing
+// ability is a missing interface.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/Result.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
+[[nodiscard]] std::string_view nameOf(Role role) noexcept;  // "sensor", "stimulator", "oscilloscope", "massager"
+
+struct DeviceIdentity {
+    std::string uri;       ///< opens this device again
+    Role role;
+    std::string name;
+    std::string serial;
+    std::string firmware;
+    bool simulated = false;
+};
+
+class Device {
+public:
+    virtual ~Device() = default;
+    [[nodiscard]] virtual const DeviceIdentity& identity() const noexcept = 0;
+};
+
+}  // namespace tacto

@@ -1,0 +1,40 @@
+#include "core/devices/DeviceUri.h"
+
+#include "core/base/Text.h"
+
+namespace tacto {
+
+Result<DeviceUri> DeviceUri::parse(std::string_view text) {
+    const auto colon = text.find(':');
+    if (colon == std::string_view::npos || colon == 0) {
+        return fail(ErrorCode::InvalidArgument,
+                    "device \"{}\" has no scheme: write scheme:path, for example sim: or recording:FOLDER", text);
+    }
+    DeviceUri uri;
+    uri.scheme = text.substr(0, colon);
+    const auto rest = text.substr(colon + 1);
+    const auto mark = rest.find('?');
+    uri.path = rest.substr(0, mark);
+    if (mark == std::string_view::npos) return uri;
+    for (const auto parameter : split(rest.substr(mark + 1), '&')) {
+        const auto equals = parameter.find('=');
+        if (equals == std::string_view::npos || equals == 0) {
+            return fail(ErrorCode::InvalidArgument, "device \"{}\": parameter \"{}\" is not written key=value", text,
+                        parameter);
+        }
+        uri.parameters.emplace_back(parameter.substr(0, equals), parameter.substr(equals + 1));
+    }
+    return uri;
+}
+
+std::string DeviceUri::text() const {
+    std::string out = scheme + ":" + path;
+    char separator = '?';
+    for (const auto& [key, value] : parameters) {
+        out += separator + key + "=" + value;
+        separator = '&';
+    }
+    return out;
+}
+
+}  // namespace tacto

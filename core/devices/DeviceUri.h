@@ -1,0 +1,27 @@
+// DeviceUri.h - how a device is named on a command line: scheme:path?key=value&key=value
+//
+//   sim:                                                  every role that is still needed, simulated
+//   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device and its flaws
+//   recording:../data/mat1_1                              a recording replayed as a fingertip
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct DeviceUri {
+    std::string scheme;
+    std::string path;
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< in the order written; keys may repeat
+
+    /// Errors: InvalidArgument for a text without "scheme:" or a parameter without "=".
+    [[nodiscard]] static Result<DeviceUri> parse(std::string_view text);
+    [[nodiscard]] std::string text() const;
+};
+
+}  // namespace tacto

@@ -1,0 +1,70 @@
+// Driver.h - opens devices of one URI scheme. Programs list their drivers explicitly, in main.cpp.
+//
+// Thread-safety: one caller.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/base/Clock.h"
+#include "core/devices/DeviceUri.h"
+#include "core/devices/Massager.h"
+#include "core/devices/Oscilloscope.h"
+#include "core/devices/Stimulator.h"
+#include "core/devices/TactileSensor.h"
+
+namespace tacto {
+
+/// What drivers may know of the run they open devices for.
+struct OpenContext {
+    const Clock& clock;             ///< outlives the devices
+    std::uint64_t seed = 1;
+    std::string declaredLoad = "1 kohm";  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
+};
+
+/// The open devices of a bench, at most one per role. Owns them.
+struct DeviceSet {
+    std::unique_ptr<TactileSensor> sensor;
+    std::unique_ptr<Stimulator> stimulator;
+    std::unique_ptr<Oscilloscope> oscilloscope;
+    std::unique_ptr<Massager> massager;
+    std::shared_ptr<SurfacePresenter> surface;  ///< null: the operator presents surfaces
+    std::shared_ptr<LoadFitter> load;           ///< null: the operator fits loads
+
+    [[nodiscard]] bool has(Role role) const noexcept;
+    [[nodiscard]] std::vector<DeviceIdentity> identities() const;
+};
+
+class Driver {
+public:
+    virtual ~Driver() = default;
+    [[nodiscard]] virtual std::string_view scheme() const noexcept = 0;
+    /// What could be opened now. Never fails: what cannot be reached is not listed.
+    [[nodiscard]] virtual std::vector<DeviceIdentity> list() const = 0;
+    /// True when devices of this scheme can live on the virtual clock (simulated, or read from files).
+    [[nodiscard]] virtual bool runsOnVirtualClock() const noexcept = 0;
+    /// Opens what `uri` names into `into`. A uri that names no single device (as "sim:") fills those of `wanted`
+    /// that are still empty. Errors: InvalidArgument naming the parameter and what it takes; NotFound; Device.
+    [[nodiscard]] virtual Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted,
+                                            const OpenContext& context, DeviceSet& into) = 0;
+};
+
+/// The drivers of a program, in the order given. Opens lists of URIs, the ones naming a single device first.
+class Registry {
+public:
+    explicit Registry(std::vector<std::unique_ptr<Driver>> drivers);
+    [[nodiscard]] std::vector<DeviceIdentity> list() const;
+    /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
+    [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
+    /// Errors: NotFound naming the unknown scheme and the known ones, or the role that nothing fills; as Driver::open().
+    [[nodiscard]] Result<DeviceSet> open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
+                                         const OpenContext& context);
+
+private:
+    [[nodiscard]] Result<Driver*> driverFor(const DeviceUri& uri) const;
+    std::vector<std::unique_ptr<Driver>> drivers_;
+};
+
+}  // namespace tacto

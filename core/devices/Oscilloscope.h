@@ -1,0 +1,51 @@
+// Oscilloscope.h - two channels on the load: voltage across it, current by shunt.
+//
+// Thread-safety: one caller, the device's session thread.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "core/devices/Device.h"
+#include "core/measure/Capture.h"
+
+namespace tacto {
+
+struct ScopeSettings {
+    Hertz sampleRate{2e6};
+    std::size_t samples = 20'000;    ///< per channel and capture
+    double preTrigger = 0.1;         ///< fraction of the record before the trigger, 0..1
+    bool triggerOnCurrent = false;   ///< else on the voltage channel
+    double triggerLevel = 0.5;       ///< V or A; the trigger fires where |signal| rises through it
+    Volts voltageRange{50};          ///< full scale is ± this
+    Milliamps currentRange{200};     ///< full scale is ± this
+};
+
+struct ScopeTraits {
+    Hertz maxRate{0};
+    std::size_t memoryDepth = 0;     ///< samples per channel
+    int bits = 8;
+    Hertz bandwidth{0};
+};
+
+class Oscilloscope : public Device {
+public:
+    [[nodiscard]] virtual const ScopeTraits& traits() const noexcept = 0;
+    /// Applies settings; takes effect at the next arm(). Errors: InvalidArgument naming the setting and its range.
+    [[nodiscard]] virtual Result<void> configure(const ScopeSettings& settings) = 0;
+    /// Waits for triggers from now on; each trigger makes a capture until disarm().
+    [[nodiscard]] virtual Result<void> arm() = 0;
+    /// The oldest complete capture, or nothing yet. Errors: Device, Timeout.
+    [[nodiscard]] virtual Result<std::optional<Capture>> poll() = 0;
+    virtual void disarm() noexcept = 0;
+};
+
+/// A bench whose load can be changed without a person; without it the operator is asked to.
+/// The text is what parseLoad() reads: "500 ohm", "open", "200 ohm + 10 kohm || 50 nF".
+class LoadFitter {
+public:
+    virtual ~LoadFitter() = default;
+    [[nodiscard]] virtual Result<void> fitLoad(std::string_view load) = 0;
+};
+
+}  // namespace tacto

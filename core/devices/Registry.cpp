@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "core/devices/Driver.h"
+
+namespace tacto {
+
+std::string_view nameOf(Role role) noexcept {
+    switch (role) {
+        case Role::Sensor: return "sensor";
+        case Role::Stimulator: return "stimulator";
+        case Role::Oscilloscope: return "oscilloscope";
+        case Role::Massager: return "massager";
+    }
+    return "device";
+}
+
+bool DeviceSet::has(Role role) const noexcept {
+    switch (role) {
+        case Role::Sensor: return sensor != nullptr;
+        case Role::Stimulator: return stimulator != nullptr;
+        case Role::Oscilloscope: return oscilloscope != nullptr;
+        case Role::Massager: return massager != nullptr;
+    }
+    return false;
+}
+
+std::vector<DeviceIdentity> DeviceSet::identities() const {
+    std::vector<DeviceIdentity> found;
+    const Device* all[] = {sensor.get(), stimulator.get(), oscilloscope.get(), massager.get()};
+    for (const auto* device : all) {
+        if (device != nullptr) found.push_back(device->identity());
+    }
+    return found;
+}
+
+Registry::Registry(std::vector<std::unique_ptr<Driver>> drivers) : drivers_(std::move(drivers)) {}
+
+std::vector<DeviceIdentity> Registry::list() const {
+    std::vector<DeviceIdentity> all;
+    for (const auto& driver : drivers_) {
+        auto found = driver->list();
+        all.insert(all.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+    }
+    return all;
+}
+
+Result<Driver*> Registry::driverFor(const DeviceUri& uri) const {
+    std::string known;
+    for (const auto& driver : drivers_) {
+        if (driver->scheme() == uri.scheme) return driver.get();
+        known += fmt::format("{}{}:", known.empty() ? "" : ", ", driver->scheme());
+    }
+    return fail(ErrorCode::NotFound, "no driver for device \"{}\": this program opens {}", uri.text(), known);
+}
+
+Result<bool> Registry::allVirtual(std::span<const DeviceUri> uris) const {
+    for (const auto& uri : uris) {
+        const auto driver = driverFor(uri);
+        if (!driver) return failure(driver);
+        if (!(*driver)->runsOnVirtualClock()) return false;
+    }
+    return true;
+}
+
+Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
+                                 const OpenContext& context) {
+    DeviceSet devices;
+    std::vector<DeviceUri> order(uris.begin(), uris.end());
+    std::ranges::stable_partition(order, [](const DeviceUri& uri) { return !uri.path.empty(); });
+    for (const auto& uri : order) {
+        const auto driver = driverFor(uri);
+        if (!driver) return failure(driver);
+        if (const auto opened = (*driver)->open(uri, needed, context, devices); !opened) return failure(opened);
+    }
+    for (const auto role : needed) {
+        if (devices.has(role)) continue;
+        return fail(ErrorCode::NotFound, "no {} is open: add --device sim: or the URI of one (tactoscope-cli devices)",
+                    nameOf(role));
+    }
+    return devices;
+}
+
+}  // namespace tacto

@@ -1,0 +1,55 @@
+// Stimulator.h - a source of pulse trains. It accepts only what SafetyGate approved.
+//
+// Thread-safety: one caller, the device's session thread, except forceOff(), which any thread may call at
+// any moment.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/devices/Device.h"
+#include "core/safety/SafetyGate.h"
+#include "core/safety/SourceTraits.h"
+
+namespace tacto {
+
+enum class ElectrodeState { NotMeasured, Ok, Open, Short };
+
+struct StimulatorStatus {
+    Instant at{0};                           ///< when the device was read
+    bool delivering = false;                 ///< a train is in progress
+    ElectrodeState electrode = ElectrodeState::NotMeasured;
+    std::optional<Ohms> impedance;           ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
+    std::optional<double> imbalance;         ///< |net charge| / phase charge of the last pulse, tail included
+    std::optional<double> imbalanceUncertainty;  ///< of `imbalance`, 95 %
+    std::uint64_t trainsDelivered = 0;
+};
+
+class Stimulator : public Device {
+public:
+    [[nodiscard]] virtual const SourceTraits& traits() const noexcept = 0;
+
+    /// Starts one train now; it ends by itself. Returns when the device has accepted it, without waiting for its
+    /// end. Consumes the approval whatever happens.
+    /// Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms). On error the caller calls forceOff().
+    [[nodiscard]] virtual Result<void> deliver(ApprovedTrain&& train) = 0;
+
+    /// Errors: Device, Timeout.
+    [[nodiscard]] virtual Result<StimulatorStatus> status() = 0;
+
+    /// Holds off the device's dead-man switch. A device without one does nothing.
+    [[nodiscard]] virtual Result<void> keepAlive() = 0;
+
+    /// Output off, now. Needs no approval; never throws, never allocates, may be called from any thread and again.
+    virtual void forceOff() noexcept = 0;
+};
+
+/// A stimulator with a mode that repeats a train by itself: bench loads only, under heartbeat.
+class RepeatingStimulator {
+public:
+    virtual ~RepeatingStimulator() = default;
+    /// Repeats `train` every `interval` until forceOff() or the dead-man switch. Errors: as deliver().
+    [[nodiscard]] virtual Result<void> repeat(ApprovedTrain&& train, Seconds interval) = 0;
+};
+
+}  // namespace tacto

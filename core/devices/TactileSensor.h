@@ -1,0 +1,37 @@
+// TactileSensor.h - a fingertip: acceleration, taxels and force, each a stream with its own rate.
+//
+// Thread-safety: one caller, the device's session thread (on the virtual clock, the control loop).
+#pragma once
+
+#include <span>
+
+#include "core/acquisition/Stream.h"
+#include "core/devices/Device.h"
+
+namespace tacto {
+
+class TactileSensor : public Device {
+public:
+    /// Constant while open.
+    [[nodiscard]] virtual std::span<const StreamInfo> streams() const noexcept = 0;
+
+    /// Appends every sample since the last call, up to the clock's now, to `blocks[i]` for streams()[i].
+    /// `blocks.size()` must equal streams().size(). Never blocks; no samples yet is success. Values may be
+    /// NaN and stamps may jump: continuity and range are judged by the reader (hazard H7), not here.
+    /// Errors: Device when unplugged or the data are garbage.
+    [[nodiscard]] virtual Result<void> read(std::span<SampleBlock> blocks) = 0;
+
+    /// True when no further sample will come (the end of a replayed recording).
+    [[nodiscard]] virtual bool finished() const noexcept { return false; }
+};
+
+/// A rig that can put a surface under the finger by itself; without it the operator is asked to.
+class SurfacePresenter {
+public:
+    virtual ~SurfacePresenter() = default;
+    /// Slides the finger over `material` (e.g. "glass", "P120") from now on. An empty material lifts the finger.
+    /// Errors: InvalidArgument for an unknown material, a negative or non-finite speed or force.
+    [[nodiscard]] virtual Result<void> present(std::string_view material, MillimetresPerSecond speed, Newtons force) = 0;
+};
+
+}  // namespace tacto

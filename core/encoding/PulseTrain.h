@@ -1,0 +1,57 @@
+// PulseTrain.h - what is asked of a stimulator: one self-ending train of electrical pulses.
+//
+// A request only. Drivers never take it; they take the ApprovedTrain that SafetyGate makes of it.
+// Definitions: science.md sections 4 and 5.
+#pragma once
+
+#include <variant>
+
+#include "core/base/DriveSegment.h"
+#include "core/base/Result.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+enum class PulseShape {
+    SymmetricBiphasic,   ///< second phase mirrors the first
+    AsymmetricBiphasic,  ///< second phase of equal charge, `rechargeRatio` times longer and lower
+    Monophasic,          ///< leading phase only: bench loads only
+};
+enum class Polarity { Positive, Negative };  ///< sign of the leading phase
+
+/// What the source does between the phases and after the pulse.
+enum class GapState { HoldsZero, HighImpedance };
+
+/// The leading phase's plateau, unsigned. The unit says what kind of source it is meant for, so volts cannot
+/// reach a current source by accident (hazard H4).
+using Amplitude = std::variant<Volts, Milliamps>;
+
+[[nodiscard]] inline bool isCurrent(const Amplitude& a) noexcept { return std::holds_alternative<Milliamps>(a); }
+/// The amplitude in V or A, whichever it is.
+[[nodiscard]] double siValue(const Amplitude& a) noexcept;
+
+struct PulseTrain {
+    Amplitude amplitude = Volts(0);
+    PulseShape shape = PulseShape::SymmetricBiphasic;
+    Polarity polarity = Polarity::Positive;
+    Micros phaseWidth{200};      ///< of the leading phase
+    Micros interPhaseGap{100};   ///< 0 or more
+    double rechargeRatio = 10;   ///< AsymmetricBiphasic only, > 1
+    int pulses = 1;              ///< n ≥ 1
+    Hertz rate{100};             ///< intra-train pulse rate
+
+    /// n / intra-train rate: the window of the in-train RMS, and the time a train occupies.
+    [[nodiscard]] Seconds duration() const noexcept;
+    /// From the leading edge to the end of the last phase of one pulse.
+    [[nodiscard]] Seconds pulseDuration() const noexcept;
+    bool operator==(const PulseTrain&) const = default;
+};
+
+/// Refuses what no stimulator could mean: values that are not finite or negative, n < 1, a pulse longer than
+/// its period, a recharge ratio not above 1. Says nothing about safety.
+[[nodiscard]] Result<void> validate(const PulseTrain& train);
+
+/// One pulse as ideal rectangular segments, without the rest after it. `gap` is the source's declared state.
+[[nodiscard]] PulseSegments segmentsOf(const PulseTrain& train, GapState gap) noexcept;
+
+}  // namespace tacto

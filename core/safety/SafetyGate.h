@@ -1,0 +1,128 @@
+// SafetyGate.h - the only place where a request becomes something a driver will accept.
+//
+// Drivers take ApprovedTrain, never PulseTrain, and only SafetyGate can make an ApprovedTrain, so "every
+// output was checked" is a property the compiler proves rather than a review habit. Switching an output
+// off needs no approval: see Stimulator::forceOff().
+//
+// An approval is single-use, expires 100 ms after it was granted, and is void after any stop. Its exposure
+// is booked on the meter when it is granted, so that approvals not yet delivered cannot add up to more
+// than a limit.
+//
+// Thread-safety: latchStop() and isCurrent() may be called from any thread and never block; the rest has
+// one caller at a time (the control loop).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/Clock.h"
+#include "core/encoding/PulseTrain.h"
+#include "core/safety/GateSetup.h"
+
+namespace tacto {
+
+/// Proof that a PulseTrain passed the gate. Move-only: one approval, one delivery.
+class ApprovedTrain {
+public:
+    ApprovedTrain(ApprovedTrain&&) noexcept = default;
+    ApprovedTrain& operator=(ApprovedTrain&&) noexcept = default;
+    ApprovedTrain(const ApprovedTrain&) = delete;
+    ApprovedTrain& operator=(const ApprovedTrain&) = delete;
+
+    [[nodiscard]] const PulseTrain& train() const noexcept { return train_; }
+    [[nodiscard]] Seconds interval() const noexcept { return interval_; }
+    [[nodiscard]] Instant expires() const noexcept { return expires_; }
+
+private:
+    friend class SafetyGate;
+    ApprovedTrain(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant expires) noexcept
+        : train_(train), interval_(interval), epoch_(epoch), expires_(expires) {}
+    PulseTrain train_;
+    Seconds interval_;
+    std::uint64_t epoch_;
+    Instant expires_;
+};
+
+/// One vibration of a massager: the mechanical stand-in for a pulse train.
+struct VibrationBurst {
+    double intensity = 0;        ///< 0..1
+    Seconds duration{0.1};       ///< ≤ 1 s
+};
+
+/// Proof that a VibrationBurst passed the gate. Move-only.
+class ApprovedBurst {
+public:
+    ApprovedBurst(ApprovedBurst&&) noexcept = default;
+    ApprovedBurst& operator=(ApprovedBurst&&) noexcept = default;
+    ApprovedBurst(const ApprovedBurst&) = delete;
+    ApprovedBurst& operator=(const ApprovedBurst&) = delete;
+    [[nodiscard]] const VibrationBurst& burst() const noexcept { return burst_; }
+    [[nodiscard]] Instant expires() const noexcept { return expires_; }
+
+private:
+    friend class SafetyGate;
+    ApprovedBurst(const VibrationBurst& burst, std::uint64_t epoch, Instant expires) noexcept
+        : burst_(burst), epoch_(epoch), expires_(expires) {}
+    VibrationBurst burst_;
+    std::uint64_t epoch_;
+    Instant expires_;
+};
+
+/// What is asked: a train already rounded to the device's step (see rounding in GateSetup.h), and the
+/// shortest onset-to-onset interval at which trains like it may follow.
+struct TrainRequest {
+    PulseTrain train;
+    Seconds interval{2};
+    Instant onset{0};   ///< planned; booked on the meter
+};
+
+class SafetyGate {
+public:
+    explicit SafetyGate(const Clock& clock);
+    ~SafetyGate();
+
+    /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory.
+    /// Errors: InvalidArgument naming what is missing or impossible (no limit set, a loosened ceiling,
+    /// monophasic or a voltage source for a person, no consent, no electrode area for a person ...).
+    [[nodiscard]] Result<void> configure(const GateSetup& setup);
+
+    /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with it.
+    /// Errors: LimitExceeded when it lies outside the profile's range.
+    [[nodiscard]] Result<void> updateImpedance(Ohms magnitude, Instant at);
+
+    /// Checks `request` against every limit, worst case over the permitted load range, at its interval, plus
+    /// the exposure already booked in the last 5 s.
+    /// Errors: InvalidArgument if a value is negative, not finite or not on the device's grid; NotArmed before
+    /// configure(); LimitExceeded naming the first limit broken, its value and its source. Never clamps.
+    [[nodiscard]] Result<ApprovedTrain> approve(const TrainRequest& request);
+
+    /// One impedance check pulse, at the device's smallest check amplitude. Same checks as approve().
+    [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
+
+    /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s.
+    [[nodiscard]] Result<ApprovedBurst> approve(const VibrationBurst& burst);
+
+    /// Voids every approval handed out so far. Irreversible for those approvals.
+    void latchStop() noexcept;
+
+    /// True unless latchStop() or configure() ran after `approved` was granted, or it expired. The device
+    /// thread asks this immediately before it writes to the wire.
+    [[nodiscard]] bool isCurrent(const ApprovedTrain& approved) const noexcept;
+    [[nodiscard]] bool isCurrent(const ApprovedBurst& approved) const noexcept;
+
+    /// The exposure booked in the last 5 s, each row against its limit, for the exposure display. Does not allocate
+    /// when `rows` has capacity.
+    void exposure(std::vector<ExposureRow>& rows) const;
+
+private:
+    struct State;
+    const Clock& clock_;
+    std::atomic<std::uint64_t> epoch_{1};
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto
