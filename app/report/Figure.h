@@ -1,0 +1,168 @@
+// Figure.h - the figures a protocol can put into a report: the JSON that describes each, and its parsed form.
+//
+// A script's `plot.*` builds this JSON, the session stores it, the report draws it. It holds what a script
+// naturally has (trials, found conditions, captures) and nothing about how it looks. Unknown keys are
+// ignored, so a result may be passed on whole. Numbers are SI by the key's suffix; null or a missing number
+// is "not known" and is drawn as a gap or said in words, never as 0.
+//
+// A *statistic* is {"mean", "sd", "median", "min", "max", "n"} (only mean is required); an *estimate* is
+// {"value", "low", "high"} (95 %, low and high optional). Condition names: "smooth-low", "smooth-high",
+// "rough-low", "rough-high" (texture-pressure); others are drawn too, in further colours.
+//
+//   {"type": "conditions",                      the paper's figure: texture alone, pressure alone, the two combined
+//    "conditions": [{"name": "smooth-low",
+//                    "amplitude_v": statistic,  measured
+//                    "interval_s": statistic,   measured, onset to onset of trains
+//                    "n": 25}]}                 optional, else amplitude_v.n
+//
+//   {"type": "plane",                           feature scatter with centroids and 95 % ellipses
+//    "trials": [{"condition": "smooth-low", "amplitude_v": 10.0, "interval_s": 2.0}]}
+//
+//   {"type": "waveforms",                       small multiples, one per entry: voltage and current against time
+//    "captures": [{"condition": "smooth-low",   or "label": any text; both optional
+//                  "capture": 17,               a capture of the session by its id ... or the samples themselves:
+//                  "rate_hz": 1e6, "start_s": -1e-4,   time of the first sample, usually against the trigger
+//                  "voltage_v": [..], "current_a": [..]}]}   one may be missing, else equally long
+//
+//   {"type": "confusion",                       counts; rows are the true condition, columns the found one
+//    "labels": ["smooth-low", ..],              of the rows
+//    "columns": [..],                           optional, else = labels ("none", "not sure" come here)
+//    "confusion": [[25, 0, 0, 0], ..],          "matrix" is taken too
+//    "accuracy": estimate or number}            optional
+//
+//   {"type": "exposure",                        each row against its limit
+//    "rows": [{"name": "RMS current, 5 s",      "quantity" is taken too
+//              "value": 2.1, "limit": 10,       same unit; value null = not evaluated (drawn hatched)
+//              "unit": "mA", "source": "paper", optional
+//              "warning": false,                optional: the limit calls for attention, breaking it is no fault
+//              "reason": "no electrode area"}]} optional, shown when not evaluated
+//
+//   {"type": "timeline",                        a live run over time
+//    "t_s": [..], "r": [..], "p": [..],         equally long; r, p and amplitude_v optional, null = absent
+//    "amplitude_v": [..],                       encoded amplitude
+//    "trains": [{"t_s": 0.5, "amplitude_v": 22.0, "refused": false}],   optional
+//    "faults": [{"t_s": 3.2, "text": "electrode open"}]}                optional
+//
+// Every type takes an optional "note": one sentence printed below the caption.
+//
+// Thread-safety: values; pure functions.
+#pragma once
+
+#include <QJsonObject>
+#include <QString>
+#include <QStringList>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/measure/Capture.h"
+
+namespace tacto {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Statistic {
+    double mean = kUnknown;
+    double sd = kUnknown;
+    double median = kUnknown;
+    double min = kUnknown;
+    double max = kUnknown;
+    double n = kUnknown;
+};
+
+struct Estimate {
+    double value = kUnknown;
+    double low = kUnknown;  ///< 95 %
+    double high = kUnknown;
+};
+
+struct ConditionsFigure {
+    struct Condition {
+        QString name;
+        Statistic amplitude_v;
+        Statistic interval_s;
+        double n = kUnknown;
+    };
+    std::vector<Condition> conditions;
+};
+
+struct PlaneFigure {
+    struct Trial {
+        QString condition;
+        double amplitude_v = kUnknown;
+        double interval_s = kUnknown;
+    };
+    std::vector<Trial> trials;
+};
+
+struct WaveformsFigure {
+    struct Trace {
+        QString condition;  ///< may be empty
+        QString label;      ///< what stands above it; the condition unless given
+        std::optional<qint64> capture;
+        double rate_hz = kUnknown;
+        double start_s = 0;
+        std::vector<double> voltage_v;
+        std::vector<double> current_a;
+    };
+    std::vector<Trace> captures;
+};
+
+struct ConfusionFigure {
+    QStringList labels;
+    QStringList columns;
+    std::vector<std::vector<double>> counts;  ///< labels.size() rows of columns.size()
+    Estimate accuracy;
+};
+
+struct ExposureFigure {
+    struct Row {
+        QString name;
+        double value = kUnknown;  ///< not finite: not evaluated
+        double limit = kUnknown;
+        QString unit;
+        QString source;
+        QString reason;
+        bool warning = false;
+    };
+    std::vector<Row> rows;
+};
+
+struct TimelineFigure {
+    struct Train {
+        double t_s = kUnknown;
+        double amplitude_v = kUnknown;
+        bool refused = false;
+    };
+    struct Fault {
+        double t_s = kUnknown;
+        QString text;
+    };
+    std::vector<double> t_s, r, p, amplitude_v;
+    std::vector<Train> trains;
+    std::vector<Fault> faults;
+};
+
+struct Figure {
+    std::variant<ConditionsFigure, PlaneFigure, WaveformsFigure, ConfusionFigure, ExposureFigure, TimelineFigure>
+        content;
+    QString note;
+};
+
+/// Checks `json` against the contract above.
+/// Errors: InvalidArgument naming the figure's type, the key and what was expected there. Empty lists and unknown
+/// numbers are not errors: the figure then says what is missing.
+[[nodiscard]] Result<Figure> parseFigure(const QJsonObject& json);
+
+/// Finds a session's capture by its id.
+using CaptureLookup = std::function<Result<Capture>(qint64 id)>;
+
+/// Fills the samples of every waveform that names a capture by id, thinned to what can be seen (the extremes of each
+/// stretch are kept, so no pulse is lost). Waveforms with samples of their own, and other figures, stay as they are.
+/// Errors: what `lookup` answers.
+[[nodiscard]] Result<void> resolveCaptures(Figure& figure, const CaptureLookup& lookup);
+
+}  // namespace tacto

@@ -1,0 +1,29 @@
+// Report.h - writes a report as PDF (A4) or as one HTML page that needs no other file.
+//
+// An existing report is replaced only by a whole one; nothing half-written is ever left at `path`.
+// Needs a QApplication (the offscreen platform will do) and the DejaVu fonts.
+//
+// Thread-safety: the GUI thread only (plots are widgets).
+#pragma once
+
+#include <QString>
+
+#include "app/report/ReportModel.h"
+
+namespace tacto {
+
+enum class ReportFormat { Pdf, Html };
+
+/// By the ending of `path`: .pdf, .html or .htm. Errors: InvalidArgument naming what was given and what is accepted.
+[[nodiscard]] Result<ReportFormat> reportFormat(const QString& path);
+
+/// Writes `model` to `path`.
+/// Errors: Unsupported when a font is missing, naming the package; InvalidArgument for another ending than .pdf,
+/// .html or .htm; Io when the file cannot be written.
+[[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path);
+
+/// Reads `sessionFile` and writes its report to `path`.
+/// Errors: as writeReport(), and whatever reading the session answers (NotFound, ParseError, Io).
+[[nodiscard]] Result<void> writeSessionReport(const QString& sessionFile, const QString& path);
+
+}  // namespace tacto
