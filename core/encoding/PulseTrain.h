@@ -54,4 +54,9 @@ struct PulseTrain {
 /// One pulse as ideal rectangular segments, without the rest after it. `gap` is the source's declared state.
 [[nodiscard]] PulseSegments segmentsOf(const PulseTrain& train, GapState gap) noexcept;
 
+/// What the source does after a pulse, for `duration`: 0 V held, or high impedance.
+[[nodiscard]] DriveSegment restOf(GapState gap, Seconds duration) noexcept;
+/// From the end of one pulse's last phase to the next pulse of the same train: 1/rate less the pulse.
+[[nodiscard]] Seconds restBetweenPulses(const PulseTrain& train) noexcept;
+
 }  // namespace tacto
