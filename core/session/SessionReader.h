@@ -1,0 +1,68 @@
+// SessionReader.h - gives back what a session file holds. Never changes the file.
+//
+// A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut. An
+// older schema is migrated in a private copy. Reading does not judge: that is verifySession(), SessionVerify.h.
+//
+// Thread-safety: one caller at a time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/acquisition/Stream.h"
+#include "core/base/Result.h"
+#include "core/measure/Capture.h"
+#include "core/session/SessionTypes.h"
+
+namespace tacto {
+
+class SessionReader {
+public:
+    /// Errors: NotFound; ParseError for a file that is not a session, is damaged beyond opening, or was made by a newer
+    /// program; Io.
+    [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path);
+    SessionReader(SessionReader&&) noexcept;
+    SessionReader& operator=(SessionReader&&) noexcept;
+    ~SessionReader();
+
+    [[nodiscard]] const SessionAbout& about() const noexcept;
+    /// True when the session was closed in order; false after a crash, or while it is still being written.
+    [[nodiscard]] bool closed() const noexcept;
+    /// The hash of the last row, 64 hexadecimal digits.
+    [[nodiscard]] const std::string& chainHead() const noexcept;
+
+    // Each list is in the order written. Errors: ParseError naming the row; Io.
+    [[nodiscard]] Result<std::vector<SessionRow>> events() const;
+    [[nodiscard]] Result<std::vector<SessionRow>> commands() const;
+    [[nodiscard]] Result<std::vector<SessionRow>> measurements() const;
+    [[nodiscard]] Result<std::vector<SessionRow>> log() const;
+    /// `body` of each row is the item as it was given.
+    [[nodiscard]] Result<std::vector<SessionRow>> reportItems() const;
+    [[nodiscard]] Result<std::vector<SessionTrial>> trials() const;
+    [[nodiscard]] Result<std::vector<SessionVerdict>> verdicts() const;
+
+    [[nodiscard]] Result<std::vector<SessionCaptureInfo>> captures() const;
+    /// Errors: NotFound; ParseError when the samples do not unpack.
+    [[nodiscard]] Result<Capture> capture(std::int64_t seq) const;
+
+    [[nodiscard]] Result<std::vector<SessionStreamInfo>> streams() const;
+    /// All samples of a stream at once. Errors: NotFound; ParseError.
+    [[nodiscard]] Result<SampleBlock> samples(int stream) const;
+    /// Chunk by chunk, for sessions larger than memory. `visit` returns false to end early.
+    [[nodiscard]] Result<void> forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const;
+
+    /// Everything that the same seed must reproduce, a line per row, samples included as hexadecimal digests: wall
+    /// time, paths, versions and the chain itself left out. Two runs are the same when these texts are.
+    [[nodiscard]] Result<std::string> reproducibleText() const;
+
+private:
+    struct State;
+    explicit SessionReader(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,74 @@
+// SessionRecorder.h - lets a control loop record without ever waiting for a disk.
+//
+// On the steady clock each call copies fixed-size records into a ring, without blocking or allocating, and the
+// recorder's own thread writes them to the session. On a virtual clock the same calls write at once, on the caller's
+// thread, so that the same seed gives the same rows.
+// When the ring overflows (the disk stood still for longer than it holds) the oldest records are lost; the loss is
+// counted, written to the session as an event, and shown by dropped().
+//
+// Thread-safety: samples(), command(), event() have one caller, the control loop; the rest any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/acquisition/Stream.h"
+#include "core/base/Result.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+class SessionWriter;
+
+/// A named value of a command or event. `key` must live for ever: a string literal.
+struct RecordField {
+    const char* key;
+    double value;  ///< NaN is written as null
+};
+
+class SessionRecorder {
+public:
+    static constexpr std::size_t kMaxFields = 12;   ///< more are an error in debug and left out in release
+    static constexpr std::size_t kMaxText = 200;    ///< bytes; longer text is cut at a character
+    static constexpr std::size_t kMaxColumns = 63;  ///< of a stream recorded here
+
+    struct Settings {
+        bool ownThread = true;           ///< false: write at once, on the caller's thread (virtual clock)
+        std::size_t ringRecords = 8192;  ///< about 0.5 kB each
+    };
+    /// `writer` outlives the recorder.
+    SessionRecorder(SessionWriter& writer, Settings settings);
+    ~SessionRecorder();  ///< drains the ring and joins the thread
+    SessionRecorder(const SessionRecorder&) = delete;
+    SessionRecorder& operator=(const SessionRecorder&) = delete;
+
+    /// Adds samples to a stream of `columns` columns (an id from SessionWriter::addStream). `columns` ≤ kMaxColumns.
+    void samples(int stream, std::size_t columns, const SampleBlock& block) noexcept;
+    /// One sample with its columns: a frame of the roughness chain, a line of telemetry.
+    void frame(int stream, double t_s, std::span<const double> values) noexcept;
+    /// `name` must live for ever. Written with the samples.
+    void command(Instant at, const char* name, std::initializer_list<RecordField> fields,
+                 std::string_view text = {}) noexcept;
+    /// `kind` must live for ever. On its own thread the recorder commits it at once; wait for that with drain().
+    void event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
+               std::string_view text = {}) noexcept;
+
+    /// Waits until everything recorded before is committed. Errors: as SessionWriter::failed(); Timeout after 5 s.
+    [[nodiscard]] Result<void> drain();
+    /// Why recording ended: the writer's first error. Never blocks; for the control loop.
+    [[nodiscard]] bool failed() const noexcept;
+    [[nodiscard]] std::optional<Error> error() const;
+    /// Records lost to overflow so far.
+    [[nodiscard]] std::uint64_t dropped() const noexcept;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,104 @@
+// SessionTypes.h - what a session file holds, as its writer takes it and its reader gives it back.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/Units.h"
+
+namespace tacto {
+
+/// One device of the session.
+struct SessionDevice {
+    std::string uri;
+    std::string role;  ///< "sensor", "stimulator", "oscilloscope", "massager"
+    std::string name;
+    std::string serial;
+    std::string firmware;
+    bool simulated = false;
+    bool operator==(const SessionDevice&) const = default;
+};
+
+struct SessionLimitSet {
+    std::string id;      ///< "paper", "iec-60601-2-10", ...
+    std::string sha256;  ///< of the limit file's bytes
+    bool operator==(const SessionLimitSet&) const = default;
+};
+
+/// What was used and when it began: everything a report says before its first figure. Written once, first.
+struct SessionAbout {
+    std::string programVersion;
+    std::string protocol;        ///< name, e.g. "separability"; empty for a session without a script
+    std::string protocolSha256;  ///< of the script's bytes
+    nlohmann::json parameters = nlohmann::json::object();
+    std::uint64_t seed = 0;
+    std::vector<SessionDevice> devices;
+    std::string profileJson;    ///< the encoding profile as text
+    std::string profileSha256;  ///< of profileJson; filled in by the writer when empty
+    std::vector<SessionLimitSet> limitSets;
+    bool simulated = false;     ///< true when any device is: the report is watermarked
+    std::string mode;           ///< "bench load" or "person"
+    std::string wallStart;      ///< ISO 8601 UTC, wallTimeUtc() ...
+    Instant wallStartAt{0};     ///< ... read at this moment of the session's time base
+    bool virtualClock = false;  ///< filled in by the writer from its clock
+};
+
+/// A stream to be recorded: sensor data, roughness frames, telemetry. All columns share the time stamps.
+struct SessionStream {
+    std::string name;                  ///< free text: "fingertip accelerometer", "roughness frames"
+    std::string kind;                  ///< "acceleration", "force", "taxels", "frames", "telemetry", ...
+    std::string unit;                  ///< "m/s2", "N", "Pa", "count"; empty when `columns` carry theirs
+    std::vector<std::string> columns;  ///< at least one: "x", "c1", "pressure_pa"
+    double rate_hz = 0;                ///< nominal; 0 = none
+    bool operator==(const SessionStream&) const = default;
+};
+
+/// A stream as it lies in a file.
+struct SessionStreamInfo {
+    int id = 0;  ///< 1, 2, ... in the order of addStream()
+    SessionStream stream;
+    std::uint64_t samples = 0;
+    double first_s = 0;  ///< first time stamp; NaN without samples
+    double last_s = 0;
+};
+
+/// An event, command, measurement, report item or log line.
+struct SessionRow {
+    std::int64_t seq = 0;  ///< place in the hash chain, from 1
+    Instant at{0};
+    std::string name;     ///< event kind, command, measured quantity; a log line's level
+    nlohmann::json body;  ///< a log line's text is body["text"]
+};
+
+struct SessionTrial {
+    std::int64_t seq = 0;
+    int number = 0;  ///< from 1, without holes
+    Instant at{0};
+    std::string condition;
+    nlohmann::json measured;
+};
+
+struct SessionVerdict {
+    std::int64_t seq = 0;
+    Instant at{0};
+    std::string subject;
+    std::string verdict;  ///< "pass", "fail", "indeterminate", "stopped"
+    std::vector<std::string> reasons;
+    nlohmann::json results;
+};
+
+/// A capture without its samples; SessionReader::capture(seq) reads those.
+struct SessionCaptureInfo {
+    std::int64_t seq = 0;
+    Instant at{0};
+    std::optional<int> trial;  ///< number of the trial it belongs to
+    double rate_hz = 0;
+    std::uint64_t samples = 0;
+    std::vector<std::string> channels;
+    bool simulated = false;
+};
+
+}  // namespace tacto
