@@ -160,8 +160,8 @@ struct Figure {
 /// Finds a session's capture by its id.
 using CaptureLookup = std::function<Result<Capture>(qint64 id)>;
 
-/// Fills the samples of every waveform that names a capture by id, thinned to what can be seen (the extremes of each
-/// stretch are kept, so no pulse is lost). Waveforms with samples of their own, and other figures, stay as they are.
+/// Fills the samples of every waveform that names a capture by id; its first channel in V and its first in A. Waveforms
+/// with samples of their own, and other figures, stay as they are.
 /// Errors: what `lookup` answers.
 [[nodiscard]] Result<void> resolveCaptures(Figure& figure, const CaptureLookup& lookup);
 
