@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "core/base/Clock.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(VirtualClock, StartsAtZeroAndMovesOnlyWhenMoved) {
+    VirtualClock clock;
+    EXPECT_EQ(clock.now(), 0ns);
+    clock.advanceTo(5ms);
+    EXPECT_EQ(clock.now(), 5ms);
+    EXPECT_EQ(clock.now(), 5ms);
+}
+
+TEST(VirtualClock, IgnoresAMomentAlreadyPast) {
+    VirtualClock clock;
+    clock.advanceTo(2s);
+    clock.advanceTo(1s);
+    EXPECT_EQ(clock.now(), 2s);
+}
+
+TEST(SteadyClock, NeverGoesBack) {
+    SteadyClock clock;
+    Instant last = clock.now();
+    EXPECT_GE(last, 0ns);
+    for (int i = 0; i < 10'000; ++i) {
+        const Instant now = clock.now();
+        ASSERT_GE(now, last);
+        last = now;
+    }
+}
+
+TEST(Clock, SaysWhichKindItIs) {
+    EXPECT_TRUE(VirtualClock().isVirtual());
+    EXPECT_FALSE(SteadyClock().isVirtual());
+}
+
+TEST(Instant, RoundsSecondsToTheNearestNanosecond) {
+    EXPECT_EQ(toInstant(1.0000000006), 1'000'000'001ns);
+    EXPECT_EQ(toInstant(-1.0000000006), -1'000'000'001ns);
+    EXPECT_EQ(toInstant(Seconds(0.5)), 500ms);
+    EXPECT_DOUBLE_EQ(toSeconds(1500ms), 1.5);
+}
+
+TEST(WallTime, IsIso8601Utc) {
+    EXPECT_TRUE(std::regex_match(wallTimeUtc(), std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"))) << wallTimeUtc();
+}
+
+}  // namespace
+}  // namespace tacto

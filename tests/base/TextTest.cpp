@@ -1,0 +1,70 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "core/base/Text.h"
+
+namespace tacto {
+namespace {
+
+TEST(ParseNumber, ReadsAWholeNumberAndNothingElse) {
+    EXPECT_EQ(parseNumber("1e-3"), 1e-3);
+    EXPECT_EQ(parseNumber("  -4\t"), -4.0);
+    EXPECT_EQ(parseNumber("+2.5"), 2.5);
+    for (const char* bad : {"", "  ", "1,5", "1 2", "4x", "0x10", "--4", "+-4", "e3", "."}) {
+        EXPECT_FALSE(parseNumber(bad)) << '"' << bad << '"';
+    }
+}
+
+TEST(ParseNumber, PassesNanAndInfinityOnToTheCaller) {
+    EXPECT_TRUE(std::isnan(parseNumber("nan").value_or(0)));
+    EXPECT_EQ(parseNumber("-inf"), -std::numeric_limits<double>::infinity());
+}
+
+TEST(ParseQuantity, ReadsEngineeringPrefixes) {
+    EXPECT_EQ(parseQuantity("1.5 kohm", "ohm"), 1500.0);
+    EXPECT_EQ(parseQuantity("500ohm", "ohm"), 500.0);
+    EXPECT_EQ(parseQuantity("50 nF", "F"), 50e-9);
+    EXPECT_EQ(parseQuantity("200 µs", "s"), 200e-6);
+    EXPECT_EQ(parseQuantity("200 μs", "s"), 200e-6);
+    EXPECT_EQ(parseQuantity("3M", "ohm"), 3e6);
+    EXPECT_EQ(parseQuantity("500", "ohm"), 500.0);
+}
+
+TEST(ParseQuantity, RefusesSomethingElse) {
+    for (const char* bad : {"", "ohm", "kohm", "five ohm", "5 xohm", "1,5 kohm", "5 kk", "5 ohm ohm"}) {
+        EXPECT_FALSE(parseQuantity(bad, "ohm")) << '"' << bad << '"';
+    }
+}
+
+TEST(FormatQuantity, ShowsSignificantDigitsWithAPrefix) {
+    EXPECT_EQ(formatQuantity(2.26e-3, "A"), "2.26 mA");
+    EXPECT_EQ(formatQuantity(10'000, "Ω"), "10.0 kΩ");
+    EXPECT_EQ(formatQuantity(999.96, "V", 3), "1.00 kV");
+    EXPECT_EQ(formatQuantity(-0.5, "V"), "-500 mV");
+    EXPECT_EQ(formatQuantity(0, "V"), "0.00 V");
+    EXPECT_EQ(formatQuantity(3497, "Ω", 4), "3.497 kΩ");
+}
+
+TEST(FormatQuantity, ShowsADashForWhatIsNotFinite) {
+    EXPECT_EQ(formatQuantity(std::nan(""), "V"), "–");
+    EXPECT_EQ(formatQuantity(std::numeric_limits<double>::infinity(), "Ω"), "–");
+}
+
+TEST(Split, KeepsEmptyParts) {
+    const auto parts = split("a,,b,", ',');
+    ASSERT_EQ(parts.size(), 4U);
+    EXPECT_EQ(parts[0], "a");
+    EXPECT_EQ(parts[1], "");
+    EXPECT_EQ(parts[2], "b");
+    EXPECT_EQ(parts[3], "");
+    EXPECT_EQ(split("", ',').size(), 1U);
+}
+
+TEST(Trimmed, RemovesBlanksAtBothEnds) {
+    EXPECT_EQ(trimmed(" \t a b \r\n"), "a b");
+    EXPECT_EQ(trimmed(" \n"), "");
+}
+
+}  // namespace
+}  // namespace tacto
