@@ -8,24 +8,26 @@
 namespace tacto {
 
 struct CaptureChannel {
-    std::string name;             ///< "voltage", "current", or the instrument's own
-    std::string unit;             ///< "V", "A", or "" for logic
+    std::string name;  ///< "voltage", "current", or the instrument's own
+    std::string unit;  ///< "V", "A", or "" for logic
     std::vector<float> samples;
-    double low = 0;               ///< the input range: at or beyond low/high a sample is clipped; equal = unknown
+    double low = 0;  ///< the input range: at or beyond low/high a sample is clipped; equal = unknown
     double high = 0;
-    double lsb = 0;               ///< resolution, 0 = unknown
-    double gainTolerance = 0;     ///< half-width, relative (0.01 = 1 %); 0 = unknown
-    double offsetTolerance = 0;   ///< half-width, in the channel's unit
+    double lsb = 0;              ///< resolution, 0 = unknown
+    double gainTolerance = 0;    ///< half-width, relative (0.01 = 1 %); 0 = unknown
+    double offsetTolerance = 0;  ///< half-width, in the channel's unit
 };
 
 struct Capture {
     double rate_hz = 0;
-    double start_s = 0;           ///< time of sample 0 on the session's time base
-    double trigger_s = 0;         ///< time stamp of the trigger; NaN for a record without one
+    double start_s = 0;    ///< time of sample 0 on the session's time base
+    double trigger_s = 0;  ///< time stamp of the trigger; NaN for a record without one
     bool simulated = false;
     std::vector<CaptureChannel> channels;  ///< equally long
 
-    [[nodiscard]] std::size_t samples() const noexcept { return channels.empty() ? 0 : channels.front().samples.size(); }
+    [[nodiscard]] std::size_t samples() const noexcept {
+        return channels.empty() ? 0 : channels.front().samples.size();
+    }
 };
 
 }  // namespace tacto

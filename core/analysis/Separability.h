@@ -1,0 +1,80 @@
+// Separability.h - can the conditions be told apart from what was measured? science.md section 10.
+//
+// Works on measured trials, never on commands. A trial that was not measured can make the verdict indeterminate, never
+// a pass (hazard H9).
+//
+// Thread-safety: pure function.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/analysis/Estimate.h"
+#include "core/base/Result.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+enum class Verdict { Pass, Fail, Indeterminate };
+[[nodiscard]] std::string_view nameOf(Verdict verdict) noexcept;  // "pass", "fail", "indeterminate"
+
+/// One presentation of a condition, as measured. Amplitude in V or mA, the same for all; NaN = not measured.
+/// Standard uncertainties (k = 1) in the same units; 0 or NaN = not stated.
+struct SeparabilityTrial {
+    std::string condition;
+    double amplitude = 0;
+    double interval_s = 0;
+    double amplitudeUncertainty = 0;
+    double intervalUncertainty_s = 0;
+};
+
+struct SeparabilityOptions {
+    /// Conditions that must be there, in the order of the confusion matrix. Empty: those that occur, the paper's four
+    /// in their own order (smooth-low, smooth-high, rough-low, rough-high), others as first met.
+    std::vector<std::string> conditions;
+};
+
+struct ConditionSummary {
+    std::string name;
+    std::size_t n = 0;  ///< measured trials
+    std::size_t notMeasured = 0;
+    Statistics amplitude;
+    Statistics interval_s;
+    double amplitudeVariation = std::numeric_limits<double>::quiet_NaN();  ///< coefficient of variation, sd/mean
+    double intervalVariation = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct PairSummary {
+    std::string a;
+    std::string b;
+    double mahalanobis = 0;   ///< distance, not its square; NaN when a condition has no measured trial
+    double amplitudeJnd = 0;  ///< just-noticeable differences between the means
+    double intervalJnd = 0;
+};
+
+struct Separability {
+    std::vector<ConditionSummary> conditions;
+    std::vector<PairSummary> pairs;                   ///< a before b, in the conditions' order
+    std::vector<std::vector<std::size_t>> confusion;  ///< [presented][classified], cross-validated
+    Estimate accuracy;                                ///< of the cross-validation, Wilson 95 %
+    std::size_t folds = 0;                            ///< 0: too few trials to cross-validate
+    double amplitudeFloor = 0;  ///< standard deviation below which no variance is taken: the measurement's own
+    double intervalFloor_s = 0;
+    Verdict verdict = Verdict::Indeterminate;
+    std::vector<std::string> reasons;  ///< sentences; what decided the verdict comes first
+};
+
+/// Linear discriminant analysis with pooled covariance and equal priors (no condition is more likely than another),
+/// cross-validated in min(10, smallest n) folds, trial i of a condition in fold i mod folds. Variances are floored at
+/// the square of the stated uncertainty (root mean square over trials), or of 0.1 % of the mean over all trials where
+/// none is stated.
+/// Errors: InvalidArgument for fewer than two conditions, an unnamed or unexpected condition, or a measured value
+/// that is not above zero and finite.
+[[nodiscard]] Result<Separability> judgeSeparability(std::span<const SeparabilityTrial> trials,
+                                                     const SeparabilityOptions& options = {});
+
+}  // namespace tacto

@@ -1,0 +1,25 @@
+// Statistics.h - the six numbers with which every repeated reading is reported.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace tacto {
+
+/// Of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard deviation
+/// when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
+struct Statistics {
+    double mean = std::numeric_limits<double>::quiet_NaN();
+    double sd = std::numeric_limits<double>::quiet_NaN();  ///< of the sample, with n - 1
+    double median = std::numeric_limits<double>::quiet_NaN();
+    double min = std::numeric_limits<double>::quiet_NaN();
+    double max = std::numeric_limits<double>::quiet_NaN();
+    std::size_t n = 0;
+};
+
+[[nodiscard]] Statistics statisticsOf(std::span<const double> readings);
+
+}  // namespace tacto

@@ -1,0 +1,138 @@
+// PulseMeasurement.h - what was really delivered: pulses and trains measured on an oscilloscope's record.
+//
+// Definitions are science.md section 8: states from histogram modes; 10, 50 and 90 % references of each phase's own
+// plateau; instants by straight line between samples; width and interval at 50 %. A pulse that is clipped, truncated
+// by the record's end, incomplete (missing samples) or under-sampled (fewer than 10 samples in a phase) is flagged,
+// counted and not measured: its numbers are NaN, and an interval that begins or ends with it is not reported.
+//
+// Values are bare doubles: their unit is the channel's (V, A, or logic levels), which is data; charge is unit times
+// second, coulombs on a current channel. Times are seconds on the session's time base.
+//
+// Thread-safety: pure functions; a capture may be measured by several threads at once.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Statistics.h"
+#include "core/base/Units.h"
+#include "core/measure/Capture.h"
+#include "core/measure/StateLevels.h"
+
+namespace tacto {
+
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// One phase of a pulse. Levels are relative to the baseline and carry the phase's sign.
+struct PhaseMeasurement {
+    double plateau = kNotMeasured;  ///< mean from 30 to 90 % of the width: after the edge has settled
+    double onset_s = kNotMeasured;  ///< 50 % of the leading edge
+    double end_s = kNotMeasured;    ///< 50 % of the trailing edge
+    double width_s = kNotMeasured;
+    double rise_s = kNotMeasured;     ///< 10 to 90 % of the leading edge, also where it falls
+    double fall_s = kNotMeasured;     ///< 90 to 10 % of the trailing edge
+    double overshoot = kNotMeasured;  ///< largest excess over the plateau, as a fraction of it
+    double droop = kNotMeasured;      ///< loss over the width by straight line through the plateau, a fraction of it
+    double charge = kNotMeasured;     ///< ∫ over the phase, its edges and half the gaps beside it
+    std::size_t samples = 0;          ///< within the width
+};
+
+/// Why a pulse was not measured; several may hold.
+struct PulseFlags {
+    bool clipped = false;
+    bool truncated = false;
+    bool incomplete = false;    ///< samples are missing in it
+    bool underSampled = false;  ///< fewer than 10 samples in a phase
+    bool coarse = false;        ///< 10 to 40 samples in a phase: measured, with the uncertainty that follows
+    [[nodiscard]] bool measured() const noexcept { return !(clipped || truncated || incomplete || underSampled); }
+};
+
+struct PulseMeasurement {
+    PulseFlags flags;
+    PhaseMeasurement leading;
+    std::optional<PhaseMeasurement> second;  ///< of a biphasic pulse; opposite, at most 1 ms after the leading one
+    double gap_s = kNotMeasured;             ///< 50 % to 50 %, between the phases
+    double imbalance = kNotMeasured;         ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
+                                             ///< second phase; NaN on a monophasic channel
+    [[nodiscard]] double onset_s() const noexcept { return leading.onset_s; }
+};
+
+/// Pulses that belong together. NaN where not measured.
+struct TrainMeasurement {
+    double onset_s = kNotMeasured;     ///< of its first pulse
+    double interval_s = kNotMeasured;  ///< to the onset of the next train; NaN for the last, or beside a flagged pulse
+    double amplitude = kNotMeasured;   ///< mean of the leading plateaus' magnitudes
+    double width_s = kNotMeasured;     ///< mean of the leading phases' widths
+    double charge = kNotMeasured;      ///< mean of the leading phases' charges, magnitude
+    double imbalance = kNotMeasured;   ///< mean
+    int polarity = 0;                  ///< sign of the leading phase: +1, -1
+    std::size_t pulses = 0;            ///< measured
+    std::size_t flagged = 0;           ///< found but not measured
+};
+
+/// How pulses are told apart and grouped. Without a rate or a gap each pulse is its own train.
+struct MeasureOptions {
+    std::optional<Hertz> intraTrainRate;  ///< pulses whose onsets are at most 1.5 / rate apart form one train
+    std::optional<Seconds> trainGap;      ///< or at most this far apart, onset to onset; wins over the rate
+    Seconds interPhaseGapMax{1e-3};       ///< opposite phases at most this far apart form one pulse
+};
+
+/// Standard uncertainties (k = 1) of one reading, from what the channel declares and the record shows.
+struct MeasurementUncertainty {
+    double amplitude = kNotMeasured;  ///< of a plateau: lsb/√12, gain and offset tolerance /√3, noise over the plateau
+    double width_s = kNotMeasured;     ///< sampling step/√6, and the noise on the edges
+    double interval_s = kNotMeasured;  ///< the same
+};
+
+struct ChannelMeasurement {
+    std::string name;
+    std::string unit;
+    double rate_hz = 0;
+    std::size_t samples = 0;
+    StateLevels states;
+    std::vector<PulseMeasurement> pulses;  ///< all found, in time order, flagged ones included
+    std::vector<TrainMeasurement> trains;
+    std::size_t measuredPulses = 0;  ///< `pulses` of cli.md: those that the statistics are of
+    MeasurementUncertainty uncertainty;
+
+    // Of the measured pulses (leading phase); of the trains for the interval. n says how many.
+    Statistics amplitude;
+    Statistics width_s;
+    Statistics interval_s;
+    Statistics rise_s;
+    Statistics fall_s;
+    Statistics overshoot;
+    Statistics droop;
+    Statistics charge;
+    Statistics gap_s;                   ///< biphasic only
+    Statistics imbalance;               ///< biphasic only
+    std::vector<std::string> warnings;  ///< whole sentences that name the channel
+};
+
+/// Measures one channel. `channel` must be below capture.channels.size(). A channel without two states gives no pulses
+/// and a warning; nothing is an error.
+[[nodiscard]] ChannelMeasurement measureChannel(const Capture& capture, std::size_t channel,
+                                                const MeasureOptions& options = {});
+
+/// What `measure` prints: every channel, or the one asked for.
+struct CaptureMeasurement {
+    std::vector<ChannelMeasurement> channels;
+    std::vector<std::string> warnings;  ///< of all channels
+};
+[[nodiscard]] CaptureMeasurement measureCapture(const Capture& capture, std::optional<std::size_t> channel = {},
+                                                const MeasureOptions& options = {});
+
+/// Measures one channel over one long record, or over several short ones whose start_s stand on one time base (a
+/// capture per trigger): onsets and intervals run across captures. An interval across captures that are not on one time
+/// base (onsets that do not rise) is not reported, with a warning.
+/// Errors: InvalidArgument without captures; NotFound when a capture lacks the channel.
+[[nodiscard]] Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std::string_view channel,
+                                                       const MeasureOptions& options = {});
+
+}  // namespace tacto
