@@ -1,0 +1,54 @@
+// Operator.h - the person at the bench, as a protocol script sees them: somebody who confirms, chooses and enters.
+//
+// Headless, the answers are given in advance (`--set NAME=...`), and a question without one fails with its name.
+//
+// Thread-safety: ask() is called on the script's thread and may block; cancel() from any thread wakes it.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct OperatorQuestion {
+    enum class Kind { Confirm, Choose, Enter };
+    Kind kind = Kind::Confirm;
+    std::string name;                                          ///< the key of --set
+    std::string text;                                          ///< the sentence the operator reads
+    std::vector<std::pair<std::string, std::string>> choices;  ///< Choose: key and explanation
+    std::string unit;                                          ///< Enter: unit of a number; empty for text
+    bool number = false;                                       ///< Enter: a number is wanted
+    std::optional<double> min;
+    std::optional<double> max;
+    std::string drawing;  ///< name of a shipped drawing to show; may be empty
+};
+
+class Operator {
+public:
+    virtual ~Operator() = default;
+    /// true for Confirm, the key for Choose, a number or text for Enter.
+    /// Errors: NotFound when nobody can answer, naming the question; Stopped when refused or cancelled;
+    /// InvalidArgument for an answer outside what is accepted.
+    [[nodiscard]] virtual Result<nlohmann::json> ask(const OperatorQuestion& question) = 0;
+    /// Makes a waiting ask() return Stopped.
+    virtual void cancel() noexcept = 0;
+};
+
+/// Answers given in advance; never waits.
+class PresetOperator final : public Operator {
+public:
+    explicit PresetOperator(std::map<std::string, std::string> answers) : answers_(std::move(answers)) {}
+    [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
+    void cancel() noexcept override {}
+
+private:
+    const std::map<std::string, std::string> answers_;
+};
+
+}  // namespace tacto

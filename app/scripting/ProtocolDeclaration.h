@@ -1,0 +1,82 @@
+// ProtocolDeclaration.h - what a protocol script says about itself before it runs: title, purpose, the devices it
+// needs, its parameters with units and ranges, and the questions it may put to an operator.
+//
+// The declaration is read by running the script's top level in an engine without a bench: nothing can be
+// delivered, and a top level that does not end is interrupted.
+//
+// Thread-safety: values; the functions are pure but for the thread that they run the script on.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/devices/Device.h"
+
+namespace tacto {
+
+/// A protocol script as text. `path` is what its errors name.
+struct ProtocolSource {
+    std::string name;            ///< "separability"
+    std::filesystem::path path;  ///< may be empty for a text that lies in no file
+    std::string text;
+    std::string sha256;    ///< of the text's bytes; filled in by the library
+    bool shipped = false;  ///< comes with the program
+};
+
+enum class ParameterType { Number, Integer, Choice, Text, Boolean };
+[[nodiscard]] std::string_view nameOf(ParameterType type) noexcept;  // "number", "integer", "choice", "text", "boolean"
+
+struct ProtocolParameter {
+    std::string name;   ///< the key of --set and of `p` in run(p)
+    std::string label;  ///< for people; the name where the script gives none
+    std::string unit;   ///< "ohm", "s"; empty for a bare number
+    ParameterType type = ParameterType::Number;
+    std::optional<double> min;  ///< Number and Integer
+    std::optional<double> max;
+    std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
+    nlohmann::json value;                                      ///< the default, within the range
+};
+
+struct ProtocolDeclaration {
+    std::string name;
+    std::string title;
+    std::string purpose;
+    std::set<Role> needs;
+    std::vector<ProtocolParameter> parameters;  ///< as written
+    std::vector<std::string> questions;         ///< names that the script's text passes to `operator`
+    bool hasOtherQuestions = false;             ///< it also computes such names, or may ask for a load or a surface
+};
+
+/// What a run takes out of a list of KEY=VALUE settings.
+struct ProtocolSettings {
+    nlohmann::json parameters = nlohmann::json::object();  ///< every declared parameter, typed
+    std::map<std::string, std::string> answers;            ///< for `operator`, by question name
+};
+
+/// Runs the script's top level and reads what it declares.
+/// Errors: ParseError "file:line: reason" for a script error, a missing protocol(), a missing run(), an unknown key,
+/// type or role, a range upside down or a default outside it; Timeout when the top level does not end in `limit`.
+[[nodiscard]] Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source,
+                                                          std::chrono::milliseconds limit = std::chrono::seconds(1));
+
+/// Checks one value as text against its parameter. Errors: InvalidArgument naming key, value and what is accepted.
+[[nodiscard]] Result<nlohmann::json> parseSetting(const ProtocolParameter& parameter, std::string_view text);
+
+/// Defaults overridden by `settings`; keys that are no parameter answer the script's questions.
+/// Errors: as parseSetting(); InvalidArgument for an unknown key, listing the known ones.
+[[nodiscard]] Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
+                                                     const std::map<std::string, std::string>& settings);
+
+/// An element of cli.md's `protocols`: name, title, purpose, needs, parameters.
+[[nodiscard]] nlohmann::json toJson(const ProtocolDeclaration& declaration);
+
+}  // namespace tacto

@@ -1,0 +1,104 @@
+// ScriptRun.h - one run of a protocol script against a bench, on a thread of its own.
+//
+// Promise (hazard H10): a script reaches the world through the host objects alone. stop() reaches the bench's
+// outputs without the script's help; calls that wait come back with an error; the script ends at its next
+// statement, and one still running a second later is reported and abandoned: its thread and engine are leaked on
+// purpose, it can never touch the bench or the session again, and the outputs are off. Leaving run() by any door
+// disarms.
+//
+// Thread-safety: stop(), pause(), resume() from any thread, as often as wanted; wait functions have one caller.
+// Needs a QCoreApplication, but no event loop.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scripting/Operator.h"
+#include "app/scripting/ProtocolDeclaration.h"
+#include "core/base/Result.h"
+
+namespace tacto {
+
+class Bench;
+class SessionWriter;
+
+/// How far a progress(list, label) loop is.
+struct ScriptProgress {
+    std::string label;
+    std::size_t done = 0;
+    std::size_t total = 0;
+};
+
+struct RunRequest {
+    ProtocolSource script;
+    nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
+    std::uint64_t seed = 1;
+    Bench* bench = nullptr;               ///< not owned; used by nobody else until the run is over, stop() apart
+    SessionWriter* session = nullptr;     ///< not owned; null records nothing
+    Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails with its name
+    std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
+    std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
+    std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
+};
+
+enum class ScriptVerdict { None, Pass, Fail, Indeterminate, Stopped };
+/// "pass", "fail", "indeterminate", "stopped"; empty for None, which is null in JSON.
+[[nodiscard]] std::string_view nameOf(ScriptVerdict verdict) noexcept;
+
+struct ScriptOutcome {
+    ScriptVerdict verdict = ScriptVerdict::None;
+    std::vector<std::string> reasons;  ///< of the verdict, one sentence each
+    nlohmann::json results;            ///< what the verdict was given; null without one
+    std::optional<Error> error;        ///< "file:line: reason" when run() did not return
+    std::string file;                  ///< of the error
+    int line = 0;
+    bool abandoned = false;        ///< still running when it was given up: end the process without unwinding
+    std::vector<std::string> log;  ///< what log() said
+};
+
+class ScriptRun {
+public:
+    /// Starts the thread. Clears an earlier stop of the bench. Errors: InvalidArgument without a bench.
+    [[nodiscard]] static Result<std::unique_ptr<ScriptRun>> start(RunRequest request);
+    /// Stops, waits as wait() does.
+    ~ScriptRun();
+    ScriptRun(const ScriptRun&) = delete;
+    ScriptRun& operator=(const ScriptRun&) = delete;
+
+    /// Outputs off now; then the script is ended. Safe before, during and after the run. Not for a signal handler
+    /// itself: call it from the thread that the handler wakes.
+    void stop(const char* by) noexcept;
+    /// Bench paused; the script waits at its next host call.
+    void pause() noexcept;
+    void resume() noexcept;
+
+    /// Blocks until the script has ended or was abandoned. On return the bench is disarmed.
+    [[nodiscard]] ScriptOutcome wait();
+    /// The same, giving up after `time`: nothing then, and the script goes on.
+    [[nodiscard]] std::optional<ScriptOutcome> waitFor(std::chrono::milliseconds time);
+
+    /// Abandoned scripts of this process whose thread still runs. A program that ends while this is not 0 should
+    /// leave by std::_Exit, after it has closed its files.
+    [[nodiscard]] static int abandonedRunning() noexcept;
+
+private:
+    struct State;
+    explicit ScriptRun(std::shared_ptr<State> state);
+    std::shared_ptr<State> state_;
+};
+
+/// start() and wait() in one.
+[[nodiscard]] Result<ScriptOutcome> runProtocol(RunRequest request);
+
+/// Every host object and function: name, parameters, units, errors, as Markdown. The help's reference.
+[[nodiscard]] std::string scriptReference();
+
+}  // namespace tacto
