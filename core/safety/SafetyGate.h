@@ -49,8 +49,8 @@ private:
 
 /// One vibration of a massager: the mechanical stand-in for a pulse train.
 struct VibrationBurst {
-    double intensity = 0;        ///< 0..1
-    Seconds duration{0.1};       ///< ≤ 1 s
+    double intensity = 0;   ///< 0..1
+    Seconds duration{0.1};  ///< ≤ 1 s
 };
 
 /// Proof that a VibrationBurst passed the gate. Move-only.
@@ -77,7 +77,7 @@ private:
 struct TrainRequest {
     PulseTrain train;
     Seconds interval{2};
-    Instant onset{0};   ///< planned; booked on the meter
+    Instant onset{0};  ///< planned: at most 100 ms ahead, or the approval would expire before it
 };
 
 class SafetyGate {
@@ -105,6 +105,21 @@ public:
 
     /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s.
     [[nodiscard]] Result<ApprovedBurst> approve(const VibrationBurst& burst);
+
+    /// Person mode (H6, see AcceptedLevels.h). accept(): the participant accepted the level of `train`; without it the
+    /// next level may not rise. Errors: NotArmed outside person mode; LimitExceeded for a level that was not permitted.
+    [[nodiscard]] Result<void> accept(const PulseTrain& train);
+    /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
+    /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
+    [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
+    /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Voids every approval.
+    void beginAscending() noexcept;
+    void endAscending() noexcept;
+    /// The highest current that a train of this kind may have now; nothing outside person mode.
+    [[nodiscard]] std::optional<Milliamps> levelCeiling(const PulseTrain& train) const noexcept;
+
+    /// The loads that requests are judged at now; nothing before configure().
+    [[nodiscard]] std::optional<LoadRange> loadRange() const;
 
     /// Voids every approval handed out so far. Irreversible for those approvals.
     void latchStop() noexcept;

@@ -7,20 +7,20 @@
 namespace tacto {
 
 struct SourceTraits {
-    Drive drive = Drive::Voltage;              ///< Voltage or Current; never HighImpedance
-    GapState gap = GapState::HoldsZero;        ///< between phases, and after the pulse
-    double amplitudeStep = 0;                  ///< V or mA by `drive`; 0 = continuous
-    double amplitudeMax = 0;                   ///< V or mA by `drive`
-    Volts compliance{0};                       ///< largest voltage the output can reach
-    Milliamps currentLimit{0};                 ///< largest current the output can reach; 0 = not stated
+    Drive drive = Drive::Voltage;        ///< Voltage or Current; never HighImpedance
+    GapState gap = GapState::HoldsZero;  ///< between phases, and after the pulse
+    double amplitudeStep = 0;            ///< V or mA by `drive`; 0 = continuous
+    double amplitudeMax = 0;             ///< V or mA by `drive`
+    Volts compliance{0};                 ///< largest voltage the output can reach
+    Milliamps currentLimit{0};           ///< largest current the output can reach; 0 = not stated
     Micros widthStep{1};
     Micros widthMin{10};
     Micros widthMax{4000};
     int pulsesMax = 1000;
-    Seconds deadMan{0};                        ///< output stops by itself this long after the last keep-alive; 0 = none
-    bool readsBack = true;                     ///< status() tells open, short and impedance after each train
-    Milliamps checkCurrent{0.5};               ///< amplitude of the impedance check on a current source
-    Volts checkVoltage{1};                     ///< the same on a voltage source
+    Seconds deadMan{0};           ///< output stops by itself this long after the last keep-alive; 0 = none
+    bool readsBack = true;        ///< status() tells open, short and impedance after each train
+    Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
+    Volts checkVoltage{1};        ///< the same on a voltage source
 };
 
 }  // namespace tacto

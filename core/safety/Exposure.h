@@ -1,0 +1,28 @@
+// Exposure.h - one line of an exposure table: a quantity, its value, and the limit it is held against.
+//
+// Never allocates and is trivially copyable: the control loop fills these while delivering.
+#pragma once
+
+#include <string_view>
+
+#include "core/safety/FixedText.h"
+#include "core/safety/LimitSet.h"
+
+namespace tacto {
+
+struct ExposureRow {
+    Quantity quantity = Quantity::PeakVoltage;
+    double value = 0;       ///< in `unit`; meaningless when not evaluated
+    double limit = 0;       ///< in `unit`; NaN for a row that is shown without a limit
+    std::string_view unit;  ///< static text, as unitOf(quantity)
+    double window_s = 0;    ///< 0 = of one pulse
+    FixedText<31> set;      ///< id of the limit set, "profile" for a ceiling; empty without a limit
+    LimitAction action = LimitAction::Refuse;
+    JudgedAt judged = JudgedAt::LoadRange;
+    bool strict = false;     ///< the limit is "<", not "≤"
+    bool evaluated = false;  ///< false: reads "not evaluated", and is never a pass (H9)
+    bool within = false;     ///< evaluated and within the limit (true where there is none)
+    FixedText<95> reason;    ///< why it was not evaluated, else empty
+};
+
+}  // namespace tacto

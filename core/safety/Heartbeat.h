@@ -1,0 +1,34 @@
+// Heartbeat.h - tells device threads whether the control loop still runs (H2).
+//
+// The loop beats once per turn; a device thread asks before every write and while a device holds itself
+// on. After 100 ms of silence the answer is no: device threads force their output off and stop holding off dead-man
+// switches, so a hung program ends in silence. Not alive before the first beat.
+//
+// Thread-safety: any thread may call anything; lock-free.
+#pragma once
+
+#include <atomic>
+#include <limits>
+
+#include "core/base/Units.h"
+
+namespace tacto {
+
+class Heartbeat {
+public:
+    static constexpr Instant kSilence = std::chrono::milliseconds(100);
+
+    void beat(Instant now) noexcept { last_.store(now.count(), std::memory_order_release); }
+    /// The loop ends on purpose: not alive until the next beat.
+    void end() noexcept { last_.store(kNever, std::memory_order_release); }
+    [[nodiscard]] bool alive(Instant now) const noexcept {
+        const auto last = last_.load(std::memory_order_acquire);
+        return last != kNever && now.count() - last <= kSilence.count();
+    }
+
+private:
+    static constexpr Instant::rep kNever = std::numeric_limits<Instant::rep>::min();
+    std::atomic<Instant::rep> last_{kNever};
+};
+
+}  // namespace tacto

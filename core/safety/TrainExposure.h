@@ -1,0 +1,54 @@
+// TrainExposure.h - what a pulse train does to a load, in every quantity of science.md section 7.
+//
+// Closed forms per segment (core/electrode); the charge that a pulse leaves on the load is carried into
+// the next pulse and the next train, and the larger of "first train from rest" and "steady state" is
+// given, so that the figures hold for any number of trains. A current source that would exceed its compliance
+// is judged both with and without it. A load's drift and lost contact are left out: they
+// would only make a limit look farther away than it is.
+//
+// Thread-safety: pure functions. Nothing here allocates, except exposureTable().
+#pragma once
+
+#include <vector>
+
+#include "core/safety/GateSetup.h"
+
+namespace tacto {
+
+/// ∫ over one whole train, tail included. SI units, so that windows can add them up.
+struct TrainSums {
+    double currentSquared_A2s = 0;
+    double voltageSquared_V2s = 0;
+    double netCharge_C = 0;  ///< |sum over the train|
+    double energy_J = 0;
+
+    TrainSums& operator+=(const TrainSums& other) noexcept;
+};
+
+struct TrainExposure {
+    QuantityValues values{};  ///< each in unitOf() its quantity; densities are NaN without an area
+    TrainSums sums;           ///< one train
+    [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
+};
+
+/// One train per `interval` into `load`. `train` must be valid (validate()) and interval ≥ its duration; otherwise
+/// the figures are NaN, which no limit lets pass. `area` in cm², NaN when unknown. CommandVoltage is taken at this
+/// load.
+[[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
+                                       const SourceTraits& source, double area_cm2) noexcept;
+
+/// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
+[[nodiscard]] TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept;
+
+/// Worst case between load.min and load.max; CommandVoltage at load.nominal (I·|Z| at the end of the leading phase).
+[[nodiscard]] TrainExposure worstExposure(const PulseTrain& train, Seconds interval, const LoadRange& load,
+                                          const SourceTraits& source, double area_cm2) noexcept;
+
+/// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.
+[[nodiscard]] double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_cm2) noexcept;
+
+/// Every limit of the setup's sets and ceilings against this train, worst case, without the meter; then the in-train
+/// RMS without a limit. What a report and a preview show. Density rows without an area read not evaluated.
+[[nodiscard]] std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval);
+
+}  // namespace tacto
