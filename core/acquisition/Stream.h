@@ -1,37 +1,4 @@
-// Stream.h - sampled data of one kind at one rate, with the time stamps it came with.
+// Stream.h - the types of a sample stream, from base, where dsp finds them too.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <string_view>
-#include <vector>
-
-namespace tacto {
-
-enum class StreamKind { Acceleration, Force, Taxels };
-
-/// Units after conversion on reading. Count: uncalibrated, used as it is and said so.
-enum class StreamUnit { MetresPerSecondSquared, Newtons, Pascals, Count };
-
-[[nodiscard]] std::string_view nameOf(StreamKind kind) noexcept;   // "acceleration", "force", "taxels"
-[[nodiscard]] std::string_view symbolOf(StreamUnit unit) noexcept; // "m/s2", "N", "Pa", "count"
-
-struct StreamInfo {
-    StreamKind kind;
-    StreamUnit unit;
-    std::size_t channels;   ///< 1..3 axes, 1 for force, taxel count
-    double rate_hz;         ///< nominal where live, measured where recorded (science.md section 1)
-    std::string name;       ///< for people: "fingertip accelerometer"
-};
-
-/// Consecutive samples of one stream. Buffers are reused by whoever reads in a loop, so that a steady state
-/// does not allocate: clear() keeps capacity.
-struct SampleBlock {
-    std::vector<double> t_s;      ///< time stamps, seconds on the session's time base, one per sample
-    std::vector<double> values;   ///< interleaved: sample i, channel c at [i * channels + c]; SI units or counts
-
-    [[nodiscard]] std::size_t samples() const noexcept { return t_s.size(); }
-    void clear() noexcept { t_s.clear(); values.clear(); }
-};
-
-}  // namespace tacto
+#include "core/base/Stream.h"

@@ -1,0 +1,52 @@
+// Recording.h - sensor data from elsewhere, opened as they are: recording.json beside CSV files.
+//
+// Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero.
+// Whatever is wrong is refused with one sentence that names file, line and what was expected; what is merely
+// irregular (gaps, repeats, clock steps, cells that say nan) is read and reported in each stream's health.
+//
+// Thread-safety: values; functions are pure but for reading files. Nothing is ever written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/acquisition/StreamHealth.h"
+#include "core/base/Result.h"
+#include "core/base/Stream.h"
+
+namespace tacto {
+
+struct RecordedStream {
+    StreamInfo info;      ///< rate_hz is measured; name is the file's
+    SampleBlock samples;  ///< as recorded: stamps may step back, values may be NaN
+    HealthReport health;
+    std::filesystem::path file;
+};
+
+struct Recording {
+    std::string title;
+    std::string source;
+    std::string licence;
+    std::filesystem::path path;  ///< the JSON file
+    DeclaredIntervals declared;
+    std::vector<RecordedStream> streams;  ///< at most one of each kind
+
+    /// `path` is a folder with recording.json, or such a JSON file.
+    /// Errors: NotFound (a folder without recording.json: the message holds a template to fill in); ParseError;
+    /// InvalidArgument (an unknown kind, unit or key, a `file` that is absolute or climbs out); Io.
+    [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path);
+
+    /// The stream of that kind, or null.
+    [[nodiscard]] const RecordedStream* find(StreamKind kind) const noexcept;
+    /// Earliest and latest stamp over all streams.
+    [[nodiscard]] TimeInterval extent() const noexcept;
+    /// For RoughnessChain and analyseRoughness(), in the order of `streams`.
+    [[nodiscard]] std::vector<StreamInfo> infos() const;
+    [[nodiscard]] std::vector<SampleBlock> blocks() const;
+};
+
+/// A recording.json to fill in, for a folder that has none.
+[[nodiscard]] std::string recordingTemplate();
+
+}  // namespace tacto

@@ -1,0 +1,78 @@
+// StreamHealth.h - is a stream continuous, how old is it, and how fast does it really come?
+//
+// Gaps, repeats and clock steps are counted, never bridged (science.md section 1, hazard H7). The rate is
+// (n - 1) / (last - first stamp) over the longest gap-free stretch: printed stamps are rounded, so a
+// median step would mislead.
+//
+// Thread-safety: none; one owner. feed() and the queries never allocate.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/SampleGrid.h"
+#include "core/base/Stream.h"
+
+namespace tacto {
+
+/// What was found so far. Counts only grow.
+struct HealthReport {
+    std::size_t samples = 0;
+    std::size_t gaps = 0;            ///< places where samples are missing
+    std::size_t missingSamples = 0;  ///< about how many, at the nominal rate
+    std::size_t repeats = 0;         ///< stamps equal to the one before
+    std::size_t clockSteps = 0;      ///< stamps earlier than the one before
+    std::size_t irregular = 0;       ///< stamps half a step or more early, yet in order
+    std::size_t invalidStamps = 0;   ///< stamps that are not finite
+    std::size_t invalidSamples = 0;  ///< samples with a value that is not finite
+    bool coarseStamps = false;       ///< printed so coarsely that they repeat; they were spread evenly on reading
+    double longestGap_s = 0;
+    double rate_hz = std::numeric_limits<double>::quiet_NaN();  ///< measured; NaN before two regular samples
+
+    [[nodiscard]] bool continuous() const noexcept {
+        return gaps + repeats + clockSteps + irregular + invalidStamps + invalidSamples == 0;
+    }
+    /// One line for people: "2 gaps (longest 0.08 s, about 14 samples), 1 repeat", or "continuous".
+    [[nodiscard]] std::string text() const;
+};
+
+class StreamHealth {
+public:
+    /// `nominalRate_hz` must be finite and positive: what stamps are judged against.
+    explicit StreamHealth(double nominalRate_hz) noexcept : grid_(nominalRate_hz) {}
+
+    StampClass feed(double t_s) noexcept;
+    /// All samples of `block`, values judged too; `channels` as in the stream's StreamInfo.
+    void feed(const SampleBlock& block, std::size_t channels) noexcept;
+
+    /// How long ago the newest sample was taken; infinite before the first.
+    [[nodiscard]] double age_s(double now_s) const noexcept { return now_s - grid_.last(); }
+    /// True when the newest sample is older than 100 ms: no new trains (hazard H7).
+    [[nodiscard]] bool stale(double now_s) const noexcept { return !(age_s(now_s) <= kStale_s); }
+    [[nodiscard]] const HealthReport& report() const noexcept { return report_; }
+
+    static constexpr double kStale_s = 0.1;
+
+private:
+    void closeStretch() noexcept;
+    SampleGrid grid_;
+    HealthReport report_;
+    double stretchFirst_ = 0;       // stamp of the current gap-free stretch
+    std::size_t stretchSteps_ = 0;  // its regular steps
+    std::size_t longestSteps_ = 0;
+};
+
+/// A robust guess of the rate of recorded stamps: the mean step without the steps that are obviously gaps.
+/// 0 with fewer than two distinct stamps.
+[[nodiscard]] double roughRate_hz(std::span<const double> stamps);
+
+/// True when more than one stamp in twenty repeats the one before: the file prints time too coarsely.
+[[nodiscard]] bool stampsAreCoarse(std::span<const double> stamps) noexcept;
+
+/// Gives coarse stamps evenly spread times between the distinct ones. Does nothing to a stretch without repeats.
+void spreadCoarseStamps(std::span<double> stamps);
+
+}  // namespace tacto

@@ -1,0 +1,31 @@
+#include "core/base/Stream.h"
+
+namespace tacto {
+
+std::string_view nameOf(StreamKind kind) noexcept {
+    switch (kind) {
+        case StreamKind::Acceleration:
+            return "acceleration";
+        case StreamKind::Force:
+            return "force";
+        case StreamKind::Taxels:
+            return "taxels";
+    }
+    return "stream";
+}
+
+std::string_view symbolOf(StreamUnit unit) noexcept {
+    switch (unit) {
+        case StreamUnit::MetresPerSecondSquared:
+            return "m/s2";
+        case StreamUnit::Newtons:
+            return "N";
+        case StreamUnit::Pascals:
+            return "Pa";
+        case StreamUnit::Count:
+            return "count";
+    }
+    return "";
+}
+
+}  // namespace tacto

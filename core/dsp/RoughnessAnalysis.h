@@ -1,0 +1,42 @@
+// RoughnessAnalysis.h - a whole recording through the roughness chain, and what to say about it.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/Statistics.h"
+#include "core/dsp/RoughnessChain.h"
+
+namespace tacto {
+
+/// Statistics are over contact frames, absent values left out.
+struct RoughnessSummary {
+    std::size_t frames = 0;
+    std::size_t contactFrames = 0;
+    double rate_hz = 0;  ///< of the stream that paces the frames: acceleration, else taxels, else force
+    double frameRate_hz = 0;
+    std::vector<std::string> flags;
+    Statistics h, v, R, pressure_pa, P;
+};
+
+struct RoughnessResult {
+    std::vector<RoughnessFrame> frames;
+    RoughnessSummary summary;
+};
+
+/// Runs a whole recording through RoughnessChain. A declared baseline serves every frame, wherever it lies.
+/// Errors: as RoughnessChain::create(); InvalidArgument when the blocks hold no usable sample.
+[[nodiscard]] Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams,
+                                                       std::span<const SampleBlock> blocks,
+                                                       const RoughnessSettings& settings,
+                                                       const DeclaredIntervals& declared = {});
+
+[[nodiscard]] RoughnessSummary summarise(std::span<const RoughnessFrame> frames);
+
+/// frames.csv of the command line: "t_s,contact,sliding,h,v,R,pressure_pa,P", absent values empty.
+[[nodiscard]] std::string framesCsv(std::span<const RoughnessFrame> frames);
+
+}  // namespace tacto

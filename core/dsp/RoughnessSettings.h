@@ -1,0 +1,89 @@
+// RoughnessSettings.h - the choices that science.md sections 2 and 3 leave to the profile.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "core/base/Result.h"
+#include "core/base/Stream.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+enum class SpectralFeature { Relative, Absolute };  ///< "h", "h_abs"
+enum class TaxelFeature { Static, Dynamic };        ///< "static", "dynamic"
+
+/// What one feature reads on the smooth and on the rough reference surface of this rig. In the feature's own unit.
+struct ReferenceScale {
+    double smooth = 0;
+    double rough = 0;
+    /// g(x) in 0..1; NaN for x that is absent (NaN) or not positive.
+    [[nodiscard]] double g(double x) const noexcept;
+    bool operator==(const ReferenceScale&) const = default;
+};
+
+/// A reference surface as its profilometer certificate describes it.
+struct ReferenceSurface {
+    std::string name;
+    Micrometres ra{0};
+    Micrometres rz{0};
+    bool operator==(const ReferenceSurface&) const = default;
+};
+
+/// What the shipped simulated finger reads on plastic (smooth) and P120 (rough); see resources and the calibration
+/// protocol. A result that stands on these is "uncalibrated R".
+inline constexpr ReferenceScale kSimulatedH{0.05, 0.60};
+inline constexpr ReferenceScale kSimulatedHAbs{1e-3, 10.0};
+inline constexpr ReferenceScale kSimulatedVStatic{0.05, 0.5};
+inline constexpr ReferenceScale kSimulatedVDynamic{1e-5, 1e-2};
+
+struct RoughnessSettings {
+    SpectralFeature spectral = SpectralFeature::Relative;
+    TaxelFeature taxel = TaxelFeature::Static;
+    Hertz bandLow{200};           ///< lower end of the rough band, 5 Hz..1 kHz
+    double spectralWeight = 0.5;  ///< ≥ 0; not both 0
+    double taxelWeight = 0.5;
+    ReferenceScale h = kSimulatedH;
+    ReferenceScale hAbs = kSimulatedHAbs;
+    ReferenceScale vStatic = kSimulatedVStatic;
+    ReferenceScale vDynamic = kSimulatedVDynamic;
+    bool calibrated = false;  ///< the scales in use were measured on this rig
+    std::optional<ReferenceSurface> smoothSurface;
+    std::optional<ReferenceSurface> roughSurface;
+    Seconds smoothing{0.05};           ///< τ of R's first-order smoother, > 0
+    SquareCentimetres contactArea{1};  ///< > 0
+    Pascals pressureMin{2'000};
+    Pascals pressureMax{50'000};
+    /// Mean square at rest of the band-passed acceleration (5 Hz..1 kHz, all axes, force normalisation undone), in
+    /// restUnit squared; used when a recording offers no rest of its own and its acceleration has this unit.
+    std::optional<double> restMeanSquare;
+    StreamUnit restUnit = StreamUnit::MetresPerSecondSquared;
+
+    [[nodiscard]] const ReferenceScale& spectralScale() const noexcept {
+        return spectral == SpectralFeature::Relative ? h : hAbs;
+    }
+    [[nodiscard]] const ReferenceScale& taxelScale() const noexcept {
+        return taxel == TaxelFeature::Static ? vStatic : vDynamic;
+    }
+    bool operator==(const RoughnessSettings&) const = default;
+};
+
+/// Errors: InvalidArgument naming the key, its value and what it takes (NaN and equal references are refused).
+[[nodiscard]] Result<void> validate(const RoughnessSettings& settings);
+
+/// The `roughness` section of a profile; absent keys keep their defaults.
+///   {"spectral_feature": "h"|"h_abs", "taxel_feature": "static"|"dynamic", "band_low_hz": 200,
+///    "spectral_weight": 0.5, "taxel_weight": 0.5, "calibrated": false,
+///    "references": {"h": {"smooth": x, "rough": x}, "h_abs": …, "v_static": …, "v_dynamic": …},
+///    "surfaces": {"smooth": {"name": "…", "ra_um": x, "rz_um": x}, "rough": …},
+///    "smoothing_s": 0.05, "contact_area_cm2": 1, "pressure_min_pa": 2000, "pressure_max_pa": 50000,
+///    "rest": {"mean_square": x, "unit": "m/s2"|"count"}}
+/// Errors: InvalidArgument naming an unknown key and the known ones; ParseError for a value of the wrong type; as
+/// validate().
+[[nodiscard]] Result<RoughnessSettings> roughnessSettingsFromJson(const nlohmann::json& section);
+[[nodiscard]] nlohmann::json toJson(const RoughnessSettings& settings);
+
+}  // namespace tacto
