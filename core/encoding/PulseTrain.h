@@ -34,11 +34,11 @@ struct PulseTrain {
     Amplitude amplitude = Volts(0);
     PulseShape shape = PulseShape::SymmetricBiphasic;
     Polarity polarity = Polarity::Positive;
-    Micros phaseWidth{200};      ///< of the leading phase
-    Micros interPhaseGap{100};   ///< 0 or more
-    double rechargeRatio = 10;   ///< AsymmetricBiphasic only, > 1
-    int pulses = 1;              ///< n ≥ 1
-    Hertz rate{100};             ///< intra-train pulse rate
+    Micros phaseWidth{200};     ///< of the leading phase
+    Micros interPhaseGap{100};  ///< 0 or more
+    double rechargeRatio = 10;  ///< AsymmetricBiphasic only, > 1
+    int pulses = 1;             ///< n ≥ 1
+    Hertz rate{100};            ///< intra-train pulse rate
 
     /// n / intra-train rate: the window of the in-train RMS, and the time a train occupies.
     [[nodiscard]] Seconds duration() const noexcept;

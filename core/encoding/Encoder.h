@@ -1,0 +1,56 @@
+// Encoder.h - from what the finger feels to what the electrodes are asked to say.
+//
+// Formulas of science.md section 4. The encoder speaks volts (the paper's amplitude); a current source is given
+// A / |Z|, and nothing at all before |Z| was measured (hazard H4).
+//
+// Thread-safety: Encoder is immutable; the rest are pure functions. Success never allocates.
+#pragma once
+
+#include <optional>
+
+#include "core/encoding/EncodingProfile.h"
+
+namespace tacto {
+
+/// What the encoder asks for: the amplitude of a train and the onset-to-onset interval to the next.
+struct Command {
+    Volts amplitude{0};
+    Seconds interval{0};
+    bool operator==(const Command&) const = default;
+};
+
+class Encoder {
+public:
+    /// `profile` has passed validate().
+    explicit Encoder(const EncodingProfile& profile);
+
+    /// R and P in 0..1. An absent pressure counts as 0: the interval is then T_max (the amplitude A_min when swapped).
+    /// Errors: InvalidArgument outside 0..1 or NaN.
+    [[nodiscard]] Result<Command> encode(double roughness, std::optional<double> pressure) const;
+
+    /// What the next train may be, `sinceLast` after a train with `last`, under the profile's slew limits.
+    [[nodiscard]] Command limited(const Command& last, const Command& wanted, Seconds sinceLast) const noexcept;
+
+    /// Vibration strength in 0..1 for a massager: A / A_max, so that R = 0 is still felt.
+    [[nodiscard]] double massagerIntensity(Volts amplitude) const noexcept;
+
+    [[nodiscard]] const EncodingProfile& profile() const noexcept { return profile_; }
+
+private:
+    const EncodingProfile profile_;  // Constant after construction
+};
+
+/// The profile's train at `amplitude`, for a voltage source.
+[[nodiscard]] PulseTrain voltageTrain(const EncodingProfile& profile, Volts amplitude) noexcept;
+
+/// The profile's train at `amplitude` / `impedance`, for a current source. `impedance` is |Z| at the end of the leading
+/// phase, measured with the same kind of source, shape and width.
+/// Errors: NotArmed without a measured impedance; InvalidArgument when it is not finite and above 0.
+[[nodiscard]] Result<PulseTrain> currentTrain(const EncodingProfile& profile, Volts amplitude,
+                                              std::optional<Ohms> impedance);
+
+/// One of the two above. `source` is Voltage or Current. Errors: as currentTrain(); InvalidArgument for HighImpedance.
+[[nodiscard]] Result<PulseTrain> trainFor(Drive source, const EncodingProfile& profile, Volts amplitude,
+                                          std::optional<Ohms> impedance);
+
+}  // namespace tacto

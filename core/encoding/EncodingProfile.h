@@ -1,0 +1,78 @@
+// EncodingProfile.h - how roughness and pressure become amplitude and interval: data, never code.
+//
+// The `encoding` section of a profile file. Defaults are the paper's (science.md section 4).
+//
+// Thread-safety: a value; constant while the bench runs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/encoding/PulseTrain.h"
+
+namespace tacto {
+
+enum class CurveKind { Linear, Logarithmic, Power };
+[[nodiscard]] std::string_view nameOf(CurveKind curve) noexcept;  // "linear", "logarithmic", "power"
+
+/// The course from one end of a range (x = 0) to the other (x = 1).
+struct Curve {
+    CurveKind kind = CurveKind::Linear;
+    double beta = 1.5;  ///< Power only: from + (to − from)·x^(1/β)
+    /// `x` in 0..1; both ends > 0 for Logarithmic: from·(to/from)^x. Exact at x = 0 and x = 1.
+    [[nodiscard]] double at(double x, double from, double to) const noexcept;
+    bool operator==(const Curve&) const = default;
+};
+
+/// Which input drives which output.
+enum class Assignment {
+    TextureToAmplitude,  ///< R → amplitude, P → interval (the paper's)
+    Swapped,             ///< P → amplitude, R → interval (the paper's theoretical section)
+};
+[[nodiscard]] std::string_view nameOf(Assignment assignment) noexcept;  // "texture_to_amplitude", "swapped"
+
+/// A named point of the R–P plane.
+struct Condition {
+    std::string name;
+    double R = 0;
+    double P = 0;
+    bool operator==(const Condition&) const = default;
+};
+
+struct EncodingProfile {
+    Volts amplitudeMin{10};
+    Volts amplitudeMax{40};
+    Seconds intervalMin{0.5};
+    Seconds intervalMax{2};
+    Curve amplitudeCurve;
+    Curve intervalCurve;
+    Assignment assignment = Assignment::TextureToAmplitude;
+    PulseTrain train;                  ///< everything but its amplitude
+    double amplitudeSlew_V_per_s = 0;  ///< largest change of the amplitude; 0 = no limit
+    double intervalRatioPerTrain =
+        0;  ///< an interval is at most this times (or 1/this of) the one before; 0 = no limit, else > 1
+    std::vector<Condition> conditions = fourConditions(0, 1);
+
+    /// smooth-low, smooth-high, rough-low, rough-high with R and P at `low` and `high`.
+    [[nodiscard]] static std::vector<Condition> fourConditions(double low, double high);
+    /// Null when there is none of that name.
+    [[nodiscard]] const Condition* condition(std::string_view name) const noexcept;
+    bool operator==(const EncodingProfile&) const = default;
+};
+
+/// Errors: InvalidArgument naming the field, its value and what is accepted (among them n/rate < T_min).
+[[nodiscard]] Result<void> validate(const EncodingProfile& profile);
+
+/// Reads the `encoding` section; a missing key keeps its default. Keys: amplitude_min_v, amplitude_max_v,
+/// interval_min_s, interval_max_s, amplitude_curve, amplitude_beta, interval_curve, interval_beta, assignment,
+/// shape (symmetric, asymmetric, monophasic), polarity (positive, negative), phase_width_us, inter_phase_gap_us,
+/// recharge_ratio, pulses, rate_hz, amplitude_slew_v_per_s, interval_ratio_per_train,
+/// conditions [{name, R, P}].
+/// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument as validate().
+[[nodiscard]] Result<EncodingProfile> encodingProfileFrom(const nlohmann::json& section);
+/// The section that reads back to the same profile.
+[[nodiscard]] nlohmann::json toJson(const EncodingProfile& profile);
+
+}  // namespace tacto

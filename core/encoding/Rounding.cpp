@@ -1,0 +1,80 @@
+#include "core/encoding/Rounding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacto {
+namespace {
+
+/// By how much of itself `wanted` shrank; 0 where only the last bits differ.
+double shrunk(double wanted, double rounded) noexcept {
+    if (!(wanted > 0)) return 0;
+    const double relative = (wanted - rounded) / wanted;
+    return relative > 1e-9 ? relative : 0;
+}
+
+}  // namespace
+
+double towardZero(double value, double step) noexcept {
+    if (!(step > 0)) return value;
+    const double multiple = std::trunc(value / step + std::copysign(1e-9, value));
+    return multiple == 0 ? 0.0 : multiple * step;
+}
+
+Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& grid) {
+    if (auto valid = validate(wanted); !valid) return failure(valid);
+    RoundedTrain result{wanted};
+    const auto tooFar = [](double relative) { return !(relative <= kLargestRounding * (1 + 1e-9)); };
+
+    const bool current = isCurrent(wanted.amplitude);
+    const double amplitude = std::visit([](auto a) { return a.value(); }, wanted.amplitude);
+    const double amplitudeSet = towardZero(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep);
+    const char* unit = current ? "mA" : "V";
+    result.amplitude = shrunk(amplitude, amplitudeSet);
+    if (tooFar(result.amplitude)) {
+        return fail(
+            ErrorCode::Unsupported,
+            "amplitude {:.6g} {} would become {:.6g} {} on this device (steps of {:.6g}, at most {:.6g} {}), more "
+            "than 10 % less",
+            amplitude, unit, amplitudeSet, unit, grid.amplitudeStep, grid.amplitudeMax, unit);
+    }
+    if (current) {
+        result.train.amplitude = Milliamps(amplitudeSet);
+    } else {
+        result.train.amplitude = Volts(amplitudeSet);
+    }
+
+    const double width = wanted.phaseWidth.count();
+    const double widthSet = towardZero(std::min(width, grid.widthMax.count()), grid.widthStep.count());
+    result.phaseWidth = shrunk(width, widthSet);
+    if (tooFar(result.phaseWidth) || !(widthSet >= grid.widthMin.count() * (1 - 1e-9))) {
+        return fail(
+            ErrorCode::Unsupported,
+            "phase width {:.6g} µs cannot be set within 10 % on this device (steps of {:.6g} µs, {:.6g} to {:.6g} "
+            "µs)",
+            width, grid.widthStep.count(), grid.widthMin.count(), grid.widthMax.count());
+    }
+    result.train.phaseWidth = Micros(widthSet);
+
+    if (wanted.shape != PulseShape::Monophasic) {
+        const double gap = wanted.interPhaseGap.count();
+        const double gapSet = towardZero(gap, grid.widthStep.count());
+        result.gap = shrunk(gap, gapSet);
+        if (tooFar(result.gap)) {
+            return fail(ErrorCode::Unsupported,
+                        "inter-phase gap {:.6g} µs cannot be set within 10 % in steps of {:.6g} µs", gap,
+                        grid.widthStep.count());
+        }
+        result.train.interPhaseGap = Micros(gapSet);
+    }
+
+    result.train.pulses = std::min(wanted.pulses, grid.pulsesMax);
+    result.pulses = shrunk(wanted.pulses, result.train.pulses);
+    if (tooFar(result.pulses)) {
+        return fail(ErrorCode::Unsupported, "a train of {} pulses is more than this device's {}", wanted.pulses,
+                    grid.pulsesMax);
+    }
+    return result;
+}
+
+}  // namespace tacto

@@ -1,0 +1,109 @@
+#include "core/encoding/Transitions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/encoding/TrainScheduler.h"
+
+namespace tacto {
+namespace {
+
+double distance(double a, double b, double weber) noexcept { return std::abs(std::log(a / b)) / std::log1p(weber); }
+
+/// The control loop's step: how often the pending train may move.
+constexpr Instant kStep = std::chrono::milliseconds(1);
+
+/// A finger moving through the plane, and the trains that go out meanwhile.
+class Walk {
+public:
+    explicit Walk(const Encoder& encoder) : encoder_(encoder) {}
+
+    /// Begins at a point with a train that has been felt long enough to count as the one before.
+    void rest(double R, double P) {
+        last_ = *encoder_.encode(R, P);
+        started_ = now_;
+        scheduler_.off();
+        scheduler_ = {};
+        scheduler_.start(now_, last_.interval);
+        scheduler_.trainAt(now_);
+    }
+
+    /// One control step at (R, P). A train that goes out is handed to `found`.
+    void step(double R, double P, const auto& found) {
+        now_ += kStep;
+        const Command wanted = *encoder_.encode(R, P);
+        const Seconds since = Seconds(now_ - *scheduler_.lastOnset());
+        const Command next = encoder_.limited(last_, wanted, since);
+        scheduler_.setInterval(next.interval, now_);
+        if (!scheduler_.isDue(now_)) return;
+        scheduler_.trainAt(now_);
+        found(TransitionStep{R, P, last_, next, amplitudeDistance(last_.amplitude, next.amplitude),
+                             intervalDistance(last_.interval, next.interval)});
+        last_ = next;
+    }
+
+    [[nodiscard]] Instant elapsed() const noexcept { return now_ - started_; }
+
+private:
+    const Encoder& encoder_;
+    TrainScheduler scheduler_;
+    Instant now_{0};
+    Instant started_{0};
+    Command last_;
+};
+
+/// Until a jump has worn off: many of the longest intervals, since slew limits stretch it.
+constexpr int kTrainsAfterJump = 50;
+
+}  // namespace
+
+double amplitudeDistance(Volts a, Volts b) noexcept { return distance(a.value(), b.value(), kAmplitudeWeber); }
+double intervalDistance(Seconds a, Seconds b) noexcept { return distance(a.count(), b.count(), kIntervalWeber); }
+
+Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const TransitionSweep& sweep) {
+    if (auto valid = validate(profile); !valid) return failure(valid);
+    if (sweep.lines < 2 || sweep.lines > 1000) {
+        return fail(ErrorCode::InvalidArgument, "{} lines are not 2 to 1000", sweep.lines);
+    }
+    const double traverse = sweep.traverse.count();
+    if (!(traverse >= 0.1 && traverse <= 600)) {
+        return fail(ErrorCode::InvalidArgument, "a traverse of {} s is outside 0.1 to 600 s", traverse);
+    }
+    const Encoder encoder(profile);
+    TransitionReport report;
+    const auto keepLargest = [](TransitionStep& largest, const TransitionStep& step) {
+        if (step.largest() > largest.largest()) largest = step;
+    };
+    Walk walk(encoder);
+    for (const bool alongR : {true, false}) {
+        for (int line = 0; line < sweep.lines; ++line) {
+            const double fixed = static_cast<double>(line) / (sweep.lines - 1);
+            walk.rest(alongR ? 0 : fixed, alongR ? fixed : 0);
+            while (toSeconds(walk.elapsed()) < 2 * traverse) {
+                const double phase = toSeconds(walk.elapsed() + kStep) / traverse;
+                const double moving = std::clamp(phase <= 1 ? phase : 2 - phase, 0.0, 1.0);
+                walk.step(alongR ? moving : fixed, alongR ? fixed : moving, [&](const TransitionStep& step) {
+                    report.steps.push_back(step);
+                    keepLargest(report.largestGradual, step);
+                });
+            }
+        }
+    }
+    for (const double fromR : {0.0, 1.0}) {
+        for (const double fromP : {0.0, 1.0}) {
+            for (const double toR : {0.0, 1.0}) {
+                for (const double toP : {0.0, 1.0}) {
+                    walk.rest(fromR, fromP);
+                    const Instant end = toInstant(profile.intervalMax * kTrainsAfterJump);
+                    while (walk.elapsed() < end) {
+                        walk.step(toR, toP,
+                                  [&](const TransitionStep& step) { keepLargest(report.largestAbrupt, step); });
+                    }
+                }
+            }
+        }
+    }
+    return report;
+}
+
+}  // namespace tacto

@@ -1,0 +1,49 @@
+// Transitions.h - how large a step from one train to the next feels, over the whole R–P plane.
+//
+// Distances are in just-noticeable differences: |ln(x1/x2)| / ln(1 + w), w the Weber fraction (science.md section 10).
+// At most 2 per train is wanted.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <vector>
+
+#include "core/encoding/Encoder.h"
+
+namespace tacto {
+
+inline constexpr double kAmplitudeWeber = 0.10;
+inline constexpr double kIntervalWeber = 0.16;
+
+/// Both above 0.
+[[nodiscard]] double amplitudeDistance(Volts a, Volts b) noexcept;
+[[nodiscard]] double intervalDistance(Seconds a, Seconds b) noexcept;
+
+struct TransitionSweep {
+    int lines = 11;       ///< lines along R and along P, evenly spaced, ends included; ≥ 2
+    Seconds traverse{5};  ///< from one end of the plane to the other, and the same back; > 0
+};
+
+/// A step from one train to the next.
+struct TransitionStep {
+    double R = 0;  ///< at the later train
+    double P = 0;
+    Command from;
+    Command to;
+    double amplitude = 0;  ///< just-noticeable differences
+    double interval = 0;
+    [[nodiscard]] double largest() const noexcept { return amplitude > interval ? amplitude : interval; }
+};
+
+struct TransitionReport {
+    std::vector<TransitionStep> steps;  ///< of the gradual sweep, in order
+    TransitionStep largestGradual;      ///< of `steps`
+    TransitionStep largestAbrupt;       ///< when R and P jump between any two corners of the plane
+};
+
+/// Moves along every line of the plane and back while trains go out as the scheduler has them (pulled forward, slew
+/// limits and all), then jumps between the corners. Errors: InvalidArgument for a sweep or profile that is not valid.
+[[nodiscard]] Result<TransitionReport> sweepTransitions(const EncodingProfile& profile,
+                                                        const TransitionSweep& sweep = {});
+
+}  // namespace tacto
