@@ -235,8 +235,9 @@ TimelineFigure readTimeline(Reader& in) {
     in.objects("trains", false, [&](Reader& item) {
         figure.trains.push_back({item.number("t_s"), item.number("amplitude_v"), item.flag("refused")});
     });
-    in.objects("faults", false,
-               [&](Reader& item) { figure.faults.push_back({item.number("t_s"), item.text("text")}); });
+    in.objects("faults", false, [&](Reader& item) {
+        figure.faults.push_back({item.number("t_s"), item.text("text")});
+    });
     return figure;
 }
 

@@ -8,6 +8,7 @@
 
 #include <QString>
 
+#include "app/report/Fonts.h"
 #include "app/report/ReportModel.h"
 
 namespace tacto {
@@ -20,7 +21,9 @@ enum class ReportFormat { Pdf, Html };
 /// Writes `model` to `path`.
 /// Errors: Unsupported when a font is missing, naming the package; InvalidArgument for another ending than .pdf,
 /// .html or .htm; Io when the file cannot be written.
-[[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path);
+/// `installed` tells whether a font is there; the default asks Qt.
+[[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
+                                       const FontCheck& installed = fontInstalled);
 
 /// Reads `sessionFile` and writes its report to `path`.
 /// Errors: as writeReport(), and whatever reading the session answers (NotFound, ParseError, Io).

@@ -1,0 +1,157 @@
+// The paper's figure: what texture alone, pressure alone and the two together do to the pulse trains.
+#include "app/report/FigureDrawing.h"
+#include "app/report/Fonts.h"
+#include "app/report/NumberText.h"
+
+namespace tacto {
+namespace {
+
+using Condition = ConditionsFigure::Condition;
+using Lane = const Condition*;
+
+struct Panel {
+    QString title;
+    QString missing;  ///< said when there are no lanes
+    std::vector<Lane> lanes;
+};
+
+QString textureOf(const Condition& c) { return c.name.section('-', 0, 0); }
+QString pressureOf(const Condition& c) { return c.name.section('-', 1, 1); }
+
+/// The first two conditions that share one word of their names and differ in the other.
+std::vector<Lane> pairDiffering(const std::vector<Condition>& all, QString (*shared)(const Condition&),
+                                QString (*differing)(const Condition&)) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t k = i + 1; k < all.size(); ++k) {
+            if (!shared(all[i]).isEmpty() && shared(all[i]) == shared(all[k]) &&
+                differing(all[i]) != differing(all[k])) {
+                return {&all[i], &all[k]};
+            }
+        }
+    }
+    return {};
+}
+
+bool known(const Condition& c) {
+    return std::isfinite(c.amplitude_v.mean) && std::isfinite(c.interval_s.mean) && c.interval_s.mean > 0;
+}
+
+constexpr int kTitleHeight = 20;
+constexpr int kLaneHeight = 62;
+constexpr int kAxisHeight = 34;
+
+class ConditionsSheet {
+public:
+    ConditionsSheet(const ConditionsFigure& figure, bool simulated, std::size_t rows)
+        : figure_(figure),
+          sheet_(std::make_unique<PlotSheet>(kSheetWidth, heightOf(rows), simulated)),
+          margins_(sheet_.get()) {
+        double longest = 0, highest = 0;
+        for (const auto& condition : figure.conditions) {
+            if (!known(condition)) continue;
+            longest = std::max(longest, condition.interval_s.mean);
+            highest = std::max(highest, std::abs(condition.amplitude_v.mean));
+        }
+        span_ = 2.2 * longest;
+        top_ = 1.5 * highest;
+    }
+
+    static int heightOf(std::size_t rows) {
+        return static_cast<int>(rows) * kLaneHeight + 2 * kTitleHeight + kAxisHeight;
+    }
+
+    void addPanel(QCPLayoutGrid* grid, const Panel& panel, bool timeAxis) {
+        int row = grid->rowCount();
+        sheet_->addTitle(row++, 0, panel.title, true, grid);
+        if (panel.lanes.empty()) {
+            auto* axes = addLaneAxes(grid, row, timeAxis);
+            sheet_->explain(axes, panel.missing);
+        }
+        for (std::size_t i = 0; i < panel.lanes.size(); ++i) {
+            auto* axes = addLaneAxes(grid, row++, timeAxis && i + 1 == panel.lanes.size());
+            drawLane(axes, *panel.lanes[i]);
+        }
+    }
+
+    PlotSheet& sheet() { return *sheet_; }
+    std::unique_ptr<PlotSheet> take() { return std::move(sheet_); }
+
+private:
+    QCPAxisRect* addLaneAxes(QCPLayoutGrid* grid, int row, bool timeAxis) {
+        auto* axes = sheet_->addAxes(row, 0, grid);
+        axes->setMinimumMargins(QMargins(4, 3, 8, 3));
+        axes->setMarginGroup(QCP::msLeft, &margins_);
+        auto* time = axes->axis(QCPAxis::atBottom);
+        auto* level = axes->axis(QCPAxis::atLeft);
+        time->setRange(-0.03 * span_, span_);
+        level->setRange(0, top_);
+        level->setTicker(QSharedPointer<PlainTicker>::create(2));
+        level->setLabel("V");
+        level->grid()->setVisible(false);
+        time->setTickLabels(timeAxis);
+        axes->setMaximumSize(QWIDGETSIZE_MAX, kLaneHeight + (timeAxis ? kAxisHeight : 0));
+        axes->setMinimumSize(40, kLaneHeight + (timeAxis ? kAxisHeight : 0));
+        axes->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
+        if (timeAxis) time->setLabel("time (s)");
+        return axes;
+    }
+
+    void drawLane(QCPAxisRect* axes, const Condition& condition) {
+        const auto index = static_cast<int>(&condition - figure_.conditions.data());
+        const auto style = conditionStyle(condition.name, index);
+        sheet_->watermark(axes, 18);
+        auto* name = sheet_->addNote(axes, condition.name, {0.015, 0.04}, Qt::AlignLeft | Qt::AlignTop);
+        name->setFont(textFont(10, true));
+        if (!known(condition)) {
+            sheet_->addNote(axes, "not measured", {0.5, 0.6})->setColor(ink::kQuiet);
+            return;
+        }
+        const QString numbers = quantityText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + "  every  " +
+                                quantityText(condition.interval_s.mean, condition.interval_s.sd, "s");
+        sheet_->addNote(axes, numbers, {0.985, 0.04}, Qt::AlignRight | Qt::AlignTop);
+        auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
+        trains->setLineStyle(QCPGraph::lsImpulse);
+        trains->setPen(style.pen(2));
+        trains->setScatterStyle(
+            QCPScatterStyle(style.marker, QPen(style.color, 1.2),
+                            style.marker == QCPScatterStyle::ssDisc ? QBrush(style.color) : QBrush(Qt::white), 5));
+        // A damaged mean could ask for millions of trains; more than 200 are a solid bar anyway.
+        const int count = std::min(200, static_cast<int>(span_ / condition.interval_s.mean) + 1);
+        for (int i = 0; i < count; ++i) {
+            trains->addData(i * condition.interval_s.mean, std::abs(condition.amplitude_v.mean));
+        }
+    }
+
+    const ConditionsFigure& figure_;
+    std::unique_ptr<PlotSheet> sheet_;
+    QCPMarginGroup margins_;
+    double span_ = 1;
+    double top_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<PlotSheet> drawConditions(const ConditionsFigure& figure, bool simulated) {
+    const auto& all = figure.conditions;
+    if (std::none_of(all.begin(), all.end(), known)) {
+        return emptySheet(
+            all.empty() ? "No condition was measured." : "No condition has a measured amplitude and interval.",
+            simulated);
+    }
+    const Panel texture{"Texture alone: amplitude changes", "No two conditions differ in texture alone.",
+                        pairDiffering(all, pressureOf, textureOf)};
+    const Panel pressure{"Pressure alone: interval changes", "No two conditions differ in pressure alone.",
+                         pairDiffering(all, textureOf, pressureOf)};
+    Panel both{"Texture and pressure combined", {}, {}};
+    for (const auto& condition : all) both.lanes.push_back(&condition);
+
+    ConditionsSheet drawing(figure, simulated, std::max<std::size_t>(4, both.lanes.size()));
+    auto* left = drawing.sheet().addGrid(0, 0);
+    auto* right = drawing.sheet().addGrid(0, 1);
+    drawing.addPanel(left, texture, false);
+    drawing.addPanel(left, pressure, true);
+    drawing.addPanel(right, both, true);
+    return drawing.take();
+}
+
+}  // namespace tacto

@@ -1,0 +1,41 @@
+// FigureDrawing.h - a figure's data as a sheet of plots, and that sheet as SVG.
+//
+// Data that are missing or too few to draw are said in words in the figure's place; a figure is never blank.
+//
+// Thread-safety: the GUI thread (plots are widgets).
+#pragma once
+
+#include <QByteArray>
+#include <memory>
+#include <span>
+
+#include "app/report/Figure.h"
+#include "app/report/PlotSheet.h"
+
+namespace tacto {
+
+/// `simulated` puts the watermark on every plot.
+[[nodiscard]] std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated);
+
+/// What a reader must know to read the figure (what a bar, an ellipse, a height is), and its key number, in sentences.
+[[nodiscard]] QString figureLegend(const Figure& figure);
+
+/// An <svg> element for use inside HTML: no XML prologue, scales with its container, `title` for screen readers.
+[[nodiscard]] QByteArray sheetSvg(PlotSheet& sheet, const QString& title);
+
+// One per type; each in the file of its name.
+[[nodiscard]] std::unique_ptr<PlotSheet> drawConditions(const ConditionsFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawWaveforms(const WaveformsFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simulated);
+
+/// Points of a long series that can be seen: `keep` stretches, of each its extremes in their order, and a gap where
+/// the stretch has one. All indices when there are fewer.
+[[nodiscard]] std::vector<std::size_t> visiblePoints(std::span<const double> values, std::size_t keep);
+
+/// A sheet that holds nothing but the sentence `why`.
+[[nodiscard]] std::unique_ptr<PlotSheet> emptySheet(const QString& why, bool simulated);
+
+}  // namespace tacto

@@ -1,0 +1,145 @@
+#include "app/report/HtmlReport.h"
+
+#include "app/report/FigureDrawing.h"
+
+namespace tacto {
+namespace {
+
+constexpr auto kStyle = R"css(
+:root { color-scheme: light dark; --text: #222; --quiet: #5f666d; --page: #fff; --rule: #dfe3e7; --tint: #f3f4f6; }
+@media (prefers-color-scheme: dark) {
+  :root { --text: #e8eaed; --quiet: #a8afb7; --page: #16191d; --rule: #3a4047; --tint: #22272d; }
+}
+body { margin: 0; background: var(--page); color: var(--text);
+       font: 15px/1.5 "DejaVu Sans", Verdana, system-ui, sans-serif; font-variant-numeric: tabular-nums; }
+main { max-width: 860px; margin: 0 auto; padding: 32px 20px 64px; }
+h1 { font-size: 30px; line-height: 1.2; margin: 0 0 4px; }
+h2 { font-size: 20px; margin: 40px 0 12px; }
+p { margin: 0 0 12px; } .quiet { color: var(--quiet); }
+.verdict { margin: 20px 0; padding: 16px 20px; border-left: 6px solid var(--mark); background: var(--tint);
+           display: grid; grid-template-columns: auto 1fr; column-gap: 16px; }
+.verdict .symbol { color: var(--mark); font-size: 30px; line-height: 1.2; }
+.verdict strong { color: var(--mark); font-size: 24px; line-height: 1.3; }
+.verdict ul { margin: 6px 0 0; padding-left: 20px; }
+figure { margin: 24px 0; } figure svg { display: block; width: 100%; height: auto; background: #fff; border-radius: 4px; }
+figcaption { margin-top: 8px; } figcaption span { display: block; color: var(--quiet); font-size: 13px; }
+.scroll { overflow-x: auto; margin: 16px 0 24px; }
+table { border-collapse: collapse; font-size: 13.5px; }
+caption { text-align: left; font-weight: bold; margin-bottom: 6px; font-size: 15px; white-space: nowrap; }
+th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--rule); }
+thead th { border-top: 1.5px solid var(--text); border-bottom: 1px solid var(--text); }
+tbody tr:last-child td { border-bottom: 1.5px solid var(--text); }
+.number { text-align: right; white-space: nowrap; }
+dl { display: grid; grid-template-columns: minmax(120px, 200px) 1fr; gap: 4px 16px; margin: 0 0 16px; }
+dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
+code, pre { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: 13px; }
+pre { background: var(--tint); padding: 12px 14px; border-radius: 4px; white-space: pre-wrap; overflow-wrap: anywhere; }
+.simulated { color: var(--quiet); text-transform: uppercase; letter-spacing: .08em; font-size: 13px; }
+footer { border-top: 1px solid var(--rule); margin-top: 40px; padding-top: 12px; font-size: 13px; color: var(--quiet); }
+@media print {
+  :root { --text: #222; --quiet: #5f666d; --page: #fff; --rule: #dfe3e7; --tint: #f3f4f6; }
+  @page { size: A4; margin: 18mm; }
+  main { max-width: none; padding: 0; } body { font-size: 10pt; }
+  figure, .verdict, tr, pre { break-inside: avoid; } h2, caption { break-after: avoid; } .scroll { overflow: visible; }
+}
+)css";
+
+// On dark pages the verdict's colour is lifted so that it keeps its contrast.
+QString markStyle(const QColor& color) {
+    const QString light = color.name();
+    const QString dark =
+        QColor::fromHslF(color.hslHueF() < 0 ? 0 : color.hslHueF(), color.hslSaturationF() * 0.7F, 0.68F).name();
+    return QString(
+               ".verdict { --mark: %1; } @media (prefers-color-scheme: dark) { .verdict { --mark: %2; } } "
+               "@media print { .verdict { --mark: %1; } }")
+        .arg(light, dark);
+}
+
+class Writer {
+public:
+    void operator()(const TitleBlock& block) {
+        out_ += "<h1>" + escaped(block.title) + "</h1>\n<p class=\"quiet\">" + escaped(block.subtitle) + "</p>\n";
+    }
+
+    void operator()(const VerdictBlock& block) {
+        out_ += "<style>" + markStyle(block.color) + "</style>\n";
+        out_ += "<section class=\"verdict\"><span class=\"symbol\" aria-hidden=\"true\">" + escaped(block.symbol) +
+                "</span><div><strong>" + escaped(block.word) + "</strong>\n<ul>";
+        for (const auto& reason : block.reasons) out_ += "<li>" + escaped(reason) + "</li>";
+        out_ += "</ul></div></section>\n";
+    }
+
+    void operator()(const HeadingBlock& block) { out_ += "<h2>" + escaped(block.text) + "</h2>\n"; }
+
+    void operator()(const ParagraphBlock& block) {
+        out_ += (block.quiet ? "<p class=\"quiet\">" : "<p>") + escaped(block.text).replace('\n', "<br/>") + "</p>\n";
+    }
+
+    void operator()(const FactsBlock& block) {
+        out_ += "<dl>\n";
+        for (const auto& fact : block.facts) {
+            const QString value = escaped(fact.value);
+            out_ += "<dt>" + escaped(fact.name) + "</dt><dd>" + (fact.isHash ? "<code>" + value + "</code>" : value) +
+                    "</dd>\n";
+        }
+        out_ += "</dl>\n";
+    }
+
+    void operator()(const TableBlock& block) {
+        out_ += "<div class=\"scroll\"><table><caption>" + escaped(block.caption) + "</caption>\n<thead><tr>";
+        for (const auto& column : block.columns) {
+            out_ += "<th scope=\"col\"" + classOf(column) + ">" + escaped(column.title) + "</th>";
+        }
+        out_ += "</tr></thead>\n<tbody>\n";
+        for (const auto& row : block.rows) {
+            out_ += "<tr>";
+            for (std::size_t i = 0; i < block.columns.size(); ++i) {
+                out_ += "<td" + classOf(block.columns[i]) + ">" + escaped(row.value(qsizetype(i))) + "</td>";
+            }
+            out_ += "</tr>\n";
+        }
+        out_ += "</tbody></table></div>\n";
+    }
+
+    void operator()(const FigureBlock& block) {
+        out_ += "<figure>\n" + QString::fromUtf8(sheetSvg(*block.sheet, block.caption)) + "\n<figcaption><strong>" +
+                escaped(block.caption) + "</strong>";
+        if (!block.legend.isEmpty()) out_ += "<span>" + escaped(block.legend) + "</span>";
+        out_ += "</figcaption>\n</figure>\n";
+    }
+
+    void operator()(const CodeBlock& block) { out_ += "<pre>" + escaped(block.lines.join('\n')) + "</pre>\n"; }
+
+    /// Text for XML: what may not stand in it at all (control characters) becomes a replacement character.
+    static QString escaped(const QString& text) {
+        QString safe = text;
+        for (auto& c : safe) {
+            if (c.unicode() < 0x20 && c != '\n' && c != '\t') c = QChar(0xfffd);
+        }
+        return safe.toHtmlEscaped();
+    }
+
+    QString take() { return std::move(out_); }
+
+private:
+    static QString classOf(const TableBlock::Column& column) { return column.numeric ? " class=\"number\"" : ""; }
+    QString out_;
+};
+
+}  // namespace
+
+QByteArray reportHtml(const ReportContent& content) {
+    Writer writer;
+    for (const auto& block : content.blocks) std::visit(writer, block);
+    QString html =
+        "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
+        "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<title>" +
+        Writer::escaped(content.documentTitle) + "</title>\n<style>" + QString::fromUtf8(kStyle) +
+        "</style>\n</head>\n<body>\n<main>\n";
+    html += "<p class=\"simulated\">" + Writer::escaped(content.header) + "</p>\n" + writer.take();
+    html += "<footer>" + Writer::escaped(content.footer) + "</footer>\n</main>\n</body>\n</html>\n";
+    return html.toUtf8();
+}
+
+}  // namespace tacto

@@ -1,0 +1,213 @@
+#include "app/report/NumberText.h"
+
+#include <QJsonArray>
+#include <QJsonObject>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tacto {
+namespace {
+
+const QString kMissing = QStringLiteral("–");
+const QString kSpace = QStringLiteral("\u202f");  // narrow and unbreakable
+const QString kMinus = QStringLiteral("−");
+
+QString shownUnit(const QString& unit) {
+    QString shown = unit;
+    shown.replace("ohm", "Ω").replace("cm2", "cm²").replace("m/s2", "m/s²");
+    if (shown.startsWith("uC") || shown.startsWith("us") || shown.startsWith("uA")) shown[0] = QChar(0x00b5);
+    return shown;
+}
+
+struct Split {
+    double factor = 1;  // from the given unit to SI
+    QString base;
+};
+
+/// "mA" → A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
+Split splitUnit(const QString& shown) {
+    static const QStringList bases{"V", "A", "s", "Ω", "Hz", "C", "J", "Pa", "N", "W", "F", "W/cm²", "A/cm²", "V/s"};
+    if (bases.contains(shown)) return {1, shown};
+    static const QString prefixes = QString::fromUtf8("pnµmkMG");
+    static constexpr std::array<double, 7> factors{1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9};
+    const auto index = shown.isEmpty() ? -1 : prefixes.indexOf(shown[0]);
+    if (index >= 0 && bases.contains(shown.mid(1))) return {factors[static_cast<std::size_t>(index)], shown.mid(1)};
+    return {};
+}
+
+int exponentOf(double value, int digits) {
+    if (value == 0) return 0;
+    // Rounded first: 999.96 with four digits is 1.000 k.
+    const QString rounded = QString::number(std::abs(value), 'e', digits - 1);
+    return rounded.mid(rounded.indexOf('e') + 1).toInt();
+}
+
+struct Prefix {
+    int exponent;
+    const char* symbol;
+};
+constexpr std::array<Prefix, 8> kPrefixes{
+    {{-12, "p"}, {-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
+
+Prefix prefixFor(int exponent) {
+    const int group = static_cast<int>(std::floor(exponent / 3.0)) * 3;
+    return kPrefixes[static_cast<std::size_t>((std::clamp(group, -12, 9) + 12) / 3)];
+}
+
+QString fixed(double value, int decimals) {
+    QString text = QString::number(value, 'f', std::max(0, decimals));
+    if (text.startsWith('-')) text.replace(0, 1, kMinus);
+    return text;
+}
+
+QString withUnit(const QString& number, const QString& unit) {
+    return unit.isEmpty() ? number : number + kSpace + unit;
+}
+
+QString plainNumber(double value, int digits) {
+    if (std::abs(value) >= 1e7 || (value != 0 && std::abs(value) < 1e-4)) {
+        QString text = QString::number(value, 'g', digits);
+        return text.replace('-', kMinus);
+    }
+    if (value == std::floor(value)) return fixed(value, 0);
+    return fixed(value, digits - 1 - exponentOf(value, digits));
+}
+
+}  // namespace
+
+QString quantityText(double value, const QString& unit, int digits) {
+    if (!std::isfinite(value)) return kMissing;
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    if (split.base.isEmpty()) return withUnit(plainNumber(value, digits), shown);
+    const double si = value * split.factor;
+    if (std::abs(si) < 5e-16) return withUnit("0", split.base);
+    const int exponent = exponentOf(si, digits);
+    const Prefix prefix = prefixFor(exponent);
+    return withUnit(fixed(si * std::pow(10.0, -prefix.exponent), digits - 1 - (exponent - prefix.exponent)),
+                    prefix.symbol + split.base);
+}
+
+QString quantityText(double value, double uncertainty, const QString& unit) {
+    if (!std::isfinite(value)) return kMissing;
+    if (!std::isfinite(uncertainty)) return quantityText(value, unit);
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    const double si = split.base.isEmpty() ? value : value * split.factor;
+    const double u = std::abs(split.base.isEmpty() ? uncertainty : uncertainty * split.factor);
+    const int exponent = exponentOf(std::max(std::abs(si), u), 4);
+    const Prefix prefix = split.base.isEmpty() ? Prefix{0, ""} : prefixFor(exponent);
+    const double scale = std::pow(10.0, -prefix.exponent);
+    const int most = 4 - (exponent - prefix.exponent);
+    const int wanted = u > 0 ? 1 - exponentOf(u * scale, 2) : most - 1;
+    const int decimals = std::clamp(std::min(wanted, most), 0, 9);
+    QString spread = fixed(u * scale, decimals);
+    const double last = std::pow(10.0, -decimals);
+    if (u > 0 && u * scale < last / 2) spread = "<" + fixed(last, decimals);
+    return withUnit(fixed(si * scale, decimals) + " ± " + spread,
+                    split.base.isEmpty() ? shown : prefix.symbol + split.base);
+}
+
+QString settingText(double value, const QString& unit) {
+    if (!std::isfinite(value)) return kMissing;
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    const auto brief = [](double v) { return QString::number(v, 'g', 6).replace('-', kMinus); };
+    if (split.base.isEmpty() || value == 0) return withUnit(brief(value), shown);
+    const double si = value * split.factor;
+    const Prefix prefix = prefixFor(exponentOf(si, 6));
+    return withUnit(brief(si * std::pow(10.0, -prefix.exponent)), prefix.symbol + split.base);
+}
+
+QString proportionText(const Estimate& estimate) {
+    const auto percent = [](double v) { return fixed(100 * v, 1); };
+    if (!std::isfinite(estimate.value)) return kMissing;
+    QString text = percent(estimate.value) + kSpace + "%";
+    if (std::isfinite(estimate.low) && std::isfinite(estimate.high)) {
+        text += QString(" (%1 to %2%3%)").arg(percent(estimate.low), percent(estimate.high), kSpace);
+    }
+    return text;
+}
+
+AxisUnit axisUnit(double maxAbs, const QString& unit) {
+    if (!(maxAbs > 0) || !std::isfinite(maxAbs)) return {1, shownUnit(unit)};
+    const Prefix prefix = prefixFor(exponentOf(maxAbs, 4));
+    return {std::pow(10.0, -prefix.exponent), prefix.symbol + shownUnit(unit)};
+}
+
+ColumnName columnName(const QString& key) {
+    struct Suffix {
+        const char* ending;
+        const char* unit;
+    };
+    static constexpr std::array<Suffix, 20> kSuffixes{
+        {{"_w_cm2", "W/cm²"}, {"_ma_cm2", "mA/cm²"}, {"_pct_fs", "% FS"}, {"_pct", "%"},    {"_ohm", "Ω"},
+         {"_v", "V"},         {"_mv", "mV"},         {"_ma", "mA"},       {"_a", "A"},      {"_ms", "ms"},
+         {"_us", "µs"},       {"_s", "s"},           {"_hz", "Hz"},       {"_uc", "µC"},    {"_mj", "mJ"},
+         {"_kpa", "kPa"},     {"_pa", "Pa"},         {"_n", "N"},         {"_bits", "bit"}, {"_um", "µm"}}};
+    ColumnName result;
+    QString words = key;
+    for (const auto& suffix : kSuffixes) {
+        if (key.endsWith(QLatin1String(suffix.ending)) && key.size() > qsizetype(qstrlen(suffix.ending))) {
+            result.unit = QString::fromUtf8(suffix.unit);
+            words.chop(qsizetype(qstrlen(suffix.ending)));
+            break;
+        }
+    }
+    static const std::array<std::pair<const char*, const char*>, 10> known{{{"a", "Condition"},
+                                                                            {"b", "against"},
+                                                                            {"n", "n"},
+                                                                            {"mahalanobis", "Mahalanobis distance"},
+                                                                            {"cv", "Coefficient of variation"},
+                                                                            {"jnd", "Just-noticeable differences"},
+                                                                            {"R", "R"},
+                                                                            {"P", "P"},
+                                                                            {"sd", "s.d."},
+                                                                            {"p_chance", "p (chance)"}}};
+    for (const auto& [name, title] : known) {
+        if (words == QLatin1String(name)) {
+            result.title = QString::fromUtf8(title);
+            return result;
+        }
+    }
+    words.replace('_', ' ');
+    QStringList parts = words.split(' ', Qt::SkipEmptyParts);
+    for (auto& part : parts) {
+        if (part == "rms" || part == "dc" || part == "jnd" || part == "cv") part = part.toUpper();
+        if (part == "1s") part = "1" + kSpace + "s";
+        if (part == "5s") part = "5" + kSpace + "s";
+    }
+    result.title = parts.join(' ');
+    if (!result.title.isEmpty()) result.title[0] = result.title[0].toUpper();
+    return result;
+}
+
+QString cellText(const QJsonValue& value, const QString& unit) {
+    if (value.isDouble()) return quantityText(value.toDouble(), unit);
+    if (value.isString()) return value.toString();
+    if (value.isBool()) return value.toBool() ? "yes" : "no";
+    if (value.isArray()) {
+        QStringList parts;
+        for (const auto& element : value.toArray()) parts << cellText(element, unit);
+        return parts.join(", ");
+    }
+    if (value.isObject()) {
+        const auto object = value.toObject();
+        if (object.contains("mean")) {
+            return quantityText(object["mean"].toDouble(kUnknown), object["sd"].toDouble(kUnknown), unit);
+        }
+        if (object.contains("value")) {
+            QString text = quantityText(object["value"].toDouble(kUnknown), unit);
+            const double low = object["low"].toDouble(kUnknown);
+            const double high = object["high"].toDouble(kUnknown);
+            if (std::isfinite(low) && std::isfinite(high)) {
+                text += QString(" (%1 to %2)").arg(quantityText(low, unit), quantityText(high, unit));
+            }
+            return text;
+        }
+    }
+    return kMissing;
+}
+
+}  // namespace tacto

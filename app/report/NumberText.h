@@ -1,0 +1,44 @@
+// NumberText.h - how numbers stand in a report: engineering prefixes, three or four significant digits, a narrow space
+// before the unit, a value and its uncertainty with the same decimals, "–" for what is not known.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <QJsonValue>
+#include <QString>
+
+#include "app/report/Figure.h"
+
+namespace tacto {
+
+/// "2.26 mA", "10.0 kΩ"; a unit that takes no prefix ("%", "") gives "12.3 %". `unit` may be ASCII ("ohm", "uC").
+[[nodiscard]] QString quantityText(double value, const QString& unit, int digits = 4);
+
+/// "40.12 ± 0.46 V": the uncertainty with two significant digits, the value with as many decimals; never more than five
+/// significant digits of the value.
+[[nodiscard]] QString quantityText(double value, double uncertainty, const QString& unit);
+
+/// What somebody set, without padding zeros: "1 kΩ", "25", "0.15 N".
+[[nodiscard]] QString settingText(double value, const QString& unit);
+
+/// "99.0 % (94.6 to 99.8 %)" of an estimate of a proportion.
+[[nodiscard]] QString proportionText(const Estimate& estimate);
+
+/// The prefix that suits an axis reaching `maxAbs`: multiply by `factor`, label with `unit`.
+struct AxisUnit {
+    double factor = 1;
+    QString unit;
+};
+[[nodiscard]] AxisUnit axisUnit(double maxAbs, const QString& unit);
+
+/// A table's column, from the key that a result carries: "net_charge_uc" → "Net charge", values in µC.
+struct ColumnName {
+    QString title;
+    QString unit;  ///< as shown; empty for plain numbers
+};
+[[nodiscard]] ColumnName columnName(const QString& key);
+
+/// A table's cell: a number, text, flag, statistic or estimate; null is "–".
+[[nodiscard]] QString cellText(const QJsonValue& value, const QString& unit);
+
+}  // namespace tacto

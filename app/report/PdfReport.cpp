@@ -1,0 +1,159 @@
+#include "app/report/PdfReport.h"
+
+#include "app/report/Fonts.h"
+#include "app/report/PdfPages.h"
+#include "app/report/PdfTable.h"
+
+namespace tacto {
+namespace {
+
+constexpr double kGap = 12;       // between blocks
+constexpr double kTextSize = 12;  // 9 pt
+constexpr double kFactColumn = 150;
+
+class Setter {
+public:
+    explicit Setter(PdfPages& pages) : pages_(pages) {}
+
+    void operator()(const TitleBlock& block) {
+        pages_.advance(pages_.text(0, PdfPages::kWidth, block.title, textFont(26, true), ink::kText) + 2);
+        pages_.advance(pages_.text(0, PdfPages::kWidth, block.subtitle, textFont(kTextSize), ink::kQuiet) + kGap);
+    }
+
+    void operator()(const VerdictBlock& block) {
+        constexpr double kInset = 16;
+        const double width = PdfPages::kWidth - 2 * kInset - 44;
+        double height = 2 * kInset + PdfPages::textHeight(width, block.word, textFont(22, true)) + 2;
+        for (const auto& reason : block.reasons) height += reasonHeight(width, reason);
+        pages_.require(height);
+        if (auto* painter = pages_.painter()) {
+            QColor tint = block.color;
+            tint.setAlphaF(0.08F);
+            const QRectF box(0, pages_.y(), PdfPages::kWidth, height);
+            painter->fillRect(box, tint);
+            painter->fillRect(QRectF(box.topLeft(), QSizeF(5, height)), block.color);
+        }
+        const double top = pages_.y();
+        pages_.advance(kInset);
+        pages_.text(kInset + 4, 40, block.symbol, textFont(24), block.color);
+        pages_.advance(pages_.text(kInset + 44, width, block.word, textFont(22, true), block.color) + 2);
+        for (const auto& reason : block.reasons) {
+            pages_.text(kInset + 44, 12, "–", textFont(kTextSize), ink::kQuiet);
+            pages_.text(kInset + 56, width - 12, reason, textFont(kTextSize), ink::kText);
+            pages_.advance(reasonHeight(width, reason));
+        }
+        pages_.advance(top + height - pages_.y() + kGap);
+    }
+
+    void operator()(const HeadingBlock& block) {
+        const QFont font = textFont(17, true);
+        const double height = PdfPages::textHeight(PdfPages::kWidth, block.text, font);
+        pages_.require(height + 10 + keepWithNext_);
+        if (!pages_.atTop()) pages_.advance(10);
+        pages_.advance(pages_.text(0, PdfPages::kWidth, block.text, font, ink::kText) + 6);
+    }
+
+    void operator()(const ParagraphBlock& block) {
+        const QFont font = textFont(kTextSize);
+        pages_.require(PdfPages::textHeight(PdfPages::kWidth, block.text, font));
+        pages_.advance(pages_.text(0, PdfPages::kWidth, block.text, font, block.quiet ? ink::kQuiet : ink::kText) +
+                       kGap);
+    }
+
+    void operator()(const FactsBlock& block) {
+        for (const auto& fact : block.facts) {
+            const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
+            const double width = PdfPages::kWidth - kFactColumn;
+            const double height = std::max(PdfPages::textHeight(width, fact.value, font, fact.isHash),
+                                           PdfPages::textHeight(kFactColumn - 10, fact.name, textFont(kTextSize)));
+            pages_.require(height);
+            pages_.text(0, kFactColumn - 10, fact.name, textFont(kTextSize), ink::kQuiet);
+            pages_.text(kFactColumn, width, fact.value, font, ink::kText, Qt::AlignLeft, fact.isHash);
+            pages_.advance(height + 3);
+        }
+        pages_.advance(kGap);
+    }
+
+    void operator()(const TableBlock& block) {
+        setTable(pages_, block);
+        pages_.advance(kGap + 4);
+    }
+
+    void operator()(const FigureBlock& block) {
+        pages_.require(figureHeight(block));
+        const double top = pages_.y();
+        if (auto* painter = pages_.painter()) {
+            painter->save();
+            painter->translate(0, top);
+            block.sheet->paint(*painter);
+            painter->restore();
+        }
+        pages_.advance(block.sheet->size().height() + 4);
+        pages_.advance(pages_.text(0, PdfPages::kWidth, block.caption, textFont(kTextSize, true), ink::kText));
+        if (!block.legend.isEmpty()) {
+            pages_.advance(pages_.text(0, PdfPages::kWidth, block.legend, textFont(11), ink::kQuiet));
+        }
+        pages_.advance(kGap + 6);
+    }
+
+    void operator()(const CodeBlock& block) {
+        const QFont font = monoFont(11);
+        for (const auto& line : block.lines) {
+            const double height = PdfPages::textHeight(PdfPages::kWidth - 20, line, font) + 8;
+            pages_.require(height);
+            if (auto* painter = pages_.painter()) {
+                painter->fillRect(QRectF(0, pages_.y(), PdfPages::kWidth, height), QColor(0xf3, 0xf4, 0xf6));
+            }
+            pages_.advance(4);
+            pages_.text(10, PdfPages::kWidth - 20, line, font, ink::kText);
+            pages_.advance(height - 4);
+        }
+        pages_.advance(kGap);
+    }
+
+    /// What must stand on the page with a heading before it.
+    static double needOf(const ReportBlock& block) {
+        if (const auto* figure = std::get_if<FigureBlock>(&block)) return figureHeight(*figure);
+        if (const auto* paragraph = std::get_if<ParagraphBlock>(&block)) {
+            return PdfPages::textHeight(PdfPages::kWidth, paragraph->text, textFont(kTextSize));
+        }
+        return 90;
+    }
+    void keepWithNext(double height) { keepWithNext_ = height; }
+
+private:
+    static double reasonHeight(double width, const QString& reason) {
+        return PdfPages::textHeight(width - 12, reason, textFont(kTextSize));
+    }
+    static double figureHeight(const FigureBlock& block) {
+        double height = block.sheet->size().height() + 4;
+        height += PdfPages::textHeight(PdfPages::kWidth, block.caption, textFont(kTextSize, true));
+        if (!block.legend.isEmpty()) height += PdfPages::textHeight(PdfPages::kWidth, block.legend, textFont(11));
+        return height;
+    }
+
+    PdfPages& pages_;
+    double keepWithNext_ = 0;
+};
+
+void setAll(const ReportContent& content, PdfPages& pages) {
+    Setter setter(pages);
+    for (std::size_t i = 0; i < content.blocks.size(); ++i) {
+        setter.keepWithNext(i + 1 < content.blocks.size() ? Setter::needOf(content.blocks[i + 1]) : 0);
+        std::visit(setter, content.blocks[i]);
+    }
+}
+
+}  // namespace
+
+Result<void> writePdf(const ReportContent& content, QIODevice& device) {
+    // Set twice: the first time counts the pages.
+    PdfPages counting(nullptr, {}, {}, {}, 0);
+    setAll(content, counting);
+    PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page());
+    setAll(content, pages);
+    if (!pages.finish()) return fail(ErrorCode::Io, "The report's pages could not be written.");
+    return {};
+}
+
+}  // namespace tacto

@@ -1,0 +1,13 @@
+// PdfTable.h - sets a table on pages. Thread-safety: the GUI thread.
+#pragma once
+
+#include "app/report/PdfPages.h"
+#include "app/report/ReportContent.h"
+
+namespace tacto {
+
+/// Caption above, rules instead of boxes, numbers to the right. Rows are never split; the header is repeated on every
+/// page. Columns that do not fit continue in a further part with the first column repeated.
+void setTable(PdfPages& pages, const TableBlock& table);
+
+}  // namespace tacto

@@ -1,0 +1,87 @@
+// PlotSheet.h - one figure as plots on a sheet of fixed size, in the report's one look: quiet grid, units on the axes,
+// conditions told apart by colour, dash and marker, "SIMULATED" across every plot of a simulated session.
+//
+// Drawn as vectors onto a page or into an SVG. Everything drawn lies inside its axes: SVG knows no clipping here.
+// Sizes are in the report's unit, 1/96 inch. Thread-safety: the GUI thread (plots are widgets).
+#pragma once
+
+#include <memory>
+#include <qcustomplot.h>
+#include <vector>
+
+namespace tacto {
+
+struct ConditionStyle {
+    QColor color;
+    Qt::PenStyle dash = Qt::SolidLine;
+    QCPScatterStyle::ScatterShape marker = QCPScatterStyle::ssDisc;
+    [[nodiscard]] QPen pen(double width) const { return QPen(color, width, dash, Qt::FlatCap, Qt::MiterJoin); }
+};
+/// The four conditions have their own; other names take the further colours by `index`.
+[[nodiscard]] ConditionStyle conditionStyle(const QString& name, int index);
+
+namespace ink {
+inline const QColor kText(0x22, 0x22, 0x22);
+inline const QColor kQuiet(0x5f, 0x66, 0x6d);
+inline const QColor kAxis(0x8a, 0x90, 0x96);
+inline const QColor kGrid(0xe4, 0xe7, 0xea);
+inline const QColor kVoltage(0x00, 0x72, 0xb2);
+inline const QColor kCurrent(0x00, 0x9e, 0x73);
+inline const QColor kAmber(0xe6, 0x9f, 0x00);
+inline const QColor kFault(0xb0, 0x1e, 0x1e);
+}  // namespace ink
+
+inline constexpr int kSheetWidth = 656;  ///< the text width of an A4 page
+
+class PlotSheet {
+public:
+    PlotSheet(int width, int height, bool simulated);
+
+    [[nodiscard]] QCustomPlot& plot() noexcept { return *plot_; }
+    [[nodiscard]] QSize size() const noexcept { return size_; }
+    [[nodiscard]] bool simulated() const noexcept { return simulated_; }
+
+    /// Styled axes in a cell of `grid` (the sheet's own layout when null); left and bottom axis shown.
+    QCPAxisRect* addAxes(int row, int column, QCPLayoutGrid* grid = nullptr);
+    /// A line of text in a cell, left-aligned.
+    void addTitle(int row, int column, const QString& text, bool bold, QCPLayoutGrid* grid = nullptr);
+    QCPLayoutGrid* addGrid(int row, int column);
+    /// Text inside axes, at a position in axis-rect ratios.
+    QCPItemText* addNote(QCPAxisRect* axes, const QString& text, QPointF ratio,
+                         Qt::Alignment alignment = Qt::AlignCenter);
+    /// Says in the middle of empty axes why they are empty, and hides their ticks.
+    void explain(QCPAxisRect* axes, const QString& why);
+    /// For an entry per condition below the plots: line or marker with its name.
+    QCPLegend* addLegend(int row, int column, int entriesPerLine);
+    /// Marks the session as simulated, behind the data. Called for every axes that show data.
+    void watermark(QCPAxisRect* axes, int size = 26);
+
+    /// Draws with the sheet's top left corner at the painter's origin. Never rasterises.
+    void paint(QCPPainter& painter);
+
+private:
+    std::unique_ptr<QCustomPlot> plot_;
+    QSize size_;
+    bool simulated_;
+};
+
+/// Ticks with a true minus and as many decimals as their step needs, all alike.
+class PlainTicker : public QCPAxisTicker {
+public:
+    explicit PlainTicker(int count) {
+        setTickCount(count);
+        setTickStepStrategy(tssReadability);
+    }
+
+protected:
+    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override;
+    double getTickStep(const QCPRange& range) override;
+
+private:
+    double step_ = 1;
+};
+
+/// A range around [low, high] with `share` of its width as margin at each end; never empty.
+[[nodiscard]] QCPRange padded(double low, double high, double share);
+
+}  // namespace tacto

@@ -1,0 +1,256 @@
+#include "app/report/ReportContent.h"
+
+#include <set>
+
+#include "app/report/FigureDrawing.h"
+#include "app/report/NumberText.h"
+
+namespace tacto {
+namespace {
+
+VerdictBlock verdictOf(const ReportModel& model) {
+    VerdictBlock block;
+    block.verdict = model.verdict;
+    block.reasons = model.reasons;
+    switch (model.verdict) {
+        case ReportVerdict::Pass:
+            block.symbol = "✔", block.word = "Pass", block.color = QColor(0x00, 0x6b, 0x50);
+            break;
+        case ReportVerdict::Fail:
+            block.symbol = "✘", block.word = "Fail", block.color = QColor(0x9c, 0x3d, 0x00);
+            break;
+        case ReportVerdict::Indeterminate:
+            block.symbol = "◐", block.word = "Indeterminate", block.color = QColor(0x7a, 0x5a, 0x00);
+            break;
+        case ReportVerdict::Stopped:
+            block.symbol = "■", block.word = "Stopped", block.color = ink::kFault;
+            break;
+        case ReportVerdict::None:
+            block.symbol = "○", block.word = "No verdict", block.color = ink::kQuiet;
+            if (block.reasons.isEmpty()) block.reasons << "This protocol records; it does not judge.";
+            break;
+    }
+    if (block.reasons.isEmpty()) block.reasons << "The session gives no reason.";
+    if (model.simulated) block.word += " – simulated";
+    return block;
+}
+
+QString subtitleOf(const ReportModel& model) {
+    QStringList parts;
+    if (!model.purpose.isEmpty()) parts << model.purpose;
+    QString when = model.started;
+    when.replace('T', ' ').replace('Z', " UTC");
+    if (!when.isEmpty()) parts << when;
+    if (std::isfinite(model.duration_s)) {
+        const auto seconds = static_cast<qint64>(std::llround(model.duration_s));
+        parts << (seconds < 120 ? settingText(std::round(model.duration_s * 10) / 10, "s")
+                                : QString("%1:%2:%3 h")
+                                      .arg(seconds / 3600)
+                                      .arg(seconds / 60 % 60, 2, 10, QChar('0'))
+                                      .arg(seconds % 60, 2, 10, QChar('0')));
+    }
+    return parts.join("  ·  ");
+}
+
+TableBlock devicesTable(const ReportModel& model) {
+    TableBlock table;
+    table.caption = "Devices";
+    table.columns = {{"Role"}, {"Device"}, {"Address"}, {"Serial"}, {"Firmware"}, {"Real or simulated"}};
+    const auto orDash = [](const QString& text) { return text.isEmpty() ? QString("–") : text; };
+    for (const auto& device : model.devices) {
+        table.rows.push_back({orDash(device.role), orDash(device.name), orDash(device.uri), orDash(device.serial),
+                              orDash(device.firmware), device.simulated ? "simulated" : "real"});
+    }
+    return table;
+}
+
+/// Columns of a script's table in their order, and without those that no row has.
+QStringList columnsOf(const ReportTable& table) {
+    if (!table.columns.isEmpty()) return table.columns;
+    QStringList keys;
+    for (const auto& row : table.rows) {
+        const auto object = row.toObject();
+        for (const auto& key : object.keys()) {
+            if (!keys.contains(key)) keys << key;
+        }
+    }
+    // QJsonObject forgets the order: what names a row comes first.
+    static const QStringList first{"name", "condition", "load", "quantity", "subject", "a", "b", "n"};
+    std::stable_sort(keys.begin(), keys.end(), [](const QString& left, const QString& right) {
+        const auto rank = [](const QString& key) {
+            const auto index = first.indexOf(key);
+            return index < 0 ? first.size() + (key == "verdict" ? 1 : 0) : index;
+        };
+        return rank(left) < rank(right);
+    });
+    return keys;
+}
+
+TableBlock tableOf(const ReportTable& source, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    const QStringList keys = columnsOf(source);
+    std::vector<QString> units;
+    for (const auto& key : keys) {
+        const ColumnName name = columnName(key);
+        units.push_back(name.unit);
+        table.columns.push_back({name.title, false});
+    }
+    for (const auto& row : source.rows) {
+        const auto object = row.toObject();
+        QStringList cells;
+        for (int i = 0; i < keys.size(); ++i) {
+            const auto column = static_cast<std::size_t>(i);
+            const auto value = object.value(keys[i]);
+            cells << cellText(value, units[column]);
+            if (value.isDouble() || value.isObject()) table.columns[column].numeric = true;
+        }
+        table.rows.push_back(std::move(cells));
+    }
+    return table;
+}
+
+TableBlock exposureTable(const ReportModel& model, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Quantity"}, {"Value", true}, {"Limit", true}, {"Share", true}, {"Limit set"}, {"Result"}};
+    for (const auto& row : model.exposure) {
+        const bool evaluated = std::isfinite(row.value);
+        const bool limited = std::isfinite(row.limit) && row.limit > 0;
+        const double share = std::abs(row.value) / row.limit;
+        QString result;
+        if (!evaluated) {
+            result = "not evaluated" + (row.reason.isEmpty() ? QString() : ": " + row.reason);
+        } else if (!limited) {
+            result = "no limit";
+        } else if (share <= 1) {
+            result = "within";
+        } else {
+            result = row.warning ? "attention" : "over the limit";
+        }
+        table.rows.push_back({row.name, evaluated ? quantityText(row.value, row.unit, 3) : "–",
+                              limited ? settingText(row.limit, row.unit) : "–",
+                              evaluated && limited ? quantityText(100 * share, "%", 3) : "–",
+                              row.source.isEmpty() ? "–" : row.source, result});
+    }
+    return table;
+}
+
+TableBlock eventsTable(const ReportModel& model, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Time", true}, {"What"}, {"Details"}};
+    for (const auto& event : model.events) {
+        QString text = event.text.isEmpty() ? QString("–") : event.text;
+        if (event.count > 1) text += QString(" (%1 times)").arg(event.count);
+        table.rows.push_back({QString::number(event.t_s, 'f', 3) + QChar(0x202f) + "s", event.kind, text});
+    }
+    return table;
+}
+
+/// Numbers figures and tables, and marks their captions.
+class Captions {
+public:
+    explicit Captions(bool simulated) : simulated_(simulated) {}
+    QString figure(const QString& text) { return numbered("Figure", ++figures_, text); }
+    QString table(const QString& text) { return numbered("Table", ++tables_, text); }
+
+private:
+    [[nodiscard]] QString numbered(const char* kind, int number, const QString& text) const {
+        QString caption = QString("%1 %2. %3").arg(QLatin1String(kind)).arg(number).arg(text);
+        if (simulated_) caption += " (simulated)";
+        return caption;
+    }
+    bool simulated_;
+    int figures_ = 0;
+    int tables_ = 0;
+};
+
+void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    blocks.emplace_back(HeadingBlock{"What was used"});
+    if (model.simulated) {
+        blocks.emplace_back(ParagraphBlock{
+            "At least one device of this session was simulated. Its numbers say what the software does, not what "
+            "hardware or a person would."});
+    }
+    if (model.devices.empty()) {
+        blocks.emplace_back(ParagraphBlock{"No device took part in this session.", true});
+    } else {
+        auto devices = devicesTable(model);
+        devices.caption = captions.table(devices.caption);
+        blocks.emplace_back(std::move(devices));
+    }
+    FactsBlock facts;
+    facts.facts = model.settings;
+    facts.facts.insert(facts.facts.end(), model.identity.begin(), model.identity.end());
+    facts.facts.push_back({"Chain head",
+                           model.chainHead.isEmpty() ? QString("none: the session has no rows yet") : model.chainHead,
+                           !model.chainHead.isEmpty()});
+    blocks.emplace_back(std::move(facts));
+}
+
+void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    if (model.items.empty()) return;
+    blocks.emplace_back(HeadingBlock{"Results"});
+    for (const auto& item : model.items) {
+        if (const auto* figure = std::get_if<ReportFigure>(&item)) {
+            blocks.emplace_back(FigureBlock{captions.figure(figure->caption), figureLegend(figure->figure),
+                                            drawFigure(figure->figure, model.simulated)});
+        } else if (const auto* table = std::get_if<ReportTable>(&item)) {
+            if (table->rows.isEmpty()) {
+                blocks.emplace_back(ParagraphBlock{captions.table(table->caption) + ": there are no rows.", true});
+            } else {
+                blocks.emplace_back(tableOf(*table, captions.table(table->caption)));
+            }
+        } else {
+            blocks.emplace_back(ParagraphBlock{std::get<ReportText>(item).text});
+        }
+    }
+}
+
+}  // namespace
+
+ReportContent contentOf(const ReportModel& model) {
+    ReportContent content;
+    content.simulated = model.simulated;
+    const QString title = model.title.isEmpty() ? model.protocol : model.title;
+    content.documentTitle = title.isEmpty() ? "Session" : title;
+    content.header = "Tactoscope  ·  " + content.documentTitle + (model.simulated ? "  ·  simulated" : "");
+    content.footer = "Session " + (model.session.isEmpty() ? QString("–") : model.session) + "  ·  chain head " +
+                     (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
+
+    Captions captions(model.simulated);
+    auto& blocks = content.blocks;
+    blocks.emplace_back(TitleBlock{content.documentTitle, subtitleOf(model)});
+    blocks.emplace_back(verdictOf(model));
+    addUsed(model, captions, blocks);
+    addItems(model, captions, blocks);
+
+    blocks.emplace_back(HeadingBlock{"Exposure against limits"});
+    if (model.exposure.empty()) {
+        blocks.emplace_back(ParagraphBlock{
+            "Not evaluated: this session holds no exposure. Nothing here says that it was within limits."});
+    } else {
+        const Figure figure{ExposureFigure{model.exposure}, {}};
+        blocks.emplace_back(FigureBlock{captions.figure("Worst exposure of the session against each limit"),
+                                        figureLegend(figure), drawFigure(figure, model.simulated)});
+        blocks.emplace_back(exposureTable(model, captions.table("Exposure")));
+    }
+    blocks.emplace_back(HeadingBlock{"Events"});
+    if (model.events.empty()) {
+        blocks.emplace_back(ParagraphBlock{"No fault, refusal or stop was recorded.", true});
+    } else {
+        blocks.emplace_back(eventsTable(model, captions.table("Faults, refusals and stops")));
+    }
+    if (!model.reproduce.isEmpty()) {
+        blocks.emplace_back(HeadingBlock{"How to reproduce"});
+        blocks.emplace_back(CodeBlock{model.reproduce});
+    }
+    blocks.emplace_back(ParagraphBlock{
+        "Tactoscope is a research bench, not a medical device. The chain head identifies the session's contents: "
+        "“tactoscope-cli verify” must print the same one.",
+        true});
+    return content;
+}
+
+}  // namespace tacto

@@ -1,0 +1,70 @@
+// ReportContent.h - the report as a sequence of blocks, worded once: PDF and HTML only set them.
+//
+// Order: title, verdict with its reasons, what was used, the script's figures and tables, exposure against limits,
+// events, how to reproduce. Thread-safety: the GUI thread (drawn figures are widgets).
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "app/report/PlotSheet.h"
+#include "app/report/ReportModel.h"
+
+namespace tacto {
+
+struct TitleBlock {
+    QString title;
+    QString subtitle;
+};
+struct VerdictBlock {
+    ReportVerdict verdict = ReportVerdict::None;
+    QString symbol;  ///< told apart by shape as well as by colour
+    QString word;
+    QStringList reasons;
+    QColor color;
+};
+struct HeadingBlock {
+    QString text;
+};
+struct ParagraphBlock {
+    QString text;
+    bool quiet = false;
+};
+struct FactsBlock {
+    std::vector<ReportFact> facts;
+};
+struct TableBlock {
+    struct Column {
+        QString title;
+        bool numeric = false;  ///< set to the right
+    };
+    QString caption;
+    std::vector<Column> columns;
+    std::vector<QStringList> rows;
+};
+struct FigureBlock {
+    QString caption;
+    QString legend;
+    std::unique_ptr<PlotSheet> sheet;
+};
+struct CodeBlock {
+    QStringList lines;
+};
+
+using ReportBlock = std::variant<TitleBlock, VerdictBlock, HeadingBlock, ParagraphBlock, FactsBlock, TableBlock,
+                                 FigureBlock, CodeBlock>;
+
+struct ReportContent {
+    QString documentTitle;
+    QString header;  ///< running head: what this is
+    QString footer;  ///< session and chain head, short
+    bool simulated = false;
+    std::vector<ReportBlock> blocks;
+};
+
+[[nodiscard]] ReportContent contentOf(const ReportModel& model);
+
+}  // namespace tacto

@@ -1,0 +1,252 @@
+#include "app/report/SessionReport.h"
+
+#include <QJsonDocument>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/report/NumberText.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto {
+namespace {
+
+QString text(const std::string& value) { return QString::fromStdString(value); }
+
+/// Replaces what no JSON text can hold (a broken byte in a name) instead of throwing.
+QJsonObject objectOf(const nlohmann::json& json) {
+    const std::string dumped = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return QJsonDocument::fromJson(QByteArray::fromStdString(dumped)).object();
+}
+
+QString plainText(const QJsonValue& value) {
+    if (value.isString()) return value.toString();
+    if (value.isDouble()) return settingText(value.toDouble(), {});
+    if (value.isBool()) return value.toBool() ? "yes" : "no";
+    if (value.isNull() || value.isUndefined()) return "–";
+    return QString::fromUtf8(value.isArray() ? QJsonDocument(value.toArray()).toJson(QJsonDocument::Compact)
+                                             : QJsonDocument(value.toObject()).toJson(QJsonDocument::Compact));
+}
+
+/// What a shell takes as one word.
+QString shellWord(const QString& word) {
+    static const QString plain("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:./,@%");
+    const bool harmless =
+        !word.isEmpty() && std::all_of(word.begin(), word.end(), [](QChar c) { return plain.contains(c); });
+    if (harmless) return word;
+    QString quoted = word;
+    return "'" + quoted.replace("'", "'\\''") + "'";
+}
+
+void fillAbout(const SessionReader& reader, const std::filesystem::path& file, ReportModel& model) {
+    const auto& about = reader.about();
+    model.protocol = text(about.protocol);
+    model.session = text(file.stem().string());
+    model.started = text(about.wallStart);
+    model.simulated = about.simulated;
+    model.chainHead = text(reader.chainHead());
+    QString command = "tactoscope-cli run " + shellWord(model.protocol);
+    for (const auto& device : about.devices) {
+        model.devices.push_back({text(device.role), text(device.name), text(device.uri), text(device.serial),
+                                 text(device.firmware), device.simulated});
+        model.simulated = model.simulated || device.simulated;
+        const QString option = " --device " + shellWord(text(device.uri));
+        if (!command.contains(option)) command += option;
+    }
+    const auto parameters = objectOf(about.parameters);
+    for (auto it = parameters.begin(); it != parameters.end(); ++it) {
+        const QString value =
+            it.value().isDouble() ? QString::number(it.value().toDouble(), 'g', 17) : plainText(it.value());
+        // 17 digits tell every double apart; most need far fewer.
+        const QString brief = it.value().isDouble() ? QString::number(it.value().toDouble(), 'g', 10) : value;
+        const bool same = !it.value().isDouble() || brief.toDouble() == it.value().toDouble();
+        command += " --set " + shellWord(it.key() + "=" + (same ? brief : value));
+        model.settings.push_back({it.key(), plainText(it.value())});
+    }
+    command += QString(" --seed %1").arg(about.seed);
+    if (!about.virtualClock && model.simulated) command += " --realtime";
+    if (!about.protocol.empty()) model.reproduce << command;
+    model.reproduce << "tactoscope-cli verify " + shellWord(text(file.filename().string()));
+
+    model.identity.push_back({"Program", "Tactoscope " + text(about.programVersion)});
+    model.identity.push_back({"Seed", QString::number(about.seed)});
+    model.identity.push_back({"Clock", about.virtualClock ? "virtual: time ran as fast as the computer" : "real time"});
+    if (!about.mode.empty()) model.identity.push_back({"Output mode", text(about.mode)});
+    const auto hash = [&](const QString& name, const std::string& value) {
+        if (!value.empty()) model.identity.push_back({name, text(value), true});
+    };
+    hash("Script " + model.protocol, about.protocolSha256);
+    hash("Encoding profile", about.profileSha256);
+    for (const auto& set : about.limitSets) hash("Limits " + text(set.id), set.sha256);
+}
+
+class ItemReader {
+public:
+    ItemReader(const SessionReader& reader, ReportModel& model) : reader_(reader), model_(model) {}
+
+    void take(const QJsonObject& item) {
+        const QString kind = item["kind"].toString();
+        if (kind == "about") {
+            takeAbout(item);
+        } else if (kind == "figure") {
+            takeFigure(item);
+        } else if (kind == "table") {
+            QStringList columns;
+            for (const auto& column : item["columns"].toArray()) columns << column.toString();
+            model_.items.emplace_back(ReportTable{item["caption"].toString(), columns, item["rows"].toArray()});
+        } else if (kind == "text") {
+            model_.items.emplace_back(ReportText{item["text"].toString()});
+        } else {
+            model_.items.emplace_back(ReportText{
+                QString("An item of kind “%1” cannot be shown; known are about, figure, table and text.").arg(kind)});
+        }
+    }
+
+private:
+    void takeAbout(const QJsonObject& item) {
+        if (item.contains("title")) model_.title = item["title"].toString();
+        if (item.contains("purpose")) model_.purpose = item["purpose"].toString();
+        if (!item.contains("parameters")) return;
+        model_.settings.clear();
+        for (const auto& element : item["parameters"].toArray()) {
+            const auto parameter = element.toObject();
+            const auto value = parameter["value"];
+            model_.settings.push_back(
+                {parameter["label"].toString(),
+                 value.isDouble() ? settingText(value.toDouble(), parameter["unit"].toString()) : plainText(value)});
+        }
+    }
+
+    void takeFigure(const QJsonObject& item) {
+        const QString caption = item["caption"].toString();
+        auto figure = parseFigure(item["figure"].toObject());
+        if (figure) {
+            const auto resolved = resolveCaptures(*figure, [&](qint64 id) { return reader_.capture(id); });
+            if (resolved) {
+                model_.items.emplace_back(ReportFigure{caption, std::move(*figure)});
+                return;
+            }
+            model_.items.emplace_back(missing(caption, resolved.error()));
+            return;
+        }
+        model_.items.emplace_back(missing(caption, figure.error()));
+    }
+
+    /// A figure that cannot be drawn is said, never left out.
+    static ReportText missing(const QString& caption, const Error& error) {
+        return {QString("The figure “%1” could not be drawn: %2").arg(caption, text(error.message))};
+    }
+
+    const SessionReader& reader_;
+    ReportModel& model_;
+};
+
+ReportVerdict verdictNamed(const std::string& name) {
+    if (name == "pass") return ReportVerdict::Pass;
+    if (name == "fail") return ReportVerdict::Fail;
+    if (name == "indeterminate") return ReportVerdict::Indeterminate;
+    if (name == "stopped") return ReportVerdict::Stopped;
+    return ReportVerdict::None;
+}
+
+bool isQuiet(const std::string& kind) {
+    static const std::vector<std::string> quiet{
+        "open",     "opened",   "armed",   "arm",         "disarmed", "disarm",     "checking", "check",    "started",
+        "start",    "finished", "closed",  "close",       "end",      "delivering", "state",    "rounding", "rounded",
+        "progress", "paused",   "resumed", "calibration", "drive",    "profile",    "capture"};
+    return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
+}
+
+/// The sentence of an event: its own text, else its fields.
+QString sentenceOf(const QJsonObject& body) {
+    for (const char* key : {"text", "message", "reason"}) {
+        if (body[QLatin1String(key)].isString()) return body[QLatin1String(key)].toString();
+    }
+    QStringList parts;
+    for (auto it = body.begin(); it != body.end(); ++it) parts << it.key() + " " + plainText(it.value());
+    return parts.join(", ");
+}
+
+void addEvent(ReportModel& model, const SessionRow& row) {
+    ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(objectOf(row.body))};
+    if (!model.events.empty()) {
+        auto& last = model.events.back();
+        if (last.kind == event.kind && last.text == event.text) {
+            ++last.count;
+            return;
+        }
+    }
+    model.events.push_back(std::move(event));
+}
+
+/// The worse of two rows alike: one not evaluated first, then the larger share of its limit.
+void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
+    for (auto& known : model.exposure) {
+        if (known.name != row.name || known.source != row.source || known.limit < row.limit || known.limit > row.limit)
+            continue;
+        if (!std::isfinite(known.value)) return;
+        if (!std::isfinite(row.value) || std::abs(row.value) > std::abs(known.value)) known = row;
+        return;
+    }
+    model.exposure.push_back(row);
+}
+
+Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const std::vector<SessionRow>& events) {
+    const auto verdicts = reader.verdicts();
+    if (!verdicts) return failure(verdicts);
+    if (!verdicts->empty()) {
+        model.verdict = verdictNamed(verdicts->back().verdict);
+        for (const auto& reason : verdicts->back().reasons) model.reasons << text(reason);
+    } else {
+        for (const auto& event : events) {
+            if (event.name != "stop" && event.name != "stopped" && event.name != "fault") continue;
+            model.verdict = ReportVerdict::Stopped;
+            model.reasons = QStringList{sentenceOf(objectOf(event.body))};
+        }
+    }
+    if (!reader.closed()) {
+        // H9: a run that broke off proves nothing, whatever its last verdict was.
+        if (model.verdict != ReportVerdict::Fail) model.verdict = ReportVerdict::Stopped;
+        model.reasons.prepend("The session was not closed: the run broke off, or is still going on.");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) {
+    const auto reader = SessionReader::open(sessionFile);
+    if (!reader) return failure(reader);
+    ReportModel model;
+    fillAbout(*reader, sessionFile, model);
+
+    const auto items = reader->reportItems();
+    if (!items) return failure(items);
+    ItemReader itemReader(*reader, model);
+    for (const auto& row : *items) itemReader.take(objectOf(row.body));
+
+    const auto events = reader->events();
+    if (!events) return failure(events);
+    Instant last{0};
+    for (const auto& row : *events) {
+        last = std::max(last, row.at);
+        if (!isQuiet(row.name)) addEvent(model, row);
+    }
+    const auto measurements = reader->measurements();
+    if (!measurements) return failure(measurements);
+    for (const auto& row : *measurements) {
+        last = std::max(last, row.at);
+        if (row.name != "exposure") continue;
+        QJsonObject body = objectOf(row.body);
+        body["type"] = "exposure";
+        const auto figure = parseFigure(body);
+        if (!figure) return failure(figure);
+        for (const auto& exposure : std::get<ExposureFigure>(figure->content).rows) addExposure(model, exposure);
+    }
+    for (const auto& row : *items) last = std::max(last, row.at);
+    model.duration_s = toSeconds(last);
+    if (auto filled = fillVerdict(*reader, model, *events); !filled) return failure(filled);
+    return model;
+}
+
+}  // namespace tacto
