@@ -57,9 +57,9 @@ double largestMagnitude(const ExpCurve& f, double tau, double T) noexcept {
 double firstRise(const ExpCurve& f, double tau, double T, double tolerance) noexcept {
     const double turn = turningPoint(f, tau, T);
     double from = 0;
+    if (valueOf(f, tau, 0) > tolerance) return 0;
     for (const double to : {turn > 0 ? turn : T, T}) {
-        if (!(valueOf(f, tau, to) <= tolerance)) {
-            if (valueOf(f, tau, from) > tolerance) return from;
+        if (valueOf(f, tau, to) > tolerance) {
             double low = from;
             double high = to;
             for (int step = 0; step < 200; ++step) {
