@@ -135,6 +135,7 @@ Result<NumericCsv> parseNumericCsv(std::string_view text, std::string_view name)
     if (!names) return failure(names);
     NumericCsv table;
     table.names = std::move(*names);
+    table.headerLine = reader.line();
     const std::size_t width = table.names.size();
     table.columns.resize(width);
 

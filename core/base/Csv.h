@@ -49,6 +49,7 @@ struct NumericCsv {
     std::vector<std::string> names;            ///< of the columns, trimmed, never empty
     std::vector<std::vector<double>> columns;  ///< equally long; NaN where the field is empty or says nan
     std::vector<std::size_t> lines;            ///< file line of each row, 1-based
+    std::size_t headerLine = 1;
     [[nodiscard]] std::size_t rows() const noexcept { return lines.size(); }
 };
 

@@ -1,0 +1,48 @@
+#include "core/analysis/ResultJson.h"
+
+#include <cmath>
+
+namespace tacto {
+
+using nlohmann::json;
+
+json numberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json toJson(const Statistics& s) {
+    return {{"mean", numberOrNull(s.mean)}, {"sd", numberOrNull(s.sd)},   {"median", numberOrNull(s.median)},
+            {"min", numberOrNull(s.min)},   {"max", numberOrNull(s.max)}, {"n", s.n}};
+}
+
+json toJson(const Estimate& e) {
+    return {{"value", numberOrNull(e.value)}, {"low", numberOrNull(e.low)}, {"high", numberOrNull(e.high)}};
+}
+
+json toJson(const Separability& found) {
+    json conditions = json::array();
+    for (const auto& c : found.conditions) {
+        conditions.push_back({{"name", c.name},
+                              {"n", c.n},
+                              {"not_measured", c.notMeasured},
+                              {"amplitude_v", toJson(c.amplitude)},
+                              {"interval_s", toJson(c.interval_s)},
+                              {"amplitude_cv", numberOrNull(c.amplitudeVariation)},
+                              {"interval_cv", numberOrNull(c.intervalVariation)}});
+    }
+    json pairs = json::array();
+    for (const auto& p : found.pairs) {
+        pairs.push_back({{"a", p.a},
+                         {"b", p.b},
+                         {"mahalanobis", numberOrNull(p.mahalanobis)},
+                         {"amplitude_jnd", numberOrNull(p.amplitudeJnd)},
+                         {"interval_jnd", numberOrNull(p.intervalJnd)}});
+    }
+    return {{"conditions", conditions},
+            {"pairs", pairs},
+            {"confusion", found.confusion},
+            {"accuracy", toJson(found.accuracy)},
+            {"folds", found.folds},
+            {"verdict", nameOf(found.verdict)},
+            {"reasons", found.reasons}};
+}
+
+}  // namespace tacto
