@@ -16,11 +16,11 @@ std::string_view nameOf(StreamKind kind) noexcept {
 
 std::string_view symbolOf(StreamUnit unit) noexcept {
     switch (unit) {
-        case StreamUnit::MetresPerSecondSquared:
+        case StreamUnit::MetrePerSecondSquared:
             return "m/s2";
-        case StreamUnit::Newtons:
+        case StreamUnit::Newton:
             return "N";
-        case StreamUnit::Pascals:
+        case StreamUnit::Pascal:
             return "Pa";
         case StreamUnit::Count:
             return "count";

@@ -14,7 +14,7 @@ namespace tacto {
 enum class StreamKind { Acceleration, Force, Taxels };
 
 /// Units after conversion on reading. Count: uncalibrated, used as it is and said so.
-enum class StreamUnit { MetresPerSecondSquared, Newtons, Pascals, Count };
+enum class StreamUnit { MetrePerSecondSquared, Newton, Pascal, Count };
 
 [[nodiscard]] std::string_view nameOf(StreamKind kind) noexcept;    // "acceleration", "force", "taxels"
 [[nodiscard]] std::string_view symbolOf(StreamUnit unit) noexcept;  // "m/s2", "N", "Pa", "count"
