@@ -4,6 +4,8 @@
 // Whatever is wrong is refused with one sentence that names file, line and what was expected; what is merely
 // irregular (gaps, repeats, clock steps, cells that say nan) is read and reported in each stream's health.
 //
+// Keys that are not known are taken as notes and passed over.
+//
 // Thread-safety: values; functions are pure but for reading files. Nothing is ever written.
 #pragma once
 
@@ -34,7 +36,7 @@ struct Recording {
 
     /// `path` is a folder with recording.json, or such a JSON file.
     /// Errors: NotFound (a folder without recording.json: the message holds a template to fill in); ParseError;
-    /// InvalidArgument (an unknown kind, unit or key, a `file` that is absolute or climbs out); Io.
+    /// InvalidArgument (an unknown kind or unit, a `file` that is absolute or climbs out); Io.
     [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path);
 
     /// The stream of that kind, or null.

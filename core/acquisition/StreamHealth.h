@@ -57,7 +57,6 @@ public:
     static constexpr double kStale_s = 0.1;
 
 private:
-    void closeStretch() noexcept;
     SampleGrid grid_;
     HealthReport report_;
     double stretchFirst_ = 0;       // stamp of the current gap-free stretch
@@ -69,10 +68,10 @@ private:
 /// 0 with fewer than two distinct stamps.
 [[nodiscard]] double roughRate_hz(std::span<const double> stamps);
 
-/// True when more than one stamp in twenty repeats the one before: the file prints time too coarsely.
+/// True when more than one stamp in four repeats the one before: the file prints time too coarsely.
 [[nodiscard]] bool stampsAreCoarse(std::span<const double> stamps) noexcept;
 
-/// Gives coarse stamps evenly spread times between the distinct ones. Does nothing to a stretch without repeats.
+/// Spreads coarse stamps evenly over each stretch without a gap or a step back.
 void spreadCoarseStamps(std::span<double> stamps);
 
 }  // namespace tacto

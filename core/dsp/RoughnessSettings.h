@@ -60,7 +60,7 @@ struct RoughnessSettings {
     /// Mean square at rest of the band-passed acceleration (5 Hz..1 kHz, all axes, force normalisation undone), in
     /// restUnit squared; used when a recording offers no rest of its own and its acceleration has this unit.
     std::optional<double> restMeanSquare;
-    StreamUnit restUnit = StreamUnit::MetresPerSecondSquared;
+    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;
 
     [[nodiscard]] const ReferenceScale& spectralScale() const noexcept {
         return spectral == SpectralFeature::Relative ? h : hAbs;

@@ -1,0 +1,116 @@
+// AccelerationTrack.h - band-passed acceleration, and which windows of it make a frame.
+//
+// A window never spans a gap, a NaN or a clock step: behind each the filter starts at the steady state of the next
+// sample, and the windows start there too.
+//
+// Thread-safety: none; one owner. Never allocates after construction.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/SampleGrid.h"
+#include "core/base/Stream.h"
+#include "core/dsp/Butterworth.h"
+
+namespace tacto {
+
+/// A whole window of acceleration, named by the number of its first sample.
+struct AccelerationWindow {
+    std::size_t first;
+    double begin_s;
+    double centre_s;
+    double end_s;  ///< of its last sample
+};
+
+class AccelerationTrack {
+public:
+    static constexpr double kLow_hz = 5;
+    static constexpr double kHigh_hz = 1000;
+    static constexpr double kWindow_s = 0.064;
+    static constexpr double kHop_s = 0.016;
+    static constexpr std::size_t kChunk = 256;  ///< most samples per push()
+
+    explicit AccelerationTrack(const StreamInfo& info);
+
+    /// Takes up to kChunk samples, filters them, and queues the windows they complete. Not while full().
+    void push(std::span<const double> stamps, const double* values) noexcept;
+    void clear() noexcept;
+
+    [[nodiscard]] double first_s() const noexcept { return first_; }
+    /// Stamp of the newest sample in use; -infinity before the first.
+    [[nodiscard]] double newest_s() const noexcept { return newest_; }
+
+    /// Samples from `from` on, as yet not normalised, whose stamps are at most `until_s`.
+    struct Stretch {
+        std::span<const double> stamps;
+        std::array<double*, AxesBandpass::kMaxAxes> axes;
+    };
+    [[nodiscard]] Stretch unnormalised(double until_s) noexcept;
+    /// The caller normalised `count` samples.
+    void markNormalised(std::size_t count) noexcept { normalised_ += count; }
+    [[nodiscard]] std::size_t normalised() const noexcept { return normalised_; }
+
+    [[nodiscard]] const AccelerationWindow* frontWindow() const noexcept;
+    [[nodiscard]] std::array<const double*, AxesBandpass::kMaxAxes> samples(
+        const AccelerationWindow& window) const noexcept;
+    void popWindow() noexcept;
+    [[nodiscard]] std::size_t windowsWaiting() const noexcept { return waiting_; }
+    /// True when the next push() may not fit: the oldest windows must go first.
+    [[nodiscard]] bool full() const noexcept;
+
+    [[nodiscard]] std::size_t windowLength() const noexcept { return length_; }
+    [[nodiscard]] double hop_s() const noexcept { return static_cast<double>(hop_) / rate_; }
+    [[nodiscard]] double upperEdge_hz() const noexcept { return upperEdge_; }
+    [[nodiscard]] bool bandTruncated() const noexcept { return truncated_; }
+
+    struct Losses {
+        std::size_t gaps = 0;
+        std::size_t repeats = 0;
+        std::size_t clockSteps = 0;
+        std::size_t invalid = 0;
+    };
+    [[nodiscard]] const Losses& losses() const noexcept { return losses_; }
+
+private:
+    enum class Use { Continue, Begin, Skip };
+    [[nodiscard]] Use judge(double t_s, const double* sample) noexcept;
+    void begin(double t_s, const double* sample) noexcept;
+    void append(std::span<const double> stamps, const double* values) noexcept;
+    void queueWindows() noexcept;
+    void makeRoom(std::size_t count) noexcept;
+    [[nodiscard]] std::size_t oldestNeeded() const noexcept;
+    [[nodiscard]] bool finite(const double* sample) const noexcept;
+
+    // Constant after construction
+    const std::size_t axes_;
+    const double rate_;
+    const std::size_t length_;
+    const std::size_t hop_;
+    const bool truncated_;
+    const double upperEdge_;
+    const std::size_t softLimit_;  // samples kept together before they are moved to the front, to stay in cache
+
+    AxesBandpass filter_;
+    SampleGrid grid_;
+    std::array<std::vector<double>, AxesBandpass::kMaxAxes> filtered_;
+    std::vector<double> stamps_;
+    std::vector<AccelerationWindow> windows_;  // ring
+    std::size_t windowsFront_ = 0;
+    std::size_t waiting_ = 0;
+    std::size_t offset_ = 0;      // number of the sample at stamps_[0]
+    std::size_t end_ = 0;         // number of the next sample
+    std::size_t normalised_ = 0;  // samples before this number are normalised
+    std::size_t nextWindow_ = 0;  // number of its first sample
+    double anchor_ = 0;           // stamp from which window times count
+    std::size_t hops_ = 0;        // since the anchor
+    double first_ = 0;
+    double newest_ = 0;
+    bool running_ = false;  // the next regular sample continues the stretch
+    Losses losses_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,520 @@
+#include "core/dsp/RoughnessChain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/dsp/AccelerationTrack.h"
+#include "core/dsp/ForceTrack.h"
+#include "core/dsp/PowerSpectrum.h"
+#include "core/dsp/RoughnessIndex.h"
+#include "core/dsp/TaxelTrack.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSlidingFactor = 3;
+constexpr double kShortestRest_s = 0.25;
+constexpr double kFrame_s = 0.016;  // between frames without acceleration
+constexpr double kSlice_s = 0.05;   // how far one stream may run ahead inside feed()
+constexpr double kSkew_s = 0.25;    // how far it may between calls, with margin
+constexpr std::size_t kMostPending = 256;
+
+Result<void> checkStream(const StreamInfo& info) {
+    if (!(info.rate_hz > 0 && info.rate_hz <= 1e6)) {
+        return fail(ErrorCode::InvalidArgument, "{}: its rate is {} Hz; above 0 to 1 MHz was expected",
+                    nameOf(info.kind), info.rate_hz);
+    }
+    switch (info.kind) {
+        case StreamKind::Acceleration:
+            // Measured rates miss a nominal 100 Hz or 20 kHz by a little.
+            if (!(info.rate_hz >= 99 && info.rate_hz <= 20'200)) {
+                return fail(ErrorCode::InvalidArgument,
+                            "acceleration: its rate is {:.6g} Hz; 100 Hz to 20 kHz was expected", info.rate_hz);
+            }
+            if (info.channels < 1 || info.channels > AxesBandpass::kMaxAxes) {
+                return fail(ErrorCode::InvalidArgument, "acceleration: it has {} axes; 1 to 3 were expected",
+                            info.channels);
+            }
+            return {};
+        case StreamKind::Force:
+            if (info.channels == 1) return {};
+            return fail(ErrorCode::InvalidArgument, "force: it has {} channels; 1 was expected", info.channels);
+        case StreamKind::Taxels:
+            if (info.channels >= 2) return {};
+            return fail(ErrorCode::InvalidArgument, "taxels: there are {}; at least 2 were expected", info.channels);
+    }
+    return {};
+}
+
+/// Times at which frames are due where no acceleration paces them.
+class PendingTimes {
+public:
+    void push(double t_s) noexcept {
+        if (count_ < kMostPending) times_[(front_ + count_++) % kMostPending] = t_s;
+    }
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    [[nodiscard]] double front() const noexcept { return times_[front_]; }
+    void pop() noexcept {
+        front_ = (front_ + 1) % kMostPending;
+        --count_;
+    }
+    void clear() noexcept { front_ = count_ = 0; }
+
+private:
+    std::array<double, kMostPending> times_{};
+    std::size_t front_ = 0;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+struct RoughnessChain::State {
+    State(std::span<const StreamInfo> infos, const RoughnessSettings& chosen, const DeclaredIntervals& stated);
+
+    void feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames);
+    void takeSlice(std::span<const SampleBlock> blocks);
+    void take(std::size_t stream, const SampleBlock& block, std::size_t begin, std::size_t end);
+    void pace(double t_s);
+    void advance(std::vector<RoughnessFrame>& frames, bool forced);
+    [[nodiscard]] bool ready(double centre_s, double end_s) const noexcept;
+    void evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
+                  std::vector<RoughnessFrame>& frames);
+    [[nodiscard]] double spectralFeature(const AccelerationWindow& window, double& meanSquare);
+    void watchRest(double begin_s, double end_s, double product) noexcept;
+    void decideRest(double end_s, bool contact) noexcept;
+    [[nodiscard]] Motion motionOf(double product) noexcept;
+    [[nodiscard]] double forceKnown_s() const noexcept;
+    [[nodiscard]] double horizon_s() const noexcept;
+    [[nodiscard]] bool contactAt(double t_s, const ForceTrack::Reading& reading) const noexcept;
+    [[nodiscard]] double firstContact_s() const noexcept;
+    void clear();
+
+    // Constant after construction
+    std::vector<StreamInfo> streams;
+    RoughnessSettings settings;
+    DeclaredIntervals declared;
+    std::optional<StreamInfo> accelerationInfo, forceInfo, taxelInfo;
+    double period_s = kFrame_s;
+    StreamKind pacedBy = StreamKind::Acceleration;
+    bool everySample = false;  // a frame for each sample of the pacing stream, slower than the frame rate
+    BinRange whole, rough;
+
+    std::optional<AccelerationTrack> acceleration;
+    std::optional<PowerSpectrum> spectrum;
+    std::optional<ForceTrack> force;
+    std::optional<TaxelTrack> taxels;
+    std::optional<RoughnessIndex> index;
+    std::optional<SampleGrid> pacing;
+    PendingTimes pending;
+    double anchor_s = 0;
+    std::size_t steps = 0;
+    std::vector<std::size_t> taken;  // per stream, samples of the current blocks
+
+    // The rest level of sliding (science.md section 2.4)
+    double declaredSum = 0, earlySum = 0;
+    std::size_t declaredCount = 0, earlyCount = 0;
+    double restMeanSquare = kNan;
+    bool restDecided = false;
+    bool restPreset = false;
+    bool slidingAssumed = false;
+    bool contactAssumed = false;
+    bool spectrumEmpty = false;
+    double firstPaced_s = kNever;
+    double newestPaced_s = -kNever;
+    bool finished = false;
+    mutable RestLevels levels;
+};
+
+RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessSettings& chosen,
+                             const DeclaredIntervals& stated)
+    : streams(infos.begin(), infos.end()), settings(chosen), declared(stated), taken(infos.size()) {
+    for (const auto& info : streams) {
+        if (info.kind == StreamKind::Acceleration) accelerationInfo = info;
+        if (info.kind == StreamKind::Force) forceInfo = info;
+        if (info.kind == StreamKind::Taxels) taxelInfo = info;
+    }
+    if (forceInfo) force.emplace(forceInfo->rate_hz);
+    if (taxelInfo) taxels.emplace(*taxelInfo, declared.baseline);
+    if (accelerationInfo) {
+        acceleration.emplace(*accelerationInfo);
+        period_s = acceleration->hop_s();
+        spectrum.emplace(acceleration->windowLength(), accelerationInfo->channels, accelerationInfo->rate_hz);
+        const double top = std::min(AccelerationTrack::kHigh_hz, acceleration->upperEdge_hz());
+        whole = spectrum->bins(AccelerationTrack::kLow_hz, top);
+        if (top > settings.bandLow.value()) rough = spectrum->bins(settings.bandLow.value(), top);
+    } else {
+        const auto& paced = taxelInfo ? *taxelInfo : *forceInfo;
+        pacedBy = paced.kind;
+        everySample = 1 / paced.rate_hz > kFrame_s;
+        period_s = std::max(kFrame_s, 1 / paced.rate_hz);
+        pacing.emplace(paced.rate_hz);
+    }
+    spectrumEmpty = rough.empty();
+    contactAssumed = !forceInfo && !declared.contact;
+    index.emplace(settings, period_s);
+}
+
+void RoughnessChain::State::clear() {
+    if (acceleration) acceleration->clear();
+    if (force) force->clear();
+    if (taxels) taxels->clear();
+    if (pacing) pacing->reset();
+    index->clear();
+    pending.clear();
+    anchor_s = 0;
+    steps = 0;
+    declaredSum = earlySum = 0;
+    declaredCount = earlyCount = 0;
+    if (!restPreset) restMeanSquare = kNan;
+    restDecided = restPreset;
+    slidingAssumed = false;
+    firstPaced_s = kNever;
+    newestPaced_s = -kNever;
+    finished = false;
+}
+
+double RoughnessChain::State::horizon_s() const noexcept {
+    return acceleration ? acceleration->newest_s() : newestPaced_s;
+}
+
+double RoughnessChain::State::firstContact_s() const noexcept {
+    if (force) return force->firstContact_s();
+    if (!declared.contact) return -kNever;
+    return declared.contact->empty() ? kNever : declared.contact->front().begin_s;
+}
+
+double RoughnessChain::State::forceKnown_s() const noexcept {
+    if (!force || finished) return kNever;
+    const double start = acceleration ? acceleration->first_s() : firstPaced_s;
+    // Before its first sample, and in a long silence, force is not waited for for ever.
+    const double spoken = std::max(force->newest_s(), start);
+    if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kNever;
+    return force->newest_s();
+}
+
+bool RoughnessChain::State::contactAt(double t_s, const ForceTrack::Reading& reading) const noexcept {
+    if (force) return reading.contact;
+    if (!declared.contact) return true;
+    return std::ranges::any_of(*declared.contact, [&](const TimeInterval& c) { return c.contains(t_s); });
+}
+
+void RoughnessChain::State::pace(double t_s) {
+    const auto kind = pacing->next(t_s);
+    if (kind == StampClass::Repeat || kind == StampClass::Backward || kind == StampClass::Invalid) return;
+    if (firstPaced_s == kNever) firstPaced_s = t_s;
+    if (everySample) {
+        pending.push(t_s);
+    } else {
+        if (kind != StampClass::Regular && kind != StampClass::Early) {
+            anchor_s = t_s;
+            steps = 0;
+        }
+        for (; pending.size() < kMostPending; ++steps) {
+            const double due = anchor_s + static_cast<double>(steps) * kFrame_s;
+            if (due > t_s) break;
+            pending.push(due);
+        }
+    }
+    newestPaced_s = t_s;
+}
+
+void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, std::size_t begin, std::size_t end) {
+    const auto& info = streams[stream];
+    const double* values = block.values.data() + begin * info.channels;
+    switch (info.kind) {
+        case StreamKind::Acceleration:
+            acceleration->push(std::span(block.t_s).subspan(begin, end - begin), values);
+            return;
+        case StreamKind::Force:
+            for (std::size_t i = begin; i < end; ++i) force->push(block.t_s[i], block.values[i]);
+            break;
+        case StreamKind::Taxels:
+            for (std::size_t i = begin; i < end; ++i, values += info.channels) taxels->push(block.t_s[i], values);
+            break;
+    }
+    if (!acceleration && info.kind == pacedBy) {
+        for (std::size_t i = begin; i < end; ++i) pace(block.t_s[i]);
+    }
+}
+
+void RoughnessChain::State::takeSlice(std::span<const SampleBlock> blocks) {
+    // In step with the slowest, so that a whole file waits for nothing that a live bench would not wait for.
+    double until = kNever;
+    for (std::size_t s = 0; s < streams.size(); ++s) {
+        if (taken[s] < blocks[s].samples()) until = std::min(until, blocks[s].t_s[taken[s]]);
+    }
+    until += kSlice_s;
+    for (std::size_t s = 0; s < streams.size(); ++s) {
+        const auto& stamps = blocks[s].t_s;
+        const std::size_t most = std::min(stamps.size(), taken[s] + AccelerationTrack::kChunk);
+        std::size_t end = taken[s];
+        while (end < most && !(stamps[end] > until)) ++end;
+        if (end == taken[s]) continue;
+        take(s, blocks[s], taken[s], end);
+        taken[s] = end;
+    }
+}
+
+void RoughnessChain::State::feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames) {
+    std::ranges::fill(taken, std::size_t{0});
+    const auto left = [&] {
+        for (std::size_t s = 0; s < streams.size(); ++s) {
+            if (taken[s] < blocks[s].samples()) return true;
+        }
+        return false;
+    };
+    while (left()) {
+        takeSlice(blocks);
+        advance(frames, false);
+        // Only streams further apart than feed() permits come here: the oldest frames go out as they are.
+        while ((acceleration && acceleration->full()) || pending.size() > kMostPending / 2) advance(frames, true);
+    }
+}
+
+bool RoughnessChain::State::ready(double centre_s, double end_s) const noexcept {
+    if (finished) return true;
+    const double known = forceKnown_s();
+    if (known < end_s) return false;
+    if (!taxels) return true;
+    const bool silent = horizon_s() > std::max({taxels->newest_s(), centre_s + taxels->reach_s(),
+                                                acceleration ? acceleration->first_s() : firstPaced_s}) +
+                                          ForceTrack::kLongestBridge_s;
+    if (silent) return true;
+    if (taxels->newest_s() < centre_s && horizon_s() <= centre_s + taxels->reach_s() + kSkew_s) return false;
+    return taxels->decided(std::min(known, taxels->newest_s()));
+}
+
+void RoughnessChain::State::advance(std::vector<RoughnessFrame>& frames, bool forced) {
+    const double known = forceKnown_s();
+    if (acceleration) {
+        auto stretch = acceleration->unnormalised(forced ? kNever : known);
+        if (!stretch.stamps.empty()) {
+            if (force) {
+                force->normalise(stretch.stamps, std::span(stretch.axes).first(accelerationInfo->channels),
+                                 acceleration->first_s());
+            }
+            acceleration->markNormalised(stretch.stamps.size());
+        }
+    }
+    if (taxels) taxels->settle(known, firstContact_s());
+    if (taxels && finished) taxels->close();
+
+    bool force1 = forced;
+    if (acceleration) {
+        for (const auto* window = acceleration->frontWindow(); window != nullptr;
+             window = acceleration->frontWindow()) {
+            if (!force1 && !ready(window->centre_s, window->end_s)) break;
+            evaluate(window->begin_s, window->centre_s, window->end_s, window, frames);
+            acceleration->popWindow();
+            force1 = false;
+        }
+        return;
+    }
+    while (!pending.empty() && (force1 || ready(pending.front(), pending.front()))) {
+        evaluate(pending.front(), pending.front(), pending.front(), nullptr, frames);
+        pending.pop();
+        force1 = false;
+    }
+}
+
+double RoughnessChain::State::spectralFeature(const AccelerationWindow& window, double& meanSquare) {
+    const auto axes = acceleration->samples(window);
+    spectrum->transform(std::span(axes).first(accelerationInfo->channels));
+    const double high = rough.empty() ? 0 : spectrum->power(rough);
+    if (rough.empty() || rough.first <= whole.first) {
+        meanSquare = spectrum->power(whole);
+    } else {
+        meanSquare = spectrum->power({whole.first, rough.first - 1}) + high;
+    }
+    if (rough.empty()) return kNan;
+    const double feature = settings.spectral == SpectralFeature::Relative ? high / meanSquare : high;
+    return feature > 0 && std::isfinite(feature) ? feature : kNan;
+}
+
+void RoughnessChain::State::watchRest(double begin_s, double end_s, double product) noexcept {
+    if (declared.baseline && begin_s >= declared.baseline->begin_s && end_s <= declared.baseline->end_s) {
+        declaredSum += product;
+        ++declaredCount;
+    }
+    if (end_s < firstContact_s()) {
+        earlySum += product;
+        ++earlyCount;
+    }
+}
+
+void RoughnessChain::State::decideRest(double end_s, bool contact) noexcept {
+    if (restDecided) return;
+    if (!acceleration) {
+        slidingAssumed = slidingAssumed || contact;
+        return;
+    }
+    if (declared.baseline) {
+        if (!(end_s > declared.baseline->end_s)) return;
+        if (declaredCount > 0) {
+            restMeanSquare = declaredSum / static_cast<double>(declaredCount);
+            restDecided = true;
+            return;
+        }
+    }
+    if (!contact) return;
+    restDecided = true;
+    if (firstContact_s() - acceleration->first_s() >= kShortestRest_s && earlyCount > 0) {
+        restMeanSquare = earlySum / static_cast<double>(earlyCount);
+    } else if (settings.restMeanSquare && settings.restUnit == accelerationInfo->unit) {
+        restMeanSquare = *settings.restMeanSquare;
+    } else {
+        slidingAssumed = true;
+    }
+}
+
+Motion RoughnessChain::State::motionOf(double product) noexcept {
+    if (slidingAssumed) return Motion::Sliding;
+    if (!restDecided) return Motion::Unknown;
+    return product < kSlidingFactor * restMeanSquare ? Motion::Resting : Motion::Sliding;
+}
+
+void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
+                                     std::vector<RoughnessFrame>& frames) {
+    RoughnessFrame frame;
+    frame.t_s = centre_s;
+    ForceTrack::Reading pressed{kNan, false, false};
+    if (force) pressed = force->at(centre_s);
+    frame.contact = contactAt(centre_s, pressed);
+
+    double product = kNan;
+    if (window != nullptr) {
+        double meanSquare = 0;
+        frame.h = spectralFeature(*window, meanSquare);
+        // !(x > y) also serves a force that is not known.
+        const double divisor = !force || !(pressed.force_n > ForceTrack::kSmallestDivisor_n)
+                                   ? (force ? ForceTrack::kSmallestDivisor_n : 1.0)
+                                   : pressed.force_n;
+        product = meanSquare * divisor * divisor;
+        watchRest(begin_s, end_s, product);
+    }
+    decideRest(end_s, frame.contact);
+
+    double taxelMean = kNan;
+    if (taxels) {
+        const auto reading = taxels->at(centre_s, settings.taxel == TaxelFeature::Dynamic);
+        frame.v = reading.v > 0 && std::isfinite(reading.v) ? reading.v : kNan;
+        taxelMean = reading.mean;
+    }
+    const Motion motion = frame.contact ? motionOf(product) : Motion::NoContact;
+    frame.sliding = motion == Motion::Sliding;
+    frame.R = index->next(centre_s, motion, frame.h, frame.v);
+
+    if (forceInfo) {
+        if (forceInfo->unit == StreamUnit::Newton && pressed.fresh) {
+            constexpr double kSquareMetresPerSquareCentimetre = 1e-4;
+            frame.pressure_pa = pressed.force_n / (settings.contactArea.value() * kSquareMetresPerSquareCentimetre);
+        }
+    } else if (taxelInfo && taxelInfo->unit == StreamUnit::Pascal) {
+        frame.pressure_pa = taxelMean;
+    }
+    if (!std::isnan(frame.pressure_pa)) {
+        const double low = settings.pressureMin.value();
+        frame.P = std::clamp((frame.pressure_pa - low) / (settings.pressureMax.value() - low), 0.0, 1.0);
+    }
+    frames.push_back(frame);
+    if (force) force->release(begin_s);
+}
+
+RoughnessChain::RoughnessChain(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RoughnessChain::~RoughnessChain() = default;
+
+Result<std::unique_ptr<RoughnessChain>> RoughnessChain::create(std::span<const StreamInfo> streams,
+                                                               const RoughnessSettings& settings,
+                                                               const DeclaredIntervals& declared) {
+    if (const auto valid = validate(settings); !valid) return failure(valid);
+    if (streams.empty()) {
+        return fail(ErrorCode::InvalidArgument,
+                    "roughness: there is no stream; acceleration, force or taxels was expected");
+    }
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+        if (const auto good = checkStream(streams[i]); !good) return failure(good);
+        for (std::size_t j = 0; j < i; ++j) {
+            if (streams[i].kind == streams[j].kind) {
+                return fail(ErrorCode::InvalidArgument, "roughness: there are two {} streams; one was expected",
+                            nameOf(streams[i].kind));
+            }
+        }
+    }
+    return std::unique_ptr<RoughnessChain>(new RoughnessChain(std::make_unique<State>(streams, settings, declared)));
+}
+
+void RoughnessChain::feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames) {
+    if (blocks.size() != state_->streams.size()) return;
+    state_->feed(blocks, frames);
+}
+
+void RoughnessChain::finish(std::vector<RoughnessFrame>& frames) {
+    state_->finished = true;
+    state_->advance(frames, false);
+}
+
+void RoughnessChain::reset() { state_->clear(); }
+
+void RoughnessChain::presetRest(const RestLevels& rest) {
+    if (state_->taxels) state_->taxels->preset(rest);
+    if (!(rest.slidingMeanSquare >= 0)) return;
+    state_->restMeanSquare = rest.slidingMeanSquare;
+    state_->restDecided = state_->restPreset = true;
+}
+
+const RestLevels* RoughnessChain::rest() const noexcept {
+    const bool taxelsKnown = !state_->taxels || state_->taxels->baselineKnown();
+    const bool slidingKnown = !state_->acceleration || state_->restDecided;
+    if (!taxelsKnown || !slidingKnown) return nullptr;
+    auto& levels = state_->levels;
+    levels.taxelBaseline = state_->taxels ? state_->taxels->baseline() : std::vector<double>{};
+    levels.taxelFloor = state_->taxels ? state_->taxels->floor() : 0;
+    levels.slidingMeanSquare = state_->restMeanSquare;
+    return &levels;
+}
+
+double RoughnessChain::framePeriod_s() const noexcept { return state_->period_s; }
+
+std::vector<std::string> RoughnessChain::flags() const {
+    const auto& s = *state_;
+    std::vector<std::string> out;
+    const auto say = [&out](bool given, std::string text) {
+        if (given) out.push_back(std::move(text));
+    };
+    say(s.acceleration && s.acceleration->bandTruncated(), "band truncated");
+    say(s.spectrumEmpty, "no spectral feature");
+    say(!s.force, "not force-normalised");
+    say(s.contactAssumed, "contact assumed");
+    say(s.slidingAssumed, "sliding assumed");
+    say(s.taxels && s.taxels->baselineAssumed(), "baseline assumed");
+    say(!s.settings.calibrated, "uncalibrated R");
+    say(std::ranges::any_of(s.streams, [](const auto& info) { return info.unit == StreamUnit::Count; }),
+        "uncalibrated units");
+    const auto count = [&](std::size_t number, const char* what) {
+        say(number > 0, fmt::format("{}: {}", what, number));
+    };
+    if (s.force) {
+        const double end = s.horizon_s();
+        count(s.force->staleStretches(end), "force stale");
+        count(s.force->invalidSamples(), "not a number in force");
+        count(s.force->outOfOrder(), "repeats or clock steps in force");
+    }
+    if (s.acceleration) {
+        const auto& lost = s.acceleration->losses();
+        count(lost.gaps, "gaps in acceleration");
+        count(lost.repeats + lost.clockSteps, "repeats or clock steps in acceleration");
+        count(lost.invalid, "not a number in acceleration");
+    }
+    if (s.taxels) {
+        count(s.taxels->invalidSamples(), "not a number in taxels");
+        count(s.taxels->outOfOrder(), "repeats or clock steps in taxels");
+    }
+    return out;
+}
+
+}  // namespace tacto

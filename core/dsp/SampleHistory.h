@@ -1,0 +1,42 @@
+// SampleHistory.h - the last few seconds of a stream, in one piece of memory.
+//
+// Samples keep their number for ever; those released, and the oldest when there is no more room, are gone.
+//
+// Thread-safety: none; one owner. Never allocates after construction.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace tacto {
+
+class SampleHistory {
+public:
+    /// Room for `capacity` samples of `width` values each.
+    SampleHistory(std::size_t width, std::size_t capacity);
+
+    /// Takes a sample later than end() - 1; drops the oldest when full.
+    void push(double t_s, const double* values) noexcept;
+    /// Samples before number `number` are not needed any more.
+    void release(std::size_t number) noexcept;
+    void clear() noexcept;
+
+    [[nodiscard]] std::size_t begin() const noexcept { return begin_; }
+    [[nodiscard]] std::size_t end() const noexcept { return end_; }
+    [[nodiscard]] bool empty() const noexcept { return begin_ == end_; }
+    [[nodiscard]] double t(std::size_t number) const noexcept { return t_[number - offset_]; }
+    [[nodiscard]] const double* values(std::size_t number) const noexcept {
+        return values_.data() + (number - offset_) * width_;
+    }
+
+private:
+    std::size_t width_;
+    std::size_t capacity_;
+    std::vector<double> t_;  // twice the capacity: moved to the front when the end is reached
+    std::vector<double> values_;
+    std::size_t offset_ = 0;  // number of the sample at t_[0]
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+};
+
+}  // namespace tacto

@@ -1,0 +1,91 @@
+// TaxelTrack.h - the taxels' baseline, the spatial feature v, and the pressure they carry.
+//
+// Baseline: the declared interval, else the rest before the first contact if that lasted 250 ms, else the first
+// 250 ms. A sample with a value that is not finite is counted and not used.
+//
+// Thread-safety: none; one owner. Never allocates after construction.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/Stream.h"
+#include "core/dsp/RoughnessChain.h"
+#include "core/dsp/SampleHistory.h"
+
+namespace tacto {
+
+class TaxelTrack {
+public:
+    static constexpr double kShortestRest_s = 0.25;
+
+    TaxelTrack(const StreamInfo& info, std::optional<TimeInterval> declaredBaseline);
+
+    void push(double t_s, const double* values) noexcept;
+    void clear() noexcept;
+    void preset(const RestLevels& rest);
+
+    [[nodiscard]] double first_s() const noexcept { return first_; }
+    [[nodiscard]] double newest_s() const noexcept;
+    /// A sample further than this from a frame does not speak for it.
+    [[nodiscard]] double reach_s() const noexcept { return reach_; }
+
+    /// Contact is known up to `known_s` and first happened at `firstContact_s` (infinity: not yet): takes the samples
+    /// up to there into the baseline.
+    void settle(double known_s, double firstContact_s) noexcept;
+    /// True once no later sample can change the baseline of frames up to now.
+    [[nodiscard]] bool decided(double known_s) const noexcept;
+    /// Fixes the baseline with what is there; for the end of the data.
+    void close() noexcept;
+
+    struct Reading {
+        double v;     ///< NaN when absent
+        double mean;  ///< of the taxels as they are; NaN without a sample near enough
+    };
+    /// At `t_s`, which never decreases from call to call. Needs newest_s() ≥ t_s, or silence since.
+    [[nodiscard]] Reading at(double t_s, bool dynamic) noexcept;
+
+    [[nodiscard]] bool baselineKnown() const noexcept { return known_; }
+    [[nodiscard]] bool baselineAssumed() const noexcept { return assumed_; }
+    [[nodiscard]] const std::vector<double>& baseline() const noexcept { return baseline_; }
+    [[nodiscard]] double floor() const noexcept { return floor_; }
+    [[nodiscard]] std::size_t invalidSamples() const noexcept { return invalid_; }
+    [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }
+
+private:
+    /// Per-taxel mean and the spread of the taxel mean over one stretch of samples.
+    struct Stretch {
+        std::vector<double> sum;
+        std::size_t count = 0;
+        double mean = 0;     // of the taxel mean, running
+        double squares = 0;  // sum of squared deviations, running
+        void add(const double* values) noexcept;
+        void clear() noexcept;
+    };
+    void adopt(const Stretch& stretch) noexcept;
+    void decide(double known_s) noexcept;
+    [[nodiscard]] double variance(std::size_t sample, bool dynamic, double& meanAbove) noexcept;
+
+    const std::size_t taxels_;
+    const std::optional<TimeInterval> declared_;
+    double reach_;
+    SampleHistory samples_;
+    Stretch inDeclared_, beforeContact_, atStart_;
+    std::vector<double> baseline_;
+    std::vector<double> above_;     // scratch: u of one sample
+    std::vector<double> trailing_;  // scratch: its moving average
+    double floor_ = 0;
+    double first_;
+    double firstContact_;
+    std::size_t settled_ = 0;  // samples before this number are in the stretches
+    std::size_t cursor_ = 0;   // last sample at or before the frame
+    std::size_t window_ = 0;   // first sample of the moving average
+    bool known_ = false;
+    bool assumed_ = false;
+    bool preset_ = false;
+    std::size_t invalid_ = 0;
+    std::size_t outOfOrder_ = 0;
+};
+
+}  // namespace tacto
