@@ -37,7 +37,8 @@ bool known(const Condition& c) {
 }
 
 constexpr int kTitleHeight = 20;
-constexpr int kLaneHeight = 62;
+constexpr int kLaneHeight = 58;  // of which the strip with name and numbers
+constexpr int kStripHeight = 15;
 constexpr int kAxisHeight = 34;
 
 class ConditionsSheet {
@@ -45,7 +46,7 @@ public:
     ConditionsSheet(const ConditionsFigure& figure, bool simulated, std::size_t rows)
         : figure_(figure),
           sheet_(std::make_unique<PlotSheet>(kSheetWidth, heightOf(rows), simulated)),
-          margins_(sheet_.get()) {
+          margins_(new QCPMarginGroup(&sheet_->plot())) {
         double longest = 0, highest = 0;
         for (const auto& condition : figure.conditions) {
             if (!known(condition)) continue;
@@ -53,7 +54,7 @@ public:
             highest = std::max(highest, std::abs(condition.amplitude_v.mean));
         }
         span_ = 2.2 * longest;
-        top_ = 1.5 * highest;
+        top_ = 1.18 * highest;
     }
 
     static int heightOf(std::size_t rows) {
@@ -68,6 +69,8 @@ public:
             sheet_->explain(axes, panel.missing);
         }
         for (std::size_t i = 0; i < panel.lanes.size(); ++i) {
+            // As much room as a title takes, so that lanes left and right stand level.
+            if (i == 2) sheet_->addTitle(row++, 0, {}, false, grid);
             auto* axes = addLaneAxes(grid, row++, timeAxis && i + 1 == panel.lanes.size());
             drawLane(axes, *panel.lanes[i]);
         }
@@ -79,8 +82,8 @@ public:
 private:
     QCPAxisRect* addLaneAxes(QCPLayoutGrid* grid, int row, bool timeAxis) {
         auto* axes = sheet_->addAxes(row, 0, grid);
-        axes->setMinimumMargins(QMargins(4, 3, 8, 3));
-        axes->setMarginGroup(QCP::msLeft, &margins_);
+        axes->setMinimumMargins(QMargins(4, kStripHeight + 2, 8, 3));
+        axes->setMarginGroup(QCP::msLeft, margins_);
         auto* time = axes->axis(QCPAxis::atBottom);
         auto* level = axes->axis(QCPAxis::atLeft);
         time->setRange(-0.03 * span_, span_);
@@ -99,8 +102,8 @@ private:
     void drawLane(QCPAxisRect* axes, const Condition& condition) {
         const auto index = static_cast<int>(&condition - figure_.conditions.data());
         const auto style = conditionStyle(condition.name, index);
-        sheet_->watermark(axes, 18);
-        auto* name = sheet_->addNote(axes, condition.name, {0.015, 0.04}, Qt::AlignLeft | Qt::AlignTop);
+        sheet_->watermark(axes, 14);
+        auto* name = sheet_->addNote(axes, condition.name, {0, -0.02}, Qt::AlignLeft | Qt::AlignBottom);
         name->setFont(textFont(10, true));
         if (!known(condition)) {
             sheet_->addNote(axes, "not measured", {0.5, 0.6})->setColor(ink::kQuiet);
@@ -108,7 +111,7 @@ private:
         }
         const QString numbers = quantityText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + "  every  " +
                                 quantityText(condition.interval_s.mean, condition.interval_s.sd, "s");
-        sheet_->addNote(axes, numbers, {0.985, 0.04}, Qt::AlignRight | Qt::AlignTop);
+        sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);
         auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         trains->setLineStyle(QCPGraph::lsImpulse);
         trains->setPen(style.pen(2));
@@ -124,7 +127,7 @@ private:
 
     const ConditionsFigure& figure_;
     std::unique_ptr<PlotSheet> sheet_;
-    QCPMarginGroup margins_;
+    QCPMarginGroup* margins_;  // the plot's
     double span_ = 1;
     double top_ = 1;
 };

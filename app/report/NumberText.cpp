@@ -99,8 +99,8 @@ QString quantityText(double value, double uncertainty, const QString& unit) {
     const int exponent = exponentOf(std::max(std::abs(si), u), 4);
     const Prefix prefix = split.base.isEmpty() ? Prefix{0, ""} : prefixFor(exponent);
     const double scale = std::pow(10.0, -prefix.exponent);
-    const int most = 4 - (exponent - prefix.exponent);
-    const int wanted = u > 0 ? 1 - exponentOf(u * scale, 2) : most - 1;
+    const int most = 3 - (exponent - prefix.exponent);
+    const int wanted = u > 0 ? 1 - exponentOf(u * scale, 2) : most;
     const int decimals = std::clamp(std::min(wanted, most), 0, 9);
     QString spread = fixed(u * scale, decimals);
     const double last = std::pow(10.0, -decimals);
@@ -156,7 +156,7 @@ ColumnName columnName(const QString& key) {
         }
     }
     static const std::array<std::pair<const char*, const char*>, 10> known{{{"a", "Condition"},
-                                                                            {"b", "against"},
+                                                                            {"b", "Against"},
                                                                             {"n", "n"},
                                                                             {"mahalanobis", "Mahalanobis distance"},
                                                                             {"cv", "Coefficient of variation"},
@@ -181,6 +181,36 @@ ColumnName columnName(const QString& key) {
     result.title = parts.join(' ');
     if (!result.title.isEmpty()) result.title[0] = result.title[0].toUpper();
     return result;
+}
+
+std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, const QString& unit) {
+    const Split split = splitUnit(shownUnit(unit));
+    double least = 0, most = 0;
+    bool whole = true;
+    for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        whole = whole && value == std::floor(value);
+        const double size = std::abs(value) * split.factor;
+        if (size == 0) continue;
+        least = least == 0 ? size : std::min(least, size);
+        most = std::max(most, size);
+    }
+    if (most == 0 || most > 1000 * least || (whole && split.base.isEmpty())) return std::nullopt;
+    if (split.base.isEmpty() && (most >= 1e7 || most < 1e-3)) return std::nullopt;
+    const int exponent = exponentOf(most, 4);
+    const int prefix = split.base.isEmpty() ? 0 : prefixFor(exponent).exponent;
+    // The smallest keeps two digits at the least; the largest has four.
+    const int decimals = std::max(3 - (exponent - prefix), 1 - (exponentOf(least, 2) - prefix));
+    return ColumnFormat{prefix, std::clamp(decimals, 0, 6)};
+}
+
+QString quantityText(double value, const QString& unit, const ColumnFormat& format) {
+    if (!std::isfinite(value)) return kMissing;
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    const double scaled = value * split.factor * std::pow(10.0, -format.exponent);
+    return withUnit(fixed(scaled, format.decimals),
+                    split.base.isEmpty() ? shown : prefixFor(format.exponent).symbol + split.base);
 }
 
 QString cellText(const QJsonValue& value, const QString& unit) {

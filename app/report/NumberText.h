@@ -6,6 +6,8 @@
 
 #include <QJsonValue>
 #include <QString>
+#include <optional>
+#include <vector>
 
 #include "app/report/Figure.h"
 
@@ -14,8 +16,8 @@ namespace tacto {
 /// "2.26 mA", "10.0 kΩ"; a unit that takes no prefix ("%", "") gives "12.3 %". `unit` may be ASCII ("ohm", "uC").
 [[nodiscard]] QString quantityText(double value, const QString& unit, int digits = 4);
 
-/// "40.12 ± 0.46 V": the uncertainty with two significant digits, the value with as many decimals; never more than five
-/// significant digits of the value.
+/// "40.12 ± 0.46 V": the uncertainty with two significant digits, the value with as many decimals; never more than four
+/// significant digits of the value; an uncertainty below those reads "<0.01".
 [[nodiscard]] QString quantityText(double value, double uncertainty, const QString& unit);
 
 /// What somebody set, without padding zeros: "1 kΩ", "25", "0.15 N".
@@ -37,6 +39,15 @@ struct ColumnName {
     QString unit;  ///< as shown; empty for plain numbers
 };
 [[nodiscard]] ColumnName columnName(const QString& key);
+
+/// One prefix and as many decimals for all numbers of a column, where they lie within a factor of 1000 of each other:
+/// numbers that are compared stand alike. Nothing otherwise, or for whole numbers without a unit.
+struct ColumnFormat {
+    int exponent = 0;
+    int decimals = 0;
+};
+[[nodiscard]] std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, const QString& unit);
+[[nodiscard]] QString quantityText(double value, const QString& unit, const ColumnFormat& format);
 
 /// A table's cell: a number, text, flag, statistic or estimate; null is "–".
 [[nodiscard]] QString cellText(const QJsonValue& value, const QString& unit);

@@ -10,6 +10,7 @@ namespace {
 constexpr double kGap = 12;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
+constexpr double kHalf = 316;  // two columns of facts with a gutter
 
 class Setter {
 public:
@@ -60,15 +61,27 @@ public:
                        kGap);
     }
 
+    /// Short facts in two columns, read down the first; the others, and hashes, over the whole width.
     void operator()(const FactsBlock& block) {
+        std::vector<const ReportFact*> brief, wide;
         for (const auto& fact : block.facts) {
-            const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
-            const double width = PdfPages::kWidth - kFactColumn;
-            const double height = std::max(PdfPages::textHeight(width, fact.value, font, fact.isHash),
-                                           PdfPages::textHeight(kFactColumn - 10, fact.name, textFont(kTextSize)));
+            const double width = QFontMetricsF(textFont(kTextSize)).horizontalAdvance(fact.value);
+            (fact.isHash || width > kHalf - kFactColumn ? wide : brief).push_back(&fact);
+        }
+        const std::size_t rows = (brief.size() + 1) / 2;
+        for (std::size_t r = 0; r < rows; ++r) {
+            const ReportFact* right = r + rows < brief.size() ? brief[r + rows] : nullptr;
+            const double height =
+                std::max(factHeight(*brief[r], kHalf), right != nullptr ? factHeight(*right, kHalf) : 0);
             pages_.require(height);
-            pages_.text(0, kFactColumn - 10, fact.name, textFont(kTextSize), ink::kQuiet);
-            pages_.text(kFactColumn, width, fact.value, font, ink::kText, Qt::AlignLeft, fact.isHash);
+            setFact(*brief[r], 0, kHalf);
+            if (right != nullptr) setFact(*right, PdfPages::kWidth - kHalf, kHalf);
+            pages_.advance(height + 3);
+        }
+        for (const auto* fact : wide) {
+            const double height = factHeight(*fact, PdfPages::kWidth);
+            pages_.require(height);
+            setFact(*fact, 0, PdfPages::kWidth);
             pages_.advance(height + 3);
         }
         pages_.advance(kGap);
@@ -130,6 +143,17 @@ private:
         height += PdfPages::textHeight(PdfPages::kWidth, block.caption, textFont(kTextSize, true));
         if (!block.legend.isEmpty()) height += PdfPages::textHeight(PdfPages::kWidth, block.legend, textFont(11));
         return height;
+    }
+
+    static double factHeight(const ReportFact& fact, double width) {
+        const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
+        return std::max(PdfPages::textHeight(width - kFactColumn, fact.value, font, fact.isHash),
+                        PdfPages::textHeight(kFactColumn - 10, fact.name, textFont(kTextSize)));
+    }
+    void setFact(const ReportFact& fact, double left, double width) {
+        pages_.text(left, kFactColumn - 10, fact.name, textFont(kTextSize), ink::kQuiet);
+        pages_.text(left + kFactColumn, width - kFactColumn, fact.value,
+                    fact.isHash ? monoFont(11) : textFont(kTextSize), ink::kText, Qt::AlignLeft, fact.isHash);
     }
 
     PdfPages& pages_;

@@ -83,28 +83,38 @@ std::vector<Part> partsOf(const TableBlock& table) {
 class TableSetter {
 public:
     TableSetter(PdfPages& pages, const TableBlock& table, const Part& part)
-        : pages_(pages), table_(table), part_(part) {}
+        : pages_(pages), table_(table), part_(part) {
+        for (const double column : part.widths) width_ += column;
+    }
 
+    [[nodiscard]] double width() const { return width_; }
     [[nodiscard]] double headerHeight() const {
-        return rowHeight([&](std::size_t c) { return table_.columns[c].title; }, true);
+        return heightOf([&](std::size_t c) { return table_.columns[c].title; }, true);
     }
-    [[nodiscard]] double heightOf(const QStringList& row) const {
-        return rowHeight([&](std::size_t c) { return row.value(static_cast<qsizetype>(c)); }, false);
+    [[nodiscard]] double rowHeight(std::size_t row) const {
+        return heightOf([&](std::size_t c) { return table_.rows[row].value(static_cast<qsizetype>(c)); }, false);
+    }
+    [[nodiscard]] double wholeHeight() const {
+        double height = headerHeight();
+        for (std::size_t r = 0; r < table_.rows.size(); ++r) height += rowHeight(r);
+        return height;
     }
 
-    void setHeader() {
-        rule(ink::kText, 1);
-        setRow([&](std::size_t c) { return table_.columns[c].title; }, true);
-        rule(ink::kText, 0.7);
+    void setHeader(double left = 0) {
+        rule(left, ink::kText, 1);
+        setCells(
+            left, [&](std::size_t c) { return table_.columns[c].title; }, true);
+        rule(left, ink::kText, 0.7);
     }
-    void setBody(const QStringList& row, bool last) {
-        setRow([&](std::size_t c) { return row.value(static_cast<qsizetype>(c)); }, false);
-        rule(last ? ink::kText : ink::kGrid, last ? 1 : 0.7);
+    void setRow(std::size_t row, bool last, double left = 0) {
+        setCells(
+            left, [&](std::size_t c) { return table_.rows[row].value(static_cast<qsizetype>(c)); }, false);
+        rule(left, last ? ink::kText : ink::kGrid, last ? 1 : 0.7);
     }
 
 private:
     template <class Text>
-    [[nodiscard]] double rowHeight(Text text, bool bold) const {
+    [[nodiscard]] double heightOf(Text text, bool bold) const {
         double height = 0;
         for (std::size_t i = 0; i < part_.columns.size(); ++i) {
             height = std::max(height, PdfPages::textHeight(part_.widths[i] - 2 * kPadX, text(part_.columns[i]),
@@ -114,9 +124,8 @@ private:
     }
 
     template <class Text>
-    void setRow(Text text, bool bold) {
-        const double height = rowHeight(text, bold);
-        double x = 0;
+    void setCells(double x, Text text, bool bold) {
+        const double height = heightOf(text, bold);
         pages_.advance(kPadY);
         for (std::size_t i = 0; i < part_.columns.size(); ++i) {
             const auto column = part_.columns[i];
@@ -127,39 +136,91 @@ private:
         pages_.advance(height - kPadY);
     }
 
-    void rule(const QColor& color, double width) {
+    void rule(double left, const QColor& color, double thickness) {
         auto* painter = pages_.painter();
         if (painter == nullptr) return;
-        double total = 0;
-        for (const double column : part_.widths) total += column;
-        painter->setPen(QPen(color, width));
-        painter->drawLine(QPointF(0, pages_.y()), QPointF(total, pages_.y()));
+        painter->setPen(QPen(color, thickness));
+        painter->drawLine(QPointF(left, pages_.y()), QPointF(left + width_, pages_.y()));
     }
 
     PdfPages& pages_;
     const TableBlock& table_;
     const Part& part_;
+    double width_ = 0;
 };
+
+constexpr std::size_t kLong = 24;  // rows from which a narrow table is set in columns side by side
+constexpr double kColumnGap = 26;
+constexpr std::size_t kAtLeast = 3;  // rows that stay with the header
+
+double setCaption(PdfPages& pages, const QString& caption, bool draw) {
+    const QFont font = textFont(12, true);
+    const double height = PdfPages::textHeight(PdfPages::kWidth, caption, font) + 4;
+    if (draw) {
+        pages.text(0, PdfPages::kWidth, caption, font, ink::kText);
+        pages.advance(height);
+    }
+    return height;
+}
+
+void setDown(PdfPages& pages, TableSetter& setter, const QString& caption, std::size_t rows) {
+    double start = setCaption(pages, caption, false) + setter.headerHeight();
+    const double whole = start - setter.headerHeight() + setter.wholeHeight();
+    for (std::size_t r = 0; r < std::min(kAtLeast, rows); ++r) start += setter.rowHeight(r);
+    // A short table is kept whole, a long one begins here with a few rows.
+    pages.require(whole < PdfPages::kHeight / 3 ? whole : start);
+    setCaption(pages, caption, true);
+    setter.setHeader();
+    for (std::size_t r = 0; r < rows; ++r) {
+        if (pages.require(setter.rowHeight(r))) {
+            setCaption(pages, caption + ", continued", true);
+            setter.setHeader();
+        }
+        setter.setRow(r, r + 1 == rows);
+    }
+}
+
+/// Rows run down the first column of the page, then down the next.
+void setSideBySide(PdfPages& pages, TableSetter& setter, const QString& caption, std::size_t rows,
+                   std::size_t columns) {
+    double row = 0;
+    for (std::size_t r = 0; r < rows; ++r) row = std::max(row, setter.rowHeight(r));
+    QString title = caption;
+    for (std::size_t first = 0; first < rows;) {
+        const double head = setCaption(pages, title, false) + setter.headerHeight();
+        pages.require(head + double(kAtLeast) * row);
+        const auto fitting = std::max<std::size_t>(1, static_cast<std::size_t>((pages.left() - head - 1) / row));
+        const std::size_t down = std::min(fitting, (rows - first + columns - 1) / columns);
+        setCaption(pages, title, true);
+        const double top = pages.y();
+        double bottom = top;
+        for (std::size_t column = 0; column < columns && first < rows; ++column) {
+            pages.advance(top - pages.y());
+            const double left = double(column) * (setter.width() + kColumnGap);
+            setter.setHeader(left);
+            for (std::size_t i = 0; i < down && first < rows; ++i, ++first) {
+                setter.setRow(first, i + 1 == down || first + 1 == rows, left);
+            }
+            bottom = std::max(bottom, pages.y());
+        }
+        pages.advance(bottom - pages.y());
+        title = caption + ", continued";
+    }
+}
 
 }  // namespace
 
 void setTable(PdfPages& pages, const TableBlock& table) {
     const auto parts = partsOf(table);
-    const QFont captionFont = textFont(12, true);
     for (std::size_t p = 0; p < parts.size(); ++p) {
-        const QString caption = p == 0 ? table.caption : table.caption + ", continued to the right";
+        const QString caption = p == 0 ? table.caption : table.caption + ", further columns";
         TableSetter setter(pages, table, parts[p]);
-        const double captionHeight = PdfPages::textHeight(PdfPages::kWidth, caption, captionFont) + 4;
-        double start = captionHeight + setter.headerHeight();
-        // A caption and header with at least two rows, or not on this page.
-        for (std::size_t r = 0; r < std::min<std::size_t>(2, table.rows.size()); ++r)
-            start += setter.heightOf(table.rows[r]);
-        pages.require(start);
-        pages.advance(pages.text(0, PdfPages::kWidth, caption, captionFont, ink::kText) + 4);
-        setter.setHeader();
-        for (std::size_t r = 0; r < table.rows.size(); ++r) {
-            if (pages.require(setter.heightOf(table.rows[r]))) setter.setHeader();
-            setter.setBody(table.rows[r], r + 1 == table.rows.size());
+        const auto beside =
+            static_cast<std::size_t>((PdfPages::kWidth + kColumnGap) / std::max(1.0, setter.width() + kColumnGap));
+        if (table.rows.size() > kLong && beside > 1) {
+            setSideBySide(pages, setter, caption, table.rows.size(), beside);
+        } else {
+            setDown(pages, setter, caption, table.rows.size());
         }
         if (p + 1 < parts.size()) pages.advance(10);
     }

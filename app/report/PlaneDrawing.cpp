@@ -23,8 +23,8 @@ std::vector<Cluster> clustersOf(const PlaneFigure& figure) {
         auto found = std::find_if(clusters.begin(), clusters.end(),
                                   [&](const Cluster& cluster) { return cluster.name == trial.condition; });
         if (found == clusters.end()) {
-            clusters.push_back({.name = trial.condition});
-            found = clusters.end() - 1;
+            found = clusters.emplace(clusters.end());
+            found->name = trial.condition;
         }
         found->intervals << trial.interval_s;
         found->amplitudes << trial.amplitude_v;
@@ -72,14 +72,23 @@ void drawPoints(QCPAxisRect* axes, const QVector<double>& x, const QVector<doubl
     points->setData(x, y);
 }
 
+/// The largest of 1, 2, 5 times a power of ten that is not above `reach`: ticks at it, at 0 and at its negative.
+double roundBelow(double reach) {
+    const double decade = std::pow(10.0, std::floor(std::log10(reach)));
+    for (const double step : {5.0, 2.0, 1.0}) {
+        if (step * decade <= reach * 1.0001) return step * decade;
+    }
+    return decade;
+}
+
 /// One condition as deviations from its mean, in units that suit them.
 void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster& cluster, int index) {
     auto* axes = sheet.addAxes(cell / 2, cell % 2, grid);
     auto* horizontal = axes->axis(QCPAxis::atBottom);
     auto* vertical = axes->axis(QCPAxis::atLeft);
-    auto* title = sheet.addNote(axes, cluster.name, {0.5, -0.02}, Qt::AlignHCenter | Qt::AlignBottom);
+    auto* title = sheet.addNote(axes, cluster.name, {0, -0.02}, Qt::AlignLeft | Qt::AlignBottom);
     title->setFont(textFont(10, true));
-    axes->setMinimumMargins(QMargins(4, 18, 4, 4));
+    axes->setMinimumMargins(QMargins(4, 18, 8, 4));
     if (!cluster.hasSpread()) {
         sheet.explain(axes, QString("n = %1:\ntoo few for\nan ellipse").arg(cluster.intervals.size()));
         return;
@@ -110,8 +119,9 @@ void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster
     for (auto* axis : {horizontal, vertical}) {
         axis->setLabelFont(textFont(9));
         axis->setTickLabelFont(textFont(9));
-        axis->setTicker(QSharedPointer<PlainTicker>::create(3));
     }
+    horizontal->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(xReach * xUnit.factor)));
+    vertical->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(yReach * yUnit.factor)));
     drawPoints(axes, dx, dy, style, 4);
     auto* curve = new QCPCurve(horizontal, vertical);
     curve->setPen(style.pen(1.5));
@@ -161,7 +171,7 @@ std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated) 
     for (const auto& cluster : clusters) {
         auto* centroid = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         centroid->setLineStyle(QCPGraph::lsNone);
-        centroid->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssPlus, QPen(ink::kText, 1), 11));
+        centroid->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssPlus, QPen(ink::kText, 1), Qt::NoBrush, 11));
         centroid->addData(cluster.meanInterval, cluster.meanAmplitude);
     }
     axes->axis(QCPAxis::atBottom)->setRange(padded(lowX, highX, 0.12));
@@ -174,8 +184,9 @@ std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated) 
         for (std::size_t i = 0; i < clusters.size(); ++i) {
             drawEnlarged(*sheet, grid, static_cast<int>(i), clusters[i], static_cast<int>(i));
         }
-        sheet->plot().plotLayout()->setColumnStretchFactor(0, 0.9);
+        sheet->plot().plotLayout()->setColumnStretchFactor(0, 0.8);
     }
+    PlotSheet::fitLegend(legend);
     return sheet;
 }
 

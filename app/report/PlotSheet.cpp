@@ -108,8 +108,12 @@ QCPLegend* PlotSheet::addLegend(int row, int column, int entriesPerLine) {
     legend->setWrap(entriesPerLine);
     legend->setColumnSpacing(14);
     legend->setMargins(QMargins(8, 2, 8, 2));
-    legend->setMaximumSize(QWIDGETSIZE_MAX, 22);
     return legend;
+}
+
+void PlotSheet::fitLegend(QCPLegend* legend) {
+    legend->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
+    legend->setMaximumSize(legend->minimumOuterSizeHint());
 }
 
 void PlotSheet::watermark(QCPAxisRect* axes, int size) {
@@ -117,7 +121,7 @@ void PlotSheet::watermark(QCPAxisRect* axes, int size) {
     auto* mark = addNote(axes, "SIMULATED", {0.5, 0.5});
     mark->setLayer("watermark");
     mark->setFont(textFont(size, true));
-    mark->setColor(QColor(0xd3, 0xd8, 0xdd));
+    mark->setColor(QColor(0xde, 0xe2, 0xe6));
     mark->setRotation(-18);
 }
 
@@ -139,7 +143,7 @@ QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
 }
 
 double PlainTicker::getTickStep(const QCPRange& range) {
-    step_ = QCPAxisTicker::getTickStep(range);
+    step_ = fixed_ > 0 ? fixed_ : QCPAxisTicker::getTickStep(range);
     return step_;
 }
 

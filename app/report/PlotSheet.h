@@ -53,6 +53,8 @@ public:
     void explain(QCPAxisRect* axes, const QString& why);
     /// For an entry per condition below the plots: line or marker with its name.
     QCPLegend* addLegend(int row, int column, int entriesPerLine);
+    /// Once its entries are in: no wider than they are.
+    static void fitLegend(QCPLegend* legend);
     /// Marks the session as simulated, behind the data. Called for every axes that show data.
     void watermark(QCPAxisRect* axes, int size = 26);
 
@@ -68,7 +70,8 @@ private:
 /// Ticks with a true minus and as many decimals as their step needs, all alike.
 class PlainTicker : public QCPAxisTicker {
 public:
-    explicit PlainTicker(int count) {
+    /// About `count` ticks, or one every `fixedStep` from 0.
+    explicit PlainTicker(int count, double fixedStep = 0) : fixed_(fixedStep) {
         setTickCount(count);
         setTickStepStrategy(tssReadability);
     }
@@ -78,6 +81,7 @@ protected:
     double getTickStep(const QCPRange& range) override;
 
 private:
+    double fixed_;
     double step_ = 1;
 };
 

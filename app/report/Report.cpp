@@ -5,7 +5,6 @@
 
 #include "app/report/HtmlReport.h"
 #include "app/report/PdfReport.h"
-#include "app/report/SessionReport.h"
 
 namespace tacto {
 
@@ -41,13 +40,6 @@ Result<void> writeReport(const ReportModel& model, const QString& path, const Fo
     // A disk that filled up is noticed here; the old report is still there then.
     if (!file.commit()) return refused();
     return {};
-}
-
-Result<void> writeSessionReport(const QString& sessionFile, const QString& path) {
-    if (const auto format = reportFormat(path); !format) return failure(format);
-    const auto model = readSessionReport(sessionFile.toStdString());
-    if (!model) return failure(model);
-    return writeReport(*model, path);
 }
 
 }  // namespace tacto

@@ -90,22 +90,24 @@ TableBlock tableOf(const ReportTable& source, const QString& caption) {
     TableBlock table;
     table.caption = caption;
     const QStringList keys = columnsOf(source);
-    std::vector<QString> units;
-    for (const auto& key : keys) {
-        const ColumnName name = columnName(key);
-        units.push_back(name.unit);
-        table.columns.push_back({name.title, false});
-    }
-    for (const auto& row : source.rows) {
-        const auto object = row.toObject();
-        QStringList cells;
-        for (int i = 0; i < keys.size(); ++i) {
-            const auto column = static_cast<std::size_t>(i);
-            const auto value = object.value(keys[i]);
-            cells << cellText(value, units[column]);
-            if (value.isDouble() || value.isObject()) table.columns[column].numeric = true;
+    table.rows.assign(static_cast<std::size_t>(source.rows.size()), QStringList(keys.size()));
+    for (qsizetype c = 0; c < keys.size(); ++c) {
+        const ColumnName name = columnName(keys[c]);
+        std::vector<double> numbers;
+        bool numeric = false;
+        for (const auto& row : source.rows) {
+            const auto value = row.toObject().value(keys[c]);
+            if (value.isDouble()) numbers.push_back(value.toDouble());
+            numeric = numeric || value.isDouble() || value.isObject();
         }
-        table.rows.push_back(std::move(cells));
+        const auto format = columnFormat(numbers, name.unit);
+        table.columns.push_back({name.title, numeric});
+        for (qsizetype r = 0; r < source.rows.size(); ++r) {
+            const auto value = source.rows[r].toObject().value(keys[c]);
+            table.rows[static_cast<std::size_t>(r)][c] = value.isDouble() && format
+                                                             ? quantityText(value.toDouble(), name.unit, *format)
+                                                             : cellText(value, name.unit);
+        }
     }
     return table;
 }

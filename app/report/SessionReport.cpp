@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/report/NumberText.h"
+#include "app/report/Report.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto {
@@ -247,6 +248,13 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     model.duration_s = toSeconds(last);
     if (auto filled = fillVerdict(*reader, model, *events); !filled) return failure(filled);
     return model;
+}
+
+Result<void> writeSessionReport(const QString& sessionFile, const QString& path) {
+    if (const auto format = reportFormat(path); !format) return failure(format);
+    const auto model = readSessionReport(sessionFile.toStdString());
+    if (!model) return failure(model);
+    return writeReport(*model, path);
 }
 
 }  // namespace tacto

@@ -71,6 +71,11 @@ QSharedPointer<QCPAxisTicker> labelTicker(const QStringList& labels) {
     return ticker;
 }
 
+/// The table below the figure has the whole text.
+QString shortened(const QString& text, const QFont& font, double width) {
+    return QFontMetricsF(font).elidedText(text, Qt::ElideRight, width);
+}
+
 QColor shade(double share) {
     // White to a deep blue in one hue, so that grey print keeps the order.
     const auto mix = [&](int light, int dark) { return static_cast<int>(light + (dark - light) * share); };
@@ -143,13 +148,13 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     const auto rows = static_cast<int>(figure.rows.size());
     auto sheet = std::make_unique<PlotSheet>(kSheetWidth, rows * kRow + 52, simulated);
     auto* axes = sheet->addAxes(0, 0);
-    axes->setMinimumMargins(QMargins(4, 6, 190, 4));
+    axes->setMinimumMargins(QMargins(4, 6, 4, 4));
     sheet->watermark(axes);
     auto* share = axes->axis(QCPAxis::atBottom);
     auto* names = axes->axis(QCPAxis::atLeft);
     QStringList labels;
     for (const auto& row : figure.rows) {
-        labels << (row.source.isEmpty() ? row.name : row.name + " · " + row.source);
+        labels << shortened(row.source.isEmpty() ? row.name : row.name + " · " + row.source, textFont(10), 230);
     }
     names->setTicker(labelTicker(labels));
     names->setRange(-0.6, rows - 0.4);
@@ -168,11 +173,13 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     limit->end->setCoords(100, rows - 0.4);
     limit->setPen(QPen(ink::kText, 1.2));
 
+    double widest = 0;
     for (int i = 0; i < rows; ++i) {
         const auto& row = figure.rows[static_cast<std::size_t>(i)];
         const auto beside = [&](const QString& text) {
-            auto* note = addText(*sheet, axes, QPointF(100 * kReach, i), "  " + text, Qt::AlignLeft | Qt::AlignVCenter);
-            return note;
+            const QString brief = shortened("  " + text, textFont(10, true), 250);
+            widest = std::max(widest, QFontMetricsF(textFont(10, true)).horizontalAdvance(brief));
+            return addText(*sheet, axes, QPointF(100 * kReach, i), brief, Qt::AlignLeft | Qt::AlignVCenter);
         };
         const bool evaluated = std::isfinite(row.value);
         if (!evaluated) {
@@ -195,6 +202,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
         if (over) text += row.warning ? ": attention" : ": over the limit";
         beside(text)->setFont(textFont(10, over));
     }
+    axes->setMinimumMargins(QMargins(4, 6, static_cast<int>(widest) + 8, 4));
     return sheet;
 }
 

@@ -75,7 +75,7 @@ double addTrains(QCPAxisRect* axes, QCPLegend* legend, const TimelineFigure& fig
     if (!refused.isEmpty()) {
         auto* crosses = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         crosses->setLineStyle(QCPGraph::lsNone);
-        crosses->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, QPen(ink::kText, 1.2), 6));
+        crosses->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, QPen(ink::kText, 1.2), Qt::NoBrush, 6));
         crosses->setName("train refused");
         if (refused.size() > static_cast<qsizetype>(kStretches)) {
             const auto step = refused.size() / static_cast<qsizetype>(kStretches) + 1;
@@ -164,6 +164,8 @@ std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simul
         axes->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
     }
     addFaults(*sheet, plots, figure);
+    PlotSheet::fitLegend(upperLegend);
+    PlotSheet::fitLegend(lowerLegend);
     return sheet;
 }
 
