@@ -1,5 +1,6 @@
 #include "core/encoding/EncodingProfile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -59,15 +60,10 @@ std::string_view nameOf(Assignment assignment) noexcept {
 double Curve::at(double x, double from, double to) const noexcept {
     if (x <= 0) return from;
     if (x >= 1) return to;
-    switch (kind) {
-        case CurveKind::Logarithmic:
-            return from * std::pow(to / from, x);
-        case CurveKind::Power:
-            return from + (to - from) * std::pow(x, 1 / beta);
-        case CurveKind::Linear:
-            break;
-    }
-    return from + x * (to - from);
+    double y = from + x * (to - from);
+    if (kind == CurveKind::Logarithmic) y = from * std::pow(to / from, x);
+    if (kind == CurveKind::Power) y = from + (to - from) * std::pow(x, 1 / beta);
+    return std::clamp(y, std::min(from, to), std::max(from, to));  // never beyond an end by a last bit
 }
 
 std::vector<Condition> EncodingProfile::fourConditions(double low, double high) {

@@ -28,7 +28,9 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
 
     const bool current = isCurrent(wanted.amplitude);
     const double amplitude = std::visit([](auto a) { return a.value(); }, wanted.amplitude);
-    const double amplitudeSet = towardZero(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep);
+    // The outer minimum: a multiple of a step that is not exact in binary may lie a last bit above the range.
+    const double amplitudeSet =
+        std::min(towardZero(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep), grid.amplitudeMax);
     const char* unit = current ? "mA" : "V";
     result.amplitude = shrunk(amplitude, amplitudeSet);
     if (tooFar(result.amplitude)) {
@@ -45,7 +47,8 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
     }
 
     const double width = wanted.phaseWidth.count();
-    const double widthSet = towardZero(std::min(width, grid.widthMax.count()), grid.widthStep.count());
+    const double widthMax = grid.widthMax.count();
+    const double widthSet = std::min(towardZero(std::min(width, widthMax), grid.widthStep.count()), widthMax);
     result.phaseWidth = shrunk(width, widthSet);
     if (tooFar(result.phaseWidth) || !(widthSet >= grid.widthMin.count() * (1 - 1e-9))) {
         return fail(

@@ -71,8 +71,9 @@ Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const 
     }
     const Encoder encoder(profile);
     TransitionReport report;
-    const auto keepLargest = [](TransitionStep& largest, const TransitionStep& step) {
-        if (step.largest() > largest.largest()) largest = step;
+    const auto keepLargest = [](LargestSteps& largest, const TransitionStep& step) {
+        if (step.amplitude > largest.amplitude.amplitude) largest.amplitude = step;
+        if (step.interval > largest.interval.interval) largest.interval = step;
     };
     Walk walk(encoder);
     for (const bool alongR : {true, false}) {
@@ -84,7 +85,7 @@ Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const 
                 const double moving = std::clamp(phase <= 1 ? phase : 2 - phase, 0.0, 1.0);
                 walk.step(alongR ? moving : fixed, alongR ? fixed : moving, [&](const TransitionStep& step) {
                     report.steps.push_back(step);
-                    keepLargest(report.largestGradual, step);
+                    keepLargest(report.gradual, step);
                 });
             }
         }
@@ -96,8 +97,7 @@ Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const 
                     walk.rest(fromR, fromP);
                     const Instant end = toInstant(profile.intervalMax * kTrainsAfterJump);
                     while (walk.elapsed() < end) {
-                        walk.step(toR, toP,
-                                  [&](const TransitionStep& step) { keepLargest(report.largestAbrupt, step); });
+                        walk.step(toR, toP, [&](const TransitionStep& step) { keepLargest(report.abrupt, step); });
                     }
                 }
             }

@@ -6,6 +6,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/encoding/Encoder.h"
@@ -32,13 +33,20 @@ struct TransitionStep {
     Command to;
     double amplitude = 0;  ///< just-noticeable differences
     double interval = 0;
-    [[nodiscard]] double largest() const noexcept { return amplitude > interval ? amplitude : interval; }
+};
+
+/// The worst steps found, each axis for itself.
+struct LargestSteps {
+    TransitionStep amplitude;
+    TransitionStep interval;
+    /// Just-noticeable differences, the worse axis.
+    [[nodiscard]] double largest() const noexcept { return std::max(amplitude.amplitude, interval.interval); }
 };
 
 struct TransitionReport {
     std::vector<TransitionStep> steps;  ///< of the gradual sweep, in order
-    TransitionStep largestGradual;      ///< of `steps`
-    TransitionStep largestAbrupt;       ///< when R and P jump between any two corners of the plane
+    LargestSteps gradual;               ///< of `steps`
+    LargestSteps abrupt;                ///< when R and P jump between any two corners of the plane
 };
 
 /// Moves along every line of the plane and back while trains go out as the scheduler has them (pulled forward, slew

@@ -1,0 +1,50 @@
+// What the control loop calls for every train must not allocate: counted by this program's own operator new.
+#include <atomic>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <new>
+
+#include "core/encoding/Encoder.h"
+#include "core/encoding/Rounding.h"
+#include "core/encoding/TrainScheduler.h"
+#include "core/encoding/Waveform.h"
+
+#ifndef TACTOSCOPE_SANITIZED  // the sanitizers bring their own operator new
+
+extern std::atomic<long> allocations;  // CountingNew.cpp
+
+namespace tacto {
+namespace {
+
+TEST(EncodingInTheLoop, DoesNotAllocate) {
+    EncodingProfile profile;
+    profile.amplitudeSlew_V_per_s = 50;
+    profile.intervalRatioPerTrain = 1.3;
+    const Encoder encoder(profile);
+    const DeviceGrid grid{0.5, 60, Micros(10), Micros(20), Micros(4000), 100};
+    TrainScheduler scheduler;
+    scheduler.start(Instant(0), Seconds(1));
+    Command last = *encoder.encode(0.5, 0.5);
+    std::vector<double> samples(2000);
+    double sum = 0;
+    const long before = allocations;
+    for (int step = 0; step < 1000; ++step) {
+        const Instant now = std::chrono::milliseconds(step);
+        const auto wanted = encoder.encode(step / 1000.0, 1 - step / 1000.0);
+        const Command next = encoder.limited(last, *wanted, Seconds(0.5));
+        scheduler.setInterval(next.interval, now);
+        if (scheduler.isDue(now)) scheduler.trainAt(now);
+        const auto train = trainFor(Drive::Current, profile, next.amplitude, Ohms(1000));
+        const auto rounded = roundToDevice(*train, grid);
+        if (synthesize(rounded->train, Hertz(1e5), samples)) sum += samples[0];
+        last = next;
+    }
+    const long after = allocations;
+    EXPECT_EQ(after - before, 0);
+    EXPECT_GT(sum, 0);
+}
+
+}  // namespace
+}  // namespace tacto
+
+#endif
