@@ -17,17 +17,17 @@
 namespace tacto::sim {
 
 enum class Fault {
-    Unplug,    ///< every call fails with Device; a sensor sends nothing more
-    Stale,     ///< no new data, no error
-    Dropout,   ///< packets are lost
-    Nan,       ///< values are not numbers
-    Garbage,   ///< replies fail their check
-    Drift,     ///< values or output wander off
-    Stuck,     ///< values stand still while stamps go on
-    StuckOn,   ///< output does not end by itself
-    Open,      ///< electrode lifted
-    Short,     ///< electrodes touch
-    Late,      ///< replies take longer than anyone waits
+    Unplug,   ///< every call fails with Device; a sensor sends nothing more
+    Stale,    ///< no new data, no error
+    Dropout,  ///< packets are lost
+    Nan,      ///< values are not numbers
+    Garbage,  ///< replies fail their check
+    Drift,    ///< values or output wander off
+    Stuck,    ///< values stand still while stamps go on
+    StuckOn,  ///< output does not end by itself
+    Open,     ///< electrode lifted
+    Short,    ///< electrodes touch
+    Late,     ///< replies take longer than anyone waits
 };
 [[nodiscard]] std::string_view nameOf(Fault fault) noexcept;  // "unplug", "stuck-on", ...
 

@@ -1,0 +1,119 @@
+#include "drivers/simulated/DeviceSettings.h"
+
+#include <cmath>
+
+#include "drivers/simulated/UriParameters.h"
+
+namespace tacto::sim {
+
+Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
+    UriParameters from(uri);
+    FingerAndSensor out;
+    auto& finger = out.finger;
+    auto& sensor = out.sensor;
+    if (const auto material = from.text("material")) {
+        if (findMaterial(*material) == nullptr) from.refuse("material", *material, "one of " + materialNames());
+        finger.material = *material;
+    }
+    finger.speed = MillimetresPerSecond(from.quantity("speed", "mm/s", finger.speed.value(), 0, 1000));
+    finger.force = Newtons(from.quantity("force", "N", finger.force.value(), 0, 20));
+    finger.stroke = Seconds(from.quantity("stroke", "s", finger.stroke.count(), 0.1, 3600));
+    finger.lift = Seconds(from.quantity("lift", "s", finger.lift.count(), 0, 3600));
+    finger.tremor = from.quantity("tremor", "", finger.tremor, 0, 5);
+    finger.resonance = Hertz(from.quantity("resonance", "Hz", finger.resonance.value(), 50, 800));
+    finger.damping = from.quantity("damping", "", finger.damping, 0.05, 2);
+    finger.gratingPeriod = Millimetres(from.quantity("grating", "m", 0, 50e-6, 10e-3) * 1e3);
+    finger.gratingDepth = Micrometres(from.quantity("depth", "m", 50e-6, 0, 1e-3) * 1e6);
+    sensor.rate_hz = from.quantity("rate", "Hz", sensor.rate_hz, 100, 20'000);
+    sensor.slowRate_hz = from.quantity("taxelrate", "Hz", sensor.slowRate_hz, 10, 2000);
+    const double ratio = sensor.rate_hz / sensor.slowRate_hz;
+    if (!(ratio >= 1) || std::abs(ratio - std::round(ratio)) > 1e-9) {
+        from.refuse("rate", fmt::format("{:g}Hz", sensor.rate_hz),
+                    fmt::format("a whole multiple of the taxels' {:g} Hz (taxelrate)", sensor.slowRate_hz));
+    }
+    sensor.bits = from.integer("bits", sensor.bits, 8, 24);
+    sensor.range_g = from.quantity("range", "g", sensor.range_g, 2, 200);
+    sensor.noise_m_s2 = from.quantity("noise", "m/s2", sensor.noise_m_s2, 0, 10);
+    sensor.taxelNoise_Pa = from.quantity("taxelnoise", "Pa", sensor.taxelNoise_Pa, 0, 1e4);
+    sensor.forceNoise_N = from.quantity("forcenoise", "N", sensor.forceNoise_N, 0, 1);
+    sensor.dropouts = from.quantity("dropouts", "", 0, 0, 0.9);
+    sensor.faults = from.faults({Fault::Unplug, Fault::Stale, Fault::Dropout, Fault::Nan, Fault::Garbage, Fault::Drift,
+                                 Fault::Stuck, Fault::Late});
+    if (const auto read = from.finish(); !read) return failure(read);
+    finger.seed = sensor.seed = seed;
+    finger.tickRate_hz = sensor.rate_hz * SimulatedSensor::ticksPerSample(sensor.rate_hz);
+    return out;
+}
+
+Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t seed) {
+    UriParameters from(uri);
+    StimulatorAndLoad out;
+    auto& settings = out.stimulator;
+    auto& traits = settings.traits;
+    const bool current = from.choice("mode", "voltage", {"voltage", "current"}) == "current";
+    const std::string_view unit = current ? "A" : "V";
+    const double scale = current ? 1e3 : 1;  // traits count mA
+    traits.drive = current ? Drive::Current : Drive::Voltage;
+    traits.amplitudeMax = from.quantity("max", unit, current ? 0.13 : 100, 0, current ? 1 : 500) * scale;
+    traits.amplitudeStep = from.quantity("step", unit, current ? 1e-4 : 0.05, 0, current ? 0.01 : 10) * scale;
+    traits.compliance = Volts(from.quantity("compliance", "V", current ? 150 : 100, 1, 500));
+    traits.currentLimit = Milliamps(from.quantity("limit", "A", current ? 0.15 : 1, 1e-3, 10) * 1e3);
+    const bool zero = from.choice("gap", current ? "highz" : "zero", {"zero", "highz"}) == "zero";
+    traits.gap = zero ? GapState::HoldsZero : GapState::HighImpedance;
+    traits.deadMan = Seconds(from.quantity("deadman", "s", 2, 0, 60));
+    traits.readsBack = from.choice("readback", "yes", {"yes", "no"}) == "yes";
+    settings.gain = from.quantity("gain", "", 1, 0.1, 10);
+    settings.offset = from.quantity("offset", unit, 0, current ? -0.01 : -10, current ? 0.01 : 10);
+    settings.imbalance = from.quantity("imbalance", "", 0, -1, 1);
+    settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
+    settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));
+    settings.jitter = Seconds(from.quantity("jitter", "s", settings.jitter.count(), 0, 0.01));
+    settings.readBackNoise = from.quantity("readbacknoise", "", settings.readBackNoise, 0, 1);
+    if (const auto text = from.text("load")) {
+        const auto load = parseLoad(*text);
+        if (load) {
+            out.load = *load;
+        } else {
+            from.refuse("load", *text, load.error().message);
+        }
+    }
+    settings.faults = from.faults({Fault::Unplug, Fault::StuckOn, Fault::Open, Fault::Short, Fault::Drift,
+                                   Fault::Garbage, Fault::Late, Fault::Nan});
+    if (const auto read = from.finish(); !read) return failure(read);
+    settings.seed = seed;
+    return out;
+}
+
+Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed) {
+    UriParameters from(uri);
+    ScopeAndFlaws out;
+    out.traits.maxRate = Hertz(from.quantity("rate", "Hz", 10e6, 1e3, 10e6));
+    out.traits.memoryDepth = static_cast<std::size_t>(from.integer("memory", 1'000'000, 1000, 10'000'000));
+    out.traits.bits = from.integer("bits", 12, 6, 16);
+    out.traits.bandwidth = Hertz(from.quantity("bandwidth", "Hz", 20e6, 1e3, 1e9));
+    auto& flaws = out.flaws;
+    flaws.noise = from.quantity("noise", "", flaws.noise, 0, 0.1);
+    flaws.gain = from.quantity("gain", "", 1, 0.5, 2);
+    flaws.offset = from.quantity("offset", "V", 0, -10, 10);
+    flaws.currentGain = from.quantity("currentgain", "", 1, 0.5, 2);
+    flaws.currentOffset = from.quantity("currentoffset", "A", 0, -1, 1);
+    flaws.gainTolerance = from.quantity("gaintolerance", "", flaws.gainTolerance, 0, 0.5);
+    flaws.offsetTolerance = from.quantity("offsettolerance", "", flaws.offsetTolerance, 0, 0.5);
+    flaws.faults = from.faults({Fault::Unplug, Fault::Garbage, Fault::Late, Fault::Stale, Fault::Nan});
+    if (const auto read = from.finish(); !read) return failure(read);
+    flaws.seed = seed;
+    return out;
+}
+
+Result<MassagerSettings> readMassager(const DeviceUri& uri) {
+    UriParameters from(uri);
+    MassagerSettings settings;
+    settings.spinUp = Seconds(from.quantity("spinup", "s", settings.spinUp.count(), 1e-3, 1));
+    settings.topFrequency = Hertz(from.quantity("frequency", "Hz", settings.topFrequency.value(), 10, 1000));
+    settings.topAcceleration_m_s2 = from.quantity("acceleration", "m/s2", settings.topAcceleration_m_s2, 0.1, 200);
+    settings.faults = from.faults({Fault::Unplug, Fault::StuckOn, Fault::Late});
+    if (const auto read = from.finish(); !read) return failure(read);
+    return settings;
+}
+
+}  // namespace tacto::sim

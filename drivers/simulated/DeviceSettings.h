@@ -1,0 +1,39 @@
+// DeviceSettings.h - what each simulated device's URI may say, read and checked.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/Result.h"
+#include "core/devices/DeviceUri.h"
+#include "core/electrode/Load.h"
+#include "drivers/simulated/Finger.h"
+#include "drivers/simulated/SimulatedMassager.h"
+#include "drivers/simulated/SimulatedOscilloscope.h"
+#include "drivers/simulated/SimulatedSensor.h"
+#include "drivers/simulated/SimulatedStimulator.h"
+
+namespace tacto::sim {
+
+struct FingerAndSensor {
+    FingerSettings finger;
+    SensorSettings sensor;
+};
+struct StimulatorAndLoad {
+    StimulatorSettings stimulator;
+    std::optional<Load> load;  ///< as `load=` says
+};
+struct ScopeAndFlaws {
+    ScopeTraits traits;
+    ScopeFlaws flaws;
+};
+
+/// Errors, all four: InvalidArgument naming the key, its value and what is accepted.
+[[nodiscard]] Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed);
+[[nodiscard]] Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t seed);
+[[nodiscard]] Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed);
+[[nodiscard]] Result<MassagerSettings> readMassager(const DeviceUri& uri);
+
+}  // namespace tacto::sim

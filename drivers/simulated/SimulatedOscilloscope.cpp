@@ -1,0 +1,152 @@
+#include "drivers/simulated/SimulatedOscilloscope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tacto::sim {
+
+SimulatedOscilloscope::SimulatedOscilloscope(DeviceIdentity identity, std::shared_ptr<World> world,
+                                             const ScopeTraits& traits, const ScopeFlaws& flaws)
+    : identity_(std::move(identity)),
+      world_(std::move(world)),
+      traits_(traits),
+      flaws_(flaws),
+      noise_(flaws.seed, "oscilloscope noise") {
+    wanted_.sampleRate = std::min(wanted_.sampleRate, traits_.maxRate);
+    wanted_.samples = std::min(wanted_.samples, traits_.memoryDepth);
+    settings_ = wanted_;
+}
+
+Result<void> SimulatedOscilloscope::answers(Instant now) const {
+    if (flaws_.faults.active(Fault::Unplug, now)) {
+        return fail(ErrorCode::Device, "the simulated oscilloscope is unplugged");
+    }
+    if (flaws_.faults.active(Fault::Garbage, now)) {
+        return fail(ErrorCode::Device, "the simulated oscilloscope answered with garbage: not a waveform block");
+    }
+    if (flaws_.faults.active(Fault::Late, now)) {
+        return fail(ErrorCode::Timeout, "the simulated oscilloscope did not answer in time");
+    }
+    return {};
+}
+
+Result<void> SimulatedOscilloscope::configure(const ScopeSettings& settings) {
+    if (const auto reply = answers(world_->clock().now()); !reply) return reply;
+    const double rate = settings.sampleRate.value();
+    if (!(rate >= 100) || !(rate <= traits_.maxRate.value())) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope sample rate {} Hz: 100 to {} Hz", rate,
+                    traits_.maxRate.value());
+    }
+    if (settings.samples < 2 || settings.samples > traits_.memoryDepth) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope record of {} samples: 2 to {}", settings.samples,
+                    traits_.memoryDepth);
+    }
+    if (!(settings.preTrigger >= 0) || !(settings.preTrigger <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope pre-trigger {}: 0 to 1", settings.preTrigger);
+    }
+    const double volts = settings.voltageRange.value();
+    const double amps = settings.currentRange.value() * 1e-3;
+    if (!(volts > 0) || !(volts <= 1000)) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope voltage range {} V: above 0, at most 1000 V", volts);
+    }
+    if (!(amps > 0) || !(amps <= 1000)) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope current range {} A: above 0, at most 1000 A", amps);
+    }
+    const double range = settings.triggerOnCurrent ? amps : volts;
+    if (!(settings.triggerLevel > 0) || !(settings.triggerLevel <= range)) {
+        return fail(ErrorCode::InvalidArgument, "oscilloscope trigger level {} {}: above 0, at most the range of {}",
+                    settings.triggerLevel, settings.triggerOnCurrent ? "A" : "V", range);
+    }
+    wanted_ = settings;
+    return {};
+}
+
+Result<void> SimulatedOscilloscope::arm() {
+    const Instant now = world_->clock().now();
+    if (const auto reply = answers(now); !reply) return reply;
+    settings_ = wanted_;
+    trigger_s_.reset();
+    armed_ = true;
+    searchFrom_s_ = toSeconds(now);
+    return {};
+}
+
+std::optional<double> SimulatedOscilloscope::findTrigger(const std::deque<PlayedPulse>& pulses) const {
+    const auto channel = settings_.triggerOnCurrent ? FilteredTrace::Channel::Current : FilteredTrace::Channel::Voltage;
+    const double bandwidth = traits_.bandwidth.value();
+    // One pulse at a time, so that a long wait with many pulses costs no more than the next trigger.
+    for (std::size_t i = 0; i < pulses.size(); ++i) {
+        const double next = i + 1 < pulses.size() ? pulses[i + 1].onset_s : pulses[i].end_s + 1;
+        if (next <= searchFrom_s_) continue;
+        const double from = std::max(searchFrom_s_, pulses[i].onset_s - 1e-6);
+        const FilteredTrace trace(pulses, channel, bandwidth, from, next);
+        if (const auto found = trace.risesThrough(settings_.triggerLevel, from); found && *found < next) return found;
+    }
+    return std::nullopt;
+}
+
+Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
+    const Instant now = world_->clock().now();
+    if (const auto reply = answers(now); !reply) return failure(reply);
+    if (!armed_ || flaws_.faults.active(Fault::Stale, now)) return std::optional<Capture>();
+    return world_->circuit().inspect(now, [&](const std::deque<PlayedPulse>& pulses) -> std::optional<Capture> {
+        const double length = static_cast<double>(settings_.samples) / settings_.sampleRate.value();
+        if (!trigger_s_) trigger_s_ = findTrigger(pulses);
+        if (!trigger_s_ || *trigger_s_ + (1 - settings_.preTrigger) * length > toSeconds(now)) return std::nullopt;
+        Capture capture = render(pulses, *trigger_s_);
+        searchFrom_s_ = *trigger_s_ + (1 - settings_.preTrigger) * length;
+        trigger_s_.reset();
+        if (flaws_.faults.active(Fault::Nan, now)) {
+            for (auto& channel : capture.channels) {
+                std::fill(channel.samples.begin(), channel.samples.end(), std::numeric_limits<float>::quiet_NaN());
+            }
+        }
+        return capture;
+    });
+}
+
+Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, double trigger_s) {
+    const double rate = settings_.sampleRate.value();
+    const double before = settings_.preTrigger * static_cast<double>(settings_.samples);
+    Capture capture;
+    capture.rate_hz = rate;
+    capture.start_s = std::ceil(trigger_s * rate - before) / rate;  // the sample clock's own grid
+    capture.trigger_s = trigger_s;
+    capture.simulated = true;
+    const double end = capture.start_s + static_cast<double>(settings_.samples) / rate;
+    const double bandwidth = traits_.bandwidth.value();
+    const auto add = [&](const char* name, const char* unit, double range, FilteredTrace::Channel which, double gain,
+                         double offset) {
+        auto& channel = capture.channels.emplace_back();
+        channel.name = name;
+        channel.unit = unit;
+        channel.high = range;
+        channel.low = -range;
+        channel.lsb = 2 * range / std::pow(2.0, traits_.bits);
+        channel.gainTolerance = flaws_.gainTolerance;
+        channel.offsetTolerance = flaws_.offsetTolerance * range;
+        digitise(channel, FilteredTrace(pulses, which, bandwidth, capture.start_s, end), capture.start_s, gain, offset);
+    };
+    add("voltage", "V", settings_.voltageRange.value(), FilteredTrace::Channel::Voltage, flaws_.gain, flaws_.offset);
+    add("current", "A", settings_.currentRange.value() * 1e-3, FilteredTrace::Channel::Current, flaws_.currentGain,
+        flaws_.currentOffset);
+    return capture;
+}
+
+void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain,
+                                     double offset) {
+    buffer_.resize(settings_.samples);
+    trace.sample(start_s, 1 / settings_.sampleRate.value(), buffer_);
+    channel.samples.resize(settings_.samples);
+    const double noise = flaws_.noise * channel.high;
+    const double perLsb = 1 / channel.lsb;
+    for (std::size_t k = 0; k < buffer_.size(); ++k) {
+        const double seen = gain * buffer_[k] + offset + noise * noise_.normal();
+        const double bounded = std::clamp(seen, channel.low, channel.high);
+        const auto code = static_cast<std::int64_t>(bounded * perLsb + (bounded < 0 ? -0.5 : 0.5));
+        channel.samples[k] = static_cast<float>(static_cast<double>(code) * channel.lsb);
+    }
+}
+
+}  // namespace tacto::sim

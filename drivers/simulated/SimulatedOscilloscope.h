@@ -1,0 +1,64 @@
+// SimulatedOscilloscope.h - two channels on the simulated load: the voltage across it and the current through a shunt.
+//
+// Nothing is sampled between triggers. A capture is rendered from the circuit's exact pieces, each passed through the
+// instrument's first-order bandwidth in closed form too, then given gain and offset error, noise and quantisation, and
+// clipped at the range. The sample clock runs freely: a trigger falls anywhere between two samples, and its time stamp
+// is exact, as an instrument's trigger interpolator makes it.
+//
+// Thread-safety: as Oscilloscope.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/devices/Oscilloscope.h"
+#include "drivers/simulated/FastNoise.h"
+#include "drivers/simulated/FaultSchedule.h"
+#include "drivers/simulated/FilteredTrace.h"
+#include "drivers/simulated/World.h"
+
+namespace tacto::sim {
+
+struct ScopeFlaws {
+    double noise = 1e-4;                        ///< r.m.s., of the range
+    double gain = 1, offset = 0;                ///< of the voltage channel; offset in V
+    double currentGain = 1, currentOffset = 0;  ///< offset in A
+    double gainTolerance = 0.005;               ///< what its data sheet states
+    double offsetTolerance = 0.001;             ///< of the range
+    FaultSchedule faults;
+    std::uint64_t seed = 1;
+};
+
+class SimulatedOscilloscope final : public Oscilloscope, public WorldMember {
+public:
+    SimulatedOscilloscope(DeviceIdentity identity, std::shared_ptr<World> world, const ScopeTraits& traits,
+                          const ScopeFlaws& flaws);
+
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
+    [[nodiscard]] const ScopeTraits& traits() const noexcept override { return traits_; }
+    [[nodiscard]] Result<void> configure(const ScopeSettings& settings) override;
+    [[nodiscard]] Result<void> arm() override;
+    [[nodiscard]] Result<std::optional<Capture>> poll() override;
+    void disarm() noexcept override { armed_ = false; }
+    [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
+
+private:
+    [[nodiscard]] Result<void> answers(Instant now) const;
+    [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
+    [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double trigger_s);
+    void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset);
+
+    const DeviceIdentity identity_;
+    const std::shared_ptr<World> world_;
+    const ScopeTraits traits_;
+    const ScopeFlaws flaws_;
+    ScopeSettings wanted_, settings_;
+    FastNoise noise_;
+    bool armed_ = false;
+    double searchFrom_s_ = 0;  // triggers before this are over
+    std::optional<double> trigger_s_;
+    std::vector<double> buffer_;
+};
+
+}  // namespace tacto::sim

@@ -1,0 +1,72 @@
+// SimulatedStimulator.h - a voltage or current source with the flaws of a real one: gain and offset error, DAC steps,
+// finite rise time, compliance and current limit, latency and timing jitter, charge imbalance, a dead-man switch, and a
+// read-back that measures with its own noise.
+//
+// Ramps are placed so that width at 50 % and charge stay those asked for: each phase begins to rise at its onset and to
+// fall one phase width later, into the gap.
+//
+// Thread-safety: as Stimulator; forceOff() is lock-free.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "core/devices/Stimulator.h"
+#include "drivers/simulated/FastNoise.h"
+#include "drivers/simulated/FaultSchedule.h"
+#include "drivers/simulated/World.h"
+
+namespace tacto::sim {
+
+struct StimulatorSettings {
+    SourceTraits traits;
+    double gain = 1;
+    double offset = 0;             ///< V or A added to the magnitude of every phase
+    double imbalance = 0;          ///< the second phase is weaker by this fraction
+    Seconds rise{100e-9};          ///< 0 to 100 % of an edge
+    Seconds latency{200e-6};       ///< from the command to the onset
+    Seconds jitter{2e-6};          ///< of the onset, s.d.
+    double readBackNoise = 0.002;  ///< relative, s.d.
+    FaultSchedule faults;
+    std::uint64_t seed = 1;
+};
+
+class SimulatedStimulator final : public Stimulator, public RepeatingStimulator, public WorldMember {
+public:
+    static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
+    static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMostDrift
+    static constexpr double kMostDrift = 0.5;
+
+    SimulatedStimulator(DeviceIdentity identity, std::shared_ptr<World> world, const StimulatorSettings& settings);
+    ~SimulatedStimulator() override { forceOff(); }
+    SimulatedStimulator(const SimulatedStimulator&) = delete;
+    SimulatedStimulator& operator=(const SimulatedStimulator&) = delete;
+
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
+    [[nodiscard]] const SourceTraits& traits() const noexcept override { return settings_.traits; }
+    /// Refuses, besides what Stimulator says, a train outside its range, in the other source's unit, expired, or while
+    /// another is in progress.
+    [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
+    [[nodiscard]] Result<void> repeat(ApprovedTrain&& train, Seconds interval) override;
+    [[nodiscard]] Result<StimulatorStatus> status() override;
+    [[nodiscard]] Result<void> keepAlive() override;
+    void forceOff() noexcept override;
+    [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
+
+    /// What this source makes of `train` at `now`, before any load: pure but for drift.
+    [[nodiscard]] DrivenPulse drivenPulse(const PulseTrain& train, Instant now) const;
+
+private:
+    [[nodiscard]] Result<void> start(const ApprovedTrain& approved, Seconds repeatEvery);
+    [[nodiscard]] Result<void> accepts(const PulseTrain& train) const;
+    [[nodiscard]] Result<void> answers(Instant now) const;
+    [[nodiscard]] Instant allowedUntil(Instant now) const noexcept;
+
+    const DeviceIdentity identity_;
+    const std::shared_ptr<World> world_;
+    const StimulatorSettings settings_;
+    FastNoise timing_, meter_;
+    std::atomic<std::uint64_t> offs_{0};  // counts forceOff(), so that a train in flight notices one
+};
+
+}  // namespace tacto::sim

@@ -1,0 +1,131 @@
+#include "drivers/simulated/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/simulated/FastNoise.h"
+
+namespace tacto::sim {
+
+namespace {
+// How skin meets a surface. Lengths in metres.
+constexpr double kPatch = 2e-3;            // a fingerprint ridge's contact along the path: asperities average over it
+constexpr double kFollow = 100e-6;         // the pulp bridges relief deeper than this
+constexpr double kCorneum = 2e-6;          // the stratum corneum conforms to finer relief than this
+constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses evenly
+constexpr double kRidge = 60e-6;           // contact of one asperity with a ridge: low-pass in space
+constexpr double kTaxelSide = 5e-3;
+constexpr double kBearingFraction = 0.05;  // of the summits carry the load
+constexpr double kMostUneven = 0.75;       // a taxel's pressure never falls to nothing while the finger presses
+
+double metres(Micrometres length) { return length.value() * 1e-6; }
+double rms(Micrometres ra) { return metres(ra) * std::sqrt(std::numbers::pi / 2); }  // Gaussian profile
+
+/// A first-order recursion run once around the table to settle, then once more: periodic without a seam.
+template <class Input>
+void runAround(std::vector<float>& table, double keep, const Input& input) {
+    double state = 0;
+    const std::size_t settle = std::min(table.size(), static_cast<std::size_t>(30 / (1 - keep)) + 1);
+    for (std::size_t i = table.size() - settle; i < table.size(); ++i) state = keep * state + input(i);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        state = keep * state + input(i);
+        table[i] = static_cast<float>(state);
+    }
+}
+}  // namespace
+
+Surface::Surface(const Material& material, std::uint64_t seed)
+    : material_(material), height_(kCells), contact_(kCells), bearing_(kBearingCells) {
+    makeProfile(seed);
+    makeContact();
+    makeBearing(seed);
+    const double rq = rms(material.ra);
+    flicker_ = rq / (rq + kCorneum);
+}
+
+void Surface::makeProfile(std::uint64_t seed) {
+    FastNoise noise(seed, material_.name);
+    std::vector<float> white(kCells);
+    for (auto& w : white) w = static_cast<float>(noise.normal());
+    const double keep = std::exp(-kCell_m / metres(material_.correlationLength));
+    runAround(height_, keep, [&](std::size_t i) { return static_cast<double>(white[i]); });
+    const double depth = metres(material_.gratingDepth) / 2;
+    if (depth > 0) {
+        // The random part takes what the grating leaves of the stated Rq.
+        const double gratingRms = depth / std::numbers::sqrt2;
+        const double random = std::sqrt(std::max(0.0, rms(material_.ra) * rms(material_.ra) - gratingRms * gratingRms));
+        const double scale = random * std::sqrt(1 - keep * keep);
+        const double total = static_cast<double>(kCells) * kCell_m;
+        const double waves = std::round(total / (material_.gratingPeriod.value() * 1e-3));
+        for (std::size_t i = 0; i < kCells; ++i) {
+            const double phase = 2 * std::numbers::pi * waves * static_cast<double>(i) / static_cast<double>(kCells);
+            height_[i] = static_cast<float>(scale * static_cast<double>(height_[i]) + depth * std::sin(phase));
+        }
+    }
+    double mean = 0;
+    for (const float z : height_) mean += static_cast<double>(z);
+    mean /= static_cast<double>(kCells);
+    double deviation = 0;
+    for (const float z : height_) deviation += std::abs(static_cast<double>(z) - mean);
+    const double scale = metres(material_.ra) * static_cast<double>(kCells) / deviation;
+    for (float& z : height_) z = static_cast<float>((static_cast<double>(z) - mean) * scale);
+}
+
+void Surface::makeContact() {
+    const double rq = rms(material_.ra);
+    const double along = metres(material_.asperitySpacing) / kPatch;  // 1/sqrt(N) of N = (patch / spacing)²
+    const double gain = std::min(1.0, along) * kFollow / (kFollow + rq);
+    const double keep = std::exp(-kCell_m / kRidge);
+    runAround(contact_, keep, [&](std::size_t i) { return (1 - keep) * gain * static_cast<double>(height_[i]); });
+}
+
+void Surface::makeBearing(std::uint64_t seed) {
+    // N summits carry the load under a taxel, a Poisson number: its pressure deviates by 1/sqrt(N), as far as the
+    // relief is deeper than the skin over the array can even out. A taxel bears on a summit or bridges a valley, so
+    // the deviation is bounded on both sides.
+    const double spacing = metres(material_.asperitySpacing);
+    const double rq = rms(material_.ra);
+    const double summits = kBearingFraction * kTaxelSide * kTaxelSide / (spacing * spacing);
+    const double amount = std::min(kMostUneven, rq / (rq + kTaxelCompliance) / std::sqrt(summits));
+    FastNoise noise(seed, "summits under taxels");
+    std::vector<float> white(kBearingCells);
+    for (auto& w : white) w = static_cast<float>(noise.normal());
+    const double keep = std::exp(-kBearingCell_m / (kTaxelSide / 2));
+    runAround(bearing_, keep, [&](std::size_t i) { return static_cast<double>(white[i]); });
+    double square = 0;
+    for (float& b : bearing_) {
+        b = static_cast<float>(std::tanh(2.0 * static_cast<double>(b) * std::sqrt(1 - keep * keep)));
+        square += static_cast<double>(b) * static_cast<double>(b);
+    }
+    const double scale = amount / std::sqrt(square / static_cast<double>(kBearingCells));
+    for (float& b : bearing_) b = static_cast<float>(static_cast<double>(b) * scale);
+}
+
+Micrometres Surface::ra() const noexcept {
+    double sum = 0;
+    for (const float z : height_) sum += std::abs(static_cast<double>(z));
+    return Micrometres(sum / static_cast<double>(kCells) * 1e6);
+}
+
+Micrometres Surface::rz() const noexcept {
+    // Five consecutive sampling lengths of 8 mm, as ISO 4288 prescribes for Ra above 10 µm.
+    constexpr std::size_t kSampling = 1600;
+    double sum = 0;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const auto begin = height_.begin() + static_cast<std::ptrdiff_t>(k * kSampling);
+        const auto [low, high] = std::minmax_element(begin, begin + static_cast<std::ptrdiff_t>(kSampling));
+        sum += static_cast<double>(*high - *low);
+    }
+    return Micrometres(sum / 5 * 1e6);
+}
+
+Millimetres Surface::length() const noexcept { return Millimetres(static_cast<double>(kCells) * kCell_m * 1e3); }
+
+double Surface::bearing(std::size_t track, double x_m) const noexcept {
+    // Tracks lie side by side: far apart in the one table, so that they are unrelated.
+    const double lateral = static_cast<double>(track * (kBearingCells / 8) + track * track * 37);
+    return lookUp(bearing_, x_m / kBearingCell_m + lateral);
+}
+
+}  // namespace tacto::sim

@@ -1,0 +1,63 @@
+// World.h - what the simulated devices of one bench have in common: the clock, the circuit between stimulator, load
+// and oscilloscope, and the finger. Lives as long as any of them.
+//
+// Thread-safety: const after opening; the circuit and the finger have their own rules.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/Clock.h"
+#include "core/devices/Oscilloscope.h"
+#include "core/devices/TactileSensor.h"
+#include "drivers/simulated/Finger.h"
+#include "drivers/simulated/SimulatedCircuit.h"
+
+namespace tacto::sim {
+
+class World {
+public:
+    World(const Clock& clock, std::uint64_t seed) : clock_(clock), seed_(seed) {}
+
+    [[nodiscard]] const Clock& clock() const noexcept { return clock_; }
+    [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
+    [[nodiscard]] SimulatedCircuit& circuit() noexcept { return circuit_; }
+
+private:
+    const Clock& clock_;
+    const std::uint64_t seed_;
+    SimulatedCircuit circuit_;
+};
+
+/// Implemented by every simulated device, so that one opened later finds the world of those before it.
+class WorldMember {
+public:
+    virtual ~WorldMember() = default;
+    [[nodiscard]] virtual const std::shared_ptr<World>& world() const noexcept = 0;
+};
+
+/// Fits loads into the world's circuit.
+class CircuitFitter final : public LoadFitter {
+public:
+    explicit CircuitFitter(std::shared_ptr<World> world) : world_(std::move(world)) {}
+    [[nodiscard]] Result<void> fitLoad(std::string_view load) override;
+
+private:
+    const std::shared_ptr<World> world_;
+};
+
+/// Puts surfaces under the world's finger.
+class FingerPresenter final : public SurfacePresenter {
+public:
+    FingerPresenter(std::shared_ptr<World> world, std::shared_ptr<Finger> finger)
+        : world_(std::move(world)), finger_(std::move(finger)) {}
+    [[nodiscard]] Result<void> present(std::string_view material, MillimetresPerSecond speed, Newtons force) override {
+        return finger_->present(material, speed, force, world_->clock().now());
+    }
+
+private:
+    const std::shared_ptr<World> world_;
+    const std::shared_ptr<Finger> finger_;
+};
+
+}  // namespace tacto::sim
