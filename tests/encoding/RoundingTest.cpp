@@ -106,10 +106,12 @@ RC_GTEST_PROP(RoundToDevice, NeverAddsAndNeverTakesMoreThanTenPercent, ()) {
     DeviceGrid grid{*rc::gen::inRange(0, 300) / 100.0,    *rc::gen::inRange(1, 1000) / 10.0,
                     Micros(*rc::gen::inRange(0, 50)),     Micros(*rc::gen::inRange(1, 100)),
                     Micros(*rc::gen::inRange(100, 5000)), *rc::gen::inRange(1, 50)};
-    PulseTrain wanted = volts(*rc::gen::inRange(0, 100'000) / 997.0);
-    wanted.phaseWidth = Micros(*rc::gen::inRange(1, 40'000) / 9.7);
+    // Mostly within the device's range, sometimes just beyond it.
+    const auto share = [] { return *rc::gen::inRange(1, 1080) / 1000.0; };
+    PulseTrain wanted = volts(grid.amplitudeMax * share());
+    wanted.phaseWidth = grid.widthMax * share();
     wanted.interPhaseGap = Micros(*rc::gen::inRange(0, 10'000) / 9.7);
-    wanted.pulses = *rc::gen::inRange(1, 60);
+    wanted.pulses = *rc::gen::inRange(1, grid.pulsesMax + 3);
     wanted.rate = Hertz(10);
     const auto rounded = roundToDevice(wanted, grid);
     RC_CLASSIFY(rounded.has_value(), "delivered");
