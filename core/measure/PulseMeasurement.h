@@ -78,9 +78,9 @@ struct TrainMeasurement {
 
 /// How pulses are told apart and grouped. Without a rate or a gap each pulse is its own train.
 struct MeasureOptions {
-    std::optional<Hertz> intraTrainRate;  ///< pulses whose onsets are at most 1.5 / rate apart form one train
-    std::optional<Seconds> trainGap;      ///< or at most this far apart, onset to onset; wins over the rate
-    Seconds interPhaseGapMax{1e-3};       ///< opposite phases at most this far apart form one pulse
+    std::optional<Hertz> intraTrainRate{};  ///< pulses whose onsets are at most 1.5 / rate apart form one train
+    std::optional<Seconds> trainGap{};      ///< or at most this far apart, onset to onset; wins over the rate
+    Seconds interPhaseGapMax{1e-3};         ///< opposite phases at most this far apart form one pulse
 };
 
 /// Standard uncertainties (k = 1) of one reading, from what the channel declares and the record shows.

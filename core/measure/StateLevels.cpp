@@ -89,11 +89,10 @@ struct Histogram {
         noiseReach = std::max(halfWindow, static_cast<std::size_t>(std::ceil(5 * noise / width)));
         for (const float x : samples) {
             if (!std::isfinite(x)) continue;
-            const double position =
-                std::clamp((static_cast<double>(x) - low) / width, 0.0, static_cast<double>(kBins - 1));
-            const auto bin = static_cast<std::size_t>(position);
+            const double value = std::clamp(static_cast<double>(x), range.trimmedLow, range.trimmedHigh);
+            const auto bin = std::min(kBins - 1, static_cast<std::size_t>((value - low) / width));
             count[bin] += 1;
-            sum[bin] += static_cast<double>(x);
+            sum[bin] += value;
         }
     }
 
