@@ -19,9 +19,9 @@ using Digest = std::array<unsigned char, 32>;
 [[nodiscard]] std::string sha256Hex(std::string_view bytes);
 [[nodiscard]] Digest sha256(std::string_view bytes);
 
-/// BLAKE2b with 32 bytes of output over `head` followed by `parts`. Used for bulk data because libsodium's runs
+/// BLAKE2b with 32 bytes of output over `parts` one after the other. Used for bulk data because libsodium's runs
 /// several times faster than its SHA-256; the chain that binds these digests is SHA-256.
-[[nodiscard]] Digest bulkDigest(std::string_view head, std::span<const std::span<const std::byte>> parts);
+[[nodiscard]] Digest bulkDigest(std::span<const std::span<const std::byte>> parts);
 
 /// CRC-32 (zlib's) of `parts` one after the other.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::span<const std::byte>> parts);

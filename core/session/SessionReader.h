@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/acquisition/Stream.h"
 #include "core/base/Result.h"
+#include "core/base/Stream.h"
 #include "core/measure/Capture.h"
 #include "core/session/SessionTypes.h"
 
@@ -22,8 +22,8 @@ namespace tacto {
 
 class SessionReader {
 public:
-    /// Errors: NotFound; ParseError for a file that is not a session, is damaged beyond opening, or was made by a newer
-    /// program; Io.
+    /// Errors: NotFound; Unsupported for a file that is not a session or was made by a newer program; ParseError for
+    /// one that is damaged beyond opening; Io.
     [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path);
     SessionReader(SessionReader&&) noexcept;
     SessionReader& operator=(SessionReader&&) noexcept;

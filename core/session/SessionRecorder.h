@@ -17,8 +17,8 @@
 #include <span>
 #include <string_view>
 
-#include "core/acquisition/Stream.h"
 #include "core/base/Result.h"
+#include "core/base/Stream.h"
 #include "core/base/Units.h"
 
 namespace tacto {

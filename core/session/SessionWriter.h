@@ -22,9 +22,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/acquisition/Stream.h"
 #include "core/base/Clock.h"
 #include "core/base/Result.h"
+#include "core/base/Stream.h"
 #include "core/measure/Capture.h"
 #include "core/session/SessionTypes.h"
 

@@ -1,0 +1,64 @@
+#include "core/session/Digest.h"
+
+#include <sodium.h>
+#include <zlib.h>
+
+namespace tacto {
+
+static_assert(std::tuple_size_v<Digest> == crypto_hash_sha256_BYTES);
+
+namespace {
+
+const unsigned char* bytesOf(std::string_view text) noexcept {
+    return reinterpret_cast<const unsigned char*>(text.data());
+}
+
+/// Picks libsodium's fastest implementations once; the hash functions work without it, only slower.
+void startSodium() noexcept {
+    static const int started = sodium_init();
+    static_cast<void>(started);
+}
+
+}  // namespace
+
+Digest sha256(std::string_view bytes) {
+    Digest digest;
+    crypto_hash_sha256(digest.data(), bytesOf(bytes), bytes.size());
+    return digest;
+}
+
+std::string sha256Hex(std::string_view bytes) { return hexText(sha256(bytes)); }
+
+Digest bulkDigest(std::span<const std::span<const std::byte>> parts) {
+    startSodium();
+    crypto_generichash_state state;
+    crypto_generichash_init(&state, nullptr, 0, std::tuple_size_v<Digest>);
+    for (const auto part : parts) {
+        crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+    }
+    Digest digest;
+    crypto_generichash_final(&state, digest.data(), digest.size());
+    return digest;
+}
+
+std::uint32_t crc32(std::span<const std::span<const std::byte>> parts) {
+    uLong crc = ::crc32(0, nullptr, 0);
+    for (const auto part : parts) {
+        if (part.empty()) continue;  // zlib takes a null pointer for "start anew"
+        crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
+    }
+    return static_cast<std::uint32_t>(crc);
+}
+
+std::string hexText(const Digest& digest) {
+    static constexpr char kDigits[] = "0123456789abcdef";
+    std::string text;
+    text.reserve(digest.size() * 2);
+    for (const unsigned char byte : digest) {
+        text += kDigits[byte >> 4];
+        text += kDigits[byte & 15];
+    }
+    return text;
+}
+
+}  // namespace tacto

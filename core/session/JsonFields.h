@@ -1,0 +1,26 @@
+// JsonFields.h - fields of a JSON object that may be missing or of another type: rows of a damaged file are read too.
+//
+// Thread-safety: pure functions. No exception whatever the JSON.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto {
+
+[[nodiscard]] std::string textOr(const nlohmann::json& object, const char* key);
+/// NaN where there is no number: null is how NaN is written.
+[[nodiscard]] double numberOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] std::uint64_t countOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] bool flagOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] std::vector<std::string> textsOr(const nlohmann::json& object, const char* key);
+/// null where there is none.
+[[nodiscard]] nlohmann::json valueOr(const nlohmann::json& object, const char* key);
+
+/// One line; bytes that are not UTF-8 become U+FFFD instead of an exception.
+[[nodiscard]] std::string lineOf(const nlohmann::json& json);
+
+}  // namespace tacto

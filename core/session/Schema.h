@@ -1,0 +1,51 @@
+// Schema.h - the tables of a session file and how older ones are brought up to date.
+//
+// Everything is a row of `entries`, in the order it was written, linked by hashes (Chain.h). Sample chunks and captures
+// keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people with
+// another SQLite program. Triggers refuse changes and deletions: by accident nobody alters a session.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/Result.h"
+#include "core/session/Database.h"
+
+namespace tacto {
+
+inline constexpr std::uint32_t kApplicationId = 0x54414354;  ///< "TACT"
+inline constexpr int kSchemaVersion = 1;
+
+/// The kinds of `entries` rows.
+namespace kind {
+inline constexpr const char* kAbout = "about";
+inline constexpr const char* kStream = "stream";
+inline constexpr const char* kChunk = "chunk";
+inline constexpr const char* kEvent = "event";
+inline constexpr const char* kCommand = "command";
+inline constexpr const char* kTrial = "trial";
+inline constexpr const char* kCapture = "capture";
+inline constexpr const char* kMeasurement = "measurement";
+inline constexpr const char* kReport = "report";
+inline constexpr const char* kVerdict = "verdict";
+inline constexpr const char* kLog = "log";
+inline constexpr const char* kEnd = "end";
+}  // namespace kind
+
+/// Statements that lead from schema `from` to `from + 1`.
+struct Migration {
+    int from;
+    const char* sql;
+};
+
+/// The steps from version 1 to kSchemaVersion. Empty while there is one version.
+[[nodiscard]] std::span<const Migration> migrations() noexcept;
+
+/// Makes the tables, views and triggers of kSchemaVersion and sets both ids.
+[[nodiscard]] Result<void> createSchema(Database& database);
+
+/// Runs `steps` in order until the database has version `target`; each step whole or not at all.
+/// Errors: ParseError naming both versions when it is newer than `target` or a step is missing; Io.
+[[nodiscard]] Result<void> migrate(Database& database, std::span<const Migration> steps, int target);
+
+}  // namespace tacto

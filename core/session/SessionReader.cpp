@@ -1,0 +1,243 @@
+#include "core/session/SessionReader.h"
+
+#include <limits>
+
+#include "core/session/AboutJson.h"
+#include "core/session/CaptureBlob.h"
+#include "core/session/Chunk.h"
+#include "core/session/Digest.h"
+#include "core/session/JsonFields.h"
+#include "core/session/Schema.h"
+#include "core/session/SessionSource.h"
+
+namespace tacto {
+
+namespace {
+
+Result<nlohmann::json> parsed(std::string_view text, std::int64_t seq) {
+    auto json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_discarded()) return fail(ErrorCode::ParseError, "row {} of the session is not JSON: '{}'", seq, text);
+    return json;
+}
+
+std::string hexOf(std::span<const std::byte> bytes) {
+    std::string text;
+    for (const std::byte byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned>(byte));
+    return text;
+}
+
+}  // namespace
+
+struct SessionReader::State {
+    explicit State(SessionSource opened) : source(std::move(opened)) {}
+    SessionSource source;
+    SessionAbout about;
+    std::string head;
+    bool closed = false;
+
+    /// Calls `visit(const SessionRow&)` for every row of a kind.
+    template <class Visit>
+    [[nodiscard]] Result<void> forEach(const char* kind, Visit visit) const {
+        auto rows = source.database().prepare("SELECT seq, t_ns, name, body FROM entries WHERE kind=? ORDER BY seq");
+        if (!rows) return failure(rows);
+        rows->bind(1, std::string_view(kind));
+        for (;;) {
+            auto more = rows->step();
+            if (!more) return failure(more);
+            if (!*more) return {};
+            auto body = parsed(rows->text(3), rows->integer(0));
+            if (!body) return failure(body);
+            visit(
+                SessionRow{rows->integer(0), Instant(rows->integer(1)), std::string(rows->text(2)), std::move(*body)});
+        }
+    }
+
+    [[nodiscard]] Result<std::vector<SessionRow>> rows(const char* kind) const {
+        std::vector<SessionRow> rows;
+        auto read = forEach(kind, [&](SessionRow row) { rows.push_back(std::move(row)); });
+        if (!read) return failure(read);
+        return rows;
+    }
+
+    [[nodiscard]] Result<void> forEachChunk(
+        const SessionStreamInfo& info, const char* order,
+        const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit) const {
+        auto rows = source.database().prepare(
+            fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
+                        "WHERE c.stream=? ORDER BY c.idx {}",
+                        order));
+        if (!rows) return failure(rows);
+        rows->bind(1, std::int64_t{info.id});
+        SampleBlock block;
+        for (;;) {
+            auto more = rows->step();
+            if (!more) return failure(more);
+            if (!*more) return {};
+            const auto chunk = parseChunkHead(rows->text(1));
+            if (!chunk) return failure(chunk);
+            auto unpacked = unpackChunk(*chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
+            if (!unpacked) return unpacked;
+            if (!visit(*chunk, block)) return {};
+        }
+    }
+
+    [[nodiscard]] Result<std::vector<SessionStreamInfo>> declared() const {
+        std::vector<SessionStreamInfo> streams;
+        auto read = forEach(kind::kStream, [&](const SessionRow& row) {
+            streams.push_back({static_cast<int>(streams.size()) + 1, streamFrom(row.body), 0,
+                               std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()});
+        });
+        if (!read) return failure(read);
+        for (const auto& each : streams) {
+            if (each.stream.columns.empty()) {
+                return fail(ErrorCode::ParseError, "stream '{}' has no columns", each.stream.name);
+            }
+        }
+        return streams;
+    }
+
+    [[nodiscard]] Result<SessionStreamInfo> stream(int id) const {
+        auto streams = declared();
+        if (!streams) return failure(streams);
+        if (id < 1 || static_cast<std::size_t>(id) > streams->size()) {
+            return fail(ErrorCode::NotFound, "there is no stream {}; the session has {}", id, streams->size());
+        }
+        return std::move((*streams)[static_cast<std::size_t>(id) - 1]);
+    }
+};
+
+SessionReader::SessionReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionReader::SessionReader(SessionReader&&) noexcept = default;
+SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
+SessionReader::~SessionReader() = default;
+
+Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
+    auto source = SessionSource::open(path);
+    if (!source) return failure(source);
+    auto state = std::make_unique<State>(std::move(*source));
+    bool found = false;
+    auto about = state->forEach(kind::kAbout, [&](const SessionRow& row) {
+        if (!found) state->about = aboutFrom(row.body);
+        found = true;
+    });
+    if (!about) return failure(about);
+    if (!found) return fail(ErrorCode::ParseError, "{} is damaged: its first row is missing", path.string());
+    auto last = state->source.database().prepare("SELECT hash, kind FROM entries ORDER BY seq DESC LIMIT 1");
+    if (!last) return failure(last);
+    if (auto row = last->step(); !row) return failure(row);
+    state->head = hexOf(last->blob(0));
+    state->closed = last->text(1) == kind::kEnd;
+    return SessionReader(std::move(state));
+}
+
+const SessionAbout& SessionReader::about() const noexcept { return state_->about; }
+bool SessionReader::closed() const noexcept { return state_->closed; }
+const std::string& SessionReader::chainHead() const noexcept { return state_->head; }
+
+Result<std::vector<SessionRow>> SessionReader::events() const { return state_->rows(kind::kEvent); }
+Result<std::vector<SessionRow>> SessionReader::commands() const { return state_->rows(kind::kCommand); }
+Result<std::vector<SessionRow>> SessionReader::measurements() const { return state_->rows(kind::kMeasurement); }
+Result<std::vector<SessionRow>> SessionReader::log() const { return state_->rows(kind::kLog); }
+Result<std::vector<SessionRow>> SessionReader::reportItems() const { return state_->rows(kind::kReport); }
+
+Result<std::vector<SessionTrial>> SessionReader::trials() const {
+    std::vector<SessionTrial> trials;
+    auto read = state_->forEach(kind::kTrial, [&](const SessionRow& row) {
+        trials.push_back(
+            {row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name, valueOr(row.body, "measured")});
+    });
+    if (!read) return failure(read);
+    return trials;
+}
+
+Result<std::vector<SessionVerdict>> SessionReader::verdicts() const {
+    std::vector<SessionVerdict> verdicts;
+    auto read = state_->forEach(kind::kVerdict, [&](const SessionRow& row) {
+        verdicts.push_back({row.seq, row.at, row.name, textOr(row.body, "verdict"), textsOr(row.body, "reasons"),
+                            valueOr(row.body, "results")});
+    });
+    if (!read) return failure(read);
+    return verdicts;
+}
+
+Result<std::vector<SessionCaptureInfo>> SessionReader::captures() const {
+    std::vector<SessionCaptureInfo> captures;
+    auto read = state_->forEach(kind::kCapture, [&](const SessionRow& row) {
+        SessionCaptureInfo info;
+        info.seq = row.seq;
+        info.at = row.at;
+        if (const auto trial = countOr(row.body, "trial"); trial != 0) info.trial = static_cast<int>(trial);
+        info.rate_hz = numberOr(row.body, "rate_hz");
+        info.samples = countOr(row.body, "samples");
+        info.simulated = flagOr(row.body, "simulated");
+        for (const auto& channel : valueOr(row.body, "channels")) info.channels.push_back(textOr(channel, "name"));
+        captures.push_back(std::move(info));
+    });
+    if (!read) return failure(read);
+    return captures;
+}
+
+Result<Capture> SessionReader::capture(std::int64_t seq) const {
+    auto rows = state_->source.database().prepare(
+        "SELECT e.body, c.data FROM captures c JOIN entries e ON e.seq = c.seq WHERE c.seq=?");
+    if (!rows) return failure(rows);
+    rows->bind(1, seq);
+    auto found = rows->step();
+    if (!found) return failure(found);
+    if (!*found) return fail(ErrorCode::NotFound, "row {} of the session is not a capture", seq);
+    const auto body = parsed(rows->text(0), seq);
+    if (!body) return failure(body);
+    return unpackCapture(*body, rows->blob(1));
+}
+
+Result<std::vector<SessionStreamInfo>> SessionReader::streams() const {
+    auto streams = state_->declared();
+    if (!streams) return streams;
+    for (auto& info : *streams) {
+        auto first = state_->forEachChunk(info, "ASC", [&](const ChunkHead&, const SampleBlock& block) {
+            if (block.samples() > 0) info.first_s = block.t_s.front();
+            return false;
+        });
+        if (!first) return failure(first);
+        auto last = state_->forEachChunk(info, "DESC", [&](const ChunkHead& head, const SampleBlock& block) {
+            if (block.samples() > 0) info.last_s = block.t_s.back();
+            info.samples = head.firstSample + head.samples;
+            return false;
+        });
+        if (!last) return failure(last);
+    }
+    return streams;
+}
+
+Result<SampleBlock> SessionReader::samples(int stream) const {
+    SampleBlock all;
+    auto read = forEachChunk(stream, [&](const SampleBlock& block) {
+        all.t_s.insert(all.t_s.end(), block.t_s.begin(), block.t_s.end());
+        all.values.insert(all.values.end(), block.values.begin(), block.values.end());
+        return true;
+    });
+    if (!read) return failure(read);
+    return all;
+}
+
+Result<void> SessionReader::forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const {
+    const auto info = state_->stream(stream);
+    if (!info) return failure(info);
+    return state_->forEachChunk(*info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block); });
+}
+
+Result<std::string> SessionReader::reproducibleText() const {
+    std::string text = lineOf(reproducible(state_->about)) + "\n";
+    auto rows = state_->source.database().prepare(
+        "SELECT seq, kind, t_ns, name, body, digest FROM entries WHERE kind<>'about' ORDER BY seq");
+    if (!rows) return failure(rows);
+    for (;;) {
+        auto more = rows->step();
+        if (!more) return failure(more);
+        if (!*more) return text;
+        text += fmt::format("{} {} {} {} {} {}\n", rows->integer(0), rows->text(1), rows->integer(2), rows->text(3),
+                            rows->text(4), hexOf(rows->blob(5)));
+    }
+}
+
+}  // namespace tacto

@@ -1,0 +1,120 @@
+#include "core/session/SessionSource.h"
+
+#include <array>
+#include <fstream>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include "core/session/Schema.h"
+
+namespace tacto {
+
+namespace {
+
+std::filesystem::path beside(std::filesystem::path path, const char* suffix) { return path += suffix; }
+
+std::string uriOf(const std::filesystem::path& path, const char* query) {
+    std::string uri = "file:";
+    for (const char c : std::filesystem::absolute(path).string()) {
+        if (c == '?' || c == '#' || c == '%') {
+            uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+        } else {
+            uri += c;
+        }
+    }
+    return uri + "?" + query;
+}
+
+/// Whether the first page says "SQLite, made by Tactoscope", for a file that SQLite itself will not open.
+bool looksLikeSession(const std::filesystem::path& path) {
+    std::array<char, 72> head{};
+    std::ifstream file(path, std::ios::binary);
+    if (!file.read(head.data(), head.size())) return false;
+    std::uint32_t id = 0;
+    for (std::size_t i = 68; i < 72; ++i) id = id << 8 | static_cast<unsigned char>(head[i]);
+    return std::string_view(head.data(), 15) == "SQLite format 3" && id == kApplicationId;
+}
+
+tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string_view reason) {
+    return fail(ErrorCode::Unsupported, "{} is not a Tactoscope session: {}", path.string(), reason);
+}
+
+}  // namespace
+
+SessionSource::PrivateFolder::~PrivateFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+}
+
+Result<SessionSource> SessionSource::openInPlace(const std::filesystem::path& path, const char* mode) {
+    auto database = Database::open(uriOf(path, mode), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+    if (!database) return failure(database);
+    if (auto set = database->execute("PRAGMA busy_timeout=2000"); !set) return failure(set);
+    // The first read: this is where a damaged file or a journal without access shows.
+    if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
+    return SessionSource(std::move(*database));
+}
+
+Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path) {
+    std::error_code error;
+    std::string pattern = (std::filesystem::temp_directory_path(error) / "tactoscope-read-XXXXXX").string();
+    if (error || ::mkdtemp(pattern.data()) == nullptr) {
+        return fail(ErrorCode::Io, "no temporary folder for reading {}", path.string());
+    }
+    auto folder = std::make_shared<PrivateFolder>(PrivateFolder{pattern});
+    const auto copy = folder->path / "session.tacto";
+    std::filesystem::copy_file(path, copy, error);
+    if (!error && std::filesystem::exists(beside(path, "-wal"))) {
+        std::filesystem::copy_file(beside(path, "-wal"), beside(copy, "-wal"), error);
+    }
+    if (error) return fail(ErrorCode::Io, "{} cannot be copied for reading: {}", path.string(), error.message());
+    auto database = Database::open(copy.string(), SQLITE_OPEN_READWRITE);
+    if (!database) return failure(database);
+    if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
+    if (auto migrated = migrate(*database, migrations(), kSchemaVersion); !migrated) return failure(migrated);
+    SessionSource source(std::move(*database));
+    source.copy_ = std::move(folder);
+    return source;
+}
+
+Result<SessionSource> SessionSource::open(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) return fail(ErrorCode::NotFound, "there is no file {}", path.string());
+    if (!std::filesystem::is_regular_file(path, error)) return refuse(path, "it is not a file");
+    if (std::filesystem::file_size(path, error) == 0) return refuse(path, "it is empty");
+
+    const bool journal = std::filesystem::exists(beside(path, "-wal"), error);
+    const bool index = std::filesystem::exists(beside(path, "-shm"), error);
+    auto source = !journal ? openInPlace(path, "immutable=1") : index ? openInPlace(path, "mode=ro") : openCopy(path);
+    if (!source && source.error().code == ErrorCode::Io && journal && index) source = openCopy(path);
+    if (!source) {
+        if (source.error().code != ErrorCode::ParseError) {
+            return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), source.error().message);
+        }
+        if (!looksLikeSession(path)) return refuse(path, source.error().message);
+        return fail(ErrorCode::ParseError, "{} is damaged: {}", path.string(), source.error().message);
+    }
+
+    const auto id = source->database().number("PRAGMA application_id");
+    if (!id) return failure(id);
+    if (static_cast<std::uint32_t>(*id) != kApplicationId) {
+        return refuse(path, fmt::format("it is a database of another program (application id {})", *id));
+    }
+    const auto version = source->database().number("PRAGMA user_version");
+    if (!version) return failure(version);
+    if (*version != kSchemaVersion) {
+        if (*version < kSchemaVersion) source = openCopy(path);
+        if (*version > kSchemaVersion || !source) {
+            return fail(ErrorCode::Unsupported, "{} cannot be read: {}", path.string(),
+                        *version > kSchemaVersion
+                            ? fmt::format("it has session format {}, made by a newer Tactoscope; this program reads up "
+                                          "to {}",
+                                          *version, kSchemaVersion)
+                            : source.error().message);
+        }
+    }
+    source->hadJournal_ = journal && std::filesystem::file_size(beside(path, "-wal"), error) > 32;
+    return source;
+}
+
+}  // namespace tacto

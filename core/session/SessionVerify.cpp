@@ -1,0 +1,301 @@
+#include "core/session/SessionVerify.h"
+
+#include <algorithm>
+
+#include "core/session/AboutJson.h"
+#include "core/session/CaptureBlob.h"
+#include "core/session/Chain.h"
+#include "core/session/Chunk.h"
+#include "core/session/HashWorker.h"
+#include "core/session/JsonFields.h"
+#include "core/session/Schema.h"
+#include "core/session/SessionSource.h"
+#include "core/session/WalScan.h"
+
+namespace tacto {
+
+namespace {
+
+/// Enough to see what happened; a broken first row would otherwise give a sentence for every row after it.
+constexpr std::size_t kMostProblems = 40;
+
+std::optional<Digest> digestFrom(std::span<const std::byte> bytes) {
+    Digest digest;
+    if (bytes.size() != digest.size()) return std::nullopt;
+    std::transform(bytes.begin(), bytes.end(), digest.begin(),
+                   [](std::byte b) { return static_cast<unsigned char>(b); });
+    return digest;
+}
+
+struct StreamSeen {
+    std::string name;
+    std::size_t columns;
+    std::int64_t nextIndex = 0;
+    std::uint64_t nextSample = 0;
+};
+
+/// One pass over the rows, in the order they were written.
+class Inspection {
+public:
+    Inspection(const Database& database, VerifyReport& report) : database_(database), report_(report) {}
+
+    [[nodiscard]] Result<void> run() {
+        if (auto done = checkPages(); !done) return done;
+        if (auto done = checkSchema(); !done) return done;
+        if (auto done = checkRows(); !done) return done;
+        return checkOrphans();
+    }
+
+    template <class... Args>
+    void problem(fmt::format_string<Args...> text, Args&&... args) {
+        ++found_;
+        if (report_.problems.size() < kMostProblems) {
+            report_.problems.push_back(fmt::format(text, std::forward<Args>(args)...));
+        }
+    }
+    [[nodiscard]] std::size_t found() const noexcept { return found_; }
+
+private:
+    [[nodiscard]] Result<void> checkPages() {
+        auto lines = database_.prepare("PRAGMA integrity_check(20)");
+        if (!lines) return failure(lines);
+        for (;;) {
+            auto more = lines->step();
+            if (!more) return failure(more);
+            if (!*more) return {};
+            if (lines->text(0) != "ok") problem("the database is damaged: {}", lines->text(0));
+        }
+    }
+
+    /// An altered trigger or view is not a row, and still not what was recorded.
+    [[nodiscard]] Result<void> checkSchema() {
+        static constexpr const char* kObjects =
+            "SELECT coalesce(group_concat(sql, char(10)), '') FROM "
+            "(SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY name)";
+        auto fresh = Database::open(":memory:", 0x6 /* SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE */);
+        if (!fresh) return failure(fresh);
+        if (auto made = createSchema(*fresh); !made) return made;
+        auto wanted = fresh->prepare(kObjects);
+        auto actual = database_.prepare(kObjects);
+        if (!wanted) return failure(wanted);
+        if (!actual) return failure(actual);
+        auto first = wanted->step();
+        auto second = actual->step();
+        if (!first) return failure(first);
+        if (!second) return failure(second);
+        if (wanted->text(0) != actual->text(0)) problem("the tables, views or triggers are not those of a session");
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkRows() {
+        auto rows =
+            database_.prepare("SELECT seq, kind, t_ns, name, body, digest, prev, hash FROM entries ORDER BY seq");
+        if (!rows) return failure(rows);
+        auto chunk = database_.prepare("SELECT stream, idx, stamps, data FROM chunks WHERE seq=?");
+        if (!chunk) return failure(chunk);
+        auto capture = database_.prepare("SELECT data FROM captures WHERE seq=?");
+        if (!capture) return failure(capture);
+        Digest previous{};
+        std::string lastKind;
+        std::int64_t expected = 1;
+        for (;;) {
+            auto more = rows->step();
+            if (!more) return failure(more);
+            if (!*more) break;
+            const Entry entry{rows->integer(0), rows->text(1), rows->integer(2),
+                              rows->text(3),    rows->text(4), digestFrom(rows->blob(5))};
+            if (entry.seq == expected + 1) problem("row {} is missing", expected);
+            if (entry.seq > expected + 1) problem("rows {} to {} are missing", expected, entry.seq - 1);
+            expected = entry.seq + 1;
+            if (report_.rows == 0 && entry.kind != kind::kAbout) problem("the first row does not say what was used");
+            if (lastKind == kind::kEnd) problem("row {} ({}) comes after the end mark", entry.seq, entry.kind);
+            const auto stored = digestFrom(rows->blob(7));
+            if (digestFrom(rows->blob(6)) != previous) {
+                problem("row {} ({}) does not continue the hash chain", entry.seq, entry.kind);
+            }
+            const Digest hash = chainHash(previous, entry);
+            if (stored != hash)
+                problem("row {} ({} {}) was altered: its hash is wrong", entry.seq, entry.kind, entry.name);
+            // Go on from what is stored, so that one altered row is one problem.
+            previous = stored.value_or(hash);
+            const auto body = nlohmann::json::parse(entry.body, nullptr, false);
+            if (body.is_discarded()) problem("row {} ({}) is not JSON", entry.seq, entry.kind);
+            if (auto done = checkKind(entry, body, *chunk, *capture); !done) return done;
+            ++report_.rows;
+            lastKind = entry.kind;
+        }
+        if (report_.rows == 0) problem("the session has no rows");
+        report_.head = hexText(previous);
+        report_.closed = lastKind == kind::kEnd;
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkKind(const Entry& entry, const nlohmann::json& body, Statement& chunk,
+                                         Statement& capture) {
+        if (entry.kind == kind::kStream) {
+            const auto stream = streamFrom(body);
+            streams_.push_back({stream.name, stream.columns.size()});
+        } else if (entry.kind == kind::kEvent) {
+            ++report_.events;
+        } else if (entry.kind == kind::kVerdict) {
+            ++report_.verdicts;
+        } else if (entry.kind == kind::kTrial) {
+            ++report_.trials;
+            if (countOr(body, "number") != report_.trials) {
+                problem("row {} is trial {} where trial {} belongs", entry.seq, countOr(body, "number"),
+                        report_.trials);
+            }
+        } else if (entry.kind == kind::kChunk) {
+            ++report_.chunks;
+            return checkChunk(entry, chunk);
+        } else if (entry.kind == kind::kCapture) {
+            ++report_.captures;
+            return checkCapture(entry, body, capture);
+        } else if (entry.kind == kind::kEnd) {
+            if (countOr(body, "rows") != report_.rows + 1 || countOr(body, "trials") != report_.trials) {
+                problem("the end mark counts {} rows and {} trials; there are {} and {}", countOr(body, "rows"),
+                        countOr(body, "trials"), report_.rows + 1, report_.trials);
+            }
+        }
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkChunk(const Entry& entry, Statement& row) {
+        const auto head = parseChunkHead(entry.body);
+        if (!head) {
+            problem("row {}: {}", entry.seq, head.error().message);
+            return {};
+        }
+        if (head->stream < 1 || static_cast<std::size_t>(head->stream) > streams_.size()) {
+            problem("row {} holds samples of stream {}, which is not declared", entry.seq, head->stream);
+            return {};
+        }
+        auto& stream = streams_[static_cast<std::size_t>(head->stream) - 1];
+        const auto name = fmt::format("chunk {} of stream '{}' (samples {} to {})", head->index, stream.name,
+                                      head->firstSample, head->firstSample + head->samples - 1);
+        if (head->index != stream.nextIndex || head->firstSample != stream.nextSample) {
+            problem("{} follows chunk {} and sample {}: samples are missing", name, stream.nextIndex - 1,
+                    stream.nextSample);
+        }
+        stream.nextIndex = head->index + 1;
+        stream.nextSample = head->firstSample + head->samples;
+        report_.samples += head->samples;
+
+        row.reset();
+        row.bind(1, entry.seq);
+        auto there = row.step();
+        if (!there) return failure(there);
+        if (!*there) {
+            problem("the samples of {} are missing", name);
+            return {};
+        }
+        if (row.integer(0) != head->stream || row.integer(1) != head->index ||
+            row.isNull(2) != head->line.has_value()) {
+            problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
+        }
+        const std::span<const std::byte> parts[] = {row.blob(2), row.blob(3)};
+        const auto checks = checksOf(parts);
+        if (checks.crc != head->crc) problem("{} does not match its CRC-32", name);
+        if (entry.digest != checks.digest) problem("the samples of {} were altered: their hash is wrong", name);
+        if (stream.columns == 0) return {};
+        if (auto unpacked = unpackChunk(*head, stream.columns, parts[0], parts[1], scratch_); !unpacked) {
+            problem("row {}: {}", entry.seq, unpacked.error().message);
+        }
+        return {};
+    }
+
+    [[nodiscard]] Result<void> checkCapture(const Entry& entry, const nlohmann::json& body, Statement& row) {
+        if (countOr(body, "trial") > report_.trials) {
+            problem("capture {} belongs to trial {}, which is missing", entry.seq, countOr(body, "trial"));
+        }
+        row.reset();
+        row.bind(1, entry.seq);
+        auto there = row.step();
+        if (!there) return failure(there);
+        if (!*there) {
+            problem("the samples of capture {} are missing", entry.seq);
+            return {};
+        }
+        const std::span<const std::byte> parts[] = {row.blob(0)};
+        const auto checks = checksOf(parts);
+        if (checks.crc != countOr(body, "crc32")) problem("capture {} does not match its CRC-32", entry.seq);
+        if (entry.digest != checks.digest) problem("capture {} was altered: its hash is wrong", entry.seq);
+        if (auto unpacked = unpackCapture(body, parts[0]); !unpacked) {
+            problem("capture {}: {}", entry.seq, unpacked.error().message);
+        }
+        return {};
+    }
+
+    /// Bulk that no row speaks of: put there afterwards.
+    [[nodiscard]] Result<void> checkOrphans() {
+        for (const char* table : {"chunk", "capture"}) {
+            const auto count = database_.number(fmt::format(
+                "SELECT count(*) FROM {0}s WHERE seq NOT IN (SELECT seq FROM entries WHERE kind='{0}')", table));
+            if (!count) return failure(count);
+            if (*count != 0) problem("{} {}s belong to no row", *count, table);
+        }
+        return {};
+    }
+
+    const Database& database_;
+    VerifyReport& report_;
+    std::vector<StreamSeen> streams_;
+    SampleBlock scratch_;
+    std::size_t found_ = 0;
+};
+
+}  // namespace
+
+std::string_view nameOf(SessionStatus status) noexcept {
+    switch (status) {
+        case SessionStatus::Intact:
+            return "intact";
+        case SessionStatus::Damaged:
+            return "damaged";
+        case SessionStatus::NotASession:
+            return "not a session";
+    }
+    return "not a session";
+}
+
+Result<VerifyReport> verifySession(const std::filesystem::path& path) {
+    VerifyReport report;
+    const auto source = SessionSource::open(path);
+    if (!source) {
+        const auto& error = source.error();
+        if (error.code != ErrorCode::Unsupported && error.code != ErrorCode::ParseError) return failure(source);
+        report.status = error.code == ErrorCode::ParseError ? SessionStatus::Damaged : SessionStatus::NotASession;
+        report.problems.push_back(error.message);
+        return report;
+    }
+    Inspection inspection(source->database(), report);
+    if (auto done = inspection.run(); !done) {
+        if (done.error().code != ErrorCode::ParseError) return failure(done);
+        inspection.problem("the database is damaged: {}", done.error().message);
+    }
+    auto wal = path;
+    wal += "-wal";
+    if (source->hadJournal()) {
+        const auto findings = scanWal(wal);
+        if (!findings) return failure(findings);
+        report.recovered = findings->readableFrames > 0;
+        if (findings->headerDamaged) inspection.problem("the journal {} is damaged and cannot be read", wal.string());
+        if (findings->lostCommits > 0) {
+            inspection.problem("the journal {} is damaged: {} commits behind the damage are lost", wal.string(),
+                               findings->lostCommits);
+        }
+    }
+    if (!report.closed && report.rows > 0) {
+        report.notes.push_back("The session ended without closing (crash or power loss), or is still being written.");
+    }
+    if (report.recovered) {
+        report.notes.push_back("Rows were recovered from the journal beside the file; keep both together.");
+    }
+    if (inspection.found() > report.problems.size()) {
+        report.problems.push_back(fmt::format("and {} more", inspection.found() - report.problems.size()));
+    }
+    report.status = report.problems.empty() ? SessionStatus::Intact : SessionStatus::Damaged;
+    return report;
+}
+
+}  // namespace tacto

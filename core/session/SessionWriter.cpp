@@ -1,0 +1,286 @@
+#include "core/session/SessionWriter.h"
+
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "core/session/AboutJson.h"
+#include "core/session/CaptureBlob.h"
+#include "core/session/JsonFields.h"
+#include "core/session/Schema.h"
+#include "core/session/SessionStore.h"
+
+namespace tacto {
+
+namespace {
+
+/// Samples are promised once a second; the rest of the second is for the disk.
+constexpr Instant kCommitEvery = std::chrono::milliseconds(800);
+
+/// A chunk ends early at this many values (512 kB), so that a fast stream does not hold a second in memory.
+constexpr std::size_t kChunkValues = 65'536;
+
+struct StreamBuffer {
+    std::size_t columns;
+    SampleBlock pending;
+    std::int64_t nextIndex = 0;
+    std::uint64_t nextSample = 0;
+};
+
+}  // namespace
+
+struct SessionWriter::State {
+    State(std::filesystem::path where, const Clock& time, SessionStore made)
+        : path(std::move(where)), clock(time), store(std::move(made)), lastCommit(time.now()) {
+        store.setBackground(time.isVirtual() ? SessionStore::Durability::ProcessEnd
+                                             : SessionStore::Durability::PowerLoss);
+    }
+
+    const std::filesystem::path path;
+    const Clock& clock;
+    mutable std::mutex mutex;
+    SessionStore store;  // Guarded by mutex, as all below
+    std::vector<StreamBuffer> streams;
+    int trials = 0;
+    Instant lastCommit;
+    bool closed = false;
+    std::optional<Error> failed;
+
+    [[nodiscard]] Result<void> open() const {
+        if (failed) return tl::unexpected<Error>(*failed);
+        if (closed) return fail(ErrorCode::InvalidArgument, "session {} is closed", path.string());
+        return {};
+    }
+
+    /// Passes a result of the store on; an error ends the recording for good.
+    template <class T>
+    [[nodiscard]] Result<T> kept(Result<T> result) {
+        if (!result) {
+            failed = Error{ErrorCode::Io, fmt::format("session {} cannot be written, recording has ended: {}",
+                                                      path.string(), result.error().message)};
+            return tl::unexpected<Error>(*failed);
+        }
+        return result;
+    }
+
+    [[nodiscard]] Result<std::int64_t> addNow(const char* kind, Instant at, std::string_view name,
+                                              const nlohmann::json& body) {
+        if (auto ready = open(); !ready) return failure(ready);
+        return kept(store.addNow(kind, at, name, lineOf(body)));
+    }
+
+    [[nodiscard]] Result<std::int64_t> add(const char* kind, Instant at, std::string_view name,
+                                           const nlohmann::json& body) {
+        if (auto ready = open(); !ready) return failure(ready);
+        auto row = kept(store.add(kind, at, name, lineOf(body)));
+        if (!row) return row;
+        if (auto committed = commitIfDue(); !committed) return failure(committed);
+        return row;
+    }
+
+    [[nodiscard]] Result<void> writeChunk(std::size_t index) {
+        auto& stream = streams[index];
+        auto& pending = stream.pending;
+        if (pending.samples() == 0) return {};
+        ChunkHead head{static_cast<int>(index) + 1, stream.nextIndex, stream.nextSample, pending.samples(),
+                       lineThrough(pending.t_s)};
+        const std::span<const double> stamps = head.line ? std::span<const double>() : pending.t_s;
+        auto row = kept(store.addChunk(clock.now(), head, std::as_bytes(stamps),
+                                       std::as_bytes(std::span<const double>(pending.values))));
+        if (!row) return failure(row);
+        ++stream.nextIndex;
+        stream.nextSample += pending.samples();
+        pending.clear();
+        return {};
+    }
+
+    [[nodiscard]] Result<void> commit() {
+        for (std::size_t i = 0; i < streams.size(); ++i) {
+            if (auto written = writeChunk(i); !written) return written;
+        }
+        lastCommit = clock.now();
+        return kept(store.commit());
+    }
+
+    [[nodiscard]] Result<void> commitIfDue() {
+        if (clock.now() - lastCommit < kCommitEvery) return {};
+        return commit();
+    }
+};
+
+SessionWriter::SessionWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionWriter::~SessionWriter() { static_cast<void>(close("left open by the program")); }
+
+Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesystem::path& path, SessionAbout about,
+                                                             const Clock& clock) {
+    if (about.wallStart.empty()) {
+        about.wallStart = wallTimeUtc();
+        about.wallStartAt = clock.now();
+    }
+    if (about.profileSha256.empty()) about.profileSha256 = sha256Hex(about.profileJson);
+    about.virtualClock = clock.isVirtual();
+    auto store = SessionStore::create(path, clock.now(), lineOf(toJson(about)));
+    if (!store) return failure(store);
+    return std::unique_ptr<SessionWriter>(new SessionWriter(std::make_unique<State>(path, clock, std::move(*store))));
+}
+
+Result<int> SessionWriter::addStream(const SessionStream& stream) {
+    const std::lock_guard lock(state_->mutex);
+    if (stream.columns.empty()) {
+        return fail(ErrorCode::InvalidArgument, "stream '{}' has no columns; at least one is needed", stream.name);
+    }
+    auto row = state_->add(kind::kStream, state_->clock.now(), stream.name, toJson(stream));
+    if (!row) return failure(row);
+    state_->streams.push_back({stream.columns.size(), {}});
+    return static_cast<int>(state_->streams.size());
+}
+
+Result<int> SessionWriter::addStream(const StreamInfo& info) {
+    SessionStream stream{info.name, std::string(nameOf(info.kind)), std::string(symbolOf(info.unit)), {}, info.rate_hz};
+    for (std::size_t c = 0; c < info.channels; ++c) {
+        switch (info.kind) {
+            case StreamKind::Acceleration:
+                stream.columns.push_back(c < 3 ? std::string(1, "xyz"[c]) : fmt::format("a{}", c + 1));
+                break;
+            case StreamKind::Force:
+                stream.columns.push_back(c == 0 ? "force" : fmt::format("force{}", c + 1));
+                break;
+            case StreamKind::Taxels:
+                stream.columns.push_back(fmt::format("c{}", c + 1));
+                break;
+        }
+    }
+    return addStream(stream);
+}
+
+Result<void> SessionWriter::append(int stream, const SampleBlock& block) {
+    const std::lock_guard lock(state_->mutex);
+    if (auto ready = state_->open(); !ready) return ready;
+    if (stream < 1 || static_cast<std::size_t>(stream) > state_->streams.size()) {
+        return fail(ErrorCode::InvalidArgument, "there is no stream {}; the session has {}", stream,
+                    state_->streams.size());
+    }
+    const auto index = static_cast<std::size_t>(stream) - 1;
+    auto& buffer = state_->streams[index];
+    if (block.values.size() != block.samples() * buffer.columns) {
+        return fail(ErrorCode::InvalidArgument, "stream {} got {} values for {} samples of {} columns", stream,
+                    block.values.size(), block.samples(), buffer.columns);
+    }
+    auto& pending = buffer.pending;
+    pending.t_s.insert(pending.t_s.end(), block.t_s.begin(), block.t_s.end());
+    pending.values.insert(pending.values.end(), block.values.begin(), block.values.end());
+    if (pending.values.size() >= kChunkValues) {
+        if (auto written = state_->writeChunk(index); !written) return written;
+    }
+    return state_->commitIfDue();
+}
+
+Result<std::int64_t> SessionWriter::event(Instant at, std::string_view kind, const nlohmann::json& details) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->addNow(kind::kEvent, at, kind, details);
+}
+
+Result<std::int64_t> SessionWriter::command(Instant at, std::string_view name, const nlohmann::json& details) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->add(kind::kCommand, at, name, details);
+}
+
+Result<int> SessionWriter::trial(Instant at, std::string_view condition, const nlohmann::json& measured) {
+    const std::lock_guard lock(state_->mutex);
+    const int number = state_->trials + 1;
+    auto row = state_->addNow(kind::kTrial, at, condition, {{"number", number}, {"measured", measured}});
+    if (!row) return failure(row);
+    return state_->trials = number;
+}
+
+Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, std::optional<int> trial) {
+    for (const auto& channel : capture.channels) {
+        if (channel.samples.size() != capture.samples()) {
+            return fail(ErrorCode::InvalidArgument, "capture channel '{}' has {} samples, '{}' has {}", channel.name,
+                        channel.samples.size(), capture.channels.front().name, capture.samples());
+        }
+    }
+    // Compressed and hashed before the lock: it takes milliseconds and needs nothing of the session.
+    const auto packed = packSamples(capture);
+    const std::span<const std::byte> parts[] = {packed.data};
+    const auto checks = checksOf(parts);
+    auto body = describe(capture, packed);
+    body["crc32"] = checks.crc;
+
+    const std::lock_guard lock(state_->mutex);
+    if (auto ready = state_->open(); !ready) return failure(ready);
+    if (trial) {
+        if (*trial < 1 || *trial > state_->trials) {
+            return fail(ErrorCode::InvalidArgument, "a capture names trial {}; the session has {}", *trial,
+                        state_->trials);
+        }
+        body["trial"] = *trial;
+    }
+    auto row = state_->kept(state_->store.addCapture(at, lineOf(body), checks.digest, packed.data));
+    if (!row) return row;
+    if (auto committed = state_->commitIfDue(); !committed) return failure(committed);
+    return row;
+}
+
+Result<std::int64_t> SessionWriter::measurement(Instant at, std::string_view name, const nlohmann::json& values) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->add(kind::kMeasurement, at, name, values);
+}
+
+Result<std::int64_t> SessionWriter::reportItem(Instant at, const nlohmann::json& item) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->addNow(kind::kReport, at, textOr(item, "kind"), item);
+}
+
+Result<std::int64_t> SessionWriter::verdict(Instant at, std::string_view subject, std::string_view verdict,
+                                            const std::vector<std::string>& reasons, const nlohmann::json& results) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->addNow(kind::kVerdict, at, subject,
+                          {{"verdict", verdict}, {"reasons", reasons}, {"results", results}});
+}
+
+Result<std::int64_t> SessionWriter::log(Instant at, std::string_view level, std::string_view text) {
+    const std::lock_guard lock(state_->mutex);
+    return state_->add(kind::kLog, at, level, {{"text", text}});
+}
+
+Result<void> SessionWriter::commitIfDue() {
+    const std::lock_guard lock(state_->mutex);
+    if (auto ready = state_->open(); !ready) return ready;
+    return state_->commitIfDue();
+}
+
+Result<void> SessionWriter::flush() {
+    const std::lock_guard lock(state_->mutex);
+    if (auto ready = state_->open(); !ready) return ready;
+    return state_->commit();
+}
+
+Result<void> SessionWriter::close(std::string_view reason) {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->closed) return {};
+    state_->closed = true;
+    if (state_->failed) {
+        static_cast<void>(state_->store.close());
+        return tl::unexpected<Error>(*state_->failed);
+    }
+    if (auto done = state_->commit(); !done) return done;
+    auto end =
+        state_->kept(state_->store.addNow(kind::kEnd, state_->clock.now(), reason,
+                                          lineOf({{"rows", state_->store.rows() + 1}, {"trials", state_->trials}})));
+    if (!end) return failure(end);
+    return state_->kept(state_->store.close());
+}
+
+std::optional<Error> SessionWriter::failed() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->failed;
+}
+
+std::string SessionWriter::chainHead() const {
+    const std::lock_guard lock(state_->mutex);
+    return hexText(state_->store.head());
+}
+
+const std::filesystem::path& SessionWriter::path() const noexcept { return state_->path; }
+
+}  // namespace tacto
