@@ -85,13 +85,16 @@ public:
     explicit SafetyGate(const Clock& clock);
     ~SafetyGate();
 
-    /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory.
-    /// Errors: InvalidArgument naming what is missing or impossible (no limit set, a loosened ceiling,
-    /// monophasic or a voltage source for a person, no consent, no electrode area for a person ...).
+    /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory. After an error
+    /// nothing is approved until a configure() succeeds. Errors: InvalidArgument naming what is missing or impossible
+    /// (no limit set, a loosened ceiling, monophasic or a voltage source for a person, no consent, no electrode area
+    /// for a person ...).
     [[nodiscard]] Result<void> configure(const GateSetup& setup);
 
-    /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with it.
-    /// Errors: LimitExceeded when it lies outside the profile's range.
+    /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with 0.7 to 1.3 of it; on a
+    /// bench load it must agree with the declared range. An older one than the last is ignored.
+    /// Errors: LimitExceeded when it lies outside the profile's (bench: the declared) range; InvalidArgument for NaN, 0
+    /// or less, or a stamp from the future. After an error nothing but check pulses is approved until a good reading.
     [[nodiscard]] Result<void> updateImpedance(Ohms magnitude, Instant at);
 
     /// Checks `request` against every limit, worst case over the permitted load range, at its interval, plus
@@ -135,8 +138,10 @@ public:
 
 private:
     struct State;
+    [[nodiscard]] Result<ApprovedTrain> grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch,
+                                              Instant now);
     const Clock& clock_;
-    std::atomic<std::uint64_t> epoch_{1};
+    std::atomic<std::uint64_t> epoch_;  // Starts apart in every gate, so that no gate honours another's approval
     std::unique_ptr<State> state_;
 };
 

@@ -15,11 +15,11 @@
 
 namespace tacto {
 
-/// ∫ over one whole train, tail included. SI units, so that windows can add them up.
+/// ∫ over a stretch of output, tails included. SI units, so that windows can add them up.
 struct TrainSums {
     double currentSquared_A2s = 0;
     double voltageSquared_V2s = 0;
-    double netCharge_C = 0;  ///< |sum over the train|
+    double netCharge_C = 0;  ///< of a train: |its sum|; over trains: the sum of those
     double energy_J = 0;
 
     TrainSums& operator+=(const TrainSums& other) noexcept;
@@ -27,22 +27,30 @@ struct TrainSums {
 
 struct TrainExposure {
     QuantityValues values{};  ///< each in unitOf() its quantity; densities are NaN without an area
-    TrainSums sums;           ///< one train
+    TrainSums in1s;           ///< the most that one train puts into any second: all of it, unless it lasts longer
+    TrainSums in5s;           ///< the same for 5 s
+    double residual_V = 0;    ///< largest |voltage| it leaves on the load's capacitor at its end
     [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
+};
+
+/// Where a train finds the load: with up to this |voltage| on its capacitor, of either sign, from trains before it.
+/// The gate carries it from train to train; previews start from rest.
+struct Carried {
+    double voltage_V = 0;
 };
 
 /// One train per `interval` into `load`. `train` must be valid (validate()) and interval ≥ its duration; otherwise
 /// the figures are NaN, which no limit lets pass. `area` in cm², NaN when unknown. CommandVoltage is taken at this
 /// load.
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
-                                       const SourceTraits& source, double area_cm2) noexcept;
+                                       const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
 /// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
 [[nodiscard]] TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept;
 
 /// Worst case between load.min and load.max; CommandVoltage at load.nominal (I·|Z| at the end of the leading phase).
 [[nodiscard]] TrainExposure worstExposure(const PulseTrain& train, Seconds interval, const LoadRange& load,
-                                          const SourceTraits& source, double area_cm2) noexcept;
+                                          const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
 /// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.
 [[nodiscard]] double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_cm2) noexcept;

@@ -1,0 +1,80 @@
+#include "core/safety/AcceptedLevels.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+namespace {
+// 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
+constexpr double kRounding = 1e-9;
+
+double milliamps(const PulseTrain& train) noexcept { return siValue(train.amplitude) * 1e3; }
+
+PulseTrain kindOf(PulseTrain train) noexcept {
+    train.amplitude = Milliamps(0);
+    return train;
+}
+}  // namespace
+
+void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep) noexcept {
+    *this = AcceptedLevels{};
+    discomfort_ = discomfortLimit.value();
+    step_ = rampStep.value();
+}
+
+void AcceptedLevels::resume(Milliamps discomfortLimit, Milliamps rampStep) noexcept {
+    discomfort_ = std::min(discomfort_, discomfortLimit.value());
+    step_ = rampStep.value();
+}
+
+bool AcceptedLevels::sameKind(const PulseTrain& train) const noexcept { return kindOf(train) == kindOf(kind_); }
+
+Milliamps AcceptedLevels::ceilingFor(const PulseTrain& train) const noexcept {
+    const double accepted = !sameKind(train) ? 0 : ascending_ ? seriesLast_ : highest_;
+    return Milliamps(std::min(accepted + step_, discomfort_));
+}
+
+Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
+    if (!isCurrent(train.amplitude)) {
+        return fail(ErrorCode::InvalidArgument, "a person's level is a current in mA; volts were asked for");
+    }
+    const double level = milliamps(train);
+    if (!(level <= discomfort_)) {
+        return fail(ErrorCode::LimitExceeded, "current would be {:.4g} mA; this person's discomfort limit is {:.4g} mA",
+                    level, discomfort_);
+    }
+    const double ceiling = ceilingFor(train).value();
+    if (!(level <= ceiling * (1 + kRounding))) {
+        return fail(ErrorCode::LimitExceeded,
+                    "current would be {:.4g} mA; {} allows at most {:.4g} mA, one step of {:.4g} mA above the last "
+                    "accepted level",
+                    level, ascending_ ? "this ascending series" : "the ramp rule", ceiling, step_);
+    }
+    return {};
+}
+
+Result<void> AcceptedLevels::accept(const PulseTrain& train) {
+    if (auto permitted = permits(train); !permitted) return permitted;
+    const double level = milliamps(train);
+    if (!sameKind(train)) {
+        kind_ = kindOf(train);
+        highest_ = 0;
+        seriesLast_ = 0;
+    }
+    highest_ = std::max(highest_, level);
+    seriesLast_ = level;
+    return {};
+}
+
+void AcceptedLevels::reportDiscomfort(Milliamps level) noexcept {
+    discomfort_ = std::min(discomfort_, level.value());
+    highest_ = std::min(highest_, discomfort_);
+    seriesLast_ = std::min(seriesLast_, discomfort_);
+}
+
+void AcceptedLevels::beginAscending() noexcept {
+    ascending_ = true;
+    seriesLast_ = 0;
+}
+
+}  // namespace tacto

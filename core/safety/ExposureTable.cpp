@@ -1,0 +1,55 @@
+#include <limits>
+
+#include "core/safety/GateRules.h"
+
+namespace tacto {
+
+namespace gate {
+ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool currentSource) noexcept {
+    const LimitRow& wanted = limit.row;
+    ExposureRow row;
+    row.quantity = wanted.quantity;
+    row.value = value;
+    row.limit = wanted.max;
+    row.unit = unitOf(wanted.quantity);
+    row.window_s = windowOf(wanted.quantity);
+    row.set = limit.set;
+    row.action = wanted.action;
+    row.judged = wanted.judged;
+    row.strict = wanted.strict;
+    row.evaluated = areaKnown || !needsArea(wanted.quantity);
+    row.within = row.evaluated && keepsLimit(wanted, value, currentSource);
+    if (!row.evaluated) row.reason = "the electrode area is not given";
+    return row;
+}
+
+ExposureRow inTrainRow(double value) noexcept {
+    ExposureRow row;
+    row.quantity = Quantity::RmsCurrentTrain;
+    row.value = value;
+    row.limit = std::numeric_limits<double>::quiet_NaN();
+    row.unit = unitOf(row.quantity);
+    row.action = LimitAction::Disclose;
+    row.evaluated = true;
+    row.within = true;
+    return row;
+}
+}  // namespace gate
+
+std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    const double area = gate::areaOf(setup);
+    const TrainExposure overRange = worstExposure(train, interval, setup.load, setup.source, area);
+    const TrainExposure at500 = exposureOf(train, interval, Load::resistor(Ohms(500)), setup.source, area);
+    const double hz = 1 / interval.count();
+    std::vector<ExposureRow> rows;
+    for (const auto& limit : gate::activeLimits(setup)) {
+        if (!limit.row.holdsAt(hz)) continue;
+        const TrainExposure& judged = limit.row.judged == JudgedAt::Ohm500 ? at500 : overRange;
+        rows.push_back(gate::rowOf(limit, judged.at(limit.row.quantity), setup.electrodeArea.has_value(),
+                                   isCurrent(train.amplitude)));
+    }
+    rows.push_back(gate::inTrainRow(overRange.at(Quantity::RmsCurrentTrain)));
+    return rows;
+}
+
+}  // namespace tacto

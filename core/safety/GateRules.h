@@ -1,0 +1,51 @@
+// GateRules.h - internal: the gate's rules as functions on plain data; SafetyGate holds the state between them.
+//
+// Nothing here allocates when it permits; a refusal allocates its message.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/safety/GateSetup.h"
+#include "core/safety/TrainExposure.h"
+
+namespace tacto::gate {
+
+/// The interval at which check pulses are judged, and their shortest.
+inline constexpr Seconds kCheckInterval{0.5};
+inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
+
+/// One limit row or ceiling, ready to be judged.
+struct ActiveLimit {
+    LimitRow row;
+    FixedText<31> set;
+    bool ceiling = false;
+};
+
+/// Every row of every set, in order, then the ceilings.
+[[nodiscard]] std::vector<ActiveLimit> activeLimits(const GateSetup& setup);
+
+/// NaN without an area.
+[[nodiscard]] double areaOf(const GateSetup& setup) noexcept;
+
+/// GateConfigure.cpp. Errors: InvalidArgument naming what is missing or impossible.
+[[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
+/// The setup's check pulse with the source's check amplitude, rounded to its grid toward zero (one step at least).
+[[nodiscard]] PulseTrain checkTrainOf(const GateSetup& setup);
+
+/// GateRequest.cpp: form, source and grid; no limits. Errors: InvalidArgument.
+[[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
+
+/// Whether `value` keeps the row; a command computed as I·|Z| may miss "≤" by its last bits.
+[[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool currentSource) noexcept;
+
+/// "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than 10 mA
+/// (...)".
+[[nodiscard]] std::string refusalText(const ActiveLimit& limit, double value, const std::string& aside);
+
+/// ExposureTable.cpp: one line of a table; not evaluated when the row needs an area and there is none.
+[[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool currentSource) noexcept;
+/// The in-train RMS, shown without a limit.
+[[nodiscard]] ExposureRow inTrainRow(double value) noexcept;
+
+}  // namespace tacto::gate

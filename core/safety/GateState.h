@@ -1,0 +1,46 @@
+// GateState.h - internal: what the gate knows between two requests, and the judgements that need all of it.
+//
+// Thread-safety: as SafetyGate: one caller.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/safety/AcceptedLevels.h"
+#include "core/safety/ExposureMeter.h"
+#include "core/safety/GateRules.h"
+#include "core/safety/SafetyGate.h"
+
+namespace tacto {
+
+struct SafetyGate::State {
+    std::optional<GateSetup> setup;  // Nothing: everything is refused
+    std::vector<gate::ActiveLimit> limits;
+    LoadRange load;
+    double area = 0;
+    PulseTrain check;
+    PulseTrain lastTrain;
+
+    ExposureMeter meter;
+    double residual_V = 0;  // The most that may be left on the load ...
+    Instant residualAt{0};  // ... at this moment
+
+    std::optional<Ohms> impedance;
+    Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
+    bool disowned = false;  // The last reading was no number or out of range
+
+    AcceptedLevels levels;
+    std::string participant;
+    bool anyParticipant = false;
+
+    [[nodiscard]] bool person() const noexcept { return setup->mode == OutputMode::Person; }
+    [[nodiscard]] double carriedAt(Instant now) const noexcept;
+    [[nodiscard]] Result<void> judge(const TrainExposure& overRange, const TrainExposure& at500,
+                                     const PulseTrain& train, Seconds interval, double carried_V) const;
+    [[nodiscard]] Result<void> judgeMetered(const TrainExposure& overRange, const TrainExposure& at500, double hz,
+                                            Instant now) const;
+    [[nodiscard]] bool agreesWithDeclared(double ohm) const noexcept;
+};
+
+}  // namespace tacto

@@ -1,0 +1,258 @@
+#include "core/safety/SafetyGate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/safety/GateChecks.h"
+#include "core/safety/GateState.h"
+
+namespace tacto {
+
+using namespace gate;
+
+namespace {
+constexpr Instant kImpedanceAge = std::chrono::seconds(5);
+
+std::uint64_t firstEpoch() noexcept {
+    static std::atomic<std::uint64_t> gates{0};
+    return (gates.fetch_add(1) + 1) << 40U;
+}
+}  // namespace
+
+SafetyGate::SafetyGate(const Clock& clock) : clock_(clock), epoch_(firstEpoch()), state_(std::make_unique<State>()) {}
+SafetyGate::~SafetyGate() = default;
+
+Result<void> SafetyGate::configure(const GateSetup& setup) {
+    latchStop();
+    State& s = *state_;
+    s.setup.reset();
+    if (auto sound = checkSetup(setup); !sound) return sound;
+    s.limits = activeLimits(setup);
+    s.area = areaOf(setup);
+    s.check = checkTrainOf(setup);
+    s.lastTrain = s.check;
+    s.load = setup.load;
+    s.impedance.reset();
+    s.impedanceAt = Instant(std::numeric_limits<Instant::rep>::min());
+    s.disowned = false;
+    if (setup.mode == OutputMode::Person && setup.person) {
+        const PersonSetup& person = *setup.person;
+        s.load = LoadRange::between(person.impedanceLow, person.impedanceHigh);
+        if (s.anyParticipant && s.participant == person.participant) {
+            s.levels.resume(person.discomfortLimit, person.rampStep);
+        } else {
+            s.levels.begin(person.discomfortLimit, person.rampStep);
+        }
+        s.participant = person.participant;
+        s.anyParticipant = true;
+    }
+    s.setup = setup;
+    return {};
+}
+
+Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
+    State& s = *state_;
+    if (checks(NotConfigured) && !s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured");
+    const double ohm = magnitude.value();
+    const auto refuse = [&](ErrorCode code, const std::string& message) -> Result<void> {
+        s.disowned = true;
+        s.impedance.reset();
+        latchStop();
+        return fail(code, "{}", message);
+    };
+    if (checks(ImpedanceFromFuture) && at > clock_.now()) {
+        return refuse(ErrorCode::InvalidArgument, fmt::format("the impedance reading is stamped {:.3g} s ahead of now",
+                                                              toSeconds(at - clock_.now())));
+    }
+    if (at < s.impedanceAt) return {};
+    if (checks(ImpedanceValue) && !(ohm > 0)) {
+        return refuse(ErrorCode::InvalidArgument, fmt::format("a measured impedance of {} ohm is not above 0", ohm));
+    }
+    double low = 0;
+    double high = 0;
+    bool inRange = false;
+    if (s.person()) {
+        low = s.setup->person->impedanceLow.value();
+        high = s.setup->person->impedanceHigh.value();
+        inRange = ohm >= low && ohm <= high;
+    } else {
+        inRange = s.agreesWithDeclared(ohm);
+    }
+    if (checks(ImpedanceOutOfRange) && !inRange) {
+        return refuse(
+            ErrorCode::LimitExceeded,
+            s.person()
+                ? fmt::format("the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", ohm, low, high)
+                : fmt::format(
+                      "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
+                      ohm, s.load.nominal.text()));
+    }
+    s.disowned = false;
+    s.impedance = magnitude;
+    s.impedanceAt = at;
+    if (s.person()) s.load = LoadRange::measured(magnitude);
+    return {};
+}
+
+Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
+    const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);  // A stop from here on voids the result
+    const Instant now = clock_.now();
+    State& s = *state_;
+    if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
+    if (auto sound = checkRequest(request.train, request.interval, s.setup->source); !sound) return failure(sound);
+    if (checks(OnsetAhead) && request.onset > now + kApprovalLife) {
+        return fail(ErrorCode::InvalidArgument, "the train is planned {:.3g} s ahead; an approval lasts 0.1 s",
+                    toSeconds(request.onset - now));
+    }
+    if (checks(ImpedanceDisowned) && s.disowned) {
+        return fail(ErrorCode::LimitExceeded,
+                    "the last impedance reading was out of range; a good one is needed first");
+    }
+    if (s.person()) {
+        if (checks(PersonMonophasic) && request.train.shape == PulseShape::Monophasic) {
+            return fail(ErrorCode::LimitExceeded, "monophasic pulses are refused for a person");
+        }
+        if (checks(PersonNoImpedance) && !s.impedance) {
+            return fail(ErrorCode::LimitExceeded, "no impedance was measured; a person's is needed before a train");
+        }
+        if (checks(PersonStaleImpedance) && s.impedance && !(now - s.impedanceAt <= kImpedanceAge)) {
+            return fail(ErrorCode::LimitExceeded, "the impedance was measured {:.3g} s ago; at most 5 s is accepted",
+                        toSeconds(now - s.impedanceAt));
+        }
+        if (checks(PersonLevel)) {
+            if (auto permitted = s.levels.permits(request.train); !permitted) return failure(permitted);
+        }
+    }
+    return grant(request.train, request.interval, epoch, now);
+}
+
+Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
+    const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
+    const Instant now = clock_.now();
+    State& s = *state_;
+    if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
+    if (checks(OnsetAhead) && onset > now + kApprovalLife) {
+        return fail(ErrorCode::InvalidArgument, "the check is planned {:.3g} s ahead; an approval lasts 0.1 s",
+                    toSeconds(onset - now));
+    }
+    const Seconds interval = std::max(kCheckInterval, s.check.duration());
+    if (s.person() && checks(CheckDiscomfort)) {
+        const double level = siValue(s.check.amplitude) * 1e3;
+        if (!(level <= s.levels.discomfortLimit().value())) {
+            return fail(ErrorCode::LimitExceeded,
+                        "the check pulse of {:.4g} mA is above this person's discomfort limit of {:.4g} mA", level,
+                        s.levels.discomfortLimit().value());
+        }
+    }
+    return grant(s.check, interval, epoch, now);
+}
+
+Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant now) {
+    State& s = *state_;
+    s.meter.forget(now);
+    if (checks(MeterFull) && !s.meter.canBook()) {
+        return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
+                    s.meter.size());
+    }
+    const double carried = s.carriedAt(now);
+    const TrainExposure overRange = worstExposure(train, interval, s.load, s.setup->source, s.area, {carried});
+    const TrainExposure at500 = exposureOf(train, interval, Load::resistor(Ohms(500)), s.setup->source, s.area);
+    if (auto kept = s.judge(overRange, at500, train, interval, carried); !kept) return failure(kept);
+    const double hz = 1 / interval.count();
+    if (auto kept = s.judgeMetered(overRange, at500, hz, now); !kept) return failure(kept);
+
+    const Instant expires = now + kApprovalLife;
+    const Instant ended = expires + toInstant(train.duration());
+    s.meter.book({now, ended, hz, overRange, at500});
+    s.residual_V = std::max(carried, overRange.residual_V);
+    s.residualAt = std::max(s.residualAt, ended);
+    s.lastTrain = train;
+    return ApprovedTrain(train, interval, epoch, expires);
+}
+
+Result<ApprovedBurst> SafetyGate::approve(const VibrationBurst& burst) {
+    const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
+    if (checks(BurstIntensity) && !(burst.intensity >= 0 && burst.intensity <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "vibration intensity {} is not between 0 and 1", burst.intensity);
+    }
+    const double seconds = burst.duration.count();
+    if (checks(BurstDuration) && !(seconds > 0 && seconds <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "vibration of {} s is not above 0 and at most 1 s long", seconds);
+    }
+    return ApprovedBurst(burst, epoch, clock_.now() + kApprovalLife);
+}
+
+Result<void> SafetyGate::accept(const PulseTrain& train) {
+    if (!state_->setup || !state_->person())
+        return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
+    if (auto sound = validate(train); !sound) return sound;
+    return state_->levels.accept(train);
+}
+
+Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
+    if (!state_->setup || !state_->person())
+        return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only");
+    if (!(std::isfinite(level.value()) && level.value() >= 0)) {
+        return fail(ErrorCode::InvalidArgument, "a discomfort level of {} mA is not a finite current of 0 or more",
+                    level.value());
+    }
+    latchStop();
+    state_->levels.reportDiscomfort(level);
+    return {};
+}
+
+void SafetyGate::beginAscending() noexcept {
+    latchStop();
+    state_->levels.beginAscending();
+}
+
+void SafetyGate::endAscending() noexcept { state_->levels.endAscending(); }
+
+std::optional<Milliamps> SafetyGate::levelCeiling(const PulseTrain& train) const noexcept {
+    if (!state_->setup || !state_->person()) return std::nullopt;
+    return state_->levels.ceilingFor(train);
+}
+
+std::optional<LoadRange> SafetyGate::loadRange() const {
+    if (!state_->setup) return std::nullopt;
+    return state_->load;
+}
+
+void SafetyGate::latchStop() noexcept { epoch_.fetch_add(1, std::memory_order_acq_rel); }
+
+bool SafetyGate::isCurrent(const ApprovedTrain& approved) const noexcept {
+    const bool sameEpoch = approved.epoch_ == epoch_.load(std::memory_order_acquire);
+    const bool inTime = clock_.now() <= approved.expires_;
+    return (sameEpoch || !checks(Epoch)) && (inTime || !checks(Expiry));
+}
+
+bool SafetyGate::isCurrent(const ApprovedBurst& approved) const noexcept {
+    const bool sameEpoch = approved.epoch_ == epoch_.load(std::memory_order_acquire);
+    const bool inTime = clock_.now() <= approved.expires_;
+    return (sameEpoch || !checks(Epoch)) && (inTime || !checks(Expiry));
+}
+
+void SafetyGate::exposure(std::vector<ExposureRow>& rows) const {
+    const State& s = *state_;
+    rows.clear();
+    const Instant now = clock_.now();
+    const auto second = s.meter.booked(Seconds(1), now);
+    const auto five = s.meter.booked(Seconds(5), now);
+    for (const ActiveLimit& limit : s.limits) {
+        const LimitRow& row = limit.row;
+        const bool into500 = row.judged == JudgedAt::Ohm500;
+        double value = 0;
+        if (windowOf(row.quantity) > 0) {
+            const auto& sums = windowOf(row.quantity) == 1 ? second : five;
+            if (sums.trains > 0 && !row.holdsAt(sums.lowestHz)) continue;
+            value = windowedValue(row.quantity, into500 ? sums.at500 : sums.overRange, s.area);
+        } else {
+            value = s.meter.largest(row.quantity, row.judged, now);
+        }
+        rows.push_back(rowOf(limit, value, !std::isnan(s.area), false));
+    }
+    rows.push_back(inTrainRow(s.meter.largest(Quantity::RmsCurrentTrain, JudgedAt::LoadRange, now)));
+}
+
+}  // namespace tacto
