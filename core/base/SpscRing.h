@@ -30,6 +30,8 @@ class SpscRing {
     static_assert(std::is_trivially_copyable_v<T>, "a slot may be copied while the producer drops it");
 
 public:
+    using Element = T;
+
     /// Room for `capacity` elements (at least 1). Allocates here and never again.
     explicit SpscRing(std::size_t capacity) : capacity_(capacity == 0 ? 1 : capacity), slots_(capacity_ * kWords) {}
 

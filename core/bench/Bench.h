@@ -10,9 +10,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/bench/ControlLoop.h"
 #include "core/bench/Profile.h"
 #include "core/bench/Telemetry.h"
 #include "core/devices/Driver.h"
@@ -29,6 +31,7 @@ struct BenchConfig {
     Profile profile;
     std::vector<LimitSet> limits;
     OutputMode mode = OutputMode::BenchLoad;
+    std::optional<PersonSetup> person;         ///< required in person mode
     SessionWriter* session = nullptr;          ///< not owned; null records nothing
 };
 
@@ -37,9 +40,6 @@ struct ArmRequest {
     std::string load = "1 kohm";                     ///< declared load, as parseLoad() reads it (bench loads)
     bool declaredLoadConfirmed = true;               ///< the operator's word, where the device cannot read back
 };
-
-/// Where R and P come from.
-enum class DriveSource { Off, Manual, Sensor };
 
 class Bench {
 public:
@@ -63,15 +63,16 @@ public:
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
-    /// Replaces reference surfaces and other settings; takes effect at once, with the output off until then.
+    /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
+    /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
     [[nodiscard]] Result<void> setProfile(const Profile& profile);
     [[nodiscard]] const Profile& profile() const noexcept;
 
-    /// Lets `duration` pass on the bench's clock. Errors: Stopped, Device, LimitExceeded never (refused trains are skipped
-    /// and counted).
+    /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives
+    /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
-    /// oscilloscope; Timeout when fewer came; Stopped.
+    /// oscilloscope; Timeout when fewer came; as wait().
     [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
@@ -83,8 +84,8 @@ public:
     void onProgress(void (*callback)(void* context), void* context) noexcept;
 
 private:
-    explicit Bench(BenchConfig config);
     struct State;
+    explicit Bench(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

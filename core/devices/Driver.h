@@ -17,11 +17,14 @@
 
 namespace tacto {
 
+/// Connected until somebody says otherwise.
+inline constexpr const char* kDefaultLoad = "1 kohm";
+
 /// What drivers may know of the run they open devices for.
 struct OpenContext {
     const Clock& clock;             ///< outlives the devices
     std::uint64_t seed = 1;
-    std::string declaredLoad = "1 kohm";  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
+    std::string declaredLoad = kDefaultLoad;  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
 };
 
 /// The open devices of a bench, at most one per role. Owns them.

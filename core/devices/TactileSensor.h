@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "core/acquisition/Stream.h"
+#include "core/base/Stream.h"
 #include "core/devices/Device.h"
 
 namespace tacto {
@@ -20,6 +20,9 @@ public:
     /// NaN and stamps may jump: continuity and range are judged by the reader (hazard H7), not here.
     /// Errors: Device when unplugged or the data are garbage.
     [[nodiscard]] virtual Result<void> read(std::span<SampleBlock> blocks) = 0;
+
+    /// What whoever made the data states about rest and contact, on the session's time base; a live finger states nothing.
+    [[nodiscard]] virtual DeclaredIntervals declared() const { return {}; }
 
     /// True when no further sample will come (the end of a replayed recording).
     [[nodiscard]] virtual bool finished() const noexcept { return false; }

@@ -1,0 +1,429 @@
+#include "core/bench/Bench.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+#include "core/bench/DeviceThread.h"
+#include "core/bench/ScopeSession.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Seconds kArmWithin{2};
+constexpr Instant kCaptureGrace = std::chrono::seconds(1);
+
+SourceTraits traitsOf(const DeviceSet& devices) {
+    if (devices.stimulator) return devices.stimulator->traits();
+    SourceTraits none;  // encodes for display; nothing is delivered without a stimulator
+    none.amplitudeMax = 1000;
+    none.compliance = Volts(1000);
+    return none;
+}
+
+}  // namespace
+
+struct Bench::State {
+    BenchConfig config;
+    VirtualClock* virtualClock = nullptr;  // null on the steady clock
+    SourceTraits source;
+    SafetyGate gate;
+    Interlock interlock;
+    Heartbeat heartbeat;
+    std::unique_ptr<SessionRecorder> recorder;
+    std::unique_ptr<StimulatorSession> stimulator;
+    std::unique_ptr<SensorSession> sensor;
+    std::unique_ptr<ScopeSession> scope;
+    std::unique_ptr<ControlLoop> loop;
+
+    std::atomic<bool> stopped{false};
+    std::atomic<bool> paused{false};
+    std::mutex waitMutex;
+    std::condition_variable waitChanged;  // a stop, a pause or its end
+    void (*progress)(void*) = nullptr;
+    void* progressContext = nullptr;
+    DriveSource driving = DriveSource::Off;
+
+    // Virtual clock only:
+    Instant nextTick{0};
+    Instant stimulatorDue{0};
+
+    // Steady clock only. Last: they end first.
+    std::unique_ptr<DeviceThread> stimulatorThread, sensorThread, scopeThread, loopThread;
+
+    explicit State(BenchConfig given)
+        : config(std::move(given)),
+          virtualClock(dynamic_cast<VirtualClock*>(config.clock.get())),
+          source(traitsOf(config.devices)),
+          gate(*config.clock) {}
+
+    ~State() {
+        off("the bench closes");
+        heartbeat.end();
+        loopThread.reset();
+        scopeThread.reset();
+        sensorThread.reset();
+        stimulatorThread.reset();
+        if (loop) loop->noteState(config.clock->now());
+        recorder.reset();
+    }
+
+    void off(const char* why) noexcept {
+        gate.latchStop();
+        if (stimulator) stimulator->forceOff();
+        if (config.devices.massager) config.devices.massager->forceOff();
+        interlock.disarm(why);
+    }
+
+    [[nodiscard]] Result<std::unique_ptr<FingerInput>> makeFinger(const Profile& profile) {
+        if (!sensor) return std::unique_ptr<FingerInput>();
+        return FingerInput::create(*sensor, profile.roughness);
+    }
+    [[nodiscard]] std::unique_ptr<TrainPlanner> makePlanner(const Profile& profile) {
+        return std::make_unique<TrainPlanner>(profile.encoding, source, gate);
+    }
+
+    [[nodiscard]] Result<void> open();
+    void startThreads();
+    void turn(Instant until) noexcept;
+    template <class Done>
+    [[nodiscard]] Result<bool> advance(Instant until, Done done);
+    [[nodiscard]] Result<void> health() const;
+    [[nodiscard]] GateSetup setupFor(const Load& load) const;
+    [[nodiscard]] ArmCommand armCommandFor(const ArmRequest& request, const Load& load) const;
+};
+
+Result<void> Bench::State::open() {
+    if (const auto valid = validate(config.profile.encoding); !valid) return valid;
+    if (config.devices.sensor) {
+        auto made = SensorSession::create(*config.devices.sensor);
+        if (!made) return failure(made);
+        sensor = std::move(*made);
+    }
+    auto finger = makeFinger(config.profile);
+    if (!finger) return failure(finger);
+
+    ControlLoop::Parts parts{*config.clock, gate, interlock, heartbeat, config.mode, nullptr, nullptr, 0, {}};
+    if (config.session != nullptr) {
+        if (sensor) {
+            for (const auto& stream : sensor->device().streams()) {
+                const auto id = config.session->addStream(stream);
+                if (!id) return failure(id);
+                parts.sensorStreams.push_back(*id);
+            }
+            const auto id = config.session->addStream(SessionStream{
+                "roughness frames", "frames", "", {"contact", "sliding", "h", "v", "R", "pressure_pa", "P"}, 0});
+            if (!id) return failure(id);
+            parts.frameStream = *id;
+        }
+        recorder = std::make_unique<SessionRecorder>(*config.session,
+                                                     SessionRecorder::Settings{.ownThread = virtualClock == nullptr});
+        parts.recorder = recorder.get();
+    }
+    if (config.devices.stimulator) {
+        stimulator = std::make_unique<StimulatorSession>(*config.devices.stimulator, gate, heartbeat, *config.clock, [this] {
+            if (stimulatorThread) stimulatorThread->wake();
+        });
+        parts.stimulator = stimulator.get();
+    }
+    if (config.devices.oscilloscope) scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope);
+    loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
+    if (const auto connected = interlock.connect(); !connected) return connected;
+    nextTick = stimulatorDue = config.clock->now();
+    if (virtualClock == nullptr) startThreads();
+    return {};
+}
+
+void Bench::State::startThreads() {
+    const auto& clock = *config.clock;
+    if (stimulator) {
+        stimulatorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return stimulator->serve(now); });
+    }
+    if (sensor) sensorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return sensor->serve(now); });
+    if (scope) scopeThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return scope->serve(now); });
+    loopThread = std::make_unique<DeviceThread>(clock, [this, due = clock.now()](Instant now) mutable {
+        loop->step(now);
+        // Behind by more than a step (a stall): go on from now rather than catch up in a burst.
+        due = std::max(due + ControlLoop::kPeriod, now);
+        return due;
+    });
+}
+
+/// Virtual clock: moves time to the next thing that happens, at most to `until`, and does it.
+void Bench::State::turn(Instant until) noexcept {
+    const Instant next = std::min(until, stimulator ? std::min(nextTick, stimulatorDue) : nextTick);
+    virtualClock->advanceTo(next);
+    const Instant now = virtualClock->now();
+    if (stimulator && now >= stimulatorDue) stimulatorDue = stimulator->serve(now);
+    if (now < nextTick) return;
+    nextTick = now + ControlLoop::kPeriod;
+    if (sensor) sensor->serve(now);
+    loop->step(now);
+    if (stimulator && !stimulator->idle()) stimulatorDue = stimulator->serve(now);
+    if (scope && scope->active()) scope->serve(now);
+}
+
+Result<void> Bench::State::health() const {
+    if (stopped.load(std::memory_order_acquire)) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    if (interlock.state() == InterlockState::Faulted) {
+        return fail(ErrorCode::Device, "fault: {}. Output is off.", interlock.reason().view());
+    }
+    if (driving == DriveSource::Sensor && sensor && sensor->failed()) {
+        return fail(ErrorCode::Device, "the fingertip sensor failed: {}. No trains are sent.", sensor->error().view());
+    }
+    if (recorder && recorder->failed()) {
+        const auto why = recorder->error();
+        return fail(ErrorCode::Io, "recording failed: {}", why ? why->message : "the session file cannot be written");
+    }
+    return {};
+}
+
+/// Lets time pass until `done()` or `until`; the value says whether it was done. Errors: as health().
+template <class Done>
+Result<bool> Bench::State::advance(Instant until, Done done) {
+    constexpr Instant kLook = std::chrono::milliseconds(2);
+    for (std::uint64_t turns = 0;; ++turns) {
+        if (const auto well = health(); !well) return failure(well);
+        if (done()) return true;
+        if (config.clock->now() >= until) return false;
+        if (progress != nullptr && turns % 64 == 0) progress(progressContext);
+        if (virtualClock != nullptr) {
+            std::unique_lock lock(waitMutex);
+            waitChanged.wait(lock, [this] { return !paused || stopped; });
+            lock.unlock();
+            turn(until);
+        } else {
+            std::unique_lock lock(waitMutex);
+            waitChanged.wait_for(lock, std::min(kLook, until - config.clock->now()), [this] { return stopped.load(); });
+        }
+    }
+}
+
+GateSetup Bench::State::setupFor(const Load& load) const {
+    GateSetup setup;
+    setup.mode = config.mode;
+    setup.source = source;
+    setup.load = config.mode == OutputMode::BenchLoad
+                     ? LoadRange::declared(load)
+                     : LoadRange::between(config.profile.loadLow, config.profile.loadHigh);
+    setup.limits = config.limits;
+    setup.ceilings = config.profile.ceilings;
+    setup.electrodeArea = config.profile.electrodeArea;
+    setup.check = config.profile.encoding.train;
+    setup.check.pulses = 1;
+    setup.person = config.person;
+    return setup;
+}
+
+ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
+    ArmCommand command;
+    command.setup = setupFor(load);
+    const auto checkLevel =
+        source.drive == Drive::Current ? source.checkCurrent.value() : source.checkVoltage.value();
+    // |Z| depends on width and intensity; the range is that of the same pulse on the two ends of the load range.
+    command.impedanceRange = [range = command.setup.load, check = command.setup.check, source = source,
+                              checkLevel](std::optional<double> amplitude) {
+        PulseTrain train = check;
+        const double level = amplitude.value_or(checkLevel);
+        if (source.drive == Drive::Current) train.amplitude = Milliamps(level);
+        else train.amplitude = Volts(level);
+        const auto leading = segmentsOf(train, source.gap).items[0];
+        const SourceLimits limits{.compliance_V = source.compliance.value() > 0
+                                                      ? source.compliance.value()
+                                                      : std::numeric_limits<double>::infinity(),
+                                  .current_A = source.currentLimit.value() > 0
+                                                   ? source.currentLimit.value() * 1e-3
+                                                   : std::numeric_limits<double>::infinity()};
+        return std::pair(effectiveImpedance(range.min, leading, limits), effectiveImpedance(range.max, leading, limits));
+    };
+    auto& evidence = command.evidence;
+    evidence.limitsLoaded = !config.limits.empty();
+    evidence.deviceIdentified = config.devices.stimulator && !config.devices.stimulator->identity().name.empty();
+    evidence.operatorConfirmed = true;  // both steps were taken by whoever called arm()
+    evidence.needsImpedance = config.devices.stimulator != nullptr;
+    evidence.readsBack = source.readsBack;
+    std::tie(evidence.impedanceLow, evidence.impedanceHigh) = command.impedanceRange(std::nullopt);
+    evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
+    return command;
+}
+
+Result<std::unique_ptr<Bench>> Bench::create(BenchConfig config) {
+    auto state = std::make_unique<State>(std::move(config));
+    if (const auto opened = state->open(); !opened) return failure(opened);
+    return std::unique_ptr<Bench>(new Bench(std::move(state)));
+}
+
+Bench::Bench(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Bench::~Bench() = default;
+
+Result<void> Bench::arm(const ArmRequest& request) {
+    auto& s = *state_;
+    if (!s.config.devices.stimulator) return fail(ErrorCode::Unsupported, "not armed: no stimulator is open");
+    const auto load = parseLoad(request.load);
+    if (!load) return failure(load);
+    const auto ticket = s.interlock.requestArming(s.config.clock->now());
+    if (!ticket) return failure(ticket);
+    if (const auto confirmed = s.interlock.confirmArming(*ticket, s.config.clock->now()); !confirmed) return confirmed;
+    s.loop->arm(s.armCommandFor(request, *load));
+    std::optional<Result<void>> outcome;
+    const auto finished = s.advance(s.config.clock->now() + toInstant(kArmWithin), [&] {
+        outcome = s.loop->armed();
+        return outcome.has_value();
+    });
+    if (outcome) return *outcome;
+    // A fault ends arming and health() sees it first: say why in arming's own words if it has any.
+    if (auto late = s.loop->armed()) return *late;
+    disarm();
+    if (!finished) return failure(finished);
+    return fail(ErrorCode::Timeout, "not armed: the impedance check did not end within {} s", kArmWithin.count());
+}
+
+void Bench::disarm() noexcept {
+    state_->off("disarmed");
+    state_->driving = DriveSource::Off;
+    if (state_->virtualClock != nullptr) state_->loop->noteState(state_->config.clock->now());
+}
+
+void Bench::stop(const char* by) noexcept {
+    state_->stopped.store(true, std::memory_order_release);
+    state_->off(by);
+    {
+        const std::scoped_lock lock(state_->waitMutex);
+    }
+    state_->waitChanged.notify_all();
+}
+
+void Bench::clearStop() noexcept { state_->stopped.store(false, std::memory_order_release); }
+
+void Bench::pause() noexcept {
+    state_->paused.store(true, std::memory_order_release);
+    state_->loop->pauseOutput(true);
+    // Refused unless Delivering: a bench that delivers nothing has nothing to pause, and the wish is kept anyway.
+    if (const auto paused = state_->interlock.pause(); !paused) return;
+}
+
+void Bench::resume() noexcept {
+    if (const auto resumed = state_->interlock.resume(); !resumed) { /* was not Paused: nothing to leave */
+    }
+    state_->loop->pauseOutput(false);
+    {
+        const std::scoped_lock lock(state_->waitMutex);
+        state_->paused.store(false, std::memory_order_release);
+    }
+    state_->waitChanged.notify_all();
+}
+
+Result<void> Bench::resetFault() {
+    auto& s = *state_;
+    if (s.interlock.state() != InterlockState::Faulted) return {};
+    // Looked at again: a device that answers and delivers nothing is well; what its load is, the next check tells.
+    const auto causeIsThere = [&]() -> std::optional<std::string> {
+        if (!s.config.devices.stimulator || s.virtualClock == nullptr) return std::nullopt;
+        const auto status = s.config.devices.stimulator->status();
+        if (!status) return status.error().message;
+        if (status->delivering) return "the stimulator still delivers";
+        return std::nullopt;
+    }();
+    for (int cause = 0; cause < kFaultCauseCount && !causeIsThere; ++cause) {
+        s.interlock.causeGone(static_cast<FaultCause>(cause));
+    }
+    if (causeIsThere) return fail(ErrorCode::NotArmed, "the fault is still there: {}", *causeIsThere);
+    return s.interlock.reset();
+}
+
+Result<void> Bench::drive(DriveSource source, double roughness, double pressure) {
+    auto& s = *state_;
+    if (source == DriveSource::Sensor && !s.sensor) {
+        return fail(ErrorCode::Unsupported, "no fingertip sensor is open to drive the stimulator");
+    }
+    if (source == DriveSource::Manual) {
+        for (const auto& [name, value] : {std::pair("R", roughness), std::pair("P", pressure)}) {
+            if (!(value >= 0 && value <= 1)) {
+                return fail(ErrorCode::InvalidArgument, "{} is {}; 0 to 1 is expected", name, value);
+            }
+        }
+    }
+    s.driving = source;
+    s.loop->drive({source, roughness, pressure});
+    return {};
+}
+
+Result<void> Bench::setProfile(const Profile& profile) {
+    auto& s = *state_;
+    if (const auto valid = validate(profile.encoding); !valid) return valid;
+    const auto state = s.interlock.state();
+    const bool armed = state != InterlockState::Disarmed && state != InterlockState::Disconnected;
+    auto withSameRoughness = profile;
+    withSameRoughness.roughness = s.config.profile.roughness;
+    if (armed && toJson(withSameRoughness) != toJson(s.config.profile)) {
+        return fail(ErrorCode::NotArmed, "the encoding and the limits of the profile cannot change while {}: disarm first",
+                    nameOf(state));
+    }
+    auto finger = s.makeFinger(profile);
+    if (!finger) return failure(finger);
+    s.config.profile = profile;
+    if (*finger) s.loop->replaceFinger(std::move(*finger));
+    if (!armed) s.loop->replacePlanner(s.makePlanner(profile));
+    return {};
+}
+
+const Profile& Bench::profile() const noexcept { return state_->config.profile; }
+
+Result<void> Bench::wait(Seconds duration) {
+    auto& s = *state_;
+    if (!(duration.count() >= 0 && duration.count() <= 1e7)) {
+        return fail(ErrorCode::InvalidArgument, "a wait of {} s; 0 to 10000000 s is expected", duration.count());
+    }
+    const auto refusedBefore = telemetry().trainsRefused;
+    const auto passed = s.advance(s.config.clock->now() + toInstant(duration), [&] {
+        return s.driving == DriveSource::Manual && telemetry().trainsRefused != refusedBefore;
+    });
+    if (!passed) return failure(passed);
+    if (*passed) return fail(ErrorCode::LimitExceeded, "{}", telemetry().lastRefusal.view());
+    return {};
+}
+
+Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& settings) {
+    auto& s = *state_;
+    if (!s.scope) return fail(ErrorCode::Unsupported, "no oscilloscope is open to capture with");
+    if (trains < 1 || trains > static_cast<int>(ScopeSession::kMaxCaptures)) {
+        return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains, ScopeSession::kMaxCaptures);
+    }
+    const auto wanted = static_cast<std::size_t>(trains);
+    s.scope->request(settings);
+    const Instant longest = toInstant(s.config.profile.encoding.intervalMax) * (trains + 1) + kCaptureGrace;
+    const auto refusedBefore = telemetry().trainsRefused;
+    bool refused = false;
+    const auto passed = s.advance(s.config.clock->now() + longest, [&] {
+        refused = s.driving == DriveSource::Manual && telemetry().trainsRefused != refusedBefore;
+        return refused || s.scope->failed() || s.scope->ready() >= wanted;
+    });
+    auto taken = s.scope->take();
+    s.scope->cancel();
+    if (s.virtualClock != nullptr) s.scope->serve(s.config.clock->now());
+    if (!passed) return failure(passed);
+    if (!taken) return taken;
+    if (refused) return fail(ErrorCode::LimitExceeded, "{}", telemetry().lastRefusal.view());
+    if (taken->size() < wanted) {
+        return fail(ErrorCode::Timeout, "the oscilloscope was triggered {} times in {:.1f} s; {} were expected",
+                    taken->size(), toSeconds(longest), trains);
+    }
+    taken->resize(wanted);
+    return taken;
+}
+
+bool Bench::sensorFinished() const noexcept { return state_->sensor && state_->sensor->finished(); }
+
+Telemetry Bench::telemetry() const { return state_->loop->telemetry(); }
+DeviceSet& Bench::devices() noexcept { return state_->config.devices; }
+const Clock& Bench::clock() const noexcept { return *state_->config.clock; }
+
+void Bench::onProgress(void (*callback)(void* context), void* context) noexcept {
+    state_->progress = callback;
+    state_->progressContext = context;
+}
+
+}  // namespace tacto

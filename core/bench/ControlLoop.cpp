@@ -1,0 +1,406 @@
+#include "core/bench/ControlLoop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/safety/TrainCheck.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
+
+FaultCause causeOf(TrainFinding finding) noexcept {
+    switch (finding) {
+        case TrainFinding::Open: return FaultCause::OpenElectrode;
+        case TrainFinding::Short: return FaultCause::ShortElectrode;
+        case TrainFinding::NetCharge: return FaultCause::NetCharge;
+        case TrainFinding::StatusMissing: return FaultCause::StatusMissing;
+        case TrainFinding::StuckOn:
+        case TrainFinding::Garbage: return FaultCause::DeviceFault;
+        case TrainFinding::Pending:
+        case TrainFinding::Ok: break;
+    }
+    return FaultCause::Internal;
+}
+
+ElectrodeReading readingOf(ElectrodeState state) noexcept {
+    switch (state) {
+        case ElectrodeState::NotMeasured: return ElectrodeReading::NotMeasured;
+        case ElectrodeState::Ok: return ElectrodeReading::Ok;
+        case ElectrodeState::Open: return ElectrodeReading::Open;
+        case ElectrodeState::Short: return ElectrodeReading::Short;
+    }
+    return ElectrodeReading::NotMeasured;
+}
+
+std::optional<double> present(double value) noexcept {
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+TrainReadBack readBackOf(const TrainReport& report) noexcept {
+    return {.at = report.statusAt,
+            .delivering = report.stillDelivering,
+            .electrode = readingOf(report.electrode),
+            .imbalance = present(report.imbalance),
+            .imbalanceUncertainty = present(report.imbalanceUncertainty)};
+}
+
+}  // namespace
+
+ControlLoop::ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner)
+    : parts_(std::move(parts)), finger_(std::move(finger)), planner_(std::move(planner)) {
+    exposure_.reserve(2 * Telemetry::kMaxExposureRows);
+}
+
+void ControlLoop::arm(ArmCommand command) {
+    {
+        const std::scoped_lock lock(armedMutex_);
+        armedResult_.reset();
+    }
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.arm = std::move(command);
+    inboxFull_.store(true, std::memory_order_release);
+}
+
+std::optional<Result<void>> ControlLoop::armed() {
+    const std::scoped_lock lock(armedMutex_);
+    return std::exchange(armedResult_, std::nullopt);
+}
+
+void ControlLoop::drive(const DriveCommand& command) {
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.drive = command;
+    inboxFull_.store(true, std::memory_order_release);
+}
+
+void ControlLoop::replaceFinger(std::unique_ptr<FingerInput> finger) {
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.finger = std::move(finger);
+    inboxFull_.store(true, std::memory_order_release);
+}
+
+void ControlLoop::replacePlanner(std::unique_ptr<TrainPlanner> planner) {
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.planner = std::move(planner);
+    inboxFull_.store(true, std::memory_order_release);
+}
+
+void ControlLoop::step(Instant now) noexcept {
+    parts_.heartbeat.beat(now);
+    takeCommands(now);
+    noteState(now);
+    readFinger(now);
+    judgeReports(now);
+    watchForSilence(now);
+    updateWish(now);
+    sendTrain(now);
+    publish(now);
+}
+
+void ControlLoop::takeCommands(Instant now) noexcept {
+    if (!inboxFull_.load(std::memory_order_acquire)) return;
+    Inbox taken;
+    {
+        const std::unique_lock lock(inboxMutex_, std::try_to_lock);
+        if (!lock) return;  // next step: the loop waits for nobody
+        taken = std::exchange(inbox_, {});
+        inboxFull_.store(false, std::memory_order_release);
+    }
+    if (taken.finger) finger_ = std::move(taken.finger);
+    if (taken.planner) planner_ = std::move(taken.planner);
+    if (taken.drive) {
+        drive_ = *taken.drive;
+        if (parts_.recorder != nullptr) {
+            parts_.recorder->command(now, "drive", {{"roughness", drive_.roughness}, {"pressure", drive_.pressure}},
+                                     drive_.source == DriveSource::Manual   ? "manual"
+                                     : drive_.source == DriveSource::Sensor ? "sensor"
+                                                                            : "off");
+        }
+    }
+    if (taken.arm) {
+        arming_ = std::move(taken.arm);
+        beginCheck(now);
+    }
+}
+
+void ControlLoop::noteState(Instant now) noexcept {
+    const auto state = parts_.interlock.state();
+    if (state == seenState_) return;
+    seenState_ = state;
+    const auto reason = parts_.interlock.reason();
+    shown_.reason = FixedText<200>(reason.view());
+    if (parts_.recorder != nullptr && state != InterlockState::Delivering) {
+        parts_.recorder->event(now, "interlock", {}, fmt::format("{}{}{}", nameOf(state), reason.empty() ? "" : ": ",
+                                                                 reason.view()));
+    }
+    if (state == InterlockState::Disarmed || state == InterlockState::Faulted) {
+        if (arming_) {
+            finishArming(fail(state == InterlockState::Faulted ? ErrorCode::Device : ErrorCode::Stopped,
+                              "arming ended: {}", reason.empty() ? nameOf(state) : reason.view()));
+        }
+        impedance_.reset();
+        drive_ = {};
+        planner_->wantNothing();
+    }
+}
+
+void ControlLoop::beginCheck(Instant now) noexcept {
+    if (const auto configured = parts_.gate.configure(arming_->setup); !configured) {
+        parts_.interlock.disarm("arming was refused");
+        return finishArming(failure(configured));
+    }
+    if (!arming_->evidence.readsBack || parts_.stimulator == nullptr) {
+        arming_->evidence.impedanceAt = now;
+        const auto permitted = parts_.interlock.arm(arming_->evidence, now);
+        if (!permitted) parts_.interlock.disarm("arming was refused");
+        return finishArming(permitted);
+    }
+    auto check = parts_.gate.approveCheck(now);
+    if (!check) {
+        parts_.interlock.disarm("the impedance check was refused");
+        return finishArming(failure(check));
+    }
+    post(std::move(*check), now, true);
+}
+
+void ControlLoop::finishArming(Result<void> result) noexcept {
+    arming_.reset();
+    const std::scoped_lock lock(armedMutex_);
+    armedResult_ = std::move(result);
+}
+
+void ControlLoop::readFinger(Instant now) noexcept {
+    if (!finger_) return;
+    finger_->update();
+    if (parts_.recorder != nullptr) {
+        const auto blocks = finger_->blocks();
+        const auto streams = finger_->session().device().streams();
+        for (std::size_t s = 0; s < blocks.size(); ++s) {
+            if (blocks[s].samples() == 0) continue;
+            parts_.recorder->samples(parts_.sensorStreams[s], streams[s].channels, blocks[s]);
+        }
+    }
+    for (const auto& frame : finger_->frames()) {
+        if (frame.contact && !std::isnan(frame.h) && frame.sliding) {
+            ++shown_.slidingFrames;
+            shown_.sumH += frame.h;
+        }
+        if (frame.contact && !std::isnan(frame.v)) {
+            ++shown_.contactFrames;
+            shown_.sumV += frame.v;
+        }
+        if (parts_.recorder != nullptr) {
+            const double columns[] = {frame.contact ? 1.0 : 0.0, frame.sliding ? 1.0 : 0.0, frame.h, frame.v, frame.R,
+                                      frame.pressure_pa,         frame.P};
+            parts_.recorder->frame(parts_.frameStream, frame.t_s, columns);
+        }
+    }
+    const auto& newest = finger_->latest();
+    shown_.roughness = newest.R;
+    shown_.pressure = newest.P;
+    shown_.h = newest.h;
+    shown_.v = newest.v;
+    shown_.pressure_pa = newest.pressure_pa;
+    shown_.contact = newest.contact;
+    shown_.sliding = newest.sliding;
+    shown_.sensorAge_s = finger_->age_s(toSeconds(now));
+    shown_.samplesLost = finger_->session().samplesLost();
+    shown_.gaps = finger_->gaps();
+}
+
+void ControlLoop::judgeReports(Instant) noexcept {
+    if (parts_.stimulator == nullptr) return;
+    while (const auto report = parts_.stimulator->takeReport()) judge(*report);
+}
+
+void ControlLoop::judge(const TrainReport& report) noexcept {
+    const Instant now = report.statusAt;
+    if (report.outcome == TrainOutcome::Voided) {
+        if (arming_ && report.isCheck) {
+            parts_.interlock.disarm("the impedance check was voided");
+            finishArming(fail(ErrorCode::Stopped, "arming ended: the impedance check was voided by a stop"));
+        }
+        return;
+    }
+    if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
+    if (report.isCheck && arming_) return judgeCheck(report);
+
+    if (!report.isCheck) ++shown_.trainsDelivered;
+    shown_.imbalance = report.imbalance;
+    if (parts_.recorder != nullptr) {
+        parts_.recorder->command(report.onset, report.isCheck ? "impedance check" : "delivered",
+                                 {{"amplitude", report.amplitude},
+                                  {"interval_s", report.interval_s},
+                                  {"impedance_ohm", report.impedance_ohm},
+                                  {"imbalance", report.imbalance}});
+    }
+    if (!parts_.stimulator->device().traits().readsBack) return;
+    const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);
+    if (judgement.stops()) return trip(causeOf(judgement.finding), judgement.reason.view(), now);
+    if (!std::isfinite(report.impedance_ohm)) return;
+    const Ohms measured(report.impedance_ohm);
+    const auto [low, high] = impedanceRange_(report.isCheck ? std::nullopt : std::optional(report.amplitude));
+    if (!(measured >= low && measured <= high)) {
+        return trip(measured > high ? FaultCause::OpenElectrode : FaultCause::ShortElectrode,
+                    fmt::format("the load reads {:.0f} ohm, and the limits were judged from {:.0f} to {:.0f} ohm",
+                                measured.value(), low.value(), high.value()),
+                    now);
+    }
+    if (const auto updated = parts_.gate.updateImpedance(measured, now); !updated) {
+        return trip(FaultCause::LimitBroken, updated.error().message, now);
+    }
+    impedance_ = measured;
+    impedanceAt_ = now;
+}
+
+void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
+    const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, report.statusAt);
+    auto evidence = arming_->evidence;
+    if (judgement.stops()) {
+        parts_.interlock.disarm(judgement.reason.c_str());
+        return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", judgement.reason.view()));
+    }
+    if (std::isfinite(report.impedance_ohm)) evidence.impedance = Ohms(report.impedance_ohm);
+    evidence.impedanceAt = report.statusAt;
+    const auto permitted = parts_.interlock.arm(evidence, report.statusAt);
+    if (!permitted) {
+        parts_.interlock.disarm("the impedance check did not pass");
+        return finishArming(permitted);
+    }
+    impedance_ = evidence.impedance;
+    impedanceAt_ = report.statusAt;
+    impedanceRange_ = arming_->impedanceRange;
+    if (impedance_) {
+        if (const auto updated = parts_.gate.updateImpedance(*impedance_, impedanceAt_); !updated) {
+            parts_.interlock.disarm("the measured impedance is outside its range");
+            return finishArming(updated);
+        }
+    }
+    if (parts_.recorder != nullptr) {
+        parts_.recorder->command(report.onset, "impedance check", {{"impedance_ohm", report.impedance_ohm}});
+    }
+    finishArming({});
+}
+
+void ControlLoop::watchForSilence(Instant now) noexcept {
+    if (parts_.stimulator == nullptr || parts_.stimulator->idle()) return;
+    const auto judgement = judgeTrain(parts_.mode, std::nullopt, postedEnd_, now);
+    if (judgement.stops() && parts_.interlock.state() != InterlockState::Faulted) {
+        trip(FaultCause::StatusMissing, judgement.reason.view(), now);
+    }
+}
+
+void ControlLoop::updateWish(Instant now) noexcept {
+    const auto state = parts_.interlock.state();
+    const bool permitted = state == InterlockState::Armed || state == InterlockState::Delivering;
+    if (!permitted || paused_.load(std::memory_order_acquire) || drive_.source == DriveSource::Off) {
+        planner_->wantNothing();
+        return;
+    }
+    if (drive_.source == DriveSource::Manual) {
+        shown_.roughness = drive_.roughness;
+        shown_.pressure = drive_.pressure;
+        if (const auto wanted = planner_->want(drive_.roughness, drive_.pressure, now); !wanted) {
+            refused(now, wanted.error().message);
+        }
+        return;
+    }
+    const bool fresh = finger_ && finger_->fresh(toSeconds(now));
+    if (!fresh) {
+        if (!staleSeen_ && planner_->command()) {
+            ++shown_.trainsSkipped;
+            if (parts_.recorder != nullptr) {
+                parts_.recorder->event(now, "stale", {{"age_s", shown_.sensorAge_s}},
+                                       "sensor data are older than 100 ms: no new trains");
+            }
+        }
+        staleSeen_ = true;
+        planner_->wantNothing();
+        return;
+    }
+    staleSeen_ = false;
+    const auto& frame = finger_->latest();
+    if (!frame.contact || std::isnan(frame.R)) {
+        planner_->wantNothing();
+        return;
+    }
+    if (const auto wanted = planner_->want(frame.R, present(frame.P), now); !wanted) {
+        refused(now, wanted.error().message);
+    }
+}
+
+void ControlLoop::sendTrain(Instant now) noexcept {
+    if (parts_.stimulator == nullptr || !parts_.stimulator->idle()) return;
+    const auto due = planner_->due();
+    if (!due || *due >= now + kPeriod) return;
+    const bool readsBack = parts_.stimulator->device().traits().readsBack;
+    if (readsBack && now - impedanceAt_ > Interlock::kImpedanceAge) {
+        // The reading is old: one check pulse first; the train follows when it was judged.
+        auto check = parts_.gate.approveCheck(now);
+        if (!check) return trip(FaultCause::LimitBroken, check.error().message, now);
+        return post(std::move(*check), now, true);
+    }
+    auto planned = planner_->plan(now, impedance_);
+    if (!planned) return refused(now, planned.error().message);
+    if (parts_.interlock.state() == InterlockState::Armed) {
+        if (const auto begun = parts_.interlock.beginDelivery(); !begun) return;
+        seenState_ = InterlockState::Delivering;
+    }
+    if (parts_.recorder != nullptr) {
+        parts_.recorder->command(planned->onset, "train",
+                                 {{"amplitude_v", planned->command.amplitude.value()},
+                                  {"interval_s", planned->command.interval.count()},
+                                  {"roughness", shown_.roughness},
+                                  {"pressure", shown_.pressure},
+                                  {"amplitude", siValue(planned->rounding.train.amplitude)},
+                                  {"rounded_by", planned->rounding.amplitude}});
+    }
+    post(std::move(planned->approved), planned->onset, false);
+}
+
+void ControlLoop::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
+    const auto& sent = train.train();
+    postedEnd_ = onset + toInstant((sent.pulses - 1) / sent.rate.value()) + toInstant(sent.pulseDuration());
+    parts_.stimulator->post(std::move(train), onset, isCheck);
+    exposureAt_ = Instant(0);
+}
+
+void ControlLoop::refused(Instant now, std::string_view why) noexcept {
+    ++shown_.trainsRefused;
+    shown_.lastRefusal = why;
+    if (parts_.recorder != nullptr) parts_.recorder->event(now, "refused", {}, why);
+}
+
+void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) noexcept {
+    parts_.gate.latchStop();
+    if (parts_.stimulator != nullptr) parts_.stimulator->forceOff();
+    parts_.interlock.fault(cause, reason);
+    if (parts_.recorder != nullptr) parts_.recorder->event(now, "fault", {}, reason);
+    noteState(now);
+}
+
+void ControlLoop::publish(Instant now) noexcept {
+    shown_.at = now;
+    shown_.state = parts_.interlock.state();
+    shown_.paused = paused_.load(std::memory_order_relaxed);
+    const auto& command = planner_->command();
+    shown_.amplitude_v = command ? command->amplitude.value() : NAN;
+    shown_.interval_s = command ? command->interval.count() : NAN;
+    const auto due = planner_->due();
+    shown_.nextTrain_s = due ? toSeconds(*due) : NAN;
+    shown_.impedance_ohm = impedance_ ? impedance_->value() : NAN;
+    shown_.impedanceAge_s = impedance_ ? toSeconds(now - impedanceAt_) : NAN;
+    ++shown_.steps;
+    if (now - exposureAt_ >= kExposureEvery || exposureAt_ == Instant(0)) {
+        exposureAt_ = now;
+        parts_.gate.exposure(exposure_);
+        shown_.exposureCount = std::min(exposure_.size(), shown_.exposureRows.size());
+        std::copy_n(exposure_.begin(), shown_.exposureCount, shown_.exposureRows.begin());
+    }
+    latest_.write(shown_);
+}
+
+}  // namespace tacto

@@ -1,0 +1,128 @@
+// ControlLoop.h - one turn of the bench: read all sources → roughness and pressure → encode → gate → hand the
+// train to the stimulator's session → commands → telemetry.
+//
+// It is the gate's only caller, and the only one to move the interlock forward; anybody may stop it.
+//
+// Thread-safety: step() has one caller. arm(), armed(), drive(), replaceFinger() and replacePlanner() may be called
+// from another thread; the newest setting wins and takes effect in the next step. telemetry() any thread.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/Latest.h"
+#include "core/bench/FingerInput.h"
+#include "core/bench/StimulatorSession.h"
+#include "core/bench/Telemetry.h"
+#include "core/bench/TrainPlanner.h"
+#include "core/safety/Interlock.h"
+#include "core/session/SessionRecorder.h"
+
+namespace tacto {
+
+/// Where R and P come from.
+enum class DriveSource { Off, Manual, Sensor };
+
+struct DriveCommand {
+    DriveSource source = DriveSource::Off;
+    double roughness = 0;  ///< 0..1, Manual only
+    double pressure = 0;
+};
+
+/// The second step of arming, prepared by the bench.
+struct ArmCommand {
+    GateSetup setup;
+    ArmingEvidence evidence;  ///< its impedance is filled in from the check pulse
+    /// Lowest and highest |Z| that the limits were judged at, for a train of this amplitude (V or mA; absent: the check
+    /// pulse). A reading outside them means that something else is connected.
+    std::function<std::pair<Ohms, Ohms>(std::optional<double>)> impedanceRange;
+};
+
+class ControlLoop {
+public:
+    /// The time from one step to the next.
+    static constexpr Instant kPeriod = std::chrono::milliseconds(5);
+
+    struct Parts {
+        const Clock& clock;
+        SafetyGate& gate;
+        Interlock& interlock;
+        Heartbeat& heartbeat;
+        OutputMode mode;
+        StimulatorSession* stimulator;  ///< may be null
+        SessionRecorder* recorder;      ///< may be null
+        int frameStream;                ///< of the recorder, for roughness frames
+        std::vector<int> sensorStreams;
+    };
+    ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
+
+    /// Begins the check; the interlock is in Checking. armed() tells the end.
+    void arm(ArmCommand command);
+    /// Nothing while the check goes on, then success or why not. Taken once.
+    [[nodiscard]] std::optional<Result<void>> armed();
+    void drive(const DriveCommand& command);
+    void pauseOutput(bool paused) noexcept { paused_.store(paused, std::memory_order_release); }
+    void replaceFinger(std::unique_ptr<FingerInput> finger);
+    void replacePlanner(std::unique_ptr<TrainPlanner> planner);
+
+    /// One turn at `now`. Does not allocate in a steady state.
+    void step(Instant now) noexcept;
+    /// Records a change of the interlock that came from outside, for a bench that will not step again.
+    void noteState(Instant now) noexcept;
+
+    [[nodiscard]] Telemetry telemetry() const noexcept { return latest_.read(); }
+
+private:
+    struct Inbox {
+        std::optional<ArmCommand> arm;
+        std::optional<DriveCommand> drive;
+        std::unique_ptr<FingerInput> finger;
+        std::unique_ptr<TrainPlanner> planner;
+    };
+    void takeCommands(Instant now) noexcept;
+    void beginCheck(Instant now) noexcept;
+    void finishArming(Result<void> result) noexcept;
+    void readFinger(Instant now) noexcept;
+    void judgeReports(Instant now) noexcept;
+    void judge(const TrainReport& report) noexcept;
+    void judgeCheck(const TrainReport& report) noexcept;
+    void watchForSilence(Instant now) noexcept;
+    void updateWish(Instant now) noexcept;
+    void sendTrain(Instant now) noexcept;
+    void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
+    void refused(Instant now, std::string_view why) noexcept;
+    void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;
+    void publish(Instant now) noexcept;
+
+    Parts parts_;
+    std::unique_ptr<FingerInput> finger_;
+    std::unique_ptr<TrainPlanner> planner_;
+    std::atomic<bool> paused_{false};
+
+    std::mutex inboxMutex_;  // held to move a setting in or out
+    Inbox inbox_;
+    std::atomic<bool> inboxFull_{false};
+    std::mutex armedMutex_;
+    std::optional<Result<void>> armedResult_;
+
+    // The loop's own:
+    std::optional<ArmCommand> arming_;
+    DriveCommand drive_;
+    InterlockState seenState_ = InterlockState::Disconnected;
+    bool staleSeen_ = false;
+    std::optional<Ohms> impedance_;
+    Instant impedanceAt_{0};
+    std::function<std::pair<Ohms, Ohms>(std::optional<double>)> impedanceRange_;
+    Instant postedEnd_{0};  // when the train in the session ends
+    Telemetry shown_;
+    std::vector<ExposureRow> exposure_;
+    Instant exposureAt_{0};
+    Latest<Telemetry> latest_;
+};
+
+}  // namespace tacto

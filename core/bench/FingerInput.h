@@ -1,0 +1,49 @@
+// FingerInput.h - the control loop's sense of touch: collects samples, judges their continuity and age, and
+// keeps the newest roughness frame.
+//
+// Thread-safety: none; the control loop owns it. update() does not allocate in a steady state.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/acquisition/StreamHealth.h"
+#include "core/bench/SensorSession.h"
+#include "core/dsp/RoughnessChain.h"
+
+namespace tacto {
+
+class FingerInput {
+public:
+    /// `session` outlives this. Errors: as RoughnessChain::create().
+    [[nodiscard]] static Result<std::unique_ptr<FingerInput>> create(SensorSession& session,
+                                                                     const RoughnessSettings& settings);
+
+    /// Takes what arrived. frames() and blocks() are of this call until the next.
+    void update();
+    [[nodiscard]] const std::vector<RoughnessFrame>& frames() const noexcept { return frames_; }
+    [[nodiscard]] std::span<const SampleBlock> blocks() const noexcept { return blocks_; }
+    /// The newest frame; its R is NaN before the first.
+    [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
+
+    /// Age of the oldest stream's newest sample; infinite before the first.
+    [[nodiscard]] double age_s(double now_s) const noexcept;
+    /// True when every stream, and the newest frame allowing for its window, is at most 100 ms old (hazard H7).
+    [[nodiscard]] bool fresh(double now_s) const noexcept;
+    [[nodiscard]] std::uint64_t gaps() const noexcept;
+    [[nodiscard]] std::vector<std::string> flags() const { return chain_->flags(); }
+    [[nodiscard]] SensorSession& session() const noexcept { return session_; }
+
+private:
+    FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain> chain);
+
+    SensorSession& session_;
+    std::unique_ptr<RoughnessChain> chain_;
+    std::vector<StreamHealth> health_;
+    std::vector<SampleBlock> blocks_;
+    std::vector<RoughnessFrame> frames_;
+    RoughnessFrame latest_;
+    bool finished_ = false;
+};
+
+}  // namespace tacto

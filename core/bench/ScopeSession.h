@@ -1,0 +1,47 @@
+// ScopeSession.h - the only caller of an oscilloscope: arms it, and keeps the captures its triggers make
+// until somebody takes them.
+//
+// Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); the rest
+// any thread. Captures are large: what nobody takes is bounded to kMaxCaptures, the oldest dropped.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "core/devices/Oscilloscope.h"
+
+namespace tacto {
+
+class ScopeSession {
+public:
+    static constexpr std::size_t kMaxCaptures = 64;
+
+    /// `device` outlives the session.
+    explicit ScopeSession(Oscilloscope& device) : device_(device) {}
+
+    /// Asks for captures with these settings from the next serve() on; throws away older ones.
+    void request(const ScopeSettings& settings);
+    /// No more captures.
+    void cancel();
+    [[nodiscard]] std::size_t ready() const;
+    /// Everything captured so far, oldest first. The error of the device when it failed since request().
+    [[nodiscard]] Result<std::vector<Capture>> take();
+    /// Whether the device failed since request().
+    [[nodiscard]] bool failed() const;
+
+    Instant serve(Instant now) noexcept;
+    [[nodiscard]] bool active() const;
+
+private:
+    Oscilloscope& device_;
+    mutable std::mutex mutex_;
+    std::optional<ScopeSettings> requested_;  // guarded
+    bool active_ = false;                     // guarded
+    bool cancelled_ = false;                  // guarded
+    std::deque<Capture> captures_;            // guarded
+    std::optional<Error> error_;              // guarded
+};
+
+}  // namespace tacto

@@ -1,0 +1,130 @@
+#include "core/bench/StimulatorSession.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+namespace {
+constexpr Instant kIdlePoll = std::chrono::milliseconds(20);
+constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
+}  // namespace
+
+StimulatorSession::StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat,
+                                     const Clock& clock, std::function<void()> wake)
+    : device_(device), gate_(gate), heartbeat_(heartbeat), clock_(clock), wake_(std::move(wake)) {}
+
+void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
+    {
+        const std::scoped_lock lock(mailbox_);
+        pending_.emplace(Pending{std::move(train), onset, isCheck});
+        busy_.store(true, std::memory_order_release);
+    }
+    if (wake_) wake_();
+}
+
+void StimulatorSession::forceOff() noexcept {
+    offs_.fetch_add(1, std::memory_order_acq_rel);
+    device_.forceOff();
+}
+
+Instant StimulatorSession::serve(Instant now) noexcept {
+    Instant next = now + kIdlePoll;
+    feedDeadMan(now);
+    if (awaitingStatus_) {
+        if (now >= statusDue_) readStatus(now);
+        else next = std::min(next, statusDue_);
+    }
+    std::optional<Pending> due;
+    {
+        const std::scoped_lock lock(mailbox_);
+        if (pending_ && !awaitingStatus_) {
+            if (now >= pending_->onset) {
+                due = std::move(pending_);
+                pending_.reset();
+            } else {
+                next = std::min(next, pending_->onset);
+            }
+        }
+    }
+    if (due) {
+        deliver(std::move(*due), now);
+        if (awaitingStatus_) next = std::min(next, statusDue_);
+    }
+    return next;
+}
+
+void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
+    TrainReport made;
+    made.isCheck = pending.isCheck;
+    made.onset = now;
+    made.amplitude = std::visit([](auto a) { return a.value(); }, pending.train.train().amplitude);
+    made.interval_s = pending.train.interval().count();
+    const auto offsBefore = offs_.load(std::memory_order_acquire);
+    if (!gate_.isCurrent(pending.train) || !heartbeat_.alive(clock_.now())) {
+        report(made);
+        return;
+    }
+    const PulseTrain train = pending.train.train();
+    const Seconds end = Seconds((train.pulses - 1) / train.rate.value()) + Seconds(train.pulseDuration());
+    const auto delivered = device_.deliver(std::move(pending.train));
+    // A stop that came while the write was in flight may have reached the device before it: off again.
+    if (offs_.load(std::memory_order_acquire) != offsBefore) device_.forceOff();
+    if (!delivered) {
+        device_.forceOff();
+        made.outcome = TrainOutcome::Failed;
+        made.error = std::string_view(delivered.error().message);
+        report(made);
+        return;
+    }
+    made.end = now + toInstant(end);
+    awaitingStatus_ = made;
+    statusDue_ = made.end + kStatusDelay;
+}
+
+void StimulatorSession::readStatus(Instant now) noexcept {
+    TrainReport made = *awaitingStatus_;
+    awaitingStatus_.reset();
+    const auto status = device_.status();
+    if (!status) {
+        device_.forceOff();
+        made.outcome = TrainOutcome::Failed;
+        made.error = std::string_view(status.error().message);
+    } else {
+        made.outcome = TrainOutcome::Delivered;
+        made.stillDelivering = status->delivering;
+        made.electrode = status->electrode;
+        if (status->impedance) made.impedance_ohm = status->impedance->value();
+        if (status->imbalance) made.imbalance = *status->imbalance;
+        if (status->imbalanceUncertainty) made.imbalanceUncertainty = *status->imbalanceUncertainty;
+    }
+    made.statusAt = std::max(now, clock_.now());
+    report(made);
+}
+
+void StimulatorSession::feedDeadMan(Instant now) noexcept {
+    if (!heartbeat_.alive(clock_.now())) {
+        // The loop is silent: whatever the device still does on its own has to end.
+        if (!silenced_) device_.forceOff();
+        silenced_ = true;
+        return;
+    }
+    silenced_ = false;
+    const auto deadMan = device_.traits().deadMan;
+    if (deadMan.count() <= 0 || now < keepAliveDue_) return;
+    keepAliveDue_ = now + toInstant(deadMan / 8);
+    if (const auto kept = device_.keepAlive(); !kept) {
+        device_.forceOff();
+        TrainReport lost;
+        lost.outcome = TrainOutcome::Failed;
+        lost.onset = lost.statusAt = now;
+        lost.error = std::string_view(kept.error().message);
+        reports_.push(lost);
+    }
+}
+
+void StimulatorSession::report(const TrainReport& made) noexcept {
+    reports_.push(made);
+    busy_.store(false, std::memory_order_release);
+}
+
+}  // namespace tacto

@@ -1,0 +1,73 @@
+// StimulatorSession.h - the only caller of a stimulator: writes approved trains at their onset, reads the
+// device's status after each, keeps its dead-man switch fed while the control loop is alive.
+//
+// One train is in the session at a time: it is idle again when its report was made, so a status that was
+// not read holds back the next train.
+//
+// Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench). post(),
+// idle() and takeReport() have one caller, the control loop. forceOff() any thread.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "core/base/Clock.h"
+#include "core/base/SpscRing.h"
+#include "core/bench/TrainReport.h"
+#include "core/safety/Heartbeat.h"
+
+namespace tacto {
+
+class StimulatorSession {
+public:
+    /// All arguments outlive the session. `wake` is called after post(), so that a thread waiting for serve()'s
+    /// due time looks again; may be empty.
+    StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
+                      std::function<void()> wake);
+
+    [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
+    /// Hands over a train to be written at `onset`. The session must be idle().
+    void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
+    [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
+
+    /// Output off now, and again after a write that is in flight. The bench latches the gate first.
+    void forceOff() noexcept;
+
+    /// Does what is due and returns when it wants to be called again.
+    Instant serve(Instant now) noexcept;
+
+    [[nodiscard]] const Stimulator& device() const noexcept { return device_; }
+
+private:
+    struct Pending {
+        ApprovedTrain train;
+        Instant onset;
+        bool isCheck;
+    };
+    void deliver(Pending&& pending, Instant now) noexcept;
+    void readStatus(Instant now) noexcept;
+    void feedDeadMan(Instant now) noexcept;
+    void report(const TrainReport& made) noexcept;
+
+    Stimulator& device_;
+    const SafetyGate& gate_;
+    const Heartbeat& heartbeat_;
+    const Clock& clock_;
+    const std::function<void()> wake_;
+
+    std::atomic<bool> busy_{false};
+    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls; a write that saw one pass switches off again
+    std::mutex mailbox_;                  // guards pending_; held for a move only
+    std::optional<Pending> pending_;
+    SpscRing<TrainReport> reports_{16};
+
+    // The device thread's own:
+    std::optional<TrainReport> awaitingStatus_;
+    Instant statusDue_{0};
+    Instant keepAliveDue_{0};
+    bool silenced_ = false;  // the heartbeat was found dead and the output switched off
+};
+
+}  // namespace tacto

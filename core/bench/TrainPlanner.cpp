@@ -1,0 +1,55 @@
+#include "core/bench/TrainPlanner.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+DeviceGrid gridOf(const SourceTraits& source) noexcept {
+    return {.amplitudeStep = source.amplitudeStep,
+            .amplitudeMax = source.amplitudeMax,
+            .widthStep = source.widthStep,
+            .widthMin = source.widthMin,
+            .widthMax = source.widthMax,
+            .pulsesMax = source.pulsesMax};
+}
+
+TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate)
+    : encoder_(profile), source_(source), gate_(gate) {}
+
+Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure, Instant now) {
+    const auto encoded = encoder_.encode(roughness, pressure);
+    if (!encoded) {
+        wantNothing();
+        return failure(encoded);
+    }
+    const bool starting = !wanted_;
+    wanted_ = *encoded;
+    command_ = last_ ? encoder_.limited(*last_, *wanted_, Seconds(now - lastOnset_)) : *wanted_;
+    if (starting) scheduler_.start(now, command_->interval);
+    else scheduler_.setInterval(command_->interval, now);
+    return {};
+}
+
+void TrainPlanner::wantNothing() noexcept {
+    wanted_.reset();
+    command_.reset();
+    scheduler_.off();
+}
+
+Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
+    const Instant onset = std::max(scheduler_.due().value_or(now), now);
+    if (last_) command_ = encoder_.limited(*last_, *wanted_, Seconds(onset - lastOnset_));
+    const Command command = *command_;
+    scheduler_.trainAt(onset);
+    const auto train = trainFor(source_.drive, encoder_.profile(), command.amplitude, impedance);
+    if (!train) return failure(train);
+    const auto rounded = roundToDevice(*train, gridOf(source_));
+    if (!rounded) return failure(rounded);
+    auto approved = gate_.approve(TrainRequest{rounded->train, command.interval, onset});
+    if (!approved) return failure(approved);
+    last_ = command;
+    lastOnset_ = onset;
+    return PlannedTrain{std::move(*approved), onset, command, *rounded};
+}
+
+}  // namespace tacto

@@ -1,0 +1,57 @@
+// TrainPlanner.h - from a wanted roughness and pressure to the next approved train: encode, schedule, round,
+// have it judged.
+//
+// Thread-safety: none; the control loop owns it. Does not allocate when a train is approved.
+#pragma once
+
+#include <optional>
+
+#include "core/encoding/Encoder.h"
+#include "core/encoding/Rounding.h"
+#include "core/encoding/TrainScheduler.h"
+#include "core/safety/SafetyGate.h"
+
+namespace tacto {
+
+struct PlannedTrain {
+    ApprovedTrain approved;
+    Instant onset;
+    Command command;        ///< what was asked for, in volts
+    RoundedTrain rounding;  ///< and how far the device's step took it from that
+};
+
+class TrainPlanner {
+public:
+    /// `profile` has passed validate(); `gate` outlives the planner.
+    TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate);
+
+    /// What is wanted from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then
+    /// nothing is wanted.
+    [[nodiscard]] Result<void> want(double roughness, std::optional<double> pressure, Instant now);
+    /// No train until the next want().
+    void wantNothing() noexcept;
+
+    /// When the next train is due; nothing while none is wanted.
+    [[nodiscard]] std::optional<Instant> due() const noexcept { return scheduler_.due(); }
+    /// The command of the next train; nothing while none is wanted.
+    [[nodiscard]] const std::optional<Command>& command() const noexcept { return command_; }
+
+    /// Has the due train judged, for an onset at max(due, now). Whether it is approved or refused, the next one is an
+    /// interval later. Errors: as trainFor(), roundToDevice() and SafetyGate::approve().
+    [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
+
+private:
+    const Encoder encoder_;
+    const SourceTraits source_;
+    SafetyGate& gate_;
+    TrainScheduler scheduler_;
+    std::optional<Command> wanted_;
+    std::optional<Command> command_;  // wanted_ under the slew limits
+    std::optional<Command> last_;     // of the last train
+    Instant lastOnset_{0};
+};
+
+/// The grid of a device as core/encoding rounds to it.
+[[nodiscard]] DeviceGrid gridOf(const SourceTraits& source) noexcept;
+
+}  // namespace tacto

@@ -1,0 +1,35 @@
+// TrainReport.h - what became of one train: made by the stimulator's session, judged by the control loop.
+#pragma once
+
+#include <cmath>
+
+#include "core/base/Units.h"
+#include "core/devices/Stimulator.h"
+#include "core/safety/FixedText.h"
+
+namespace tacto {
+
+enum class TrainOutcome {
+    Delivered,  ///< and the device's status was read afterwards
+    Voided,     ///< a stop, a new configuration or time took the approval back; nothing was written
+    Failed,     ///< the device refused, went away or did not answer; it was switched off
+};
+
+/// Trivially copyable: it crosses threads in a ring.
+struct TrainReport {
+    TrainOutcome outcome = TrainOutcome::Voided;
+    bool isCheck = false;           ///< the impedance check, not a train
+    Instant onset{0};               ///< when it was written
+    Instant end{0};                 ///< of its last pulse
+    bool stillDelivering = false;   ///< what the device said when its status was read
+    double amplitude = 0;           ///< V or mA, as delivered
+    double interval_s = 0;
+    ElectrodeState electrode = ElectrodeState::NotMeasured;
+    double impedance_ohm = NAN;
+    double imbalance = NAN;
+    double imbalanceUncertainty = NAN;
+    Instant statusAt{0};
+    FixedText<160> error;           ///< when Failed
+};
+
+}  // namespace tacto

@@ -1,0 +1,55 @@
+// BenchFixture.h - a whole bench on simulated devices, named by their URIs.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/bench/Bench.h"
+#include "core/session/SessionWriter.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+
+class BenchFixture : public testing::Test {
+protected:
+    /// Opens `uris` on a virtual clock (a steady one when `realTime`). Fills every role of `needed` with sim:.
+    void open(std::vector<std::string> uris, std::set<Role> needed = {Role::Stimulator, Role::Oscilloscope},
+              bool realTime = false, const std::string& load = "1 kohm") {
+        bench_.reset();
+        clock_.reset();
+        if (realTime) clock_ = std::make_shared<SteadyClock>();
+        else clock_ = std::make_shared<VirtualClock>();
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        Registry registry(std::move(drivers));
+        std::vector<DeviceUri> parsed;
+        for (const auto& uri : uris) parsed.push_back(DeviceUri::parse(uri).value());
+        parsed.push_back(DeviceUri::parse("sim:").value());
+        auto devices = registry.open(parsed, needed, OpenContext{*clock_, seed_, load});
+        ASSERT_TRUE(devices) << devices.error().message;
+        BenchConfig config;
+        config.devices = std::move(*devices);
+        config.clock = clock_;
+        config.profile = profile_;
+        auto limits = loadLimitSets(sourceDir() / "resources" / "limits");
+        ASSERT_TRUE(limits) << limits.error().message;
+        config.limits = std::move(*limits);
+        config.session = session_;
+        auto bench = Bench::create(std::move(config));
+        ASSERT_TRUE(bench) << bench.error().message;
+        bench_ = std::move(*bench);
+    }
+
+    [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") { return bench_->arm(ArmRequest{load, true}); }
+    [[nodiscard]] InterlockState state() const { return bench_->telemetry().state; }
+
+    std::uint64_t seed_ = 1;
+    Profile profile_;
+    SessionWriter* session_ = nullptr;
+    std::shared_ptr<Clock> clock_;
+    std::unique_ptr<Bench> bench_;
+};
+
+}  // namespace tacto::test

@@ -1,0 +1,266 @@
+// The whole bench on the virtual clock and the simulated devices.
+#include "tests/bench/BenchFixture.h"
+
+#include "core/measure/PulseMeasurement.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+
+class BenchTest : public test::BenchFixture {};
+
+TEST_F(BenchTest, ArmsOnTheDeclaredLoadAndDeliversTrainsAtTheInterval) {
+    open({"sim:stimulator?load=1kohm"});
+    ASSERT_TRUE(arm());
+    EXPECT_EQ(state(), InterlockState::Armed);
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+    ASSERT_TRUE(bench_->wait(Seconds(10.5)));
+    const auto seen = bench_->telemetry();
+    EXPECT_EQ(seen.state, InterlockState::Delivering);
+    EXPECT_EQ(seen.trainsDelivered, 6U) << "at 0, 2, 4, 6, 8 and 10 s";
+    EXPECT_NEAR(seen.impedance_ohm, 1000, 50);
+    EXPECT_DOUBLE_EQ(seen.amplitude_v, 10);
+    EXPECT_DOUBLE_EQ(seen.interval_s, 2);
+}
+
+TEST_F(BenchTest, CapturesWhatTheLoadReceivesOnsetToOnset) {
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto captures = bench_->capture(3, ScopeSettings{});
+    ASSERT_TRUE(captures) << captures.error().message;
+    ASSERT_EQ(captures->size(), 3U);
+    const auto measured = measureTrains(*captures, "voltage");
+    ASSERT_TRUE(measured) << measured.error().message;
+    EXPECT_NEAR(measured->amplitude.mean, 40, 0.5);
+    EXPECT_NEAR(measured->interval_s.mean, 0.5, 0.5e-3);
+    EXPECT_NEAR(measured->width_s.mean, 200e-6, 3e-6);
+    EXPECT_EQ(measured->interval_s.n, 2U);
+}
+
+TEST_F(BenchTest, APressIsFeltAtOnceWhenTheIntervalShrinks) {
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));  // one train at about 0 s, the next due at 2 s
+    ASSERT_EQ(bench_->telemetry().trainsDelivered, 1U);
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.05)));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 2U);
+}
+
+TEST_F(BenchTest, RefusesToArmOnAnOpenOrShortedElectrode) {
+    RecordProperty("hazard", "H3");
+    for (const auto* load : {"open", "short"}) {
+        open({std::string("sim:stimulator?load=") + load});
+        const auto armed = arm();
+        ASSERT_FALSE(armed) << load;
+        EXPECT_EQ(armed.error().code, ErrorCode::NotArmed) << armed.error().message;
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(bench_->wait(Seconds(3)));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << load;
+    }
+}
+
+TEST_F(BenchTest, RefusesToArmOnAnotherLoadThanTheDeclaredOne) {
+    RecordProperty("hazard", "H1");
+    open({"sim:stimulator?load=300ohm"});
+    const auto armed = arm("1 kohm");
+    ASSERT_FALSE(armed);
+    EXPECT_EQ(armed.error().code, ErrorCode::NotArmed) << armed.error().message;
+}
+
+TEST_F(BenchTest, AnElectrodeThatLiftsStopsOutputBeforeTheNextTrain) {
+    RecordProperty("hazard", "H3");
+    for (const auto* fault : {"open@3.1s", "short@3.1s"}) {
+        open({std::string("sim:stimulator?fault=") + fault});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+        const auto waited = bench_->wait(Seconds(20));
+        ASSERT_FALSE(waited) << fault;
+        EXPECT_EQ(waited.error().code, ErrorCode::Device) << waited.error().message;
+        EXPECT_EQ(state(), InterlockState::Faulted);
+        const auto& clock = bench_->clock();
+        EXPECT_LT(clock.now(), 3.1s + 1.25s + 0.06s) << fault << ": found in the first train after it, within 50 ms";
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        EXPECT_FALSE(bench_->wait(Seconds(5)));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+        EXPECT_FALSE(arm()) << "a fault latches";
+    }
+}
+
+TEST_F(BenchTest, AnOverLimitTrainIsRefusedWithItsLimitAndNeverDelivered) {
+    RecordProperty("hazard", "H1");
+    // 40 V every 0.5 s is 11.3 mA RMS into 100 ohm; the paper allows less than 10 mA.
+    open({"sim:stimulator?load=100ohm"}, {Role::Stimulator}, false, "100 ohm");
+    ASSERT_TRUE(arm("100 ohm"));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(waited.error().code, ErrorCode::LimitExceeded);
+    EXPECT_NE(waited.error().message.find("RMS"), std::string::npos) << waited.error().message;
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+}
+
+TEST_F(BenchTest, StopVoidsEverythingAndEndsWaiting) {
+    RecordProperty("hazard", "H2");
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(2)));
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    bench_->stop("test");
+    const auto waited = bench_->wait(Seconds(2));
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(waited.error().code, ErrorCode::Stopped);
+    bench_->clearStop();
+    ASSERT_TRUE(bench_->wait(Seconds(2)));
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+    EXPECT_TRUE(arm()) << "and the bench can be armed again";
+}
+
+TEST_F(BenchTest, FaultsOfTheStimulatorEndInSilence) {
+    RecordProperty("hazard", "H2");
+    for (const auto* fault : {"unplug@2.2s", "garbage@2.2s", "late@2.2s", "nan@2.2s", "stuck-on@2.2s"}) {
+        open({std::string("sim:stimulator?fault=") + fault});
+        ASSERT_TRUE(arm()) << fault;
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+        const auto waited = bench_->wait(Seconds(6));
+        EXPECT_FALSE(waited) << fault;
+        EXPECT_EQ(state(), InterlockState::Faulted) << fault;
+        EXPECT_LE(bench_->clock().now(), 2.2s + 0.5s + 0.12s) << fault;
+    }
+}
+
+TEST_F(BenchTest, ADriftOutOfTheJudgedLoadRangeStopsOutput) {
+    RecordProperty("hazard", "H1");
+    open({"sim:stimulator?fault=drift@1s"});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    EXPECT_FALSE(bench_->wait(Seconds(600)));
+    EXPECT_EQ(state(), InterlockState::Faulted);
+}
+
+TEST_F(BenchTest, PausedDeliversNothingAndGoesOnAfterwards) {
+    open({}, {Role::Stimulator}, true);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.3)));
+    bench_->pause();
+    ASSERT_TRUE(bench_->wait(Seconds(0.1)));
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    ASSERT_TRUE(bench_->wait(Seconds(1.2)));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+    EXPECT_EQ(state(), InterlockState::Paused);
+    bench_->resume();
+    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    EXPECT_GT(bench_->telemetry().trainsDelivered, delivered);
+}
+
+TEST_F(BenchTest, TheFingerDrivesTheStimulator) {
+    open({"sim:finger?material=P60&force=6N"}, {Role::Sensor, Role::Stimulator, Role::Oscilloscope});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
+    ASSERT_TRUE(bench_->wait(Seconds(6)));
+    const auto seen = bench_->telemetry();
+    EXPECT_GT(seen.trainsDelivered, 2U);
+    EXPECT_TRUE(seen.contact || seen.contactFrames > 0);
+}
+
+TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
+    RecordProperty("hazard", "H7");
+    for (const auto* fault : {"stale@3s", "nan@3s", "unplug@3s"}) {
+        open({std::string("sim:finger?material=P60&force=3N&fault=") + fault}, {Role::Sensor, Role::Stimulator});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
+        ASSERT_TRUE(bench_->wait(Seconds(2.9))) << fault;
+        ASSERT_GT(bench_->telemetry().trainsDelivered, 0U) << fault;
+        // 100 ms of age, the window that is still whole, and no more.
+        const auto settled = bench_->wait(Seconds(0.5));
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        const auto waited = bench_->wait(Seconds(5));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << fault;
+        if (std::string(fault) == "unplug@3s") EXPECT_FALSE(settled && waited) << "the script must hear of it";
+    }
+}
+
+TEST_F(BenchTest, SilenceAndAFingerAtRestDeliverNothingRough) {
+    RecordProperty("hazard", "H7");
+    open({"sim:finger?material=P60&speed=0&force=2N"}, {Role::Sensor, Role::Stimulator});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
+    for (int i = 0; i < 40; ++i) {
+        ASSERT_TRUE(bench_->wait(Seconds(0.1)));
+        const auto seen = bench_->telemetry();
+        if (seen.sliding) continue;
+        if (!std::isnan(seen.roughness) && i > 30) EXPECT_LT(seen.roughness, 0.05) << "static contact read as rough";
+    }
+}
+
+TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
+    RecordProperty("hazard", "H4");
+    open({"sim:stimulator?mode=current&load=2kohm"}, {Role::Stimulator, Role::Oscilloscope}, false, "2 kohm");
+    ASSERT_TRUE(arm("2 kohm"));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto captures = bench_->capture(2, ScopeSettings{});
+    ASSERT_TRUE(captures) << captures.error().message;
+    const auto measured = measureTrains(*captures, "current");
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(measured->amplitude.mean, 40.0 / 2000, 1.1e-3) << "A / |Z|, rounded to the device's step";
+}
+
+TEST_F(BenchTest, TheSameSeedGivesTheSameSamples) {
+    std::vector<double> samples[2];
+    for (auto& seen : samples) {
+        open({"sim:stimulator?jitter=20us"});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
+        const auto captures = bench_->capture(3, ScopeSettings{});
+        ASSERT_TRUE(captures) << captures.error().message;
+        for (const auto& capture : *captures) {
+            seen.push_back(capture.trigger_s);
+            seen.insert(seen.end(), capture.channels[0].samples.begin(), capture.channels[0].samples.end());
+        }
+    }
+    EXPECT_EQ(samples[0], samples[1]);
+}
+
+TEST_F(BenchTest, RecordsStreamsFramesTrainsAndEvents) {
+    test::ScratchDir scratch;
+    const auto path = scratch.path() / "live.tacto";
+    clock_ = std::make_shared<VirtualClock>();
+    {
+        // The session needs the bench's clock; open() makes it, so the session is made on one of its own first.
+        const VirtualClock sessionClock;
+        auto session = SessionWriter::create(path, SessionAbout{}, sessionClock);
+        ASSERT_TRUE(session) << session.error().message;
+        session_ = session->get();
+        open({"sim:finger?material=P60&force=3N"}, {Role::Sensor, Role::Stimulator});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
+        ASSERT_TRUE(bench_->wait(Seconds(4)));
+        bench_->disarm();
+        bench_.reset();
+        ASSERT_TRUE((*session)->close());
+        session_ = nullptr;
+    }
+    const auto reader = SessionReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().message;
+    const auto streams = (*reader)->streams();
+    ASSERT_TRUE(streams);
+    ASSERT_EQ(streams->size(), 4U) << "acceleration, taxels, force and frames";
+    for (const auto& stream : *streams) EXPECT_GT(stream.samples, 100U) << stream.stream.name;
+    const auto commands = (*reader)->commands();
+    ASSERT_TRUE(commands);
+    EXPECT_GT(commands->size(), 3U);
+    const auto events = (*reader)->events();
+    ASSERT_TRUE(events);
+    EXPECT_GE(events->size(), 3U) << "checking, armed, disarmed";
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,90 @@
+// FakeStimulator.h - a stimulator that does what a test tells it to, and counts what was asked of it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "core/devices/Stimulator.h"
+
+namespace tacto::test {
+
+class FakeStimulator final : public Stimulator {
+public:
+    explicit FakeStimulator(const Clock& clock) : clock_(clock) {
+        traits_.drive = Drive::Voltage;
+        traits_.amplitudeMax = 60;
+        traits_.compliance = Volts(60);
+        traits_.widthStep = Micros(1);
+    }
+
+    const DeviceIdentity& identity() const noexcept override { return identity_; }
+    const SourceTraits& traits() const noexcept override { return traits_; }
+    Result<void> deliver(ApprovedTrain&& train) override {
+        const ApprovedTrain taken = std::move(train);
+        if (onDeliver) onDeliver();
+        if (deliverFails) return fail(ErrorCode::Device, "the fake refuses to deliver");
+        ++delivered;
+        lastAmplitude = siValue(taken.train().amplitude);
+        on = true;
+        return {};
+    }
+    Result<StimulatorStatus> status() override {
+        if (statusFails) return fail(ErrorCode::Timeout, "the fake does not answer");
+        StimulatorStatus answer;
+        answer.at = clock_.now();
+        answer.electrode = electrode;
+        answer.impedance = impedance;
+        answer.trainsDelivered = static_cast<std::uint64_t>(delivered.load());
+        on = false;
+        return answer;
+    }
+    Result<void> keepAlive() override {
+        ++keptAlive;
+        return {};
+    }
+    void forceOff() noexcept override {
+        ++offs;
+        on = false;
+    }
+
+    SourceTraits traits_;
+    std::function<void()> onDeliver;
+    bool deliverFails = false;
+    bool statusFails = false;
+    ElectrodeState electrode = ElectrodeState::Ok;
+    Ohms impedance{1000};
+    std::atomic<int> delivered{0};
+    std::atomic<int> offs{0};
+    std::atomic<int> keptAlive{0};
+    std::atomic<bool> on{false};
+    double lastAmplitude = 0;
+
+private:
+    const Clock& clock_;
+    DeviceIdentity identity_{"fake:", Role::Stimulator, "Fake stimulator", "F1", "1", true};
+};
+
+/// One generous limit set, so that tests of the bench meet the gate's own rules and not a standard's.
+[[nodiscard]] inline LimitSet generousLimits() {
+    LimitSet set;
+    set.id = "test";
+    set.title = "Generous";
+    LimitRow row;
+    row.quantity = Quantity::RmsCurrent5s;
+    row.max = 1000;
+    row.source = "test";
+    set.rows.push_back(row);
+    return set;
+}
+
+/// A bench setup around `source` with a declared resistor.
+[[nodiscard]] inline GateSetup benchSetup(const SourceTraits& source, Ohms load = Ohms(1000)) {
+    GateSetup setup;
+    setup.source = source;
+    setup.load = LoadRange::declared(Load::resistor(load));
+    setup.limits = {generousLimits()};
+    return setup;
+}
+
+}  // namespace tacto::test

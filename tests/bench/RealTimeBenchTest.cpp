@@ -1,0 +1,75 @@
+// The same bench on the steady clock: threads, stop latency, the control loop's own time.
+#include <thread>
+
+#include "tests/bench/BenchFixture.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+class RealTimeBenchTest : public test::BenchFixture {};
+
+TEST_F(RealTimeBenchTest, DeliversOnTimeWithAThreadPerDevice) {
+    open({"sim:finger?material=P60&force=6N"}, {Role::Sensor, Role::Stimulator, Role::Oscilloscope}, true);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto captures = bench_->capture(4, ScopeSettings{});
+    ASSERT_TRUE(captures) << captures.error().message;
+    for (std::size_t i = 1; i < captures->size(); ++i) {
+        // A busy machine may be late by a few milliseconds; a missed turn would be late by a whole interval.
+        EXPECT_NEAR((*captures)[i].trigger_s - (*captures)[i - 1].trigger_s, 0.5, 0.25);
+    }
+}
+
+TEST_F(RealTimeBenchTest, StopReachesForceOffWithinTenMilliseconds) {
+    RecordProperty("hazard", "H2");
+    open({}, {Role::Stimulator}, true);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.7)));
+    std::thread stopper;
+    steady_clock::duration took{};
+    stopper = std::thread([&] {
+        std::this_thread::sleep_for(50ms);
+        const auto begun = steady_clock::now();
+        bench_->stop("test");  // returns after forceOff
+        took = steady_clock::now() - begun;
+    });
+    const auto waited = bench_->wait(Seconds(10));
+    stopper.join();
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(waited.error().code, ErrorCode::Stopped);
+    EXPECT_LT(took, 10ms);
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+TEST_F(RealTimeBenchTest, StopEndsAWaitWithinTenMilliseconds) {
+    RecordProperty("hazard", "H2");
+    open({}, {Role::Stimulator}, true);
+    std::atomic<bool> ended{false};
+    std::thread waiter([&] {
+        EXPECT_FALSE(bench_->wait(Seconds(60)));
+        ended = true;
+    });
+    std::this_thread::sleep_for(30ms);
+    bench_->stop("test");
+    const auto begun = steady_clock::now();
+    waiter.join();
+    EXPECT_LT(steady_clock::now() - begun, 1s);
+    EXPECT_TRUE(ended);
+}
+
+TEST_F(RealTimeBenchTest, ClosesWithEverythingRunning) {
+    for (int i = 0; i < 3; ++i) {
+        open({}, {Role::Sensor, Role::Stimulator, Role::Oscilloscope}, true);
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(bench_->wait(Seconds(0.05)));
+        bench_.reset();
+    }
+}
+
+}  // namespace
+}  // namespace tacto

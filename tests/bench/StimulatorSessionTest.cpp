@@ -1,0 +1,141 @@
+#include "core/bench/StimulatorSession.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/FakeStimulator.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+using test::FakeStimulator;
+
+class StimulatorSessionTest : public testing::Test {
+protected:
+    void SetUp() override {
+        ASSERT_TRUE(gate_.configure(test::benchSetup(device_.traits_)));
+        heartbeat_.beat(clock_.now());
+    }
+    void post(Instant onset = 0s) {
+        PulseTrain train;
+        train.amplitude = Volts(10);
+        auto approved = gate_.approve({train, Seconds(1), onset});
+        ASSERT_TRUE(approved) << approved.error().message;
+        session_.post(std::move(*approved), onset, false);
+    }
+    void passTo(Instant moment) {
+        // Steps as the bench does, with the loop alive.
+        while (clock_.now() < moment) {
+            clock_.advanceTo(std::min(moment, clock_.now() + Instant(1ms)));
+            heartbeat_.beat(clock_.now());
+            session_.serve(clock_.now());
+        }
+    }
+
+    VirtualClock clock_;
+    SafetyGate gate_{clock_};
+    Heartbeat heartbeat_;
+    FakeStimulator device_{clock_};
+    StimulatorSession session_{device_, gate_, heartbeat_, clock_, {}};
+};
+
+TEST_F(StimulatorSessionTest, WritesATrainAtItsOnsetAndReportsAfterItsStatus) {
+    post(20ms);
+    passTo(19ms);
+    EXPECT_EQ(device_.delivered, 0);
+    EXPECT_FALSE(session_.idle());
+    passTo(20ms);
+    EXPECT_EQ(device_.delivered, 1);
+    EXPECT_FALSE(session_.takeReport());
+    passTo(30ms);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->outcome, TrainOutcome::Delivered);
+    EXPECT_EQ(report->onset, Instant(20ms));
+    EXPECT_LE(report->statusAt - report->end, Instant(50ms));
+    EXPECT_DOUBLE_EQ(report->impedance_ohm, 1000);
+    EXPECT_TRUE(session_.idle());
+}
+
+TEST_F(StimulatorSessionTest, DeliversNothingThatWasApprovedBeforeAStop) {
+    RecordProperty("hazard", "H2");
+    post(20ms);
+    gate_.latchStop();
+    session_.forceOff();
+    passTo(50ms);
+    EXPECT_EQ(device_.delivered, 0);
+    EXPECT_GE(device_.offs, 1);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->outcome, TrainOutcome::Voided);
+}
+
+TEST_F(StimulatorSessionTest, DeliversNothingThatExpired) {
+    RecordProperty("hazard", "H2");
+    post(0ms);
+    clock_.advanceTo(101ms);
+    heartbeat_.beat(clock_.now());
+    session_.serve(clock_.now());
+    EXPECT_EQ(device_.delivered, 0);
+    EXPECT_EQ(session_.takeReport()->outcome, TrainOutcome::Voided);
+}
+
+TEST_F(StimulatorSessionTest, RepeatsForceOffAfterAWriteThatWasInFlight) {
+    RecordProperty("hazard", "H2");
+    // The stop reaches the device while the write is on its way and would switch it on again.
+    device_.onDeliver = [this] {
+        gate_.latchStop();
+        session_.forceOff();
+    };
+    post();
+    passTo(1ms);
+    EXPECT_EQ(device_.delivered, 1);
+    EXPECT_GE(device_.offs, 2);
+    EXPECT_FALSE(device_.on);
+}
+
+TEST_F(StimulatorSessionTest, SwitchesOffWhenTheLoopIsSilent) {
+    RecordProperty("hazard", "H2");
+    device_.traits_.deadMan = Seconds(2);
+    passTo(200ms);
+    EXPECT_EQ(device_.offs, 0);
+    const int kept = device_.keptAlive;
+    EXPECT_GE(kept, 1);
+    // Nobody beats any more.
+    clock_.advanceTo(301ms);
+    session_.serve(clock_.now());
+    EXPECT_EQ(device_.offs, 1);
+    clock_.advanceTo(5s);
+    session_.serve(clock_.now());
+    EXPECT_EQ(device_.keptAlive, kept) << "a hung program must not hold off the dead-man switch";
+}
+
+TEST_F(StimulatorSessionTest, FeedsTheDeadManSwitchManyTimesWithinItsTime) {
+    RecordProperty("hazard", "H2");
+    device_.traits_.deadMan = Seconds(2);
+    passTo(4s);
+    EXPECT_GE(device_.keptAlive, 8);
+}
+
+TEST_F(StimulatorSessionTest, ADeviceThatRefusesIsSwitchedOffAndReported) {
+    device_.deliverFails = true;
+    post();
+    passTo(1ms);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->outcome, TrainOutcome::Failed);
+    EXPECT_EQ(report->error.view(), "the fake refuses to deliver");
+    EXPECT_GE(device_.offs, 1);
+}
+
+TEST_F(StimulatorSessionTest, AStatusThatDoesNotComeIsAFailure) {
+    RecordProperty("hazard", "H3");
+    device_.statusFails = true;
+    post();
+    passTo(10ms);
+    EXPECT_EQ(session_.takeReport()->outcome, TrainOutcome::Failed);
+    EXPECT_GE(device_.offs, 1);
+}
+
+}  // namespace
+}  // namespace tacto
