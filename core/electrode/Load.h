@@ -76,7 +76,8 @@ struct Load {
     [[nodiscard]] static Load openCircuit() noexcept;
     [[nodiscard]] static Load shortCircuit() noexcept;
 
-    /// Text that parseLoad() reads back to the same load: "500 ohm", "200 ohm + 10 kohm || 50 nF, drift 0.1 %/s".
+    /// Text that parseLoad() reads back to the same load, to a part in 10¹²: "500 ohm", "200 ohm + 10 kohm || 50 nF,
+    /// drift 0.1 %/s".
     [[nodiscard]] std::string text() const;
     /// Whether contact is broken at `t` seconds (always, for an open load).
     [[nodiscard]] bool isOpenAt(double t_s) const noexcept;

@@ -12,21 +12,23 @@ constexpr std::string_view kAccepted =
     "a resistance (\"500 ohm\", \"10k\"), \"open\", \"short\" or \"200 ohm + 10 kohm || 50 nF\", then any of "
     "\", halves at 20 V\", \", drift 0.1 %/s\", \", open 1.5 s to 1.7 s\", \", intermittent 5 % seed 3\"";
 
-std::optional<double> positive(std::optional<double> value, double low, double high) {
-    if (!value || !(*value >= low) || !(*value <= high)) return std::nullopt;
+std::optional<double> within(std::optional<double> value, double low, double high) {
+    // The ends are meant with the last bits of unit conversion.
+    if (!value || !(*value >= low - 1e-9 * std::abs(low)) || !(*value <= high + 1e-9 * std::abs(high)))
+        return std::nullopt;
     return value;
 }
 
 std::optional<double> parseOhms(std::string_view text) {
     for (const std::string_view unit : {"ohms", "ohm", "Ohm", "Ω", "Ω"}) {
-        if (text.ends_with(unit)) return positive(parseQuantity(text, unit), kShortOhms, 1e9);
+        if (text.ends_with(unit)) return within(parseQuantity(text, unit), kShortOhms, 1e9);
     }
-    return positive(parseQuantity(text, "ohm"), kShortOhms, 1e9);
+    return within(parseQuantity(text, "ohm"), kShortOhms, 1e9);
 }
 
 std::optional<double> parseFarads(std::string_view text) {
     if (!text.ends_with('F')) return std::nullopt;  // a bare number could be anything
-    return positive(parseQuantity(text, "F"), 1e-12, 1e-3);
+    return within(parseQuantity(text, "F"), 1e-12, 1e-3);
 }
 
 std::optional<Load> parseCircuit(std::string_view text) {
@@ -63,8 +65,8 @@ std::string_view after(std::string_view text, std::string_view start) {
 bool parseWindow(std::string_view text, Load& load) {
     const auto to = text.find(" to ");
     if (to == std::string_view::npos || load.windowCount >= load.windows.size()) return false;
-    const auto begin = positive(parseQuantity(text.substr(0, to), "s"), 0, 1e9);
-    const auto end = positive(parseQuantity(text.substr(to + 4), "s"), 0, 1e9);
+    const auto begin = within(parseQuantity(text.substr(0, to), "s"), 0, 1e9);
+    const auto end = within(parseQuantity(text.substr(to + 4), "s"), 0, 1e9);
     if (!begin || !end || !(*end > *begin)) return false;
     load.windows[load.windowCount++] = {*begin, *end};
     return true;
@@ -73,11 +75,11 @@ bool parseWindow(std::string_view text, Load& load) {
 bool parseIntermittent(std::string_view text, Load& load) {
     const auto sign = text.find('%');
     if (sign == std::string_view::npos) return false;
-    const auto percent = positive(parseNumber(text.substr(0, sign)), 0, 100);
+    const auto percent = within(parseNumber(text.substr(0, sign)), 0, 100);
     const std::string_view rest = trimmed(text.substr(sign + 1));
     if (!percent) return false;
     if (!rest.empty()) {
-        const auto seed = positive(parseNumber(after(rest, "seed")), 0, 1e9);
+        const auto seed = within(parseNumber(after(rest, "seed")), 0, 1e9);
         if (!seed || *seed != std::floor(*seed)) return false;
         load.openSeed = static_cast<std::uint64_t>(*seed);
     }
@@ -87,7 +89,7 @@ bool parseIntermittent(std::string_view text, Load& load) {
 
 bool parseModifier(std::string_view text, Load& load) {
     if (const auto volts = after(text, "halves at "); !volts.empty()) {
-        const auto value = positive(parseQuantity(volts, "V"), 1e-3, 1e6);
+        const auto value = within(parseQuantity(volts, "V"), 1e-3, 1e6);
         if (!value || load.kind != LoadKind::SkinEquivalent) return false;
         load.halvingVoltage = Volts(*value);
         return true;
@@ -95,7 +97,7 @@ bool parseModifier(std::string_view text, Load& load) {
     if (auto rate = after(text, "drift "); !rate.empty()) {
         if (!rate.ends_with("%/s")) return false;
         rate.remove_suffix(3);
-        const auto percent = positive(parseNumber(rate), -100, 100);
+        const auto percent = within(parseNumber(rate), -100, 100);
         if (!percent) return false;
         load.driftPerSecond = *percent / 100;
         return true;

@@ -1,0 +1,28 @@
+// Whatever an operator or a script writes as a load is read or refused, never crashes, and what was read writes itself
+// so that it reads back (hazard H10).
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/electrode/Load.h"
+
+namespace {
+bool near(double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(a); }
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto load = tacto::parseLoad({reinterpret_cast<const char*>(data), size});
+    if (!load) {
+        if (load.error().message.empty()) std::abort();
+        return 0;
+    }
+    const auto again = tacto::parseLoad(load->text());
+    if (!again || again->kind != load->kind || again->windowCount != load->windowCount) std::abort();
+    if (!near(load->series.value(), again->series.value()) || !near(load->parallel.value(), again->parallel.value()) ||
+        !near(load->capacitance.value(), again->capacitance.value()) ||
+        !near(load->driftPerSecond, again->driftPerSecond)) {
+        std::abort();
+    }
+    return 0;
+}
