@@ -37,7 +37,8 @@ bool known(const Condition& c) {
 }
 
 constexpr int kTitleHeight = 20;
-constexpr int kLaneHeight = 58;  // of which the strip with name and numbers
+constexpr int kLaneHeight = 70;     // of which the strip with name and numbers
+constexpr double kHeadroom = 1.18;  // for the markers
 constexpr int kStripHeight = 15;
 constexpr int kAxisHeight = 34;
 
@@ -54,7 +55,7 @@ public:
             highest = std::max(highest, std::abs(condition.amplitude_v.mean));
         }
         span_ = 2.2 * longest;
-        top_ = 1.18 * highest;
+        top_ = kHeadroom * (highest > 0 ? highest : 1);
     }
 
     static int heightOf(std::size_t rows) {
@@ -88,7 +89,7 @@ private:
         auto* level = axes->axis(QCPAxis::atLeft);
         time->setRange(-0.03 * span_, span_);
         level->setRange(0, top_);
-        level->setTicker(QSharedPointer<PlainTicker>::create(2));
+        level->setTicker(QSharedPointer<PlainTicker>::create(2, roundBelow(top_ / kHeadroom)));
         level->setLabel("V");
         level->grid()->setVisible(false);
         time->setTickLabels(timeAxis);
@@ -109,12 +110,15 @@ private:
             sheet_->addNote(axes, "not measured", {0.5, 0.6})->setColor(ink::kQuiet);
             return;
         }
-        const QString numbers = quantityText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + "  every  " +
+        const QString numbers = quantityText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ",  " +
                                 quantityText(condition.interval_s.mean, condition.interval_s.sd, "s");
         sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);
         auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         trains->setLineStyle(QCPGraph::lsImpulse);
-        trains->setPen(style.pen(2));
+        QPen stems = style.pen(2);
+        // A short pulse is only a few units high: its dots stand closer than a curve's.
+        if (style.dash == Qt::DotLine) stems.setDashPattern({1, 1});
+        trains->setPen(stems);
         trains->setScatterStyle(
             QCPScatterStyle(style.marker, QPen(style.color, 1.2),
                             style.marker == QCPScatterStyle::ssDisc ? QBrush(style.color) : QBrush(Qt::white), 5));

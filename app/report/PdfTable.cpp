@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSize = 11;
 constexpr double kPadX = 6;
-constexpr double kPadY = 3;
+constexpr double kPadY = 2.3;
 constexpr double kWidestText = 330;  // longer cells wrap
 
 double widthOf(const QString& text, bool bold) {

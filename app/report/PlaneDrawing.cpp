@@ -72,15 +72,6 @@ void drawPoints(QCPAxisRect* axes, const QVector<double>& x, const QVector<doubl
     points->setData(x, y);
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `reach`: ticks at it, at 0 and at its negative.
-double roundBelow(double reach) {
-    const double decade = std::pow(10.0, std::floor(std::log10(reach)));
-    for (const double step : {5.0, 2.0, 1.0}) {
-        if (step * decade <= reach * 1.0001) return step * decade;
-    }
-    return decade;
-}
-
 /// One condition as deviations from its mean, in units that suit them.
 void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster& cluster, int index) {
     auto* axes = sheet.addAxes(cell / 2, cell % 2, grid);
@@ -120,8 +111,8 @@ void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster
         axis->setLabelFont(textFont(9));
         axis->setTickLabelFont(textFont(9));
     }
-    horizontal->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(xReach * xUnit.factor)));
-    vertical->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(yReach * yUnit.factor)));
+    horizontal->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(1.1 * xReach * xUnit.factor)));
+    vertical->setTicker(QSharedPointer<PlainTicker>::create(3, roundBelow(1.1 * yReach * yUnit.factor)));
     drawPoints(axes, dx, dy, style, 4);
     auto* curve = new QCPCurve(horizontal, vertical);
     curve->setPen(style.pen(1.5));
@@ -142,7 +133,7 @@ std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated) 
     auto* axes = sheet->addAxes(0, 0);
     sheet->watermark(axes);
     double lowX = kUnknown, highX = kUnknown, lowY = kUnknown, highY = kUnknown;
-    auto* legend = sheet->addLegend(1, 0, 4);
+    auto* legend = sheet->addLegend(1, 0, enlarge ? 2 : 4);
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         const auto& cluster = clusters[i];
         const auto style = conditionStyle(cluster.name, static_cast<int>(i));
@@ -184,7 +175,8 @@ std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated) 
         for (std::size_t i = 0; i < clusters.size(); ++i) {
             drawEnlarged(*sheet, grid, static_cast<int>(i), clusters[i], static_cast<int>(i));
         }
-        sheet->plot().plotLayout()->setColumnStretchFactor(0, 0.8);
+        sheet->plot().plotLayout()->setColumnStretchFactor(0, 0.85);
+        axes->axis(QCPAxis::atBottom)->setTicker(QSharedPointer<PlainTicker>::create(4));
     }
     PlotSheet::fitLegend(legend);
     return sheet;

@@ -97,7 +97,14 @@ void PlotSheet::explain(QCPAxisRect* axes, const QString& why) {
 
 QCPLegend* PlotSheet::addLegend(int row, int column, int entriesPerLine) {
     auto* legend = new QCPLegend;
-    plot_->plotLayout()->addElement(row, column, legend);
+    // In a grid of its own with something that takes the rest: a legend's greatest width would bind its column.
+    auto* line = new QCPLayoutGrid;
+    plot_->plotLayout()->addElement(row, column, line);
+    line->addElement(0, 0, legend);
+    auto* rest = new QCPTextElement(plot_.get(), QString(), textFont(10));
+    rest->setMinimumSize(0, 0);
+    rest->setMaximumSize(QWIDGETSIZE_MAX, 14);
+    line->addElement(0, 1, rest);
     legend->setLayer("legend");
     legend->setBorderPen(Qt::NoPen);
     legend->setBrush(Qt::NoBrush);
@@ -145,6 +152,14 @@ QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
 double PlainTicker::getTickStep(const QCPRange& range) {
     step_ = fixed_ > 0 ? fixed_ : QCPAxisTicker::getTickStep(range);
     return step_;
+}
+
+double roundBelow(double reach) {
+    const double decade = std::pow(10.0, std::floor(std::log10(reach)));
+    for (const double step : {8.0, 6.0, 5.0, 4.0, 3.0, 2.0}) {
+        if (step * decade <= reach) return step * decade;
+    }
+    return decade;
 }
 
 QCPRange padded(double low, double high, double share) {

@@ -85,6 +85,9 @@ private:
     double step_ = 1;
 };
 
+/// The largest round number that is not above `reach`, and above half of it: for ticks at it and at 0 alone.
+[[nodiscard]] double roundBelow(double reach);
+
 /// A range around [low, high] with `share` of its width as margin at each end; never empty.
 [[nodiscard]] QCPRange padded(double low, double high, double share);
 

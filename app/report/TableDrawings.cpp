@@ -134,7 +134,7 @@ std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool sim
             auto* mark = qobject_cast<QCPItemText*>(sheet->plot().item(i));
             if (mark != nullptr && mark->text() == "SIMULATED") {
                 mark->setLayer("overlay");
-                mark->setColor(QColor(0x60, 0x68, 0x70, 90));
+                mark->setColor(QColor(0x60, 0x68, 0x70, 60));
             }
         }
     }

@@ -66,12 +66,11 @@ public:
             const int row = static_cast<int>(i / columns_) * 3;
             const bool labelled = column == 0;
             sheet_->addTitle(row, column, traces_[i]->label, true);
-            const auto style = i;
-            drawChannel(row + 1, column, *traces_[i], true, labelled, style);
-            drawChannel(row + 2, column, *traces_[i], false, labelled, style);
+            drawChannel(row + 1, column, *traces_[i], true, labelled);
+            drawChannel(row + 2, column, *traces_[i], false, labelled);
         }
         // The column that carries the axis labels is wider by their width.
-        if (columns_ > 1) sheet_->plot().plotLayout()->setColumnStretchFactor(0, 1.0 + 0.1 * double(columns_));
+        if (columns_ > 1) sheet_->plot().plotLayout()->setColumnStretchFactor(0, 1.0 + 0.05 * double(columns_));
         return std::move(sheet_);
     }
 
@@ -96,7 +95,7 @@ private:
         scales_.currentRange = padded(amps.lower, amps.upper, 0.08);
     }
 
-    void drawChannel(int row, int column, const Trace& trace, bool isVoltage, bool labelled, std::size_t) {
+    void drawChannel(int row, int column, const Trace& trace, bool isVoltage, bool labelled) {
         const auto& values = isVoltage ? trace.voltage_v : trace.current_a;
         const AxisUnit& unit = isVoltage ? scales_.voltage : scales_.current;
         auto* axes = sheet_->addAxes(row, column);

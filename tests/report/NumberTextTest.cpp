@@ -1,0 +1,79 @@
+#include <QJsonObject>
+#include <gtest/gtest.h>
+
+#include "app/report/NumberText.h"
+
+namespace tacto {
+namespace {
+
+// Narrow no-break spaces read as spaces here.
+std::string plain(QString text) { return text.replace(QChar(0x202f), ' ').toStdString(); }
+
+TEST(NumberText, UsesEngineeringPrefixesAndFourDigits) {
+    EXPECT_EQ(plain(quantityText(0.00226, "A", 3)), "2.26 mA");
+    EXPECT_EQ(plain(quantityText(40, "V")), "40.00 V");
+    EXPECT_EQ(plain(quantityText(1.28, "mJ", 3)), "1.28 mJ");
+    EXPECT_EQ(plain(quantityText(0.25, "W/cm2", 3)), "250 mW/cm²");
+    EXPECT_EQ(plain(quantityText(1500, "ohm", 3)), "1.50 kΩ");
+    EXPECT_EQ(plain(quantityText(0.8, "uC", 3)), "800 nC");
+}
+
+TEST(NumberText, RoundsBeforeItChoosesThePrefix) { EXPECT_EQ(plain(quantityText(0.99996, "s")), "1.000 s"); }
+
+TEST(NumberText, GivesValueAndUncertaintyTheSameDecimals) {
+    EXPECT_EQ(plain(quantityText(40.123, 0.4567, "V")), "40.12 ± 0.46 V");
+    EXPECT_EQ(plain(quantityText(0.5, 0.0123, "s")), "500 ± 12 ms");
+    EXPECT_EQ(plain(quantityText(10.0, 3.0, "V")), "10.0 ± 3.0 V");
+}
+
+TEST(NumberText, NeverShowsMoreThanFourDigitsOfTheValue) {
+    EXPECT_EQ(plain(quantityText(2.00004, 4e-5, "s")), "2.000 ± <0.001 s");
+}
+
+TEST(NumberText, SaysUnknownAsADash) {
+    EXPECT_EQ(quantityText(kUnknown, "V"), QString("–"));
+    EXPECT_EQ(quantityText(kUnknown, 1, "V"), QString("–"));
+    EXPECT_EQ(quantityText(std::numeric_limits<double>::infinity(), "V"), QString("–"));
+    EXPECT_EQ(cellText(QJsonValue::Null, "V"), QString("–"));
+    EXPECT_EQ(proportionText({}), QString("–"));
+}
+
+TEST(NumberText, UsesATrueMinus) { EXPECT_EQ(plain(quantityText(-0.5, "V", 3)), "−500 mV"); }
+
+TEST(NumberText, KeepsSettingsAsTheyWereSet) {
+    EXPECT_EQ(plain(settingText(1000, "ohm")), "1 kΩ");
+    EXPECT_EQ(plain(settingText(25, "")), "25");
+    EXPECT_EQ(plain(settingText(0.15, "N")), "150 mN");
+}
+
+TEST(NumberText, ReadsUnitsFromAColumnsKey) {
+    EXPECT_EQ(columnName("net_charge_uc").title, "Net charge");
+    EXPECT_EQ(columnName("net_charge_uc").unit, "µC");
+    EXPECT_EQ(columnName("power_density_w_cm2").unit, "W/cm²");
+    EXPECT_EQ(columnName("rms_5s_ma").title.toStdString(), "RMS 5\u202fs");
+    EXPECT_EQ(columnName("n").title, "n");
+    EXPECT_EQ(columnName("verdict").unit, "");
+}
+
+TEST(NumberText, WritesStatisticsAndEstimatesInCells) {
+    EXPECT_EQ(plain(cellText(QJsonObject{{"mean", 40.123}, {"sd", 0.4567}}, "V")), "40.12 ± 0.46 V");
+    EXPECT_EQ(plain(cellText(QJsonObject{{"value", 1.5}, {"low", 1.2}, {"high", 1.8}}, "V")),
+              "1.500 V (1.200 V to 1.800 V)");
+    EXPECT_EQ(cellText(true, ""), "yes");
+}
+
+TEST(NumberText, GivesComparableColumnsOneFormat) {
+    const auto format = columnFormat({0.5, 2.0}, "s");
+    ASSERT_TRUE(format);
+    EXPECT_EQ(plain(quantityText(0.5, "s", *format)), "0.500 s");
+    EXPECT_EQ(plain(quantityText(2.0, "s", *format)), "2.000 s");
+    EXPECT_FALSE(columnFormat({1e-6, 2.0}, "s")) << "numbers that far apart keep their own prefixes";
+    EXPECT_FALSE(columnFormat({1, 2, 3}, "")) << "counts stay counts";
+}
+
+TEST(NumberText, GivesProportionsAsPercentages) {
+    EXPECT_EQ(plain(proportionText({0.99, 0.9455, 0.9982})), "99.0 % (94.5 to 99.8 %)");
+}
+
+}  // namespace
+}  // namespace tacto

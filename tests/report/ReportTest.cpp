@@ -1,0 +1,264 @@
+#include <QElapsedTimer>
+#include <QXmlStreamReader>
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "app/report/Report.h"
+#include "tests/report/Samples.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+QString asQString(const fs::path& path) { return QString::fromStdString(path.string()); }
+
+/// Text with narrow spaces as spaces.
+std::string pdfText(const fs::path& pdf) {
+    return QString::fromStdString(poppler("pdftotext -layout", pdf)).replace(QChar(0x202f), ' ').toStdString();
+}
+
+std::size_t occurrences(const std::string& text, const std::string& what) {
+    std::size_t count = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+    return count;
+}
+
+class Report : public ::testing::Test {
+protected:
+    fs::path write(const ReportModel& model, const std::string& name) {
+        const auto path = scratch_.path() / name;
+        const auto written = writeReport(model, asQString(path));
+        EXPECT_TRUE(written) << (written ? "" : written.error().message);
+        return path;
+    }
+    ScratchDir scratch_;
+};
+
+TEST_F(Report, PutsTheVerdictAndItsReasonsFirst) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto text = pdfText(write(separabilityModel(false), "r.pdf"));
+    const auto verdict = text.find("Indeterminate");
+    ASSERT_NE(verdict, std::string::npos);
+    EXPECT_LT(verdict, text.find("What was used"));
+    EXPECT_LT(text.find("Every pair of conditions"), text.find("What was used"));
+    EXPECT_LT(text.find("What was used"), text.find("Figure 1."));
+    EXPECT_LT(text.find("Figure 1."), text.find("Exposure against limits"));
+    EXPECT_LT(text.find("Exposure against limits"), text.find("How to reproduce"));
+}
+
+TEST_F(Report, SaysEveryVerdictInAWord) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    auto model = separabilityModel(false, 3);
+    model.items.clear();
+    const std::vector<std::pair<ReportVerdict, const char*>> words{{ReportVerdict::Pass, "Pass"},
+                                                                   {ReportVerdict::Fail, "Fail"},
+                                                                   {ReportVerdict::Indeterminate, "Indeterminate"},
+                                                                   {ReportVerdict::Stopped, "Stopped"},
+                                                                   {ReportVerdict::None, "No verdict"}};
+    for (const auto& [verdict, word] : words) {
+        model.verdict = verdict;
+        EXPECT_NE(pdfText(write(model, "v.pdf")).find(word), std::string::npos) << word;
+    }
+}
+
+TEST_F(Report, NamesWhatWasUsed) {
+    RecordProperty("hazard", "H8");
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto model = separabilityModel(false);
+    const auto text = pdfText(write(model, "r.pdf"));
+    for (const auto& device : model.devices) EXPECT_NE(text.find(device.serial.toStdString()), std::string::npos);
+    EXPECT_NE(text.find(model.chainHead.toStdString()), std::string::npos) << "the chain head is printed whole";
+    EXPECT_NE(text.find(std::string(64, 'a')), std::string::npos);
+    EXPECT_NE(text.find("Tactoscope 0.1.0"), std::string::npos);
+    EXPECT_NE(text.find("--set repeats=25"), std::string::npos);
+    EXPECT_NE(text.find("Electrode open."), std::string::npos);
+}
+
+TEST_F(Report, NumbersItsPages) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto pdf = write(separabilityModel(false), "r.pdf");
+    std::smatch found;
+    const std::string info = poppler("pdfinfo", pdf);
+    ASSERT_TRUE(std::regex_search(info, found, std::regex("Pages:\\s+(\\d+)"))) << info;
+    const int pages = std::stoi(found[1]);
+    EXPECT_GE(pages, 3);
+    const auto text = pdfText(pdf);
+    EXPECT_NE(text.find("page 1 of " + std::to_string(pages)), std::string::npos);
+    EXPECT_NE(text.find("page " + std::to_string(pages) + " of " + std::to_string(pages)), std::string::npos);
+    EXPECT_NE(info.find("A4"), std::string::npos);
+}
+
+TEST_F(Report, KeepsEachCaptionOnItsFiguresPage) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto text = pdfText(write(separabilityModel(false), "r.pdf"));
+    std::vector<std::string> pages;
+    std::size_t begin = 0;
+    for (auto end = text.find('\f'); end != std::string::npos; begin = end + 1, end = text.find('\f', begin)) {
+        pages.push_back(text.substr(begin, end - begin));
+    }
+    // A word from inside each figure, and its caption.
+    const std::vector<std::pair<const char*, const char*>> pairs{
+        {"Texture alone", "Figure 1."}, {"interval between trains", "Figure 2."},
+        {"current (mA)", "Figure 3."},  {"presented", "Figure 4."},
+        {"roughness R", "Figure 5."},   {"share of the limit", "Figure 6."}};
+    for (const auto& [inside, caption] : pairs) {
+        const auto with = std::count_if(pages.begin(), pages.end(), [&](const std::string& page) {
+            return page.find(caption) != std::string::npos;
+        });
+        EXPECT_EQ(with, 1) << caption;
+        const bool together = std::any_of(pages.begin(), pages.end(), [&](const std::string& page) {
+            return page.find(caption) != std::string::npos && page.find(inside) != std::string::npos;
+        });
+        EXPECT_TRUE(together || std::string(inside) == "current (mA)" || std::string(inside) == "presented")
+            << caption << " (rotated labels may come out as single letters)";
+    }
+}
+
+TEST_F(Report, RepeatsTheHeaderOfALongTable) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto text = pdfText(write(separabilityModel(false, 100), "long.pdf"));
+    EXPECT_GE(occurrences(text, "Trials, continued"), 2U);
+}
+
+TEST_F(Report, DrawsVectorsOnly) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto list = poppler("pdfimages -list", write(separabilityModel(true), "r.pdf"));
+    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2) << "only the list's two header lines:\n" << list;
+}
+
+TEST_F(Report, EmbedsItsFonts) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto fonts = poppler("pdffonts", write(separabilityModel(false), "r.pdf"));
+    EXPECT_NE(fonts.find("DejaVuSans"), std::string::npos) << fonts;
+    EXPECT_EQ(fonts.find(" no  "), std::string::npos) << fonts;
+}
+
+TEST_F(Report, MarksASimulatedSessionAndNoOther) {
+    RecordProperty("hazard", "H9");
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    const auto simulated = pdfText(write(separabilityModel(true), "s.pdf"));
+    EXPECT_NE(simulated.find("Indeterminate – simulated"), std::string::npos);
+    EXPECT_NE(simulated.find("Table 2. Pairs (simulated)"), std::string::npos);
+    EXPECT_NE(simulated.find("Figure 1. The four conditions (simulated)"), std::string::npos);
+    auto realModel = separabilityModel(false);
+    realModel.settings.clear();
+    for (auto& device : realModel.devices) device.name = "Bench device", device.uri = "bench:";
+    const auto real = pdfText(write(realModel, "r.pdf"));
+    EXPECT_EQ(real.find("simulated)"), std::string::npos);
+    EXPECT_EQ(real.find("– simulated"), std::string::npos);
+    const auto html = contentOfFile(write(realModel, "r.html"));
+    EXPECT_FALSE(html.contains("SIMULATED"));
+    EXPECT_GT(contentOfFile(write(separabilityModel(true), "s.html")).count("SIMULATED"), 5);
+}
+
+TEST_F(Report, NeverCallsAMissingExposureWithin) {
+    RecordProperty("hazard", "H9");
+    auto model = separabilityModel(false, 3);
+    EXPECT_TRUE(contentOfFile(write(model, "e.html")).contains("not evaluated: no electrode area"));
+    model.exposure.clear();
+    EXPECT_TRUE(contentOfFile(write(model, "e.html")).contains("Not evaluated: this session holds no exposure."));
+}
+
+TEST_F(Report, WritesWellFormedHtmlThatNeedsNoOtherFile) {
+    auto model = separabilityModel(true);
+    model.title = "Marks <b> & \"quotes\" \x01";
+    model.events.push_back({1, "fault", "</pre><script>alert(1)</script>"});
+    const auto html = contentOfFile(write(model, "r.html"));
+    QXmlStreamReader xml(html);
+    int figures = 0;
+    while (!xml.atEnd()) {
+        if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+        figures += xml.name() == QLatin1String("svg") ? 1 : 0;
+        EXPECT_NE(xml.name(), QLatin1String("script"));
+        EXPECT_NE(xml.name(), QLatin1String("link"));
+        EXPECT_FALSE(xml.attributes().hasAttribute("src"));
+    }
+    EXPECT_FALSE(xml.hasError()) << xml.errorString().toStdString() << " in line " << xml.lineNumber();
+    EXPECT_EQ(figures, 6);
+    EXPECT_FALSE(html.contains("url("));
+}
+
+TEST_F(Report, SplitsATableThatIsWiderThanThePage) {
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    ReportModel model;
+    QJsonObject row{{"name", "200 ohm + (10 kohm || 50 nF)"}};
+    QStringList columns{"name"};
+    for (const char* key : {"nominal_ohm", "measured_ohm", "peak_v", "peak_ma", "rms_train_ma", "rms_1s_ma",
+                            "rms_5s_ma", "charge_uc", "net_charge_uc", "energy_mj", "power_density_w_cm2"}) {
+        row[key] = 123.456;
+        columns << key;
+    }
+    row["verdict"] = "pass";
+    columns << "verdict";
+    model.items.emplace_back(ReportTable{"Loads", columns, QJsonArray{row}});
+    const auto text = pdfText(write(model, "wide.pdf"));
+    EXPECT_NE(text.find("Loads, further columns"), std::string::npos) << text;
+    EXPECT_NE(text.find("pass"), std::string::npos);
+    EXPECT_GE(occurrences(text, "200 ohm"), 2U) << "each part names its rows";
+}
+
+TEST_F(Report, RefusesToWriteWithoutItsFont) {
+    const auto path = scratch_.path() / "r.pdf";
+    const auto written = writeReport(separabilityModel(false, 3), asQString(path),
+                                     [](const QString& family) { return family != "DejaVu Sans"; });
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::Unsupported);
+    EXPECT_NE(written.error().message.find("fonts-dejavu-core"), std::string::npos);
+    EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(Report, RefusesAnEndingItDoesNotKnow) {
+    const auto written = writeReport(separabilityModel(false, 3), asQString(scratch_.path() / "r.docx"));
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::InvalidArgument);
+    EXPECT_NE(written.error().message.find(".pdf, .html or .htm"), std::string::npos);
+}
+
+TEST_F(Report, SaysThatAFileCannotBeWritten) {
+    const auto path = scratch_.path() / "nowhere" / "r.pdf";
+    const auto written = writeReport(separabilityModel(false, 3), asQString(path));
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::Io);
+    EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
+}
+
+TEST_F(Report, LeavesAnExistingReportWholeWhenItFails) {
+    const auto path = scratch_.write("r.pdf", "the old report");
+    EXPECT_FALSE(writeReport(separabilityModel(false, 3), asQString(path), [](const QString&) { return false; }));
+    EXPECT_EQ(contentOfFile(path), "the old report");
+    // A folder in the report's place cannot be replaced; nothing else may be left beside it.
+    const auto blocked = scratch_.path() / "taken" / "r.html";
+    fs::create_directories(blocked);
+    EXPECT_FALSE(writeReport(separabilityModel(false, 3), asQString(blocked)));
+    EXPECT_TRUE(fs::is_directory(blocked));
+    EXPECT_EQ(std::distance(fs::directory_iterator(blocked.parent_path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(Report, ReplacesAnExistingReport) {
+    const auto path = scratch_.write("r.pdf", "the old report");
+    ASSERT_TRUE(writeReport(separabilityModel(false, 3), asQString(path)));
+    EXPECT_TRUE(contentOfFile(path).startsWith("%PDF"));
+}
+
+TEST_F(Report, WritesAnEmptySession) {
+    const auto html = contentOfFile(write(ReportModel{}, "empty.html"));
+    EXPECT_TRUE(html.contains("No device took part"));
+    EXPECT_TRUE(html.contains("No verdict"));
+}
+
+TEST_F(Report, IsWrittenInUnderTwoSeconds) {
+#ifdef TACTOSCOPE_SANITIZED
+    GTEST_SKIP() << "sanitizers are slow";
+#endif
+    const auto model = separabilityModel(true);
+    QElapsedTimer timer;
+    timer.start();
+    write(model, "fast.pdf");
+    write(model, "fast.html");
+    EXPECT_LT(timer.elapsed(), 2000);
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,187 @@
+#include <QJsonDocument>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/report/Report.h"
+#include "app/report/SessionReport.h"
+#include "core/session/SessionWriter.h"
+#include "tests/report/Samples.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+nlohmann::json toJson(const QJsonObject& object) {
+    return nlohmann::json::parse(QJsonDocument(object).toJson(QJsonDocument::Compact).toStdString());
+}
+
+class SessionReport : public ::testing::Test {
+protected:
+    void SetUp() override {
+        SessionAbout about;
+        about.programVersion = "0.1.0";
+        about.protocol = "separability";
+        about.protocolSha256 = std::string(64, 'a');
+        about.parameters = {{"repeats", 25}, {"source", "finger"}, {"note", "two words"}};
+        about.seed = 7;
+        about.devices = {{"sim:", "stimulator", "Simulated stimulator", "SIM-0001", "1", true},
+                         {"sim:", "oscilloscope", "Simulated oscilloscope", "SIM-0002", "1", true}};
+        about.limitSets = {{"paper", std::string(64, 'c')}};
+        about.simulated = true;
+        about.wallStart = "2026-11-20T14:03:05Z";
+        auto writer = SessionWriter::create(path_, about, clock_);
+        ASSERT_TRUE(writer) << writer.error().message;
+        writer_ = std::move(*writer);
+    }
+
+    ReportModel closedAndRead() {
+        EXPECT_TRUE(writer_->close());
+        return read();
+    }
+    ReportModel read() {
+        auto model = readSessionReport(path_);
+        EXPECT_TRUE(model) << (model ? "" : model.error().message);
+        return model ? *model : ReportModel{};
+    }
+
+    ScratchDir scratch_;
+    std::filesystem::path path_ = scratch_.path() / "run-7.tacto";
+    VirtualClock clock_;
+    std::unique_ptr<SessionWriter> writer_;
+};
+
+TEST_F(SessionReport, SaysWhatWasUsed) {
+    const auto head = [&] {
+        EXPECT_TRUE(writer_->close());
+        return writer_->chainHead();
+    }();
+    const auto model = read();
+    EXPECT_EQ(model.session, "run-7");
+    EXPECT_EQ(model.chainHead.toStdString(), head);
+    EXPECT_EQ(model.devices.size(), 2U);
+    EXPECT_TRUE(model.simulated);
+    ASSERT_EQ(model.reproduce.size(), 2);
+    EXPECT_EQ(
+        model.reproduce[0].toStdString(),
+        "tactoscope-cli run separability --device sim: --set 'note=two words' --set repeats=25 --set source=finger "
+        "--seed 7");
+    EXPECT_EQ(model.reproduce[1], "tactoscope-cli verify run-7.tacto");
+}
+
+TEST_F(SessionReport, TakesItemsInTheScriptsOrder) {
+    ASSERT_TRUE(
+        writer_->reportItem(Instant{0}, {{"kind", "about"}, {"title", "Signal separability"}, {"purpose", "Why?"}}));
+    ASSERT_TRUE(writer_->reportItem(Instant{0}, {{"kind", "text"}, {"text", "First."}}));
+    ASSERT_TRUE(
+        writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Plane"}, {"figure", toJson(planeJson(3))}}));
+    ASSERT_TRUE(writer_->reportItem(
+        Instant{0},
+        {{"kind", "table"}, {"caption", "Pairs"}, {"rows", nlohmann::json::array({{{"a", "x"}, {"n", 3}}})}}));
+    const auto model = closedAndRead();
+    EXPECT_EQ(model.title, "Signal separability");
+    ASSERT_EQ(model.items.size(), 3U);
+    EXPECT_EQ(std::get<ReportText>(model.items[0]).text, "First.");
+    EXPECT_EQ(std::get<ReportFigure>(model.items[1]).caption, "Plane");
+    EXPECT_EQ(std::get<ReportTable>(model.items[2]).rows.size(), 1);
+}
+
+TEST_F(SessionReport, ShowsABrokenFigureAsASentence) {
+    ASSERT_TRUE(
+        writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Pie"}, {"figure", {{"type", "pie"}}}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.items.size(), 1U);
+    EXPECT_TRUE(std::get<ReportText>(model.items[0]).text.startsWith("The figure “Pie” could not be drawn:"));
+}
+
+TEST_F(SessionReport, FindsCapturesOfTheSession) {
+    Capture capture;
+    capture.rate_hz = 1e6;
+    capture.simulated = true;
+    capture.channels = {{"voltage", "V", {0, 1, 2, 1, 0}}};
+    const auto seq = writer_->capture(Instant{0}, capture);
+    ASSERT_TRUE(seq);
+    const nlohmann::json figure{{"type", "waveforms"}, {"captures", nlohmann::json::array({{{"capture", *seq}}})}};
+    ASSERT_TRUE(writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Pulses"}, {"figure", figure}}));
+    const auto model = closedAndRead();
+    ASSERT_TRUE(std::holds_alternative<ReportFigure>(model.items.at(0)));
+    const auto& content = std::get<ReportFigure>(model.items[0]).figure.content;
+    EXPECT_EQ(std::get<WaveformsFigure>(content).captures[0].voltage_v, (std::vector<double>{0, 1, 2, 1, 0}));
+}
+
+TEST_F(SessionReport, TakesTheLastVerdict) {
+    ASSERT_TRUE(writer_->verdict(Instant{0}, "wiring", "fail", {"A first try."}, {}));
+    ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
+    const auto model = closedAndRead();
+    EXPECT_EQ(model.verdict, ReportVerdict::Pass);
+    EXPECT_EQ(model.reasons, QStringList{"All pairs apart."});
+}
+
+TEST_F(SessionReport, NeverCallsABrokenOffSessionPassed) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
+    const auto model = read();  // still open: not closed
+    EXPECT_EQ(model.verdict, ReportVerdict::Stopped);
+    EXPECT_TRUE(model.reasons.first().startsWith("The session was not closed"));
+}
+
+TEST_F(SessionReport, SaysStoppedWhereAStopEndedIt) {
+    ASSERT_TRUE(writer_->event(toInstant(1.5), "stop", {{"text", "Stopped by the operator."}}));
+    const auto model = closedAndRead();
+    EXPECT_EQ(model.verdict, ReportVerdict::Stopped);
+    EXPECT_EQ(model.reasons, QStringList{"Stopped by the operator."});
+}
+
+TEST_F(SessionReport, ListsFaultsAndRefusalsButNotTheQuietEvents) {
+    ASSERT_TRUE(writer_->event(toInstant(1), "armed", {}));
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(writer_->event(toInstant(2 + i), "refused", {{"text", "Peak current over the limit."}}));
+    }
+    ASSERT_TRUE(writer_->event(toInstant(9), "fault", {{"reason", "electrode open"}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.events.size(), 2U);
+    EXPECT_EQ(model.events[0].count, 3);
+    EXPECT_EQ(model.events[1].text, "electrode open");
+}
+
+TEST_F(SessionReport, ShowsTheWorstExposureAndNotEvaluatedAboveAnyNumber) {
+    RecordProperty("hazard", "H9");
+    const auto rows = [](nlohmann::json current, nlohmann::json density) {
+        return nlohmann::json{
+            {"rows",
+             nlohmann::json::array(
+                 {{{"name", "RMS"}, {"value", current}, {"limit", 10}, {"unit", "mA"}, {"source", "paper"}},
+                  {{"name", "Density"}, {"value", density}, {"limit", 2}, {"unit", "mA/cm2"}, {"source", "x"}}})}};
+    };
+    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(1.0, 0.5)));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(3.0, nullptr)));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(2.0, 0.5)));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.exposure.size(), 2U);
+    EXPECT_DOUBLE_EQ(model.exposure[0].value, 3.0);
+    EXPECT_TRUE(std::isnan(model.exposure[1].value));
+}
+
+TEST_F(SessionReport, IsMadeFromTheSessionAlone) {
+    ASSERT_TRUE(
+        writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", "Plane"}, {"figure", toJson(planeJson(3))}}));
+    ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
+    ASSERT_TRUE(writer_->close());
+    const auto html = scratch_.path() / "run.html";
+    const auto written =
+        writeSessionReport(QString::fromStdString(path_.string()), QString::fromStdString(html.string()));
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_TRUE(contentOfFile(html).contains("All pairs apart."));
+    EXPECT_TRUE(contentOfFile(html).contains(QByteArray::fromStdString(writer_->chainHead())));
+}
+
+TEST_F(SessionReport, RefusesWhatIsNotASession) {
+    const auto missing = readSessionReport(scratch_.path() / "none.tacto");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    const auto text = readSessionReport(scratch_.write("notes.tacto", "not a session"));
+    ASSERT_FALSE(text);
+    EXPECT_EQ(text.error().code, ErrorCode::ParseError);
+}
+
+}  // namespace
+}  // namespace tacto::test
