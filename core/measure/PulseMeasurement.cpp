@@ -137,6 +137,9 @@ ChannelMeasurement measureChannel(const Capture& capture, std::size_t channel, c
         result.warnings.push_back(
             fmt::format("channel '{}' has no two states, so no pulses: {}", result.name, result.states.why));
     }
+    if (result.states.count != StateCount::None && pulses.empty()) {
+        result.warnings.push_back(fmt::format("channel '{}' has states but no pulse between them", result.name));
+    }
     summarise(std::move(pulses), samples, options, result);
     return result;
 }

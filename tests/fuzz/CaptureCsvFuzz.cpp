@@ -1,0 +1,22 @@
+// Whatever bytes call themselves a capture: read or refused with a sentence, and measured without harm.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/measure/CaptureFile.h"
+#include "core/measure/PulseMeasurement.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    auto reading = tacto::parseCapture(text, "fuzz.csv");
+    if (!reading) {
+        if (reading.error().message.empty()) std::abort();
+        return 0;
+    }
+    for (const auto& channel : tacto::measureCapture(reading->capture).channels) {
+        if (channel.measuredPulses > channel.pulses.size()) std::abort();
+        // What is not measured must say so.
+        if (channel.measuredPulses == 0 && channel.warnings.empty()) std::abort();
+    }
+    return 0;
+}
