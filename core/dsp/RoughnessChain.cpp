@@ -6,8 +6,10 @@
 
 #include "core/dsp/AccelerationTrack.h"
 #include "core/dsp/ForceTrack.h"
+#include "core/dsp/FramePacer.h"
 #include "core/dsp/PowerSpectrum.h"
 #include "core/dsp/RoughnessIndex.h"
+#include "core/dsp/SlidingRest.h"
 #include "core/dsp/TaxelTrack.h"
 
 namespace tacto {
@@ -16,12 +18,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSlidingFactor = 3;
-constexpr double kShortestRest_s = 0.25;
-constexpr double kFrame_s = 0.016;  // between frames without acceleration
-constexpr double kSlice_s = 0.05;   // how far one stream may run ahead inside feed()
-constexpr double kSkew_s = 0.25;    // how far it may between calls, with margin
-constexpr std::size_t kMostPending = 256;
+constexpr double kSlice_s = 0.05;  // how far one stream may run ahead inside feed()
+constexpr double kSkew_s = 0.25;   // how far it may between calls, with margin
 
 Result<void> checkStream(const StreamInfo& info) {
     if (!(info.rate_hz > 0 && info.rate_hz <= 1e6)) {
@@ -50,27 +48,6 @@ Result<void> checkStream(const StreamInfo& info) {
     return {};
 }
 
-/// Times at which frames are due where no acceleration paces them.
-class PendingTimes {
-public:
-    void push(double t_s) noexcept {
-        if (count_ < kMostPending) times_[(front_ + count_++) % kMostPending] = t_s;
-    }
-    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    [[nodiscard]] std::size_t size() const noexcept { return count_; }
-    [[nodiscard]] double front() const noexcept { return times_[front_]; }
-    void pop() noexcept {
-        front_ = (front_ + 1) % kMostPending;
-        --count_;
-    }
-    void clear() noexcept { front_ = count_ = 0; }
-
-private:
-    std::array<double, kMostPending> times_{};
-    std::size_t front_ = 0;
-    std::size_t count_ = 0;
-};
-
 }  // namespace
 
 struct RoughnessChain::State {
@@ -79,17 +56,14 @@ struct RoughnessChain::State {
     void feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames);
     void takeSlice(std::span<const SampleBlock> blocks);
     void take(std::size_t stream, const SampleBlock& block, std::size_t begin, std::size_t end);
-    void pace(double t_s);
     void advance(std::vector<RoughnessFrame>& frames, bool forced);
     [[nodiscard]] bool ready(double centre_s, double end_s) const noexcept;
     void evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                   std::vector<RoughnessFrame>& frames);
     [[nodiscard]] double spectralFeature(const AccelerationWindow& window, double& meanSquare);
-    void watchRest(double begin_s, double end_s, double product) noexcept;
-    void decideRest(double end_s, bool contact) noexcept;
-    [[nodiscard]] Motion motionOf(double product) noexcept;
     [[nodiscard]] double forceKnown_s() const noexcept;
     [[nodiscard]] double horizon_s() const noexcept;
+    [[nodiscard]] double streamBegin_s() const noexcept;
     [[nodiscard]] bool contactAt(double t_s, const ForceTrack::Reading& reading) const noexcept;
     [[nodiscard]] double firstContact_s() const noexcept;
     void clear();
@@ -99,9 +73,8 @@ struct RoughnessChain::State {
     RoughnessSettings settings;
     DeclaredIntervals declared;
     std::optional<StreamInfo> accelerationInfo, forceInfo, taxelInfo;
-    double period_s = kFrame_s;
+    double period_s = 0;
     StreamKind pacedBy = StreamKind::Acceleration;
-    bool everySample = false;  // a frame for each sample of the pacing stream, slower than the frame rate
     BinRange whole, rough;
 
     std::optional<AccelerationTrack> acceleration;
@@ -109,23 +82,12 @@ struct RoughnessChain::State {
     std::optional<ForceTrack> force;
     std::optional<TaxelTrack> taxels;
     std::optional<RoughnessIndex> index;
-    std::optional<SampleGrid> pacing;
-    PendingTimes pending;
-    double anchor_s = 0;
-    std::size_t steps = 0;
-    std::vector<std::size_t> taken;  // per stream, samples of the current blocks
+    std::optional<SlidingRest> sliding;
+    std::optional<FramePacer> pacer;  // without acceleration
+    std::vector<std::size_t> taken;   // per stream, samples of the current blocks
 
-    // The rest level of sliding (science.md section 2.4)
-    double declaredSum = 0, earlySum = 0;
-    std::size_t declaredCount = 0, earlyCount = 0;
-    double restMeanSquare = kNan;
-    bool restDecided = false;
-    bool restPreset = false;
-    bool slidingAssumed = false;
     bool contactAssumed = false;
     bool spectrumEmpty = false;
-    double firstPaced_s = kNever;
-    double newestPaced_s = -kNever;
     bool finished = false;
     mutable RestLevels levels;
 };
@@ -150,36 +112,32 @@ RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessS
     } else {
         const auto& paced = taxelInfo ? *taxelInfo : *forceInfo;
         pacedBy = paced.kind;
-        everySample = 1 / paced.rate_hz > kFrame_s;
-        period_s = std::max(kFrame_s, 1 / paced.rate_hz);
-        pacing.emplace(paced.rate_hz);
+        pacer.emplace(paced.rate_hz);
+        period_s = pacer->period_s();
     }
     spectrumEmpty = rough.empty();
     contactAssumed = !forceInfo && !declared.contact;
     index.emplace(settings, period_s);
+    const bool restFits = accelerationInfo && settings.restUnit == accelerationInfo->unit;
+    sliding.emplace(accelerationInfo.has_value(), declared.baseline, restFits ? settings.restMeanSquare : std::nullopt);
 }
 
 void RoughnessChain::State::clear() {
     if (acceleration) acceleration->clear();
     if (force) force->clear();
     if (taxels) taxels->clear();
-    if (pacing) pacing->reset();
+    if (pacer) pacer->clear();
+    sliding->clear();
     index->clear();
-    pending.clear();
-    anchor_s = 0;
-    steps = 0;
-    declaredSum = earlySum = 0;
-    declaredCount = earlyCount = 0;
-    if (!restPreset) restMeanSquare = kNan;
-    restDecided = restPreset;
-    slidingAssumed = false;
-    firstPaced_s = kNever;
-    newestPaced_s = -kNever;
     finished = false;
 }
 
 double RoughnessChain::State::horizon_s() const noexcept {
-    return acceleration ? acceleration->newest_s() : newestPaced_s;
+    return acceleration ? acceleration->newest_s() : pacer->newest_s();
+}
+
+double RoughnessChain::State::streamBegin_s() const noexcept {
+    return acceleration ? acceleration->first_s() : pacer->first_s();
 }
 
 double RoughnessChain::State::firstContact_s() const noexcept {
@@ -190,7 +148,7 @@ double RoughnessChain::State::firstContact_s() const noexcept {
 
 double RoughnessChain::State::forceKnown_s() const noexcept {
     if (!force || finished) return kNever;
-    const double start = acceleration ? acceleration->first_s() : firstPaced_s;
+    const double start = streamBegin_s();
     // Before its first sample, and in a long silence, force is not waited for for ever.
     const double spoken = std::max(force->newest_s(), start);
     if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kNever;
@@ -201,26 +159,6 @@ bool RoughnessChain::State::contactAt(double t_s, const ForceTrack::Reading& rea
     if (force) return reading.contact;
     if (!declared.contact) return true;
     return std::ranges::any_of(*declared.contact, [&](const TimeInterval& c) { return c.contains(t_s); });
-}
-
-void RoughnessChain::State::pace(double t_s) {
-    const auto kind = pacing->next(t_s);
-    if (kind == StampClass::Repeat || kind == StampClass::Backward || kind == StampClass::Invalid) return;
-    if (firstPaced_s == kNever) firstPaced_s = t_s;
-    if (everySample) {
-        pending.push(t_s);
-    } else {
-        if (kind != StampClass::Regular && kind != StampClass::Early) {
-            anchor_s = t_s;
-            steps = 0;
-        }
-        for (; pending.size() < kMostPending; ++steps) {
-            const double due = anchor_s + static_cast<double>(steps) * kFrame_s;
-            if (due > t_s) break;
-            pending.push(due);
-        }
-    }
-    newestPaced_s = t_s;
 }
 
 void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, std::size_t begin, std::size_t end) {
@@ -238,7 +176,7 @@ void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, s
             break;
     }
     if (!acceleration && info.kind == pacedBy) {
-        for (std::size_t i = begin; i < end; ++i) pace(block.t_s[i]);
+        for (std::size_t i = begin; i < end; ++i) pacer->sample(block.t_s[i]);
     }
 }
 
@@ -272,7 +210,7 @@ void RoughnessChain::State::feed(std::span<const SampleBlock> blocks, std::vecto
         takeSlice(blocks);
         advance(frames, false);
         // Only streams further apart than feed() permits come here: the oldest frames go out as they are.
-        while ((acceleration && acceleration->full()) || pending.size() > kMostPending / 2) advance(frames, true);
+        while (acceleration ? acceleration->full() : pacer->crowded()) advance(frames, true);
     }
 }
 
@@ -281,8 +219,7 @@ bool RoughnessChain::State::ready(double centre_s, double end_s) const noexcept 
     const double known = forceKnown_s();
     if (known < end_s) return false;
     if (!taxels) return true;
-    const bool silent = horizon_s() > std::max({taxels->newest_s(), centre_s + taxels->reach_s(),
-                                                acceleration ? acceleration->first_s() : firstPaced_s}) +
+    const bool silent = horizon_s() > std::max({taxels->newest_s(), centre_s + taxels->reach_s(), streamBegin_s()}) +
                                           ForceTrack::kLongestBridge_s;
     if (silent) return true;
     if (taxels->newest_s() < centre_s && horizon_s() <= centre_s + taxels->reach_s() + kSkew_s) return false;
@@ -304,21 +241,21 @@ void RoughnessChain::State::advance(std::vector<RoughnessFrame>& frames, bool fo
     if (taxels) taxels->settle(known, firstContact_s());
     if (taxels && finished) taxels->close();
 
-    bool force1 = forced;
+    bool regardless = forced;
     if (acceleration) {
         for (const auto* window = acceleration->frontWindow(); window != nullptr;
              window = acceleration->frontWindow()) {
-            if (!force1 && !ready(window->centre_s, window->end_s)) break;
+            if (!regardless && !ready(window->centre_s, window->end_s)) break;
             evaluate(window->begin_s, window->centre_s, window->end_s, window, frames);
             acceleration->popWindow();
-            force1 = false;
+            regardless = false;
         }
         return;
     }
-    while (!pending.empty() && (force1 || ready(pending.front(), pending.front()))) {
-        evaluate(pending.front(), pending.front(), pending.front(), nullptr, frames);
-        pending.pop();
-        force1 = false;
+    while (!pacer->empty() && (regardless || ready(pacer->front(), pacer->front()))) {
+        evaluate(pacer->front(), pacer->front(), pacer->front(), nullptr, frames);
+        pacer->pop();
+        regardless = false;
     }
 }
 
@@ -336,48 +273,6 @@ double RoughnessChain::State::spectralFeature(const AccelerationWindow& window, 
     return feature > 0 && std::isfinite(feature) ? feature : kNan;
 }
 
-void RoughnessChain::State::watchRest(double begin_s, double end_s, double product) noexcept {
-    if (declared.baseline && begin_s >= declared.baseline->begin_s && end_s <= declared.baseline->end_s) {
-        declaredSum += product;
-        ++declaredCount;
-    }
-    if (end_s < firstContact_s()) {
-        earlySum += product;
-        ++earlyCount;
-    }
-}
-
-void RoughnessChain::State::decideRest(double end_s, bool contact) noexcept {
-    if (restDecided) return;
-    if (!acceleration) {
-        slidingAssumed = slidingAssumed || contact;
-        return;
-    }
-    if (declared.baseline) {
-        if (!(end_s > declared.baseline->end_s)) return;
-        if (declaredCount > 0) {
-            restMeanSquare = declaredSum / static_cast<double>(declaredCount);
-            restDecided = true;
-            return;
-        }
-    }
-    if (!contact) return;
-    restDecided = true;
-    if (firstContact_s() - acceleration->first_s() >= kShortestRest_s && earlyCount > 0) {
-        restMeanSquare = earlySum / static_cast<double>(earlyCount);
-    } else if (settings.restMeanSquare && settings.restUnit == accelerationInfo->unit) {
-        restMeanSquare = *settings.restMeanSquare;
-    } else {
-        slidingAssumed = true;
-    }
-}
-
-Motion RoughnessChain::State::motionOf(double product) noexcept {
-    if (slidingAssumed) return Motion::Sliding;
-    if (!restDecided) return Motion::Unknown;
-    return product < kSlidingFactor * restMeanSquare ? Motion::Resting : Motion::Sliding;
-}
-
 void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                                      std::vector<RoughnessFrame>& frames) {
     RoughnessFrame frame;
@@ -386,18 +281,16 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
     if (force) pressed = force->at(centre_s);
     frame.contact = contactAt(centre_s, pressed);
 
-    double product = kNan;
+    double meanSquare = 0;
     if (window != nullptr) {
-        double meanSquare = 0;
         frame.h = spectralFeature(*window, meanSquare);
-        // !(x > y) also serves a force that is not known.
-        const double divisor = !force || !(pressed.force_n > ForceTrack::kSmallestDivisor_n)
-                                   ? (force ? ForceTrack::kSmallestDivisor_n : 1.0)
-                                   : pressed.force_n;
-        product = meanSquare * divisor * divisor;
-        watchRest(begin_s, end_s, product);
+        if (force) {
+            // !(x > y) also serves a force that is not known.
+            const bool pressing = pressed.force_n > ForceTrack::kSmallestDivisor_n;
+            const double divisor = pressing ? pressed.force_n : ForceTrack::kSmallestDivisor_n;
+            meanSquare *= divisor * divisor;
+        }
     }
-    decideRest(end_s, frame.contact);
 
     double taxelMean = kNan;
     if (taxels) {
@@ -405,7 +298,7 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
         frame.v = reading.v > 0 && std::isfinite(reading.v) ? reading.v : kNan;
         taxelMean = reading.mean;
     }
-    const Motion motion = frame.contact ? motionOf(product) : Motion::NoContact;
+    const Motion motion = sliding->next({begin_s, end_s, meanSquare, frame.contact, streamBegin_s(), firstContact_s()});
     frame.sliding = motion == Motion::Sliding;
     frame.R = index->next(centre_s, motion, frame.h, frame.v);
 
@@ -456,25 +349,23 @@ void RoughnessChain::feed(std::span<const SampleBlock> blocks, std::vector<Rough
 void RoughnessChain::finish(std::vector<RoughnessFrame>& frames) {
     state_->finished = true;
     state_->advance(frames, false);
+    state_->sliding->close();
 }
 
 void RoughnessChain::reset() { state_->clear(); }
 
 void RoughnessChain::presetRest(const RestLevels& rest) {
     if (state_->taxels) state_->taxels->preset(rest);
-    if (!(rest.slidingMeanSquare >= 0)) return;
-    state_->restMeanSquare = rest.slidingMeanSquare;
-    state_->restDecided = state_->restPreset = true;
+    if (rest.slidingMeanSquare >= 0) state_->sliding->preset(rest.slidingMeanSquare);
 }
 
 const RestLevels* RoughnessChain::rest() const noexcept {
     const bool taxelsKnown = !state_->taxels || state_->taxels->baselineKnown();
-    const bool slidingKnown = !state_->acceleration || state_->restDecided;
-    if (!taxelsKnown || !slidingKnown) return nullptr;
+    if (!taxelsKnown || !state_->sliding->decided()) return nullptr;
     auto& levels = state_->levels;
     levels.taxelBaseline = state_->taxels ? state_->taxels->baseline() : std::vector<double>{};
     levels.taxelFloor = state_->taxels ? state_->taxels->floor() : 0;
-    levels.slidingMeanSquare = state_->restMeanSquare;
+    levels.slidingMeanSquare = state_->sliding->meanSquare();
     return &levels;
 }
 
@@ -490,7 +381,7 @@ std::vector<std::string> RoughnessChain::flags() const {
     say(s.spectrumEmpty, "no spectral feature");
     say(!s.force, "not force-normalised");
     say(s.contactAssumed, "contact assumed");
-    say(s.slidingAssumed, "sliding assumed");
+    say(s.sliding->assumed(), "sliding assumed");
     say(s.taxels && s.taxels->baselineAssumed(), "baseline assumed");
     say(!s.settings.calibrated, "uncalibrated R");
     say(std::ranges::any_of(s.streams, [](const auto& info) { return info.unit == StreamUnit::Count; }),
