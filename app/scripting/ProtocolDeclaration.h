@@ -52,8 +52,9 @@ struct ProtocolDeclaration {
     std::string purpose;
     std::set<Role> needs;
     std::vector<ProtocolParameter> parameters;  ///< as written
-    std::vector<std::string> questions;         ///< names that the script's text passes to `operator`
-    bool hasOtherQuestions = false;             ///< it also computes such names, or may ask for a load or a surface
+    std::vector<std::string> questions;         ///< names the script's text passes to `operator`; "surface-*" and
+                                                ///< "fit-load" where it uses functions that may ask those
+    bool hasOtherQuestions = false;             ///< it also computes such names
 };
 
 /// What a run takes out of a list of KEY=VALUE settings.
@@ -67,6 +68,11 @@ struct ProtocolSettings {
 /// type or role, a range upside down or a default outside it; Timeout when the top level does not end in `limit`.
 [[nodiscard]] Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source,
                                                           std::chrono::milliseconds limit = std::chrono::seconds(1));
+
+/// Reads what protocol() was given. `order` and `choiceOrder`: the parameters' names as written, and the keys of each
+/// one's choices. Errors: InvalidArgument naming the parameter and the key.
+[[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
+                                                           const nlohmann::json& choiceOrder);
 
 /// Checks one value as text against its parameter. Errors: InvalidArgument naming key, value and what is accepted.
 [[nodiscard]] Result<nlohmann::json> parseSetting(const ProtocolParameter& parameter, std::string_view text);

@@ -1,0 +1,40 @@
+#include "app/scripting/HostBridge.h"
+
+#include "app/scripting/JsValue.h"
+
+namespace tacto {
+
+int HostBridge::callingLine() const {
+    // A new Error carries the stack: "wait@tactoscope:host:1\nrun@file:///.../x.js:12\n...".
+    const QString stack = engine_.newErrorObject(QJSValue::GenericError).property(QStringLiteral("stack")).toString();
+    const QString mark = QLatin1Char('@') + scriptUrl_ + QLatin1Char(':');
+    const qsizetype at = stack.indexOf(mark);
+    if (at < 0) return 0;
+    const qsizetype from = at + mark.size();
+    qsizetype to = from;
+    while (to < stack.size() && stack.at(to).isDigit()) ++to;
+    return stack.mid(from, to - from).toInt();
+}
+
+QJSValue HostBridge::call(int index, const QJSValue& arguments) {
+    const auto& functions = hostFunctions();
+    if (index < 0 || static_cast<std::size_t>(index) >= functions.size()) return {};
+    const HostFunction& function = functions[static_cast<std::size_t>(index)];
+    const int line = callingLine();
+
+    Result<nlohmann::json> given = toJson(arguments);
+    if (engine_.hasError()) return {};  // a getter of the script's own threw
+    Result<nlohmann::json> answer =
+        given ? port_.call(function, *given, line)
+              : tl::unexpected<Error>(
+                    {given.error().code, fmt::format("{}{}{}: {}", function.object, function.object.empty() ? "" : ".",
+                                                     function.name, given.error().message)});
+    if (answer) return toJs(engine_, *answer);
+
+    QJSValue error = engine_.newErrorObject(QJSValue::GenericError, QString::fromStdString(answer.error().message));
+    error.setProperty(QStringLiteral("code"), static_cast<int>(answer.error().code));
+    engine_.throwError(error);
+    return {};
+}
+
+}  // namespace tacto

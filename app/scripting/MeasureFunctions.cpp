@@ -1,0 +1,153 @@
+// Measuring captures, and judging what was measured.
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/Separability.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json orNull(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json toJson(const Statistics& s) {
+    return {{"mean", orNull(s.mean)}, {"sd", orNull(s.sd)},   {"median", orNull(s.median)},
+            {"min", orNull(s.min)},   {"max", orNull(s.max)}, {"n", s.n}};
+}
+
+/// Over the trains, not over their pulses: a train is one event on the skin.
+template <class Member>
+double meanOfTrains(const ChannelMeasurement& channel, Member member) {
+    std::vector<double> readings;
+    for (const auto& train : channel.trains) {
+        if (std::isfinite(train.*member)) readings.push_back(train.*member);
+    }
+    return statisticsOf(readings).mean;
+}
+
+Result<Json> train(ScriptSession& session, const Json& list) {
+    const Arguments arguments("measure.train", list);
+    auto handles = arguments.list(0, "captures");
+    if (!handles) return failure(handles);
+    auto held = session.held(**handles);
+    if (!held) return failure(held);
+    if (held->empty()) return arguments.wrong("captures", **handles, "at least one capture");
+    std::vector<Capture> captures;
+    Json ids = Json::array();
+    for (std::size_t i = 0; i < held->size(); ++i) {
+        captures.push_back(*(*held)[i]);
+        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
+    }
+    MeasureOptions options;
+    const PulseTrain& expected = session.bench().profile().encoding.train;
+    if (expected.pulses > 1) options.intraTrainRate = expected.rate;
+
+    auto voltage = measureTrains(captures, "voltage", options);
+    if (!voltage) return failure(voltage);
+    Json out = {{"amplitude_v", orNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
+                {"amplitude_u_v", orNull(voltage->uncertainty.amplitude)},
+                {"interval_s", orNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
+                {"interval_u_s", orNull(voltage->uncertainty.interval_s)},
+                {"width_s", orNull(meanOfTrains(*voltage, &TrainMeasurement::width_s))},
+                {"trains", voltage->trains.size()},
+                {"pulses", voltage->measuredPulses},
+                {"warnings", voltage->warnings},
+                {"captures", ids}};
+    if (auto current = measureTrains(captures, "current", options)) {
+        out["amplitude_ma"] = orNull(1e3 * meanOfTrains(*current, &TrainMeasurement::amplitude));
+        out["charge_uc"] = orNull(1e6 * meanOfTrains(*current, &TrainMeasurement::charge));
+        out["imbalance"] = orNull(meanOfTrains(*current, &TrainMeasurement::imbalance));
+    }
+    return out;
+}
+
+Result<Json> separability(ScriptSession&, const Json& list) {
+    const Arguments arguments("analysis.separability", list);
+    auto rows = arguments.list(0, "trials");
+    if (!rows) return failure(rows);
+    std::vector<SeparabilityTrial> trials;
+    Json features = Json::array();
+    for (const auto& row : **rows) {
+        if (!row.is_object() || !row.value("condition", Json()).is_string()) {
+            return arguments.wrong("a trial", row, "an object with a condition, from record.trials(),");
+        }
+        const auto value = [&row](const char* key) {
+            const auto at = row.find(key);
+            return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
+        };
+        SeparabilityTrial trial;
+        trial.condition = row["condition"].get<std::string>();
+        trial.amplitude = value("amplitude_v");
+        trial.interval_s = value("interval_s");
+        trial.amplitudeUncertainty = value("amplitude_u_v");
+        trial.intervalUncertainty_s = value("interval_u_s");
+        features.push_back({{"condition", trial.condition},
+                            {"amplitude_v", orNull(trial.amplitude)},
+                            {"interval_s", orNull(trial.interval_s)}});
+        trials.push_back(std::move(trial));
+    }
+    auto found = judgeSeparability(trials);
+    if (!found) return failure(found);
+
+    Json conditions = Json::array();
+    for (const auto& c : found->conditions) {
+        conditions.push_back({{"name", c.name},
+                              {"n", c.n},
+                              {"not_measured", c.notMeasured},
+                              {"amplitude_v", toJson(c.amplitude)},
+                              {"interval_s", toJson(c.interval_s)},
+                              {"amplitude_variation", orNull(c.amplitudeVariation)},
+                              {"interval_variation", orNull(c.intervalVariation)}});
+    }
+    Json pairs = Json::array();
+    for (const auto& p : found->pairs) {
+        pairs.push_back({{"a", p.a},
+                         {"b", p.b},
+                         {"mahalanobis", orNull(p.mahalanobis)},
+                         {"amplitude_jnd", orNull(p.amplitudeJnd)},
+                         {"interval_jnd", orNull(p.intervalJnd)}});
+    }
+    return Json{{"verdict", nameOf(found->verdict)},
+                {"reasons", found->reasons},
+                {"conditions", conditions},
+                {"pairs", pairs},
+                {"confusion", found->confusion},
+                {"accuracy",
+                 {{"value", orNull(found->accuracy.value)},
+                  {"low", orNull(found->accuracy.low)},
+                  {"high", orNull(found->accuracy.high)}}},
+                {"folds", found->folds},
+                {"trials", features}};
+}
+
+}  // namespace
+
+std::vector<HostFunction> measureFunctions() {
+    return {
+        {"measure",
+         "train",
+         HostKind::Function,
+         {{"captures", "list", "", "from bench.capture(), in time order"}},
+         "Measures what was delivered: amplitude, width, charge of each train, and the interval from onset to onset.",
+         "{ amplitude_v, amplitude_u_v, amplitude_ma, interval_s, interval_u_s, width_s, charge_uc, imbalance, trains, "
+         "pulses, warnings, captures }: means over the trains; _u_ is the standard uncertainty of a reading; what "
+         "could not be measured is null, the interval of a single train among it.",
+         "Throws for captures that are held no longer, or without a voltage channel.",
+         train},
+        {"analysis",
+         "separability",
+         HostKind::Function,
+         {{"trials", "list", "", "objects with condition, amplitude_v, interval_s; from record.trials()"}},
+         "Judges whether the conditions can be told apart from what was measured.",
+         "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",
+         "Throws for fewer than two conditions, or a value that is not above zero.",
+         separability},
+    };
+}
+
+}  // namespace tacto

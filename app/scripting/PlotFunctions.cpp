@@ -1,0 +1,163 @@
+// Figures of the report, as data; app/report/Figure.h says what each holds.
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Result<Json> member(const Arguments& arguments, const char* key) {
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    if (!(*found)->value(key, Json()).is_array()) {
+        return arguments.wrong("found", **found, fmt::format("a result with {}", key));
+    }
+    return (**found)[key];
+}
+
+Result<Json> conditions(ScriptSession&, const Json& list) {
+    auto found = member(Arguments("plot.conditions", list), "conditions");
+    if (!found) return found;
+    return Json{{"type", "conditions"}, {"conditions", *found}};
+}
+
+Result<Json> plane(ScriptSession&, const Json& list) {
+    const Arguments arguments("plot.plane", list);
+    auto trials = arguments.at(0).is_array() ? Result<Json>(arguments.at(0)) : member(arguments, "trials");
+    if (!trials) return trials;
+    return Json{{"type", "plane"}, {"trials", *trials}};
+}
+
+Result<Json> confusion(ScriptSession&, const Json& list) {
+    const Arguments arguments("plot.confusion", list);
+    auto counts = member(arguments, "confusion");
+    if (!counts) return counts;
+    auto rows = member(arguments, "conditions");
+    if (!rows) return rows;
+    Json labels = Json::array();
+    for (const auto& row : *rows) labels.push_back(row.value("name", ""));
+    return Json{{"type", "confusion"},
+                {"labels", labels},
+                {"confusion", *counts},
+                {"accuracy", arguments.at(0).value("accuracy", Json())}};
+}
+
+Json samplesOf(const CaptureChannel& channel) {
+    Json out = Json::array();
+    for (const float sample : channel.samples) {
+        out.push_back(std::isfinite(sample) ? Json(static_cast<double>(sample)) : Json());
+    }
+    return out;
+}
+
+Result<Json> waveforms(ScriptSession& session, const Json&) {
+    Json captures = Json::array();
+    for (const auto& exemplar : session.exemplars()) {
+        Json entry = {{"condition", exemplar.condition}};
+        if (exemplar.row) {
+            entry["capture"] = *exemplar.row;
+        } else {
+            const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
+            entry["rate_hz"] = exemplar.capture.rate_hz;
+            entry["start_s"] = exemplar.capture.start_s - origin;
+            for (const auto& channel : exemplar.capture.channels) {
+                if (channel.unit == "V") entry["voltage_v"] = samplesOf(channel);
+                if (channel.unit == "A") entry["current_a"] = samplesOf(channel);
+            }
+        }
+        captures.push_back(std::move(entry));
+    }
+    return Json{{"type", "waveforms"}, {"captures", captures}};
+}
+
+Result<Json> exposure(ScriptSession& session, const Json& list) {
+    const Arguments arguments("plot.exposure", list);
+    if (arguments.at(0).is_null()) {
+        session.watchExposure();
+        return Json{{"type", "exposure"}, {"rows", session.worstExposure()}};
+    }
+    auto rows = arguments.list(0, "rows");
+    if (!rows) return failure(rows);
+    return Json{{"type", "exposure"}, {"rows", **rows}};
+}
+
+Result<Json> timeline(ScriptSession&, const Json& list) {
+    const Arguments arguments("plot.timeline", list);
+    auto states = arguments.list(0, "states");
+    if (!states) return failure(states);
+    Json t = Json::array(), r = Json::array(), p = Json::array(), a = Json::array();
+    for (const auto& state : **states) {
+        if (!state.is_object() || !state.value("time_s", Json()).is_number()) {
+            return arguments.wrong("a state", state, "what bench.live() returned");
+        }
+        t.push_back(state["time_s"]);
+        r.push_back(state.value("roughness", Json()));
+        p.push_back(state.value("pressure", Json()));
+        a.push_back(state.value("amplitude_v", Json()));
+    }
+    return Json{{"type", "timeline"}, {"t_s", t}, {"r", r}, {"p", p}, {"amplitude_v", a}};
+}
+
+}  // namespace
+
+std::vector<HostFunction> plotFunctions() {
+    constexpr std::string_view kFigure = "A figure, for report.figure().";
+    return {
+        {"plot",
+         "conditions",
+         HostKind::Function,
+         {{"found", "object", "", "from analysis.separability()"}},
+         "The conditions as measured: texture alone, pressure alone, the two combined.",
+         kFigure,
+         "",
+         conditions},
+        {"plot",
+         "plane",
+         HostKind::Function,
+         {{"found", "object or list", "",
+           "from analysis.separability(), or trials with condition, amplitude_v, interval_s"}},
+         "Amplitude against interval, a point per trial.",
+         kFigure,
+         "",
+         plane},
+        {"plot",
+         "confusion",
+         HostKind::Function,
+         {{"found", "object", "", "from analysis.separability()"}},
+         "Presented against recognised condition.",
+         kFigure,
+         "",
+         confusion},
+        {"plot",
+         "waveforms",
+         HostKind::Function,
+         {},
+         "The first capture of each condition that was recorded as a trial.",
+         kFigure,
+         "",
+         waveforms},
+        {"plot",
+         "exposure",
+         HostKind::Function,
+         {{"rows", "list", "", "from bench.exposure(); the run's largest where left out", true}},
+         "Exposure against its limits.",
+         kFigure,
+         "",
+         exposure},
+        {"plot",
+         "timeline",
+         HostKind::Function,
+         {{"states", "list", "", "from bench.live(), in time order"}},
+         "Roughness, pressure and amplitude over time.",
+         kFigure,
+         "",
+         timeline},
+    };
+}
+
+}  // namespace tacto

@@ -1,0 +1,146 @@
+#include "app/scripting/ProtocolLibrary.h"
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QStringDecoder>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#ifndef TACTOSCOPE_INSTALLED_RESOURCES
+#define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"
+#endif
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uintmax_t kLargestScript = 1'000'000;
+
+fs::path environmentPath(const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? fs::path() : fs::path(value);
+}
+
+fs::path executableFolder() {
+    std::error_code failed;
+    const fs::path self = fs::read_symlink("/proc/self/exe", failed);
+    return failed ? fs::path() : self.parent_path();
+}
+
+Result<ProtocolSource> readScript(const fs::path& path, bool shipped) {
+    std::error_code failed;
+    const auto size = fs::file_size(path, failed);
+    if (failed) return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), failed.message());
+    if (size > kLargestScript) {
+        return fail(ErrorCode::InvalidArgument, "{} has {} bytes, a script has at most {}", path.string(), size,
+                    kLargestScript);
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    if (!file) return fail(ErrorCode::Io, "{} cannot be read", path.string());
+    ProtocolSource source;
+    source.name = path.stem().string();
+    source.path = path;
+    source.text = content.str();
+    source.shipped = shipped;
+    const QByteArray bytes = QByteArray::fromStdString(source.text);
+    source.sha256 = QCryptographicHash::hash(bytes, QCryptographicHash::Sha256).toHex().toStdString();
+    QStringDecoder utf8(QStringDecoder::Utf8, QStringDecoder::Flag::Stateless);
+    const QString text = utf8(bytes);
+    if (utf8.hasError() || text.contains(QChar::Null)) {
+        return fail(ErrorCode::InvalidArgument, "{} is not UTF-8 text", path.string());
+    }
+    if (source.text.starts_with("\xEF\xBB\xBF")) source.text.erase(0, 3);
+    return source;
+}
+
+/// Scripts of a folder by name; what is not there or not readable is not listed.
+std::map<std::string, fs::path> scriptsIn(const fs::path& folder) {
+    std::map<std::string, fs::path> found;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+        if (entry->path().extension() == ".js" && entry->is_regular_file(failed)) {
+            found[entry->path().stem().string()] = entry->path();
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+Result<fs::path> resourcesFolder() {
+    std::vector<std::string> tried;
+    const auto usable = [&tried](const fs::path& folder) {
+        std::error_code failed;
+        if (!folder.empty()) tried.push_back(folder.string());
+        return !folder.empty() && fs::is_directory(folder / "protocols", failed);
+    };
+    if (const auto set = environmentPath("TACTOSCOPE_RESOURCES"); !set.empty()) {
+        // What was asked for explicitly is not silently replaced by something else.
+        if (usable(set)) return set;
+        return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
+                    set.string());
+    }
+    const fs::path start = executableFolder();
+    if (usable(start / ".." / "share" / "tactoscope"))
+        return (start / ".." / "share" / "tactoscope").lexically_normal();
+    fs::path folder = start;
+    for (int up = 0; up < 5 && !folder.empty() && folder != folder.root_path(); ++up, folder = folder.parent_path()) {
+        if (usable(folder / "resources")) return folder / "resources";
+    }
+    if (usable(TACTOSCOPE_INSTALLED_RESOURCES)) return fs::path(TACTOSCOPE_INSTALLED_RESOURCES);
+    return fail(ErrorCode::NotFound, "the program's resources were not found in {}; set TACTOSCOPE_RESOURCES",
+                fmt::join(tried, ", "));
+}
+
+fs::path userProtocolsFolder() {
+    fs::path base = environmentPath("XDG_DATA_HOME");
+    if (base.empty() || !base.is_absolute()) {
+        base = environmentPath("HOME");
+        if (base.empty()) return {};
+        base /= fs::path(".local") / "share";
+    }
+    return base / "tactoscope" / "protocols";
+}
+
+ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {
+    if (auto resources = resourcesFolder()) shipped_ = *resources / "protocols";
+}
+
+ProtocolLibrary::ProtocolLibrary(fs::path shipped, fs::path user)
+    : shipped_(std::move(shipped)), user_(std::move(user)) {}
+
+std::vector<ProtocolSource> ProtocolLibrary::list() const {
+    std::map<std::string, std::pair<fs::path, bool>> all;
+    for (auto& [name, path] : scriptsIn(shipped_)) all[name] = {path, true};
+    for (auto& [name, path] : scriptsIn(user_)) all[name] = {path, false};
+    std::vector<ProtocolSource> out;
+    for (const auto& [name, at] : all) {
+        if (auto source = readScript(at.first, at.second)) out.push_back(std::move(*source));
+    }
+    return out;
+}
+
+Result<ProtocolSource> ProtocolLibrary::find(std::string_view nameOrPath) const {
+    const std::string wanted(nameOrPath);
+    if (wanted.ends_with(".js") || wanted.find('/') != std::string::npos) {
+        std::error_code failed;
+        if (!fs::is_regular_file(wanted, failed)) return fail(ErrorCode::NotFound, "there is no script {}", wanted);
+        return readScript(fs::absolute(wanted, failed).lexically_normal(), false);
+    }
+    const auto shipped = scriptsIn(shipped_), user = scriptsIn(user_);
+    if (const auto at = user.find(wanted); at != user.end()) return readScript(at->second, false);
+    if (const auto at = shipped.find(wanted); at != shipped.end()) return readScript(at->second, true);
+    std::set<std::string> known;
+    for (const auto& [name, path] : shipped) known.insert(name);
+    for (const auto& [name, path] : user) known.insert(name);
+    return fail(ErrorCode::NotFound, "there is no protocol {}; there are {}", wanted,
+                known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
+}
+
+}  // namespace tacto

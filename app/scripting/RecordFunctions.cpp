@@ -1,0 +1,158 @@
+// What a protocol leaves behind: trials, measurements, events, and the report.
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Result<Json> trial(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.trial", list);
+    auto condition = arguments.text(0, "condition");
+    if (!condition) return failure(condition);
+    auto measured = arguments.object(1, "measured");
+    if (!measured) return failure(measured);
+    auto number = session.addTrial(*condition, **measured);
+    if (!number) return failure(number);
+    return Json(*number);
+}
+
+Result<Json> trials(ScriptSession& session, const Json&) { return Json(session.trials()); }
+
+Result<Json> measurement(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.measurement", list);
+    auto name = arguments.text(0, "name");
+    if (!name) return failure(name);
+    auto values = arguments.object(1, "values");
+    if (!values) return failure(values);
+    if (session.writer() == nullptr) return Json();
+    auto written = session.writer()->measurement(session.now(), *name, **values);
+    if (!written) return failure(written);
+    return Json();
+}
+
+Result<Json> event(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.event", list);
+    auto kind = arguments.text(0, "kind");
+    if (!kind) return failure(kind);
+    if (session.writer() == nullptr) return Json();
+    auto written = session.writer()->event(session.now(), "script " + *kind, arguments.at(1));
+    if (!written) return failure(written);
+    return Json();
+}
+
+Result<Json> writeItem(ScriptSession& session, const Json& item) {
+    if (session.writer() == nullptr) return Json();
+    auto written = session.writer()->reportItem(session.now(), item);
+    if (!written) return failure(written);
+    return Json();
+}
+
+Result<Json> figure(ScriptSession& session, const Json& list) {
+    const Arguments arguments("report.figure", list);
+    auto caption = arguments.text(0, "caption");
+    if (!caption) return failure(caption);
+    auto figure = arguments.object(1, "figure");
+    if (!figure) return failure(figure);
+    if (!(*figure)->contains("type")) return arguments.wrong("figure", **figure, "what a plot function returned");
+    return writeItem(session, {{"kind", "figure"}, {"caption", *caption}, {"figure", **figure}});
+}
+
+Result<Json> table(ScriptSession& session, const Json& list) {
+    const Arguments arguments("report.table", list);
+    auto caption = arguments.text(0, "caption");
+    if (!caption) return failure(caption);
+    auto rows = arguments.list(1, "rows");
+    if (!rows) return failure(rows);
+    for (const auto& row : **rows) {
+        if (!row.is_object()) return arguments.wrong("a row", row, "an object whose members are the columns");
+    }
+    Json item = {{"kind", "table"}, {"caption", *caption}, {"rows", **rows}};
+    const Json& columns = arguments.at(2);
+    if (columns.is_array()) {
+        item["columns"] = columns;
+    } else if (!columns.is_null()) {
+        return arguments.wrong("columns", columns, "a list of column names");
+    }
+    return writeItem(session, item);
+}
+
+Result<Json> text(ScriptSession& session, const Json& list) {
+    auto paragraph = Arguments("report.text", list).text(0, "text");
+    if (!paragraph) return failure(paragraph);
+    return writeItem(session, {{"kind", "text"}, {"text", *paragraph}});
+}
+
+}  // namespace
+
+std::vector<HostFunction> recordFunctions() {
+    constexpr std::string_view kDisk = "Throws when the session file cannot be written.";
+    return {
+        {"record",
+         "trial",
+         HostKind::Function,
+         {{"condition", "text", "", "name of the condition presented"},
+          {"measured", "object", "", "from measure.train(), or any values with their units in the names"}},
+         "Records a trial and the captures it was measured on.",
+         "The trial's number, from 1.",
+         kDisk,
+         trial},
+        {"record",
+         "trials",
+         HostKind::Function,
+         {},
+         "Every trial recorded so far.",
+         "List of { condition, trial, and what was measured }.",
+         "",
+         trials},
+        {"record",
+         "measurement",
+         HostKind::Function,
+         {{"name", "text", "", "what was measured"}, {"values", "object", "", "values with their units in the names"}},
+         "Records a measured or calibrated value.",
+         "",
+         kDisk,
+         measurement},
+        {"record",
+         "event",
+         HostKind::Function,
+         {{"kind", "text", "", "what happened, in a word or two"},
+          {"details", "object", "", "anything worth keeping", true}},
+         "Records that something happened.",
+         "",
+         kDisk,
+         event},
+        {"report",
+         "figure",
+         HostKind::Function,
+         {{"caption", "text", "", "title of the figure"}, {"figure", "figure", "", "from a plot function"}},
+         "Adds a figure to the report.",
+         "",
+         kDisk,
+         figure},
+        {"report",
+         "table",
+         HostKind::Function,
+         {{"caption", "text", "", "title of the table"},
+          {"rows", "list", "", "objects; their members are the columns and carry the unit"},
+          {"columns", "list", "", "names and order of the columns; as in the rows where left out", true}},
+         "Adds a table to the report.",
+         "",
+         kDisk,
+         table},
+        {"report",
+         "text",
+         HostKind::Function,
+         {{"text", "text", "", "a paragraph"}},
+         "Adds a paragraph to the report.",
+         "",
+         kDisk,
+         text},
+    };
+}
+
+}  // namespace tacto

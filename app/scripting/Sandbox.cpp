@@ -1,0 +1,242 @@
+#include "app/scripting/Sandbox.h"
+
+#include <QRegularExpression>
+#include <QUrl>
+#include <set>
+
+#include "app/scripting/HostBridge.h"
+#include "app/scripting/JsValue.h"
+
+namespace tacto {
+
+namespace {
+
+const QString kHostFile = QStringLiteral("tactoscope:host");
+const QString kStartFile = QStringLiteral("tactoscope:start");
+
+/// Runs before the script: what it looks up here cannot have been tampered with, and what the functions do later
+/// looks nothing up that a script can change.
+const QString kInstall = QStringLiteral(R"js(
+(function (host, global, table, makers) {
+    "use strict";
+    const define = Object.defineProperty, freeze = Object.freeze;
+    const objects = {};
+    for (let i = 0; i < table.length; ++i) {
+        const entry = table[i];
+        const native = (...given) => host.call(i, given);
+        const made = makers[i] ? makers[i](native) : native;
+        define(made, "name", { value: entry.name });
+        freeze(made);
+        const what = entry.property ? { get: () => host.call(i, []), enumerable: true }
+                                    : { value: made, enumerable: true };
+        if (entry.object === "") { define(global, entry.name, what); continue; }
+        if (!objects[entry.object]) objects[entry.object] = Object.create(null);
+        define(objects[entry.object], entry.name, what);
+        if (entry.object === "random" && entry.name === "uniform") {
+            define(Math, "random", { value: freeze(() => host.call(i, [0, 1])), writable: false, configurable: false });
+        }
+    }
+    for (const name in objects) define(global, name, { value: freeze(objects[name]), enumerable: true });
+})
+)js");
+
+QString qtText(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
+
+int findRunLine(const std::string& text) {
+    static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
+    const QString code = QString::fromStdString(text);
+    const auto match = run.match(code);
+    if (!match.hasMatch()) return 1;
+    return static_cast<int>(code.left(match.capturedStart()).count(QLatin1Char('\n'))) + 1;
+}
+
+/// The engine turns a path into a file URL, which is what its stack traces name.
+QString urlOf(const std::string& file) {
+    const QString name = QString::fromStdString(file);
+    return name.startsWith(QLatin1Char('/')) ? QUrl::fromLocalFile(name).toString() : name;
+}
+
+}  // namespace
+
+std::string ScriptError::text() const {
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, reason) : fmt::format("{}: {}", file, reason);
+}
+
+Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
+    : source_(source),
+      file_(source.path.empty() ? source.name + ".js" : source.path.string()),
+      runLine_(findRunLine(source.text)),
+      bridge_(std::make_unique<HostBridge>(engine_, port, urlOf(file_))) {
+    removeForeignGlobals();
+    installHost();
+}
+
+Sandbox::~Sandbox() = default;
+
+void Sandbox::removeForeignGlobals() {
+    static const QSet<QString> kKept = {"Object",
+                                        "String",
+                                        "Symbol",
+                                        "Number",
+                                        "Boolean",
+                                        "Array",
+                                        "Function",
+                                        "Date",
+                                        "RegExp",
+                                        "Error",
+                                        "EvalError",
+                                        "RangeError",
+                                        "ReferenceError",
+                                        "SyntaxError",
+                                        "TypeError",
+                                        "URIError",
+                                        "ArrayBuffer",
+                                        "DataView",
+                                        "WeakSet",
+                                        "Set",
+                                        "WeakMap",
+                                        "Map",
+                                        "Int8Array",
+                                        "Uint8Array",
+                                        "Int16Array",
+                                        "Uint16Array",
+                                        "Int32Array",
+                                        "Uint32Array",
+                                        "Uint8ClampedArray",
+                                        "Float32Array",
+                                        "Float64Array",
+                                        "Math",
+                                        "JSON",
+                                        "Reflect",
+                                        "Proxy",
+                                        "undefined",
+                                        "NaN",
+                                        "Infinity",
+                                        "eval",
+                                        "parseInt",
+                                        "parseFloat",
+                                        "isNaN",
+                                        "isFinite",
+                                        "decodeURI",
+                                        "decodeURIComponent",
+                                        "encodeURI",
+                                        "encodeURIComponent",
+                                        "escape",
+                                        "unescape"};
+    QJSValue global = engine_.globalObject();
+    const QJSValue names = engine_.evaluate(QStringLiteral("Object.getOwnPropertyNames")).call({global});
+    const quint32 count = names.property(QStringLiteral("length")).toUInt();
+    for (quint32 i = 0; i < count; ++i) {
+        const QString name = names.property(i).toString();
+        if (!kKept.contains(name)) global.deleteProperty(name);
+    }
+}
+
+void Sandbox::installHost() {
+    const auto& functions = hostFunctions();
+    QJSValue table = engine_.newArray(static_cast<uint>(functions.size()));
+    QJSValue makers = engine_.newArray(static_cast<uint>(functions.size()));
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+        QJSValue entry = engine_.newObject();
+        entry.setProperty(QStringLiteral("object"), qtText(functions[i].object));
+        entry.setProperty(QStringLiteral("name"), qtText(functions[i].name));
+        entry.setProperty(QStringLiteral("property"), functions[i].kind == HostKind::Property);
+        table.setProperty(static_cast<quint32>(i), entry);
+        if (functions[i].javascript.empty()) continue;
+        const QString code = qtText(functions[i].javascript);
+        const QJSValue maker = engine_.evaluate(
+            QStringLiteral("(function (native) { \"use strict\"; return (") + code + QStringLiteral("); })"),
+            kHostFile);
+        Q_ASSERT_X(!maker.isError(), "Sandbox", qPrintable(maker.toString()));
+        makers.setProperty(static_cast<quint32>(i), maker);
+    }
+    QJSEngine::setObjectOwnership(bridge_.get(), QJSEngine::CppOwnership);
+    const QJSValue install = engine_.evaluate(kInstall, kHostFile);
+    const QJSValue done = install.call({engine_.newQObject(bridge_.get()), engine_.globalObject(), table, makers});
+    // Without its host objects a script would run against nothing, or against its own inventions.
+    if (done.isError()) qFatal("host objects could not be installed: %s", qPrintable(done.toString()));
+}
+
+std::optional<ScriptError> Sandbox::load() {
+    if (auto error = evaluate(QStringLiteral("\"use strict\"; ") + QString::fromStdString(source_.text),
+                              QString::fromStdString(file_))) {
+        return error;
+    }
+    if (auto error = findRedefinition()) return error;
+    const QJSValue defined = engine_.evaluate(QStringLiteral("typeof run === 'function'"), kStartFile);
+    if (defined.isBool() && defined.toBool()) return std::nullopt;
+    return ScriptError{ErrorCode::ParseError, "the script has no function run(p)", file_, 1};
+}
+
+std::optional<ScriptError> Sandbox::findRedefinition() {
+    // `let bench = ...` at top level would hide the host object from the script's own later lines.
+    std::set<std::string_view> names;
+    for (const auto& function : hostFunctions())
+        names.insert(function.object.empty() ? function.name : function.object);
+    for (const auto name : names) {
+        const QString text = qtText(name);
+        const QJSValue seen = engine_.evaluate(text, kStartFile);
+        if (seen.strictlyEquals(engine_.globalObject().property(text))) continue;
+        return ScriptError{
+            ErrorCode::ParseError,
+            fmt::format("the script defines {0}, but {0} belongs to the program; choose another name", name), file_, 1};
+    }
+    return std::nullopt;
+}
+
+std::optional<ScriptError> Sandbox::run(const nlohmann::json& parameters) {
+    const std::string given = parameters.dump(-1, ' ', true);  // ASCII: a JavaScript literal whatever it holds
+    return evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
+}
+
+void Sandbox::interrupt() noexcept { engine_.setInterrupted(true); }
+
+std::optional<ScriptError> Sandbox::evaluate(const QString& code, const QString& file) {
+    QStringList trace;
+    const QJSValue value = engine_.evaluate(code, file, 1, &trace);
+    if (engine_.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file_, 0};
+    if (trace.isEmpty() && !value.isError()) return std::nullopt;
+    if (trace.isEmpty() && file == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
+    return errorFrom(value, trace);
+}
+
+ScriptError Sandbox::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
+    ScriptError error{ErrorCode::ParseError, {}, file_, 0};
+    // "function:line:column:file", innermost first; the innermost line of the script itself is what its author can act
+    // on.
+    static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
+    const QString url = urlOf(file_);
+    for (const QString& entry : trace) {
+        const auto match = frame.match(entry);
+        if (!match.hasMatch() || match.captured(4) != url) continue;
+        error.line = match.captured(2).toInt();
+        break;
+    }
+    if (error.line == 0) error.line = thrown.property(QStringLiteral("lineNumber")).toInt();
+
+    if (!thrown.isError()) {
+        error.reason = thrown.toString().toStdString();
+        if (thrown.isObject() && !thrown.isCallable()) {
+            if (auto plain = toJson(thrown))
+                error.reason = plain->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        }
+        return error;
+    }
+    const QJSValue code = thrown.property(QStringLiteral("code"));
+    if (code.isNumber() && code.toInt() >= 0 && code.toInt() <= static_cast<int>(ErrorCode::Unsupported)) {
+        error.code = static_cast<ErrorCode>(code.toInt());
+        error.reason = thrown.property(QStringLiteral("message")).toString().toStdString();
+        return error;
+    }
+    const QString name = thrown.property(QStringLiteral("name")).toString();
+    const QString message = thrown.property(QStringLiteral("message")).toString();
+    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // all the engine says
+        error.reason = "TypeError: something that belongs to the program, or is constant, was written or deleted";
+        return error;
+    }
+    error.reason = (name == QStringLiteral("Error") ? message : name + QStringLiteral(": ") + message).toStdString();
+    if (error.reason.empty()) error.reason = "an Error without a message";
+    return error;
+}
+
+}  // namespace tacto

@@ -1,0 +1,280 @@
+#include "app/scripting/ScriptRun.h"
+
+#include <QCoreApplication>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "app/scripting/ScriptSession.h"
+#include "app/scripting/ScriptThread.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto {
+
+namespace {
+/// A host call wakes within milliseconds of a stop. One that does not leaves the bench in two hands.
+constexpr std::chrono::seconds kHostCallLimit{5};
+}  // namespace
+
+std::string_view nameOf(ScriptVerdict verdict) noexcept {
+    switch (verdict) {
+        case ScriptVerdict::None:
+            return "";
+        case ScriptVerdict::Pass:
+            return "pass";
+        case ScriptVerdict::Fail:
+            return "fail";
+        case ScriptVerdict::Indeterminate:
+            return "indeterminate";
+        case ScriptVerdict::Stopped:
+            return "stopped";
+    }
+    return "";
+}
+
+/// Shared with the script's thread, which may outlive the ScriptRun when it was abandoned.
+struct ScriptRun::State final : HostPort {
+    explicit State(RunRequest given) : request(std::move(given)), session(request) {}
+
+    RunRequest request;
+    ScriptSession session;             // guarded by access
+    std::timed_mutex access;           // held during a host call, so that giving up never cuts into one
+    bool abandoned = false;            // guarded by access
+    nlohmann::json declared;           // guarded by access
+    std::optional<ScriptError> error;  // guarded by access
+    bool ended = false;                // guarded by access
+    bool stoppedInTime = false;        // guarded by access: the stop came before the script's end
+    bool running = false;              // the script's thread only
+    std::atomic<int> line{0};          // of the last host call
+
+    std::mutex control;  // held for moments only
+    std::condition_variable woken;
+    bool paused = false;    // guarded by control
+    bool stopping = false;  // guarded by control
+    bool over = false;      // guarded by control: the bench may be gone
+    std::string stoppedBy;  // guarded by control
+
+    std::unique_ptr<ScriptThread> thread;  // set once, before stop() can be called
+    std::optional<ScriptOutcome> outcome;  // wait()'s caller only
+
+    Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
+    void execute(Sandbox& sandbox);
+    void writeAbout();
+    void conclude(ScriptThread::End end);
+    void writeVerdict();
+    void writeEvent(std::string_view kind, const nlohmann::json& details);
+    [[nodiscard]] std::string stopText(int at);
+};
+
+Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, const nlohmann::json& arguments, int from) {
+    if (from > 0) line = from;
+    const bool declares = function.object.empty() && function.name == "protocol";
+    if (!running && !declares) {
+        return fail(ErrorCode::InvalidArgument, "{}{}{} can be used inside run(p) only", function.object,
+                    function.object.empty() ? "" : ".", function.name);
+    }
+    {
+        std::unique_lock lock(control);
+        woken.wait(lock, [this] { return !paused || stopping; });
+        if (stopping) return fail(ErrorCode::Stopped, "stopped by {}", stoppedBy);
+    }
+    const std::lock_guard lock(access);
+    if (abandoned) return fail(ErrorCode::Stopped, "this script was abandoned");
+    if (declares) {
+        declared = arguments;
+        return nlohmann::json();
+    }
+    try {
+        return function.call(session, arguments);
+    } catch (const std::exception& surprise) {  // of a library, as JSON or memory: the script gets it as an Error
+        return fail(ErrorCode::InvalidArgument, "{}.{}: {}", function.object, function.name, surprise.what());
+    }
+}
+
+void ScriptRun::State::execute(Sandbox& sandbox) {
+    line = sandbox.runLine();
+    auto failed = sandbox.load();
+    if (!failed) {
+        running = true;
+        writeAbout();
+        failed = sandbox.run(request.parameters);
+    }
+    bool stopped = false;
+    {
+        const std::lock_guard lock(control);
+        stopped = stopping;
+    }
+    const std::lock_guard lock(access);
+    if (abandoned) return;
+    request.bench->disarm();
+    error = std::move(failed);
+    stoppedInTime = stopped && error.has_value();
+    ended = true;
+}
+
+void ScriptRun::State::writeAbout() {
+    const std::lock_guard lock(access);
+    if (abandoned || request.session == nullptr || !declared.is_array()) return;
+    auto declaration = parseDeclaration(declared[0], declared[1], declared[2]);
+    if (!declaration) return;  // the program read it before; a script that declares by the clock gets no title
+    nlohmann::json parameters = nlohmann::json::array();
+    for (const auto& parameter : declaration->parameters) {
+        parameters.push_back({{"label", parameter.label},
+                              {"value", request.parameters.value(parameter.name, parameter.value)},
+                              {"unit", parameter.unit}});
+    }
+    (void)request.session->reportItem(session.now(), {{"kind", "about"},
+                                                      {"title", declaration->title},
+                                                      {"purpose", declaration->purpose},
+                                                      {"parameters", parameters}});
+}
+
+std::string ScriptRun::State::stopText(int at) {
+    const std::string file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
+    std::string by;
+    {
+        const std::lock_guard lock(control);
+        by = stoppedBy;
+    }
+    return fmt::format("{}:{}: stopped by {}, at this line or after it", file, at, by);
+}
+
+void ScriptRun::State::conclude(ScriptThread::End end) {
+    {
+        const std::lock_guard lock(control);
+        over = true;  // from here on stop() leaves the bench alone
+    }
+    std::unique_lock lock(access, std::defer_lock);
+    if (!lock.try_lock_for(kHostCallLimit)) {
+        request.bench->stop("a host call that does not end");
+        qFatal("a call of script %s into the bench did not end after a stop; ending with outputs off",
+               request.script.name.c_str());
+    }
+    ScriptOutcome result;
+    result.file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
+    if (end == ScriptThread::End::Abandoned && !ended) {
+        abandoned = true;  // no host call of it does anything from here on
+        request.bench->disarm();
+        result.log = session.takeLog();
+        result.abandoned = true;
+        result.verdict = ScriptVerdict::Stopped;
+        result.line = line;
+        result.error =
+            Error{ErrorCode::Stopped, stopText(line) +
+                                          "; it was still running a second later, so it was abandoned with the "
+                                          "output off"};
+        request.onProgress = nullptr;
+        request.onLog = nullptr;
+    } else {
+        session.finish(result);
+        if (stoppedInTime) {
+            result.verdict = ScriptVerdict::Stopped;
+            result.line = line;
+            result.error = Error{ErrorCode::Stopped, stopText(line)};
+        } else if (error) {
+            result.verdict = error->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
+            result.line = error->line;
+            result.error = Error{error->code, error->text()};
+        }
+        if (result.error) {
+            result.results = nlohmann::json();
+            result.reasons = {result.error->message};
+        }
+    }
+    outcome = std::move(result);
+    writeVerdict();
+}
+
+void ScriptRun::State::writeEvent(std::string_view kind, const nlohmann::json& details) {
+    auto written = request.session->event(session.now(), kind, details);
+    if (!written && !outcome->error) outcome->error = written.error();
+}
+
+void ScriptRun::State::writeVerdict() {
+    if (request.session == nullptr) return;
+    if (outcome->error) {
+        writeEvent(outcome->abandoned ? "script abandoned" : "script ended by an error",
+                   {{"message", outcome->error->message}});
+    }
+    if (outcome->verdict == ScriptVerdict::None) return;
+    auto written = request.session->verdict(session.now(), request.script.name, nameOf(outcome->verdict),
+                                            outcome->reasons, outcome->results);
+    if (written || outcome->error) return;
+    outcome->verdict = ScriptVerdict::None;  // a verdict that is not on disk was not given (hazard H8)
+    outcome->error = written.error();
+}
+
+ScriptRun::ScriptRun(std::shared_ptr<State> state) : state_(std::move(state)) {}
+
+Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
+    if (request.bench == nullptr) return fail(ErrorCode::InvalidArgument, "a script cannot run without a bench");
+    if (QCoreApplication::instance() == nullptr) {
+        return fail(ErrorCode::InvalidArgument, "a script cannot run without a QCoreApplication");
+    }
+    request.bench->clearStop();
+    auto state = std::make_shared<State>(std::move(request));
+    State* raw = state.get();  // the thread keeps the port, which is the state, alive
+    state->thread = std::make_unique<ScriptThread>(state, state->request.script,
+                                                   [raw](Sandbox& sandbox) { raw->execute(sandbox); });
+    return std::unique_ptr<ScriptRun>(new ScriptRun(std::move(state)));
+}
+
+ScriptRun::~ScriptRun() {
+    stop("the program");
+    (void)wait();
+    state_->thread.reset();
+}
+
+void ScriptRun::stop(const char* by) noexcept {
+    {
+        const std::lock_guard lock(state_->control);
+        if (state_->over) return;
+        state_->request.bench->stop(by);  // the output first
+        if (!state_->stopping) state_->stoppedBy = by;
+        state_->stopping = true;
+    }
+    state_->woken.notify_all();
+    if (state_->request.operatorDesk != nullptr) state_->request.operatorDesk->cancel();
+    state_->thread->interrupt();
+}
+
+void ScriptRun::pause() noexcept {
+    const std::lock_guard lock(state_->control);
+    if (state_->over || state_->stopping) return;
+    state_->request.bench->pause();
+    state_->paused = true;
+}
+
+void ScriptRun::resume() noexcept {
+    {
+        const std::lock_guard lock(state_->control);
+        if (state_->over || state_->stopping) return;
+        state_->request.bench->resume();
+        state_->paused = false;
+    }
+    state_->woken.notify_all();
+}
+
+ScriptOutcome ScriptRun::wait() {
+    if (!state_->outcome) state_->conclude(state_->thread->wait());
+    return *state_->outcome;
+}
+
+std::optional<ScriptOutcome> ScriptRun::waitFor(std::chrono::milliseconds time) {
+    if (state_->outcome) return state_->outcome;
+    const auto end = state_->thread->wait(time);
+    if (end == ScriptThread::End::Running) return std::nullopt;
+    state_->conclude(end);
+    return state_->outcome;
+}
+
+int ScriptRun::abandonedRunning() noexcept { return ScriptThread::abandonedRunning(); }
+
+Result<ScriptOutcome> runProtocol(RunRequest request) {
+    auto run = ScriptRun::start(std::move(request));
+    if (!run) return failure(run);
+    return (*run)->wait();
+}
+
+}  // namespace tacto

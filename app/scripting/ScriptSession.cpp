@@ -1,0 +1,144 @@
+#include "app/scripting/ScriptSession.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "core/measure/CaptureFile.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto {
+
+Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
+    if (request_.operatorDesk == nullptr) {
+        return fail(ErrorCode::NotFound, "nobody can answer \"{}\"; give --set {}=...", question.text, question.name);
+    }
+    auto answer = request_.operatorDesk->ask(question);
+    if (request_.session != nullptr) {
+        const nlohmann::json details = {{"name", question.name},
+                                        {"question", question.text},
+                                        {"answer", answer ? *answer : nlohmann::json(answer.error().message)}};
+        if (auto written = request_.session->event(now(), "operator", details); !written) return failure(written);
+    }
+    return answer;
+}
+
+void ScriptSession::log(const std::string& text) {
+    log_.push_back(text);
+    if (request_.onLog) request_.onLog(text);
+    // A log line that cannot be written is no reason to end a run; the next row that must be kept will say so.
+    if (request_.session != nullptr) (void)request_.session->log(now(), "info", text);
+}
+
+void ScriptSession::progress(const ScriptProgress& progress) {
+    if (request_.onProgress) request_.onProgress(progress);
+}
+
+nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
+    nlohmann::json handles = nlohmann::json::array();
+    for (auto& capture : captures) {
+        handles.push_back({{"capture", nextCapture_},
+                           {"start_s", capture.start_s},
+                           {"trigger_s", capture.trigger_s},
+                           {"rate_hz", capture.rate_hz},
+                           {"samples", capture.samples()}});
+        captures_.push_back({nextCapture_++, std::move(capture), {}});
+        if (captures_.size() > kHeldCaptures) captures_.pop_front();
+    }
+    return handles;
+}
+
+Result<std::vector<const Capture*>> ScriptSession::held(const nlohmann::json& handles) const {
+    std::vector<const Capture*> found;
+    for (const auto& handle : handles) {
+        const auto id = handle.is_object() ? handle.value("capture", nlohmann::json()) : handle;
+        if (!id.is_number_integer()) {
+            return fail(ErrorCode::InvalidArgument, "{} is no capture; pass what bench.capture() returned",
+                        shown(handle));
+        }
+        const auto same = [&](const Held& held) { return held.id == id.get<std::int64_t>(); };
+        const auto at = std::find_if(captures_.begin(), captures_.end(), same);
+        if (at == captures_.end()) {
+            return fail(ErrorCode::InvalidArgument,
+                        "capture {} is held no longer; measure captures before {} more are taken", shown(id),
+                        kHeldCaptures);
+        }
+        found.push_back(&at->capture);
+    }
+    return found;
+}
+
+Result<int> ScriptSession::addTrial(const std::string& condition, const nlohmann::json& measured) {
+    int number = static_cast<int>(trials_.size()) + 1;
+    if (request_.session != nullptr) {
+        auto written = request_.session->trial(now(), condition, measured);
+        if (!written) return failure(written);
+        number = *written;
+    }
+    const auto handles = measured.value("captures", nlohmann::json::array());
+    for (auto& held : captures_) {
+        if (std::find(handles.begin(), handles.end(), nlohmann::json(held.id)) == handles.end()) continue;
+        if (auto stored = store(held, number); !stored) return failure(stored);
+        const auto known = [&](const Exemplar& exemplar) { return exemplar.condition == condition; };
+        if (std::none_of(exemplars_.begin(), exemplars_.end(), known)) {
+            exemplars_.push_back({condition, held.row, held.capture});
+        }
+    }
+    nlohmann::json trial = measured.is_object() ? measured : nlohmann::json::object();
+    trial["condition"] = condition;
+    trial["trial"] = number;
+    trials_.push_back(std::move(trial));
+    return number;
+}
+
+Result<void> ScriptSession::store(Held& held, int trial) {
+    if (request_.session != nullptr && !held.row) {
+        auto row = request_.session->capture(now(), held.capture, trial);
+        if (!row) return failure(row);
+        held.row = *row;
+    }
+    if (request_.captureFolder.empty()) return {};
+    return writeCapture(request_.captureFolder / fmt::format("trial-{:04}-{:05}.csv", trial, held.id), held.capture);
+}
+
+void ScriptSession::watchExposure() {
+    const Telemetry telemetry = bench().telemetry();
+    for (const auto& row : telemetry.exposure()) {
+        const std::string key = fmt::format("{}|{}|{}", keyOf(row.quantity), row.set.view(), nameOf(row.judged));
+        const auto [at, added] = exposure_.try_emplace(key, row);
+        // What could not be evaluated once is worse than any number.
+        if (!added && at->second.evaluated && (!row.evaluated || !(row.value <= at->second.value))) at->second = row;
+    }
+}
+
+nlohmann::json ScriptSession::worstExposure() const {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const auto& [key, row] : exposure_) {
+        std::string name(titleOf(row.quantity));
+        if (row.judged == JudgedAt::Ohm500) name += " into 500 ohm";
+        nlohmann::json out = {{"name", name},
+                              {"value", row.evaluated ? nlohmann::json(row.value) : nlohmann::json()},
+                              {"limit", std::isfinite(row.limit) ? nlohmann::json(row.limit) : nlohmann::json()},
+                              {"unit", row.unit},
+                              {"source", row.set.view()},
+                              {"warning", row.action != LimitAction::Refuse}};
+        if (!row.reason.empty()) out["reason"] = row.reason.view();
+        rows.push_back(std::move(out));
+    }
+    return rows;
+}
+
+void ScriptSession::judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results) {
+    verdict_ = verdict;
+    reasons_ = std::move(reasons);
+    results_ = std::move(results);
+}
+
+void ScriptSession::finish(ScriptOutcome& outcome) {
+    outcome.verdict = verdict_;
+    outcome.reasons = std::move(reasons_);
+    outcome.results = std::move(results_);
+    outcome.log = std::move(log_);
+}
+
+}  // namespace tacto

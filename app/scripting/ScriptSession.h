@@ -1,0 +1,91 @@
+// ScriptSession.h - what one run of a script works on: bench, session file, operator, and what it has gathered so
+// far. The host functions are written against this.
+//
+// Captures are large, so scripts hold handles and the samples stay here: the last kHeldCaptures of them, and the
+// first of each condition for the report.
+//
+// Thread-safety: none; ScriptRun lets one thread in at a time.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/scripting/Operator.h"
+#include "app/scripting/ScriptRun.h"
+#include "core/base/Random.h"
+#include "core/bench/Bench.h"
+
+namespace tacto {
+
+class ScriptSession {
+public:
+    static constexpr std::size_t kHeldCaptures = 64;
+
+    /// `request` outlives the session; its bench is not null, or no host function is ever called.
+    explicit ScriptSession(const RunRequest& request) : request_(request), random_(request.seed, "protocol script") {}
+
+    [[nodiscard]] Bench& bench() noexcept { return *request_.bench; }
+    [[nodiscard]] SessionWriter* writer() noexcept { return request_.session; }
+    [[nodiscard]] Random& random() noexcept { return random_; }
+    [[nodiscard]] Instant now() const { return request_.bench->clock().now(); }
+    [[nodiscard]] const RunRequest& request() const noexcept { return request_; }
+
+    /// Errors: as Operator::ask(); NotFound naming the question without an operator.
+    [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question);
+    void log(const std::string& text);
+    void progress(const ScriptProgress& progress);
+
+    /// Keeps captures and returns their handles, objects for the script.
+    [[nodiscard]] nlohmann::json hold(std::vector<Capture> captures);
+    /// The captures behind a list of handles. Errors: InvalidArgument for what is no handle or is held no longer.
+    [[nodiscard]] Result<std::vector<const Capture*>> held(const nlohmann::json& handles) const;
+
+    /// Records a trial with the captures it was measured on. Errors: of the session file, of the capture folder.
+    [[nodiscard]] Result<int> addTrial(const std::string& condition, const nlohmann::json& measured);
+    [[nodiscard]] const std::vector<nlohmann::json>& trials() const noexcept { return trials_; }
+
+    /// One capture of each condition, in the order first met: what plot.waveforms shows.
+    struct Exemplar {
+        std::string condition;
+        std::optional<std::int64_t> row;  ///< of the session file
+        Capture capture;
+    };
+    [[nodiscard]] std::span<const Exemplar> exemplars() const noexcept { return exemplars_; }
+
+    /// Looks at the exposure now; worstExposure() is the largest seen, row by row, as report figures take it.
+    void watchExposure();
+    [[nodiscard]] nlohmann::json worstExposure() const;
+
+    void judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results);
+    /// Moves what the run has come to into `outcome`.
+    void finish(ScriptOutcome& outcome);
+    [[nodiscard]] std::vector<std::string> takeLog() { return std::move(log_); }
+
+private:
+    struct Held {
+        std::int64_t id;
+        Capture capture;
+        std::optional<std::int64_t> row;
+    };
+    [[nodiscard]] Result<void> store(Held& held, int trial);
+
+    const RunRequest& request_;
+    Random random_;
+    std::deque<Held> captures_;
+    std::int64_t nextCapture_ = 1;
+    std::vector<nlohmann::json> trials_;
+    std::vector<Exemplar> exemplars_;
+    std::map<std::string, ExposureRow> exposure_;
+    std::vector<std::string> log_;
+    ScriptVerdict verdict_ = ScriptVerdict::None;
+    std::vector<std::string> reasons_;
+    nlohmann::json results_;
+};
+
+}  // namespace tacto
