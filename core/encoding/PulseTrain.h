@@ -24,7 +24,12 @@ enum class GapState { HoldsZero, HighImpedance };
 
 /// The leading phase's plateau, unsigned. The unit says what kind of source it is meant for, so volts cannot
 /// reach a current source by accident (hazard H4).
-using Amplitude = std::variant<Volts, Milliamps>;
+/// A type of its own, not an alias, because clang instantiates every conversion between units while it chooses an
+/// alternative, and volts to milliamps is an error already there.
+struct Amplitude : std::variant<Volts, Milliamps> {
+    Amplitude(Volts v) noexcept : variant(std::in_place_type<Volts>, v) {}
+    Amplitude(Milliamps i) noexcept : variant(std::in_place_type<Milliamps>, i) {}
+};
 
 [[nodiscard]] inline bool isCurrent(const Amplitude& a) noexcept { return std::holds_alternative<Milliamps>(a); }
 /// The amplitude in V or A, whichever it is.
