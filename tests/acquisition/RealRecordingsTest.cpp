@@ -1,0 +1,86 @@
+#include <complex>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "core/acquisition/Recording.h"
+#include "tests/support/Support.h"
+
+using namespace tacto;
+using tacto::test::kNoSharedData;
+using tacto::test::sharedData;
+
+namespace {
+
+/// Power of all taxels at one frequency, Hann window, by the definition of the Fourier transform.
+double powerAt(const RecordedStream& stream, double f_hz) {
+    const auto& t = stream.samples.t_s;
+    const std::size_t n = t.size();
+    const double length = t.back() - t.front();
+    double power = 0;
+    for (std::size_t c = 0; c < stream.info.channels; ++c) {
+        double mean = 0;
+        for (std::size_t i = 0; i < n; ++i) mean += stream.samples.values[i * stream.info.channels + c];
+        mean /= static_cast<double>(n);
+        std::complex<double> sum = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double phase = 2 * std::numbers::pi * (t[i] - t.front());
+            const double window = 0.5 - 0.5 * std::cos(phase / length);
+            sum +=
+                window * (stream.samples.values[i * stream.info.channels + c] - mean) * std::polar(1.0, -phase * f_hz);
+        }
+        power += std::norm(sum);
+    }
+    return power;
+}
+
+}  // namespace
+
+TEST(RealRecordings, BioTacSlidesOpenAsTheyAre) {
+    const auto folder = sharedData("biotac");
+    if (!folder) GTEST_SKIP() << kNoSharedData;
+    for (const auto* name : {"mat1_1", "mat6_1", "mat11_1", "mat16_1"}) {
+        const auto recording = Recording::open(*folder / name);
+        ASSERT_TRUE(recording) << recording.error().message;
+        EXPECT_NEAR(recording->find(StreamKind::Acceleration)->info.rate_hz, 2200, 0.001)
+            << "the median of its printed steps says 2197.8";
+        EXPECT_EQ(recording->find(StreamKind::Acceleration)->info.unit, StreamUnit::Count);
+        EXPECT_TRUE(recording->find(StreamKind::Acceleration)->health.continuous());
+        EXPECT_NEAR(recording->find(StreamKind::Taxels)->info.rate_hz, 99.99, 0.01);
+        EXPECT_EQ(recording->find(StreamKind::Taxels)->info.channels, 19U);
+        EXPECT_GT(recording->find(StreamKind::Force)->health.gaps, 50U) << "force comes in bursts";
+    }
+}
+
+TEST(RealRecordings, HapmatIsGravitiesAtAHundredHertz) {
+    const auto file = sharedData("hapmat/Fabric.json");
+    if (!file) GTEST_SKIP() << kNoSharedData;
+    const auto recording = Recording::open(*file);
+    ASSERT_TRUE(recording) << recording.error().message;
+    const auto& stream = recording->streams.at(0);
+    EXPECT_EQ(stream.samples.samples(), 6001U) << "the blank last line is no sample";
+    EXPECT_NEAR(stream.info.rate_hz, 100, 1e-9);
+    EXPECT_DOUBLE_EQ(stream.samples.values[0], -0.000542 * 9.80665);
+}
+
+// The grating's period does not depend on the sliding speed: the line stands at speed / period.
+TEST(RealRecordings, FabricSlideShowsTheGratingAtEverySpeed) {
+    const auto folder = sharedData("fabric_slide");
+    if (!folder) GTEST_SKIP() << kNoSharedData;
+    for (const double speed_mmps : {5.0, 10.0, 20.0, 30.0}) {
+        const auto recording = Recording::open(*folder / fmt::format("Board2mm_F120_V-{}mmps_0.json", speed_mmps));
+        ASSERT_TRUE(recording) << recording.error().message;
+        const auto& stream = recording->streams.at(0);
+        EXPECT_NEAR(stream.info.rate_hz, 35.6, 0.05);
+        double best_hz = 0;
+        double best = 0;
+        for (double f = 0.15 * speed_mmps; f < 0.45 * speed_mmps; f += 0.002 * speed_mmps) {
+            const double power = powerAt(stream, f);
+            if (power > best) {
+                best = power;
+                best_hz = f;
+            }
+        }
+        EXPECT_NEAR(speed_mmps / best_hz, 3.98, 0.05) << "period in mm at " << speed_mmps << " mm/s";
+    }
+}
