@@ -41,6 +41,7 @@ tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string_view
 
 }  // namespace
 
+SessionSource::PrivateFolder::PrivateFolder(std::filesystem::path made) : path(std::move(made)) {}
 SessionSource::PrivateFolder::~PrivateFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);
@@ -61,7 +62,7 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
     if (error || ::mkdtemp(pattern.data()) == nullptr) {
         return fail(ErrorCode::Io, "no temporary folder for reading {}", path.string());
     }
-    auto folder = std::make_shared<PrivateFolder>(PrivateFolder{pattern});
+    const auto folder = std::make_shared<PrivateFolder>(pattern);
     const auto copy = folder->path / "session.tacto";
     std::filesystem::copy_file(path, copy, error);
     if (!error && std::filesystem::exists(beside(path, "-wal"))) {
@@ -73,7 +74,7 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
     if (auto migrated = migrate(*database, migrations(), kSchemaVersion); !migrated) return failure(migrated);
     SessionSource source(std::move(*database));
-    source.copy_ = std::move(folder);
+    source.copy_ = folder;
     return source;
 }
 

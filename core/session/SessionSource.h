@@ -30,8 +30,11 @@ public:
 private:
     /// A folder that goes with its last owner.
     struct PrivateFolder {
-        std::filesystem::path path;
+        explicit PrivateFolder(std::filesystem::path made);
         ~PrivateFolder();
+        PrivateFolder(const PrivateFolder&) = delete;
+        PrivateFolder& operator=(const PrivateFolder&) = delete;
+        const std::filesystem::path path;
     };
     explicit SessionSource(Database database) noexcept : database_(std::move(database)) {}
     [[nodiscard]] static Result<SessionSource> openCopy(const std::filesystem::path& path);

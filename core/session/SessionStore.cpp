@@ -19,8 +19,19 @@ constexpr const char* kInsertCapture = "INSERT INTO captures(seq, data) VALUES(?
 
 std::span<const std::byte> bytesOf(const Digest& digest) noexcept { return std::as_bytes(std::span(digest)); }
 
-/// Gives `from` the name `to` unless that name is taken; then makes the name itself survive power loss.
+/// Waits until the content of a file or folder would survive power loss. A folder that cannot be synced (some network
+/// file systems) is no reason to refuse a session.
+bool sync(const std::filesystem::path& path, int kind) {
+    const int handle = ::open(path.c_str(), kind | O_RDONLY | O_CLOEXEC);
+    if (handle < 0) return false;
+    const bool done = ::fsync(handle) == 0;
+    ::close(handle);
+    return done;
+}
+
+/// Gives `from` the name `to` unless that name is taken; content first, then the name, survive power loss.
 Result<void> publish(const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (!sync(from, 0)) return fail(ErrorCode::Io, "{}", std::strerror(errno));
     // link() refuses an existing name, which rename() would silently replace. File systems without hard links (FAT)
     // answer EPERM or EOPNOTSUPP; there renameat2 does the same.
     const bool linked = ::link(from.c_str(), to.c_str()) == 0;
@@ -34,10 +45,7 @@ Result<void> publish(const std::filesystem::path& from, const std::filesystem::p
     std::error_code ignored;
     if (linked) std::filesystem::remove(from, ignored);
     const auto folder = to.has_parent_path() ? to.parent_path() : std::filesystem::path(".");
-    if (const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); handle >= 0) {
-        ::fsync(handle);
-        ::close(handle);
-    }
+    static_cast<void>(sync(folder, O_DIRECTORY));
     return {};
 }
 
@@ -78,6 +86,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     auto made = [&]() -> Result<SessionStore> {
         auto database = Database::open(draft.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
         if (!database) return failure(database);
+        if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced as a whole
         if (auto schema = createSchema(*database); !schema) return failure(schema);
         auto store = attach(std::move(*database));
         if (!store) return failure(store);

@@ -70,8 +70,8 @@ private:
     /// An altered trigger or view is not a row, and still not what was recorded.
     [[nodiscard]] Result<void> checkSchema() {
         static constexpr const char* kObjects =
-            "SELECT coalesce(group_concat(sql, char(10)), '') FROM "
-            "(SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL ORDER BY name)";
+            "SELECT group_concat(type || ' ' || name || ' ' || tbl_name || ' ' || coalesce(sql, ''), char(10)) FROM "
+            "(SELECT * FROM sqlite_schema ORDER BY name)";
         auto fresh = Database::open(":memory:", 0x6 /* SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE */);
         if (!fresh) return failure(fresh);
         if (auto made = createSchema(*fresh); !made) return made;

@@ -1,0 +1,106 @@
+// A disk that is full, and a session that grows for hours.
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "core/session/SessionRecorder.h"
+#include "tests/session/SessionSupport.h"
+
+namespace tacto {
+namespace {
+
+using test::ScratchDir;
+
+/// No file of this process may grow beyond `bytes` while this lives: what a full disk looks like to a program.
+class FullDisk {
+public:
+    explicit FullDisk(rlim_t bytes) {
+        signal(SIGXFSZ, SIG_IGN);
+        EXPECT_EQ(getrlimit(RLIMIT_FSIZE, &before_), 0);
+        const rlimit now{bytes, before_.rlim_max};
+        EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &now), 0);
+    }
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        signal(SIGXFSZ, SIG_DFL);
+    }
+
+private:
+    rlimit before_{};
+};
+
+TEST(SessionFailure, AFullDiskIsSaidOnceAndForAllAndWhatWasCommittedStays) {
+    RecordProperty("hazard", "H8");
+    const ScratchDir dir;
+    const auto path = dir.path() / "s.tacto";
+    test::HandClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    const int stream = writer->addStream(SessionStream{"a", "", "", {"x", "y", "z"}, 4000}).value();
+    ASSERT_TRUE(writer->trial(clock.now(), "before", {}));
+    int trials = 1;
+    {
+        const FullDisk full(1'500'000);
+        Result<void> result;
+        for (int i = 0; i < 200 && result; ++i) {
+            clock.advance(std::chrono::milliseconds(250));
+            result = writer->append(stream, test::ramp(i * 0.25, 4000, 1000, 3));
+            if (result && i % 8 == 0 && writer->trial(clock.now(), "during", {})) ++trials;
+        }
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().code, ErrorCode::Io);
+        EXPECT_NE(result.error().message.find(path.string()), std::string::npos) << result.error().message;
+        EXPECT_NE(result.error().message.find("recording has ended"), std::string::npos);
+    }
+    ASSERT_TRUE(writer->failed());
+    EXPECT_EQ(writer->trial(clock.now(), "after", {}).error().message, writer->failed()->message)
+        << "room again, but a hole in the record is not papered over";
+    EXPECT_FALSE(writer->close());
+    writer.reset();
+    const auto report = verifySession(path).value();
+    EXPECT_EQ(report.status, SessionStatus::Intact) << report.problems[0];
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(report.trials, static_cast<std::uint64_t>(trials));
+}
+
+TEST(SessionFailure, TheRecorderShowsAFullDiskToTheControlLoop) {
+    const ScratchDir dir;
+    SteadyClock clock;
+    auto writer = SessionWriter::create(dir.path() / "s.tacto", {}, clock).value();
+    const int stream = writer->addStream(SessionStream{"a", "", "", {"x"}, 4000}).value();
+    SessionRecorder recorder(*writer, {});
+    {
+        const FullDisk full(400'000);
+        const auto block = test::ramp(0, 4000, 50'000, 1);
+        for (int i = 0; i < 4; ++i) recorder.samples(stream, 1, block);
+        EXPECT_FALSE(recorder.drain());
+    }
+    EXPECT_TRUE(recorder.failed());
+    ASSERT_TRUE(recorder.error());
+    EXPECT_EQ(recorder.error()->code, ErrorCode::Io);
+}
+
+#ifndef TACTOSCOPE_SANITIZED  // sanitizers keep freed memory aside
+TEST(SessionFailure, MemoryStaysFlatFromOneToTenHours) {
+    const auto residentPages = [] {
+        long total = 0;
+        long resident = 0;
+        std::ifstream("/proc/self/statm") >> total >> resident;
+        return resident;
+    };
+    const ScratchDir dir;
+    VirtualClock clock;
+    auto writer = SessionWriter::create(dir.path() / "s.tacto", {}, clock).value();
+    const int stream = writer->addStream(SessionStream{"a", "", "", {"x"}, 100}).value();
+    long afterOneHour = 0;
+    for (int second = 0; second < 36'000; ++second) {
+        clock.advanceTo(std::chrono::seconds(second));
+        ASSERT_TRUE(writer->append(stream, test::ramp(second, 100, 100, 1)));
+        ASSERT_TRUE(writer->command(clock.now(), "train", {{"amplitude_v", 12.5}}));
+        if (second == 3600) afterOneHour = residentPages();
+    }
+    EXPECT_LT(static_cast<double>(residentPages()), 1.05 * static_cast<double>(afterOneHour));
+}
+#endif
+
+}  // namespace
+}  // namespace tacto
