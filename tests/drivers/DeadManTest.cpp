@@ -1,0 +1,148 @@
+// H2 end to end: a device that would repeat for ever lives in this process, as the hardware does; its host is a child
+// process that sends heartbeats through a pipe. Whatever happens to the host, the output must end.
+#include <chrono>
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "drivers/simulated/SimulatedDriver.h"
+#include "drivers/simulated/SimulatedStimulator.h"
+#include "tests/drivers/SimBench.h"
+#include "tests/drivers/conformance/StimulatorConformance.h"
+
+namespace tacto::test {
+namespace {
+
+constexpr Seconds kHeartbeat{0.05};
+
+/// The host: beats until it is killed, stopped or orphaned.
+class HostProcess {
+public:
+    HostProcess() {
+        int ends[2];
+        if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+        child_ = fork();
+        if (child_ < 0) throw std::runtime_error("no child process");
+        if (child_ == 0) {
+            close(ends[0]);
+            signal(SIGPIPE, SIG_DFL);
+            for (;;) {
+                if (write(ends[1], "k", 1) != 1) _exit(1);
+                usleep(static_cast<useconds_t>(kHeartbeat.count() * 1e6));
+            }
+        }
+        close(ends[1]);
+        pipe_ = ends[0];
+    }
+    HostProcess(const HostProcess&) = delete;
+    HostProcess& operator=(const HostProcess&) = delete;
+    ~HostProcess() {
+        kill(child_, SIGKILL);
+        waitpid(child_, nullptr, 0);
+        close(pipe_);
+    }
+
+    /// Waits up to `longest` and returns whether a heartbeat came.
+    [[nodiscard]] bool beat(std::chrono::milliseconds longest) const {
+        pollfd wait{pipe_, POLLIN, 0};
+        if (poll(&wait, 1, static_cast<int>(longest.count())) <= 0) return false;
+        char bytes[64];
+        if (read(pipe_, bytes, sizeof bytes) > 0) return true;
+        std::this_thread::sleep_for(longest);  // the host is gone: the pipe is at its end for good
+        return false;
+    }
+    void send(int signalNumber) const { kill(child_, signalNumber); }
+
+private:
+    pid_t child_ = -1;
+    int pipe_ = -1;
+};
+
+class DeadMan : public testing::Test {
+protected:
+    void SetUp() override {
+        RecordProperty("hazard", "H2");
+        const auto opened =
+            makeSimulatedDriver()->open({"sim", "stimulator", {}}, {}, OpenContext{clock_, 1, "1 kohm"}, devices_);
+        ASSERT_TRUE(opened.has_value()) << opened.error().message;
+        circuit_ = &dynamic_cast<sim::WorldMember&>(*devices_.stimulator).world()->circuit();
+    }
+
+    /// Starts the repetition, 20 trains a second. The gate is asked right before, as its approvals are short.
+    void begin() {
+        const auto gate = benchGate(clock_, devices_.stimulator->traits());
+        TrainRequest request;
+        request.train = voltagePulse(5);
+        request.interval = Seconds(0.05);
+        request.onset = clock_.now();
+        auto approval = gate->approve(request);
+        ASSERT_TRUE(approval.has_value()) << approval.error().message;
+        auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
+        const auto begun = repeating.repeat(std::move(*approval), Seconds(0.05));
+        ASSERT_TRUE(begun.has_value()) << begun.error().message;
+    }
+
+    /// Passes the host's heartbeats on to the device for `duration`.
+    void runFor(Seconds duration) {
+        const Instant end = clock_.now() + toInstant(duration);
+        while (clock_.now() < end) {
+            if (host_.beat(std::chrono::milliseconds(10))) {
+                EXPECT_TRUE(devices_.stimulator->keepAlive().has_value());
+            }
+        }
+    }
+
+    [[nodiscard]] bool outputOn() { return circuit_->active(clock_.now()); }
+    /// When the newest pulse ended.
+    [[nodiscard]] Instant lastOutput() {
+        return circuit_->inspect(clock_.now(), [](const auto& pulses) { return toInstant(pulses.back().end_s); });
+    }
+
+    SteadyClock clock_;
+    DeviceSet devices_;
+    sim::SimulatedCircuit* circuit_ = nullptr;
+    HostProcess host_;
+};
+
+TEST_F(DeadMan, OutputEndsWithin2SecondsOfAKill) {
+    ASSERT_NO_FATAL_FAILURE(begin());
+    runFor(Seconds(1));
+    ASSERT_TRUE(outputOn());
+    host_.send(SIGKILL);
+    const Instant killed = clock_.now();
+    runFor(Seconds(2.5));
+    EXPECT_FALSE(outputOn());
+    // A heartbeat already in the pipe may be read a moment after the kill.
+    EXPECT_LE(lastOutput() - killed, std::chrono::milliseconds(2000));
+    EXPECT_GE(lastOutput() - killed, std::chrono::milliseconds(1700)) << "it would have gone on without the kill";
+}
+
+TEST_F(DeadMan, OutputEndsWithin2100MillisecondsOfAHang) {
+    ASSERT_NO_FATAL_FAILURE(begin());
+    runFor(Seconds(1));
+    ASSERT_TRUE(outputOn());
+    host_.send(SIGSTOP);
+    const Instant hung = clock_.now();
+    runFor(Seconds(2.5));
+    EXPECT_FALSE(outputOn());
+    EXPECT_LE(lastOutput() - hung, std::chrono::milliseconds(2100));
+    host_.send(SIGCONT);  // a host that wakes up again must not revive the output
+    runFor(Seconds(0.5));
+    EXPECT_FALSE(outputOn());
+}
+
+TEST_F(DeadMan, ControlRunWithHeartbeatGoesOnFor10Seconds) {
+    ASSERT_NO_FATAL_FAILURE(begin());
+    runFor(Seconds(10));
+    EXPECT_TRUE(outputOn());
+    EXPECT_LE(clock_.now() - lastOutput(), std::chrono::milliseconds(100));
+    EXPECT_GE(circuit_->trainsBegun(clock_.now()), 195U);
+}
+
+}  // namespace
+}  // namespace tacto::test

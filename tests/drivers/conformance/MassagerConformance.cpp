@@ -1,0 +1,65 @@
+#include "tests/drivers/conformance/MassagerConformance.h"
+
+#include <stdexcept>
+
+namespace tacto::test {
+
+void MassagerConformance::SetUp() {
+    rig_ = GetParam().make();
+    ASSERT_NE(rig_, nullptr);
+    gate_ = std::make_unique<SafetyGate>(rig_->clock());
+}
+
+ApprovedBurst MassagerConformance::approved(double intensity, Seconds duration) {
+    auto approval = gate_->approve(VibrationBurst{intensity, duration});
+    if (!approval) throw std::runtime_error(approval.error().message);
+    return std::move(*approval);
+}
+
+void MassagerConformance::expectVibration(bool on) {
+    if (const auto felt = rig_->vibrating()) {
+        EXPECT_EQ(*felt, on);
+    }
+}
+
+TEST_P(MassagerConformance, ABurstEndsByItself) {
+    EXPECT_EQ(device().identity().role, Role::Massager);
+    ASSERT_TRUE(device().vibrate(approved(1, Seconds(0.3))).has_value());
+    rig_->wait(Seconds(0.25));
+    expectVibration(true);
+    rig_->wait(Seconds(0.5));
+    expectVibration(false);
+}
+
+TEST_P(MassagerConformance, ForceOffEndsABurstAndMayBeRepeated) {
+    RecordProperty("hazard", "H2");
+    device().forceOff();
+    ASSERT_TRUE(device().vibrate(approved(1, Seconds(1))).has_value());
+    rig_->wait(Seconds(0.2));
+    expectVibration(true);
+    device().forceOff();
+    device().forceOff();
+    rig_->wait(Seconds(0.5));
+    expectVibration(false);
+}
+
+TEST_P(MassagerConformance, RefusesAnExpiredApproval) {
+    RecordProperty("hazard", "H1");
+    auto old = approved(1, Seconds(0.5));
+    rig_->wait(Seconds(0.2));
+    EXPECT_FALSE(device().vibrate(std::move(old)).has_value());
+    rig_->wait(Seconds(0.2));
+    expectVibration(false);
+}
+
+TEST_P(MassagerConformance, UnpluggedIsAnErrorAndNotACrash) {
+    if (!rig_->unplug()) GTEST_SKIP() << "this rig cannot pull the plug";
+    const auto refused = device().vibrate(approved(1, Seconds(0.1)));
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    device().forceOff();
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MassagerConformance);
+
+}  // namespace tacto::test

@@ -1,0 +1,42 @@
+// MassagerConformance.h - what every massager must do. A driver's tests give a factory, as in StimulatorConformance.h.
+#pragma once
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/devices/Massager.h"
+
+namespace tacto::test {
+
+class MassagerRig {
+public:
+    virtual ~MassagerRig() = default;
+    [[nodiscard]] virtual Massager& device() = 0;
+    [[nodiscard]] virtual const Clock& clock() const = 0;
+    virtual void wait(Seconds duration) = 0;
+    /// Whether the motor vibrates perceptibly; nothing where the rig cannot feel it.
+    [[nodiscard]] virtual std::optional<bool> vibrating() = 0;
+    /// Pulls the plug; false where the rig cannot.
+    [[nodiscard]] virtual bool unplug() = 0;
+};
+
+struct MassagerKind {
+    std::string name;
+    std::function<std::unique_ptr<MassagerRig>()> make;
+};
+
+class MassagerConformance : public testing::TestWithParam<MassagerKind> {
+protected:
+    void SetUp() override;
+    [[nodiscard]] ApprovedBurst approved(double intensity, Seconds duration);
+    void expectVibration(bool on);
+    [[nodiscard]] Massager& device() { return rig_->device(); }
+
+    std::unique_ptr<MassagerRig> rig_;
+    std::unique_ptr<SafetyGate> gate_;
+};
+
+}  // namespace tacto::test

@@ -1,0 +1,133 @@
+#include "tests/drivers/conformance/OscilloscopeConformance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tacto::test {
+
+void OscilloscopeConformance::SetUp() {
+    rig_ = GetParam().make();
+    ASSERT_NE(rig_, nullptr);
+}
+
+ScopeSettings OscilloscopeConformance::usual() const {
+    ScopeSettings settings;
+    settings.sampleRate = std::min(Hertz(1e6), rig_->device().traits().maxRate);
+    settings.samples = std::min<std::size_t>(2000, rig_->device().traits().memoryDepth);
+    settings.triggerLevel = 5;
+    return settings;
+}
+
+std::optional<Capture> OscilloscopeConformance::captured() {
+    for (int i = 0; i < 20; ++i) {
+        auto found = device().poll();
+        if (!found) throw std::runtime_error(found.error().message);
+        if (*found) return std::move(**found);
+        rig_->wait(Seconds(0.01));
+    }
+    return std::nullopt;
+}
+
+TEST_P(OscilloscopeConformance, DeclaresWhatItCanDo) {
+    EXPECT_EQ(device().identity().role, Role::Oscilloscope);
+    EXPECT_GT(device().traits().maxRate.value(), 0);
+    EXPECT_GT(device().traits().memoryDepth, 0U);
+    EXPECT_GE(device().traits().bits, 1);
+}
+
+TEST_P(OscilloscopeConformance, RefusesSettingsItCannotKeep) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto refused = [&](const char* what, auto change) {
+        ScopeSettings settings = usual();
+        change(settings);
+        const auto configured = device().configure(settings);
+        ASSERT_FALSE(configured.has_value()) << what;
+        EXPECT_EQ(configured.error().code, ErrorCode::InvalidArgument) << what;
+    };
+    refused("rate 0", [](auto& s) { s.sampleRate = Hertz(0); });
+    refused("rate NaN", [&](auto& s) { s.sampleRate = Hertz(nan); });
+    refused("rate above its own", [&](auto& s) { s.sampleRate = device().traits().maxRate * 2; });
+    refused("no samples", [](auto& s) { s.samples = 0; });
+    refused("more than its memory", [&](auto& s) { s.samples = device().traits().memoryDepth + 1; });
+    refused("pre-trigger above 1", [](auto& s) { s.preTrigger = 1.5; });
+    refused("pre-trigger NaN", [&](auto& s) { s.preTrigger = nan; });
+    refused("trigger level NaN", [&](auto& s) { s.triggerLevel = nan; });
+    refused("no voltage range", [](auto& s) { s.voltageRange = Volts(0); });
+    refused("no current range", [](auto& s) { s.currentRange = Milliamps(-1); });
+    EXPECT_TRUE(device().configure(usual()).has_value());
+}
+
+TEST_P(OscilloscopeConformance, HasNothingBeforeATrigger) {
+    ASSERT_TRUE(device().configure(usual()).has_value());
+    ASSERT_TRUE(device().arm().has_value());
+    rig_->wait(Seconds(0.05));
+    const auto found = device().poll();
+    ASSERT_TRUE(found.has_value());
+    EXPECT_FALSE(found->has_value());
+}
+
+TEST_P(OscilloscopeConformance, ACaptureIsWhatWasAskedFor) {
+    ASSERT_TRUE(device().configure(usual()).has_value());
+    ASSERT_TRUE(device().arm().has_value());
+    if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
+    const auto capture = captured();
+    ASSERT_TRUE(capture.has_value());
+    ASSERT_EQ(capture->channels.size(), 2U);
+    EXPECT_EQ(capture->channels[0].unit, "V");
+    EXPECT_EQ(capture->channels[1].unit, "A");
+    for (const auto& channel : capture->channels) {
+        EXPECT_EQ(channel.samples.size(), usual().samples);
+        EXPECT_LT(channel.low, channel.high);
+        EXPECT_GT(channel.lsb, 0);
+    }
+    EXPECT_DOUBLE_EQ(capture->rate_hz, usual().sampleRate.value());
+    EXPECT_EQ(capture->simulated, device().identity().simulated);
+    EXPECT_LE(capture->start_s + static_cast<double>(capture->samples()) / capture->rate_hz,
+              toSeconds(rig_->clock().now()) + 1e-6);
+}
+
+TEST_P(OscilloscopeConformance, TheTriggerStandsWhereThePreTriggerSays) {
+    ASSERT_TRUE(device().configure(usual()).has_value());
+    ASSERT_TRUE(device().arm().has_value());
+    if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
+    const auto capture = captured();
+    ASSERT_TRUE(capture.has_value());
+    const double before = (capture->trigger_s - capture->start_s) * capture->rate_hz;
+    EXPECT_NEAR(before, usual().preTrigger * static_cast<double>(usual().samples), 1.0);
+    const auto at = static_cast<std::size_t>(std::ceil(before)) + 1;
+    const auto& volts = capture->channels[0].samples;
+    EXPECT_GT(std::abs(volts[at]), 5.0F);
+    EXPECT_LT(std::abs(volts[at - 4]), 5.0F);
+}
+
+TEST_P(OscilloscopeConformance, EachPulseGivesOneCaptureUntilDisarmed) {
+    ASSERT_TRUE(device().configure(usual()).has_value());
+    ASSERT_TRUE(device().arm().has_value());
+    double last = -1;
+    for (int i = 0; i < 3; ++i) {
+        if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
+        const auto capture = captured();
+        ASSERT_TRUE(capture.has_value());
+        EXPECT_GT(capture->trigger_s, last);
+        last = capture->trigger_s;
+        EXPECT_FALSE(captured().has_value());
+    }
+    device().disarm();
+    ASSERT_TRUE(rig_->pulse());
+    EXPECT_FALSE(captured().has_value());
+}
+
+TEST_P(OscilloscopeConformance, UnpluggedIsAnErrorAndNotACrash) {
+    if (!rig_->unplug()) GTEST_SKIP() << "this rig cannot pull the plug";
+    const auto found = device().poll();
+    ASSERT_FALSE(found.has_value());
+    EXPECT_EQ(found.error().code, ErrorCode::Device);
+    EXPECT_FALSE(device().arm().has_value());
+    device().disarm();
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(OscilloscopeConformance);
+
+}  // namespace tacto::test

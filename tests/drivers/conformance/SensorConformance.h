@@ -1,0 +1,42 @@
+// SensorConformance.h - what every tactile sensor must do. A driver's tests give a factory, as in
+// StimulatorConformance.h.
+#pragma once
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/Clock.h"
+#include "core/devices/TactileSensor.h"
+
+namespace tacto::test {
+
+class SensorRig {
+public:
+    virtual ~SensorRig() = default;
+    [[nodiscard]] virtual TactileSensor& device() = 0;
+    [[nodiscard]] virtual const Clock& clock() const = 0;
+    virtual void wait(Seconds duration) = 0;
+    /// Pulls the plug; false where the rig cannot.
+    [[nodiscard]] virtual bool unplug() = 0;
+};
+
+struct SensorKind {
+    std::string name;
+    std::function<std::unique_ptr<SensorRig>()> make;
+};
+
+class SensorConformance : public testing::TestWithParam<SensorKind> {
+protected:
+    void SetUp() override;
+    /// Reads everything that comes in `duration`, every `step`.
+    void collect(Seconds duration, Seconds step);
+    [[nodiscard]] TactileSensor& device() { return rig_->device(); }
+
+    std::unique_ptr<SensorRig> rig_;
+    std::vector<SampleBlock> blocks_;
+};
+
+}  // namespace tacto::test
