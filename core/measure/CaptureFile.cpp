@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -131,6 +132,27 @@ std::string columnNameOf(const CaptureChannel& channel) {
     return name;
 }
 
+/// Fixed-point, several times faster than the general way: a session writes millions of these.
+void appendTime(fmt::memory_buffer& text, double t, int decimals) {
+    double scale = 1;
+    for (int i = 0; i < decimals; ++i) scale *= 10;
+    const double scaled = std::round(std::abs(t) * scale);
+    if (!(scaled < 9e15)) {  // beyond this a double no longer holds every integer
+        fmt::format_to(std::back_inserter(text), "{:.{}f}", t, decimals);
+        return;
+    }
+    std::array<char, 24> digits;
+    std::size_t at = digits.size();
+    auto rest = static_cast<std::uint64_t>(scaled);
+    for (int i = 0; i < decimals || rest > 0 || i == decimals; ++i) {
+        if (i == decimals) digits[--at] = '.';
+        digits[--at] = static_cast<char>('0' + rest % 10);
+        rest /= 10;
+    }
+    if (t < 0 && scaled > 0) digits[--at] = '-';
+    text.append(digits.data() + at, digits.data() + digits.size());
+}
+
 }  // namespace
 
 Result<CaptureReading> readCapture(const std::filesystem::path& path) {
@@ -219,7 +241,7 @@ Result<void> writeCapture(const std::filesystem::path& path, const Capture& capt
     fmt::format_to(out, "\n");
     const int decimals = std::clamp(static_cast<int>(std::ceil(std::log10(1000 * capture.rate_hz))), 3, 12);
     for (std::size_t i = 0; i < capture.samples(); ++i) {
-        fmt::format_to(out, "{:.{}f}", capture.start_s + static_cast<double>(i) / capture.rate_hz, decimals);
+        appendTime(text, capture.start_s + static_cast<double>(i) / capture.rate_hz, decimals);
         for (const auto& channel : capture.channels) {
             if (std::isfinite(channel.samples[i])) {
                 fmt::format_to(out, ",{}", channel.samples[i]);

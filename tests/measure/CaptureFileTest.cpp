@@ -38,6 +38,20 @@ TEST(CaptureFile, WhatIsWrittenReadsBackTheSame) {
     EXPECT_EQ(read->capture.channels[0].samples, capture.channels[0].samples) << "bit by bit";
 }
 
+TEST(CaptureFile, TimesBeforeAndFarAfterZeroAreWrittenInFull) {
+    const ScratchDir scratch;
+    for (const double start : {-0.0025, -1.0, 0.0, 0.999999, 12345.678, 4e6}) {
+        for (const double rate : {1.0, 1e3, 44.1e3, 10e6}) {
+            const auto capture = recordOf({}, {.rate_hz = rate, .start_s = start, .samples = 50, .noise = 1});
+            ASSERT_TRUE(writeCapture(scratch.path() / "t.csv", capture));
+            const auto read = readCapture(scratch.path() / "t.csv");
+            ASSERT_TRUE(read) << read.error().message;
+            EXPECT_NEAR(read->capture.start_s, start, 1e-3 / rate + 1e-9);
+            EXPECT_NEAR(read->capture.rate_hz / rate, 1, start > 1e6 ? 1e-2 : 1e-4) << start << " " << rate;
+        }
+    }
+}
+
 TEST(CaptureFile, AcceptsWhatOscilloscopesReallyWrite) {
     const auto read = parseCapture(
         "\xEF\xBB\xBF# made by hand\r\n Time (ms) , CH1 (mV) ,D0,\r\n0,1000,0,\r\n\r\n1,-nan,1,\r\n2, 3000 "
