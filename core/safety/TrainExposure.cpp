@@ -51,7 +51,6 @@ PulsePart partOf(const PulseSegments& pulse, std::size_t s) noexcept {
 
 Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     Run run;
-    double net = 0;
     for (int done = 0; done < plan.pulses;) {
         PulseResponse response(plan.circuit, plan.limits, capacitorVoltage);
         double volts = 0;
@@ -75,7 +74,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         run.energy = larger(totals.energy_J, run.energy);
         run.squares = larger(totals.currentSquared_A2s, run.squares);
         run.volts = larger(volts, run.volts);
-        net += alike * totals.netCharge_C;
+        run.inDuration.netCharge_C += alike * std::abs(totals.netCharge_C);
         run.inDuration.currentSquared_A2s += alike * totals.currentSquared_A2s;
         run.inDuration.voltageSquared_V2s += alike * volts;
         run.inDuration.energy_J += alike * totals.energy_J;
@@ -83,7 +82,6 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
 
         if (done >= plan.pulses) {
             run.endOfTrain = capacitorVoltage;
-            run.inDuration.netCharge_C = std::abs(net);
             run.whole = run.inDuration;
             if (plan.afterTrain.duration_s > 0) {
                 PulseResponse tail(plan.circuit, plan.limits, capacitorVoltage);
@@ -92,12 +90,12 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
                 run.whole.currentSquared_A2s += after.currentSquared_A2s;
                 run.whole.voltageSquared_V2s += tailVolts;
                 run.whole.energy_J += after.energy_J;
-                run.whole.netCharge_C = std::abs(net + after.netCharge_C);
                 run.peakCurrent = larger(after.peakCurrent_A, run.peakCurrent);
-                // The last pulse's own tail is longer than the others'.
-                run.netCharge = plan.pulses == 1
-                                    ? run.whole.netCharge_C
-                                    : larger(std::abs(totals.netCharge_C + after.netCharge_C), run.netCharge);
+                // The last pulse's tail is longer than the others', unless the next train comes early: the larger.
+                const double before = std::abs(totals.netCharge_C);
+                const double last = std::abs(totals.netCharge_C + after.netCharge_C);
+                run.netCharge = larger(last, run.netCharge);
+                run.whole.netCharge_C += larger(last, before) - before;
                 run.energy = larger(totals.energy_J + after.energy_J, run.energy);
                 run.squares = larger(totals.currentSquared_A2s + after.currentSquared_A2s, run.squares);
                 run.volts = larger(volts + tailVolts, run.volts);

@@ -19,7 +19,7 @@ namespace tacto {
 struct TrainSums {
     double currentSquared_A2s = 0;
     double voltageSquared_V2s = 0;
-    double netCharge_C = 0;  ///< of a train: |its sum|; over trains: the sum of those
+    double netCharge_C = 0;  ///< Σ |net charge| of the pulses: no window holds more, wherever it begins
     double energy_J = 0;
 
     TrainSums& operator+=(const TrainSums& other) noexcept;

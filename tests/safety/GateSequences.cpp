@@ -1,0 +1,542 @@
+#include "tests/safety/GateSequences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "core/safety/SafetyGate.h"
+#include "tests/safety/IndependentBody.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+
+namespace {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr std::size_t kKinds = static_cast<std::size_t>(Near::Count);
+constexpr double kSlack = 1 + 2e-6;  // Of the referee's quadrature
+
+const std::vector<LimitSet>& shippedLimits() {
+    static const std::vector<LimitSet> sets = loadLimitSets(sourceDir() / "resources" / "limits").value();
+    return sets;
+}
+
+class Dice {
+public:
+    explicit Dice(std::uint64_t seed) : engine_(seed) {}
+    double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+    double between(double low, double high) { return low + (high - low) * unit(); }
+    double decade(double low, double high) { return low * std::pow(high / low, unit()); }
+    bool chance(double p) { return unit() < p; }
+    int pick(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+/// The referee's own view of what is allowed now.
+struct Allowed {
+    double area = kNaN;                              // cm²
+    double peakI = kInf, charge = kInf, net = kInf;  // Ceilings, SI
+    double energy = kInf, rms1 = kInf, dc = kInf;
+    bool person = false;
+    double step = 0, discomfort = kInf;  // A
+    double low = 0, high = kInf;         // Ω, of a person
+};
+
+class Sequence {
+public:
+    Sequence(SafetyGate& gate, VirtualClock& clock, Dice& dice, SequenceCount& total)
+        : gate_(gate), clock_(clock), dice_(dice), total_(total) {}
+
+    void run() {
+        clock_.advanceTo(clock_.now() + std::chrono::seconds(7));
+        body_.forget();
+        at500_.forget();
+        at500_.fit({500, 0, 0});
+        ++total_.sequences;
+        configure();
+        const int commands = 2 + dice_.pick(10);
+        for (int k = 0; k < commands && total_.violation.empty(); ++k) command();
+        total_.delivering += delivered_ > 0 ? 1 : 0;
+        total_.close += close_ ? 1 : 0;
+    }
+
+private:
+    void violation(const std::string& what) {
+        if (total_.violation.empty()) total_.violation = what + "\n" + trace_;
+    }
+    void note(const std::string& text) { trace_ += text + "\n"; }
+    [[nodiscard]] double now() const { return toSeconds(clock_.now()); }
+    void wait(double seconds) { clock_.advanceTo(clock_.now() + toInstant(seconds)); }
+
+    /// Nothing approved so far may come out any more.
+    void voidPending(const char* after) {
+        for (const Pending& p : pending_) {
+            if (gate_.isCurrent(p.approval)) violation(fmt::format("an approval is current after {}", after));
+        }
+        if (dice_.chance(0.5)) pending_.clear();
+    }
+
+    void configure() {
+        GateSetup setup;
+        Allowed allowed;
+        // A third of the setups leave room for one kind of limit, so that it is met before the others.
+        theme_ = dice_.chance(0.35) ? static_cast<Near>(dice_.pick(static_cast<int>(kKinds))) : Near::Count;
+        allowed.person = theme_ == Near::Count ? dice_.chance(0.2) : theme_ == Near::Level;
+        source_ = SourceTraits{};
+        const bool current = allowed.person || (theme_ != Near::Rms500 && dice_.chance(0.5));
+        source_.drive = current ? Drive::Current : Drive::Voltage;
+        source_.gap = dice_.chance(0.5) ? GapState::HoldsZero : GapState::HighImpedance;
+        source_.amplitudeStep = dice_.chance(0.5) ? 0 : dice_.chance(0.5) ? 0.1 : 0.01;
+        source_.amplitudeMax = current ? 500 : 60;
+        source_.compliance = Volts(current ? dice_.between(50, 150) : 60);
+        source_.widthMax = Micros(theme_ == Near::Rms500 || dice_.chance(0.2) ? 400'000 : 4000);
+        source_.widthMin = Micros(1);
+        setup.source = source_;
+        setup.limits = shippedLimits();
+
+        const bool capacitive = !allowed.person && theme_ != Near::Rms500 && dice_.chance(0.4);
+        const double ohm = theme_ == Near::Rms500 ? dice_.decade(4000, 20'000) : dice_.decade(60, 20'000);
+        Body nominal{ohm, 0, 0};
+        Load load = Load::resistor(Ohms(ohm));
+        if (capacitive) {
+            nominal = {dice_.decade(80, 2000), dice_.decade(1000, 50'000), dice_.decade(5e-9, 2e-6)};
+            load = Load::skin(Ohms(nominal.rs), Ohms(nominal.rp), Nanofarads(nominal.c * 1e9));
+        }
+        setup.load = LoadRange::declared(load);
+        nominal_ = nominal;
+        // The truth lies in the range, often at an end of it.
+        scale_ = dice_.chance(0.4) ? 0.8 : dice_.chance(0.5) ? 1.2 : dice_.between(0.8, 1.2);
+
+        if (theme_ == Near::Power || allowed.person || (theme_ == Near::Count && dice_.chance(0.6))) {
+            allowed.area = theme_ == Near::Power ? dice_.decade(0.001, 0.1) : dice_.decade(0.01, 10);
+            setup.electrodeArea = SquareCentimetres(allowed.area);
+        }
+        const auto ceiling = [&](Near kind, Quantity q, double si, double perUnit, double& into) {
+            if (theme_ == Near::Count ? !dice_.chance(0.15) : theme_ != kind) return;
+            into = si;
+            setup.ceilings.push_back({q, si * perUnit});
+        };
+        ceiling(Near::PeakCurrent, Quantity::PeakCurrent, dice_.decade(0.001, 0.3), 1e3, allowed.peakI);
+        ceiling(Near::Charge, Quantity::PhaseCharge, dice_.decade(1e-7, 5e-5), 1e6, allowed.charge);
+        ceiling(Near::NetCharge, Quantity::NetCharge, dice_.decade(1e-8, 1e-5), 1e6, allowed.net);
+        ceiling(Near::Energy, Quantity::PulseEnergy, dice_.decade(1e-6, 1e-2), 1e3, allowed.energy);
+        ceiling(Near::Rms1s, Quantity::RmsCurrent1s, dice_.decade(1e-4, 2e-2), 1e3, allowed.rms1);
+        ceiling(Near::Dc, Quantity::DcCurrent, dice_.decade(1e-6, 1e-2), 1e3, allowed.dc);
+        if (allowed.person) {
+            setup.mode = OutputMode::Person;
+            PersonSetup person;
+            person.participant = "p" + std::to_string(total_.sequences);
+            person.consentRecorded = true;
+            allowed.discomfort = dice_.decade(0.5, 10) / 1e3;
+            allowed.step = dice_.decade(0.1, 2) / 1e3;
+            person.discomfortLimit = Milliamps(allowed.discomfort * 1e3);
+            person.rampStep = Milliamps(allowed.step * 1e3);
+            allowed.low = 500;
+            allowed.high = 10'000;
+            setup.person = person;
+            accepted_ = 0;
+            seriesOf_.reset();
+        }
+        const bool sound = !dice_.chance(0.03);
+        if (!sound) spoil(setup);
+        const auto done = gate_.configure(setup);
+        voidPending("configure()");
+        configured_ = done.has_value();
+        if (!sound && configured_) violation("a spoilt setup was accepted");
+        allowed_ = allowed;
+        note(fmt::format("configure {} {} area {} load {}x{} comp {}: {}", allowed.person ? "person" : "bench",
+                         current ? "current" : "voltage", allowed.area, load.text(), scale_, source_.compliance.value(),
+                         done ? "ok" : done.error().message));
+        body_.fit(nominal_.times(scale_));
+        if (allowed.person && configured_) measure();
+    }
+
+    void spoil(GateSetup& setup) {
+        switch (dice_.pick(6)) {
+            case 0:
+                setup.limits.clear();
+                break;
+            case 1:
+                setup.ceilings.push_back({Quantity::CommandVoltage, dice_.chance(0.5) ? 41 : kNaN});
+                break;
+            case 2:
+                setup.source.amplitudeMax = dice_.chance(0.5) ? kNaN : kInf;
+                break;
+            case 3:
+                setup.electrodeArea = SquareCentimetres(dice_.chance(0.5) ? 0 : kNaN);
+                break;
+            case 4:
+                setup.source.widthMax = Micros(-1);
+                break;
+            default:
+                setup.check.pulses = 0;
+                break;
+        }
+    }
+
+    void measure() {
+        const double truth = nominal_.rs * scale_;
+        const double reading = dice_.chance(0.1) ? (dice_.chance(0.5) ? kNaN : -5) : truth * dice_.between(0.8, 1.4);
+        const bool good = reading >= allowed_.low && reading <= allowed_.high;
+        const auto done = gate_.updateImpedance(Ohms(reading), clock_.now());
+        note(fmt::format("{:.6f} impedance {}: {}", now(), reading, done ? "ok" : "refused"));
+        if (done.has_value() != good) violation("an impedance reading was judged wrongly");
+        measuredAt_ = good ? now() : -100;
+        measured_ = reading;
+        // 0.7 to 1.3 of the reading is what the gate may rely on: a body outside it is another hazard (H3).
+        if (!(truth >= 0.7 * reading && truth <= 1.3 * reading)) measuredAt_ = -100;
+        if (!good) voidPending("a bad impedance reading");
+    }
+
+    void command() {
+        const double which = dice_.unit();
+        if (which < 0.62) {
+            approve();
+        } else if (which < 0.72) {
+            deliverPending();
+        } else if (which < 0.80) {
+            wait(dice_.chance(0.7) ? dice_.decade(1e-4, 0.3) : dice_.between(0, 6));
+        } else if (which < 0.83) {
+            gate_.latchStop();
+            note("stop");
+            voidPending("a stop");
+        } else if (which < 0.86) {
+            configure();
+        } else if (which < 0.94) {
+            garbage();
+        } else if (allowed_.person && configured_) {
+            if (dice_.chance(0.6)) {
+                measure();
+            } else {
+                const double level = dice_.between(0, allowed_.discomfort * 1.2);
+                if (gate_.reportDiscomfort(Milliamps(level * 1e3))) {
+                    allowed_.discomfort = std::min(allowed_.discomfort, level);
+                    accepted_ = std::min(accepted_, allowed_.discomfort);
+                    note(fmt::format("discomfort at {} A", level));
+                    voidPending("reported discomfort");
+                }
+            }
+        }
+    }
+
+    PulseTrain randomTrain() {
+        PulseTrain train;
+        const double shape = dice_.unit();
+        train.shape = shape < 0.6   ? PulseShape::SymmetricBiphasic
+                      : shape < 0.8 ? PulseShape::Monophasic
+                                    : PulseShape::AsymmetricBiphasic;
+        train.polarity = dice_.chance(0.5) ? Polarity::Positive : Polarity::Negative;
+        train.phaseWidth = Micros(std::round(dice_.decade(20, source_.widthMax.count())));
+        train.interPhaseGap = Micros(dice_.chance(0.3) ? 0 : std::round(dice_.between(0, 200)));
+        train.rechargeRatio = std::round(dice_.between(2, 10));
+        train.pulses = dice_.chance(0.5) ? 1 : 1 + dice_.pick(12);
+        const double period = train.pulseDuration().count() * dice_.decade(1, 100);
+        train.rate = Hertz(1 / period);
+        train.amplitude = source_.drive == Drive::Current ? Amplitude(Milliamps(1)) : Amplitude(Volts(1));
+        return train;
+    }
+
+    void setAmplitude(PulseTrain& train, double si) {
+        const bool current = source_.drive == Drive::Current;
+        double own = current ? si * 1e3 : si;
+        if (source_.amplitudeStep > 0) own = std::floor(own / source_.amplitudeStep) * source_.amplitudeStep;
+        own = std::max(own, 0.0);
+        train.amplitude = current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
+    }
+
+    /// Amplitudes at which each kind of limit is about met, from one train of amplitude 1 at both ends of the range.
+    using Aims = std::array<double, kKinds>;
+    Aims aimsOf(PulseTrain train, double interval) {
+        const bool current = source_.drive == Drive::Current;
+        setUnit(train);
+        const double unit = current ? 1e-3 : 1;
+        const double period = 1 / train.rate.value();
+        const double count5 = std::min(std::ceil(5 / interval) * train.pulses, std::ceil(5 / period)) / train.pulses;
+        const double count1 = std::min(std::ceil(1 / interval) * train.pulses, std::ceil(1 / period)) / train.pulses;
+        Aims aims;
+        aims.fill(kInf);
+        const auto aim = [&aims](Near kind, double amplitude) {
+            double& least = aims[static_cast<std::size_t>(kind)];
+            if (amplitude < least) least = amplitude;
+        };
+        const Drain drain{source_.gap == GapState::HighImpedance, 1e9};
+        for (const double end : {0.8, 1.2}) {
+            IndependentBody probe;
+            probe.fit((allowed_.person ? Body{measured_, 0, 0} : nominal_).times(end));
+            const PulseFacts one = probe.deliver(train, drain, 0);
+            const double i2 = probe.worstI2(1e9), joule = probe.worstEnergy(1e9), charge = probe.charge5s();
+            aim(Near::Rms5s, unit * 0.01 / std::sqrt(i2 * count5 / 5));
+            aim(Near::PeakCurrent, unit * allowed_.peakI / one.peakI);
+            aim(Near::Charge, unit * allowed_.charge / one.phaseCharge);
+            aim(Near::Energy, unit * std::sqrt(allowed_.energy / one.energy));
+            aim(Near::Rms1s, unit * allowed_.rms1 / std::sqrt(i2 * count1));
+            if (!std::isnan(allowed_.area)) aim(Near::Power, unit * std::sqrt(0.25 * allowed_.area / (joule * count1)));
+            if (one.netCharge > 1e-12) aim(Near::NetCharge, unit * allowed_.net / one.netCharge);
+            if (charge > 1e-12) aim(Near::Dc, unit * allowed_.dc * 5 / (charge * count5));
+        }
+        IndependentBody into500;
+        into500.fit({500, 0, 0});
+        into500.deliver(train, drain, 0);
+        aim(Near::Rms500, unit * 0.05 / std::sqrt(into500.worstI2(1e9) * count5 / 5));
+        aim(Near::Command, current ? 40 / magnitude(train) : 40);
+        if (allowed_.person) aim(Near::Level, std::min(allowed_.discomfort, accepted_ + allowed_.step));
+        return aims;
+    }
+    static std::size_t tightest(const Aims& aims) {
+        return static_cast<std::size_t>(std::min_element(aims.begin(), aims.end()) - aims.begin());
+    }
+    double aimed(const PulseTrain& train, double interval) {
+        const Aims aims = aimsOf(train, interval);
+        const double least = aims[tightest(aims)];
+        return std::isfinite(least) ? least : 0.01;
+    }
+    void setUnit(PulseTrain& train) {
+        train.amplitude = source_.drive == Drive::Current ? Amplitude(Milliamps(1)) : Amplitude(Volts(1));
+    }
+    double magnitude(const PulseTrain& train) {
+        IndependentBody probe;
+        probe.fit(allowed_.person ? Body{measured_, 0, 0} : nominal_);
+        return probe.magnitude(train);
+    }
+
+    /// Looks for a train whose tightest limit is of one kind, so that the rarer ones are tried too.
+    void search(Near kind, PulseTrain& train, double& interval) {
+        for (int tries = 0; tries < 6; ++tries) {
+            train = randomTrain();
+            const bool slow = kind == Near::Rms5s || kind == Near::Rms500 || kind == Near::Dc;
+            const bool windowed = slow || kind == Near::Rms1s || kind == Near::Power;
+            if (windowed && dice_.chance(0.5)) {  // One train longer than the window
+                if (kind == Near::Rms500) {       // Only a source that hardly rests gets there
+                    train.shape = PulseShape::SymmetricBiphasic;
+                    train.interPhaseGap = Micros(0);
+                    train.phaseWidth = Micros(std::round(dice_.between(20'000, 100'000)));
+                }
+                const double period = train.pulseDuration().count() * dice_.decade(1, kind == Near::Rms500 ? 1.3 : 3);
+                train.rate = Hertz(1 / period);
+                const double pulses = (slow ? 5.2 : 1.1) / period;
+                if (pulses < 200) train.pulses = std::max(1, static_cast<int>(pulses));
+            }
+            const double shortest = train.duration().count();
+            interval = std::max(
+                shortest, windowed ? dice_.decade(slow ? 0.4 : 0.09, slow ? 5 : 1) : shortest * dice_.decade(1, 300));
+            if (tightest(aimsOf(train, interval)) == static_cast<std::size_t>(kind)) return;
+        }
+    }
+
+    void approve() {
+        PulseTrain train = randomTrain();
+        double interval = train.duration().count() * (dice_.chance(0.3) ? 1 : dice_.decade(1, 300));
+        int repeats = dice_.chance(0.2) ? 2 + dice_.pick(12) : 1;
+        const bool campaign = dice_.chance(theme_ == Near::Count ? 0.3 : 0.6);
+        if (campaign) {
+            const Near any = static_cast<Near>(dice_.pick(static_cast<int>(kKinds)));
+            search(theme_ == Near::Count ? any : theme_, train, interval);
+            repeats = static_cast<int>(std::min(14.0, std::ceil(5 / interval) + 1));
+        }
+        const double shortest = train.duration().count();
+        const double aim = aimed(train, interval);
+        const double how = dice_.unit();
+        const double factor = how < 0.35  ? dice_.between(0.96, 0.99999)
+                              : how < 0.7 ? dice_.between(0.9, 1.1)
+                                          : dice_.unit() * 2;
+        setAmplitude(train, aim * factor);
+        // Often faster than the interval that was promised: then the meter must notice.
+        const double pace = campaign || dice_.chance(0.4) ? interval : std::max(shortest, interval * dice_.unit());
+        for (int k = 0; k < repeats && total_.violation.empty(); ++k) {
+            if (!ask(train, interval) && k + 1 < repeats && dice_.chance(0.7)) break;
+            if (dice_.chance(0.9)) {
+                if (dice_.chance(0.1)) wait(dice_.between(0, 0.12));
+                deliverPending();
+            }
+            wait(pace);
+        }
+    }
+
+    bool ask(const PulseTrain& train, double interval) {
+        auto approved = gate_.approve({train, Seconds(interval), clock_.now()});
+        note(fmt::format("{:.6f} approve {} {} us gap {} shape {} pol {} n {} rate {} T {}: {}", now(),
+                         siValue(train.amplitude), train.phaseWidth.count(), train.interPhaseGap.count(),
+                         static_cast<int>(train.shape), static_cast<int>(train.polarity), train.pulses,
+                         train.rate.value(), interval, approved ? "ok" : approved.error().message));
+        if (!approved) {
+            ++total_.refused;
+            return false;
+        }
+        if (!configured_) violation("approved without a configuration");
+        pending_.push_back({std::move(*approved), now(), interval});
+        return true;
+    }
+
+    /// The device thread: asks the gate, then delivers.
+    void deliverPending() {
+        if (pending_.empty()) return;
+        Pending next = std::move(pending_.front());
+        pending_.pop_front();
+        // A device still busy with its last train waits for its end.
+        if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
+        if (!gate_.isCurrent(next.approval)) return;
+        if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
+        const PulseTrain& train = next.approval.train();
+        const double start = now();
+        ++total_.trains;
+        ++delivered_;
+        const Drain drain{source_.gap == GapState::HighImpedance,
+                          source_.drive == Drive::Current ? source_.compliance.value() : 1e9};
+        const PulseFacts facts = body_.deliver(train, drain, start);
+        at500_.deliver(train, drain, start);
+        busyUntil_ = start + train.duration().count();
+        note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
+        referee(train, facts, next.interval);
+        if (allowed_.person && dice_.chance(0.7) && gate_.accept(train)) {
+            if (!sameKind(train)) accepted_ = 0;
+            seriesOf_ = train;
+            accepted_ = std::max(accepted_, siValue(train.amplitude));
+        }
+    }
+
+    [[nodiscard]] bool sameKind(const PulseTrain& train) const {
+        if (!seriesOf_) return false;
+        PulseTrain other = *seriesOf_;
+        other.amplitude = train.amplitude;
+        return other == train;
+    }
+
+    void hold(Near kind, double value, double limit, bool strict, const char* what) {
+        if (!std::isfinite(limit)) return;
+        const double ratio = value / limit;
+        if (!(ratio <= kSlack) || (strict && !(value < limit * kSlack))) {
+            violation(fmt::format("{} is {} and the limit {}", what, value, limit));
+        }
+        if (ratio >= 0.95) {
+            close_ = true;
+            ++total_.near[static_cast<std::size_t>(kind)];
+        }
+    }
+
+    void referee(const PulseTrain& train, const PulseFacts& facts, double interval) {
+        const double amplitude = siValue(train.amplitude);
+        const bool current = source_.drive == Drive::Current;
+        hold(Near::Command, current ? amplitude * magnitude(train) : amplitude, 40, false, "the command in V");
+        if (facts.peakV > 500) violation("more than 500 V");
+        hold(Near::Rms5s, std::sqrt(body_.worstI2(5) / 5), 0.010, true, "RMS over 5 s in A");
+        slowest_ = std::max(slowest_, interval);
+        const double band = slowest_ >= 1 / 400.0 ? 0.05 : slowest_ >= 1 / 1500.0 ? 0.08 : 0.1;
+        hold(Near::Rms500, std::sqrt(at500_.worstI2(5) / 5), band, false, "RMS over 5 s into 500 ohm in A");
+        if (at500_.charge5s() / 5 > 0.08 * kSlack) violation("more than 80 mA d.c. into 500 ohm");
+        if (!std::isnan(allowed_.area)) hold(Near::Power, body_.worstEnergy(1) / allowed_.area, 0.25, true, "W/cm2");
+        hold(Near::PeakCurrent, facts.peakI, allowed_.peakI, false, "peak current in A");
+        hold(Near::Charge, facts.phaseCharge, allowed_.charge, false, "charge per phase in C");
+        hold(Near::NetCharge, facts.netCharge, allowed_.net, false, "net charge in C");
+        hold(Near::Energy, facts.energy, allowed_.energy, false, "energy per pulse in J");
+        hold(Near::Rms1s, std::sqrt(body_.worstI2(1)), allowed_.rms1, false, "RMS over 1 s in A");
+        hold(Near::Dc, body_.charge5s() / 5, allowed_.dc, false, "mean current over 5 s in A");
+        if (!allowed_.person) return;
+        if (train.shape == PulseShape::Monophasic || !current)
+            violation("a person had a monophasic pulse or a voltage");
+        if (!(now() - measuredAt_ <= 5.1)) violation("a person was stimulated on an old or wrong impedance");
+        const double ceiling = std::min(allowed_.discomfort, (sameKind(train) ? accepted_ : 0) + allowed_.step);
+        hold(Near::Level, amplitude, ceiling, false, "a person's level in A");
+    }
+
+    /// A request with one thing wrong must be refused, whatever the rest of it.
+    void garbage() {
+        PulseTrain train = randomTrain();
+        setAmplitude(train, aimed(train, train.duration().count() * 4) * 0.5);
+        double interval = train.duration().count() * 4;
+        const auto size = [&](double own) {
+            train.amplitude = source_.drive == Drive::Current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
+        };
+        const double wrong = std::array<double, 4>{kNaN, kInf, -kInf, -1}[static_cast<std::size_t>(dice_.pick(4))];
+        switch (dice_.pick(12)) {
+            case 0:
+                size(wrong);
+                break;
+            case 1:
+                size(1e300);
+                break;
+            case 2:
+                train.phaseWidth = Micros(dice_.chance(0.2) ? 0.0 : wrong);
+                break;
+            case 3:
+                train.shape = PulseShape::SymmetricBiphasic;
+                train.interPhaseGap = Micros(wrong);
+                break;
+            case 4:
+                train.rate = Hertz(dice_.chance(0.2) ? 0.0 : wrong);
+                break;
+            case 5:
+                train.pulses =
+                    std::array<int, 3>{0, -7, std::numeric_limits<int>::min()}[static_cast<std::size_t>(dice_.pick(3))];
+                break;
+            case 6:
+                train.shape = PulseShape::AsymmetricBiphasic;
+                train.rechargeRatio = wrong;
+                break;
+            case 7:
+                interval = dice_.chance(0.2) ? 0.0 : wrong == kInf ? kNaN : wrong;
+                break;
+            case 8:
+                interval = train.duration().count() * 0.9;
+                break;
+            case 9:
+                train.amplitude = source_.drive == Drive::Current ? Amplitude(Volts(1)) : Amplitude(Milliamps(1));
+                break;
+            case 10:
+                train.pulses = std::numeric_limits<int>::max();
+                break;
+            default:
+                train.shape = static_cast<PulseShape>(17);
+                break;
+        }
+        const auto approved = gate_.approve({train, Seconds(interval), clock_.now()});
+        if (approved) violation("garbage was approved");
+    }
+
+    struct Pending {
+        ApprovedTrain approval;
+        double granted;
+        double interval;
+    };
+
+    SafetyGate& gate_;
+    VirtualClock& clock_;
+    Dice& dice_;
+    SequenceCount& total_;
+    SourceTraits source_;
+    Body nominal_;
+    double scale_ = 1;
+    Allowed allowed_;
+    bool configured_ = false;
+    IndependentBody body_, at500_;
+    std::deque<Pending> pending_;
+    double busyUntil_ = 0;
+    double slowest_ = 0;
+    int delivered_ = 0;
+    Near theme_ = Near::Count;  // None
+    bool close_ = false;
+    double measured_ = 1000;
+    double measuredAt_ = -100;
+    double accepted_ = 0;
+    std::optional<PulseTrain> seriesOf_;
+    std::string trace_;
+};
+}  // namespace
+
+void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total) {
+    VirtualClock clock;
+    SafetyGate gate(clock);
+    Dice dice(seed);
+    for (std::uint64_t k = 0; k < count && total.violation.empty(); ++k) {
+        Sequence(gate, clock, dice, total).run();
+        if (!total.violation.empty())
+            total.violation = fmt::format("seed {}, sequence {}: {}", seed, k, total.violation);
+    }
+}
+
+}  // namespace tacto::test

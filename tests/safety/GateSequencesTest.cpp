@@ -1,0 +1,62 @@
+// H1: no command sequence, however made, delivers above a limit.
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "tests/safety/GateSequences.h"
+
+namespace tacto::test {
+
+namespace {
+/// The full million runs in release; a debug build runs a tenth, sanitizers a hundredth. TACTOSCOPE_H1_SEQUENCES
+/// overrides.
+std::uint64_t wantedSequences() {
+    if (const char* text = std::getenv("TACTOSCOPE_H1_SEQUENCES")) return std::strtoull(text, nullptr, 10);
+#if defined(TACTOSCOPE_SANITIZED)
+    return 10'000;
+#elif defined(NDEBUG)
+    return 1'000'000;
+#else
+    return 100'000;
+#endif
+}
+constexpr std::uint64_t kCases = 100;  // RapidCheck's default number of successes
+}  // namespace
+
+TEST(GateSequences, NeverDeliverAboveALimit) {
+    RecordProperty("hazard", "H1");
+    const std::uint64_t perCase = (wantedSequences() + kCases - 1) / kCases;
+    SequenceCount total;
+    const bool held = rc::check("no sequence of commands delivers above a limit", [&] {
+        const auto seed = *rc::gen::noShrink(rc::gen::resize(1000, rc::gen::arbitrary<std::uint64_t>()));
+        SequenceCount one;
+        runSequences(seed, perCase, one);
+        total.sequences += one.sequences;
+        total.delivering += one.delivering;
+        total.close += one.close;
+        total.trains += one.trains;
+        total.refused += one.refused;
+        for (std::size_t k = 0; k < one.near.size(); ++k) total.near[k] += one.near[k];
+        if (!one.violation.empty()) RC_FAIL(one.violation);
+    });
+    EXPECT_TRUE(held);
+    const auto fraction = [&](std::uint64_t n) {
+        return static_cast<double>(n) / static_cast<double>(total.sequences);
+    };
+    RecordProperty("sequences", std::to_string(total.sequences));
+    RecordProperty("trains", std::to_string(total.trains));
+    std::cout << total.sequences << " sequences, " << total.trains << " trains delivered, " << total.refused
+              << " refused; " << 100 * fraction(total.delivering) << " % deliver, " << 100 * fraction(total.close)
+              << " % come within 5 % of a limit; by kind:";
+    for (const auto n : total.near) std::cout << ' ' << n;
+    std::cout << '\n';
+    if (!held) return;
+    EXPECT_GE(total.sequences, wantedSequences());
+    EXPECT_GE(fraction(total.delivering), 0.30);
+    EXPECT_GE(fraction(total.close), 0.10);
+    // Every kind of limit was approached, or its check was not really tried.
+    for (std::size_t k = 0; k < total.near.size(); ++k)
+        EXPECT_GT(total.near[k], total.sequences / 5000) << "kind " << k;
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,197 @@
+#include "tests/safety/IndependentBody.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tacto::test {
+
+namespace {
+constexpr std::array<double, 5> kNode{0.0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
+                                      0.9061798459386640};
+constexpr std::array<double, 5> kWeight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,
+                                        0.2369268850561891};
+
+/// ∫ of f over [0, length], panels growing away from the transient at 0.
+template <class F>
+void integrate(double length, double tau, F&& f) {
+    double from = 0;
+    double step = tau > 0 ? tau / 2 : length;
+    while (from < length) {
+        const double to = std::min(length, from + step);
+        const double half = (to - from) / 2;
+        for (std::size_t k = 0; k < kNode.size(); ++k) f(from + half * (1 + kNode[k]), half * kWeight[k]);
+        from = to;
+        if (from > 2 * tau) step *= 2;
+    }
+}
+}  // namespace
+
+IndependentBody::Flow IndependentBody::linear(Mode mode, double level, double length) {
+    Flow flow;
+    const auto [rs, rp, c] = body_;
+    if (length <= 0) return flow;
+    if (c <= 0) {
+        const double i = mode == Mode::Voltage ? level / rs : mode == Mode::Current ? level : 0;
+        flow.i2 = i * i * length;
+        flow.charge = i * length;
+        flow.energy = i * i * rs * length;
+        flow.peakI = std::abs(i);
+        flow.peakV = std::abs(i * rs);
+        flow.endI = i;
+        flow.endV = i * rs;
+        return flow;
+    }
+    // C dVc/dt = i - Vc/Rp with i = (V - Vc)/Rs from a voltage, given from a current, 0 when floating.
+    const double conductance = 1 / rp + (mode == Mode::Voltage ? 1 / rs : 0);
+    const double drive = mode == Mode::Voltage ? level / rs : mode == Mode::Current ? level : 0;
+    const double tau = c / conductance;
+    const double goal = drive / conductance;
+    const double start = vc_;
+    const auto capacitor = [&](double t) { return goal + (start - goal) * std::exp(-t / tau); };
+    const auto current = [&](double t) {
+        return mode == Mode::Voltage ? (level - capacitor(t)) / rs : mode == Mode::Current ? level : 0.0;
+    };
+    integrate(length, tau, [&](double t, double weight) {
+        const double i = current(t);
+        const double v = mode == Mode::Voltage ? level : i * rs + capacitor(t);
+        flow.i2 += weight * i * i;
+        flow.charge += weight * i;
+        flow.energy += weight * v * i;
+    });
+    const double i0 = current(0);
+    flow.endI = current(length);
+    flow.endV = mode == Mode::Voltage ? level : flow.endI * rs + capacitor(length);
+    flow.peakI = std::max(std::abs(i0), std::abs(flow.endI));
+    flow.peakV = std::max(std::abs(mode == Mode::Voltage ? level : i0 * rs + start), std::abs(flow.endV));
+    vc_ = capacitor(length);
+    return flow;
+}
+
+IndependentBody::Flow IndependentBody::stretch(Mode mode, double level, double length, double compliance) {
+    if (mode != Mode::Current || level == 0) return linear(mode, level, length);
+    const double side = level > 0 ? 1 : -1;
+    const auto [rs, rp, c] = body_;
+    // When does the voltage reach compliance? It only grows on the level's side.
+    double reach = length;
+    if (c <= 0) {
+        reach = std::abs(level) * rs > compliance ? 0 : length;
+    } else {
+        const double goal = side * level * rp;             // of Vc on this side
+        const double at = compliance - side * level * rs;  // Vc at which compliance is reached
+        const double now = side * vc_;
+        if (now >= at) {
+            reach = 0;
+        } else if (goal > at) {
+            reach = std::min(length, rp * c * std::log((goal - now) / (goal - at)));
+        }
+    }
+    Flow flow = linear(Mode::Current, level, reach);
+    if (reach < length) {
+        const Flow held = linear(Mode::Voltage, side * compliance, length - reach);
+        flow.i2 += held.i2;
+        flow.charge += held.charge;
+        flow.energy += held.energy;
+        flow.peakI = std::max(flow.peakI, held.peakI);
+        flow.peakV = std::max(flow.peakV, held.peakV);
+        flow.endI = held.endI;
+        flow.endV = held.endV;
+    }
+    return flow;
+}
+
+PulseFacts IndependentBody::deliver(const PulseTrain& train, const Drain& drain, double start) {
+    const bool current = std::holds_alternative<Milliamps>(train.amplitude);
+    const double size =
+        current ? std::get<Milliamps>(train.amplitude).value() / 1000 : std::get<Volts>(train.amplitude).value();
+    const double level = train.polarity == Polarity::Positive ? size : -size;
+    const double width = train.phaseWidth.count() * 1e-6;
+    const double ratio = train.shape == PulseShape::AsymmetricBiphasic ? train.rechargeRatio : 1;
+    const bool biphasic = train.shape != PulseShape::Monophasic;
+    const double gap = biphasic ? train.interPhaseGap.count() * 1e-6 : 0;
+    const double period = 1 / train.rate.value();
+    const Mode drive = current ? Mode::Current : Mode::Voltage;
+    const Mode idle = drain.highImpedance ? Mode::Floating : Mode::Voltage;
+
+    // Since the last train the source has been idle; what flowed then belongs to that train and was put down there.
+    if (lastRest_ >= 0 && start > lastRest_)
+        linear(lastFloating_ ? Mode::Floating : Mode::Voltage, 0, start - lastRest_);
+
+    newest_ = start;
+    PulseFacts facts;
+    for (int k = 0; k < train.pulses; ++k) {
+        double t = start + k * period;
+        double net = 0, energy = 0;
+        const auto put = [&](const Flow& flow, double length) {
+            record_.push_back({t, length, flow.i2, flow.energy, flow.charge, start + k * period});
+            t += length;
+            net += flow.charge;
+            energy += flow.energy;
+            facts.peakI = std::max(facts.peakI, flow.peakI);
+            facts.peakV = std::max(facts.peakV, flow.peakV);
+        };
+        const Flow leading = stretch(drive, level, width, drain.compliance);
+        put(leading, width);
+        facts.phaseCharge = std::max(facts.phaseCharge, std::abs(leading.charge));
+        if (biphasic) {
+            if (gap > 0) put(linear(idle, 0, gap), gap);
+            const Flow second = stretch(drive, -level / ratio, width * ratio, drain.compliance);
+            put(second, width * ratio);
+            facts.phaseCharge = std::max(facts.phaseCharge, std::abs(second.charge));
+        }
+        const double rest = std::max(0.0, start + (k + 1) * period - t);
+        put(linear(idle, 0, rest), rest);
+        facts.netCharge = std::max(facts.netCharge, std::abs(net));
+        facts.energy = std::max(facts.energy, energy);
+    }
+    lastRest_ = start + train.pulses * period;
+    lastFloating_ = drain.highImpedance;
+    return facts;
+}
+
+double IndependentBody::worst(double window, double Stretch::*what) const {
+    // The record is in time order. The window's start slides over every stretch; `sum` holds those wholly inside.
+    double worst = 0;
+    double sum = 0;
+    std::size_t next = 0;
+    for (std::size_t first = 0; first < record_.size(); ++first) {
+        const double end = record_[first].start + window;
+        while (next < record_.size() && record_[next].start + record_[next].length <= end) sum += record_[next++].*what;
+        double partial = 0;
+        if (next < record_.size() && next >= first && record_[next].start < end) {
+            partial = record_[next].*what * (end - record_[next].start) / record_[next].length;
+        }
+        if (end > newest_) worst = std::max(worst, sum + partial);
+        if (next == record_.size()) break;  // Later starts see less
+        if (next > first) {
+            sum -= record_[first].*what;
+        } else {
+            next = first + 1;
+        }
+    }
+    return worst;
+}
+
+double IndependentBody::charge5s() const {
+    double sum = 0;
+    const double last = record_.empty() ? 0 : record_.back().pulse;
+    for (const Stretch& s : record_) {
+        if (s.pulse > last - 5) sum += s.charge;
+    }
+    return std::abs(sum);
+}
+
+void IndependentBody::forgetBefore(double time) {
+    std::erase_if(record_, [time](const Stretch& s) { return s.start + s.length < time; });
+}
+
+double IndependentBody::magnitude(const PulseTrain& train) const {
+    IndependentBody fresh;
+    fresh.fit(body_);
+    const bool current = std::holds_alternative<Milliamps>(train.amplitude);
+    const Flow flow =
+        fresh.linear(current ? Mode::Current : Mode::Voltage, current ? 0.001 : 1, train.phaseWidth.count() * 1e-6);
+    return std::abs(flow.endV / flow.endI);
+}
+
+}  // namespace tacto::test
