@@ -57,6 +57,9 @@ public:
     [[nodiscard]] const AccelerationWindow* frontWindow() const noexcept;
     [[nodiscard]] std::array<const double*, AxesBandpass::kMaxAxes> samples(
         const AccelerationWindow& window) const noexcept;
+    [[nodiscard]] std::span<const double> stamps(const AccelerationWindow& window) const noexcept {
+        return std::span(stamps_).subspan(window.first - offset_, length_);
+    }
     void popWindow() noexcept;
     [[nodiscard]] std::size_t windowsWaiting() const noexcept { return waiting_; }
     /// True when the next push() may not fit: the oldest windows must go first.

@@ -53,35 +53,60 @@ void ForceTrack::advance(std::size_t& cursor, double t_s) const noexcept {
     while (hasNext(cursor) && samples_.t(cursor + 1) <= t_s) ++cursor;
 }
 
+double ForceTrack::Line::divisor(double t_s) const noexcept {
+    return std::max(slope * (t_s - from) + force, kSmallestDivisor_n);
+}
+
+ForceTrack::Line ForceTrack::lineAt(std::size_t& cursor, double t_s, double start_s) const noexcept {
+    Line line{0, 0, 0, kNever};
+    if (samples_.empty()) return line;
+    advance(cursor, t_s);
+    line.from = samples_.t(cursor);
+    line.force = samples_.values(cursor)[0];
+    if (t_s < line.from) {
+        if (line.from - start_s > kLongestBridge_s) line.force = 0;
+        line.until = line.from;
+    } else if (hasNext(cursor)) {
+        line.until = samples_.t(cursor + 1);
+        const double step = line.until - line.from;
+        if (step <= kLongestBridge_s) line.slope = (samples_.values(cursor + 1)[0] - line.force) / step;
+    }
+    return line;
+}
+
 void ForceTrack::normalise(std::span<const double> stamps, std::span<double* const> axes, double start_s) noexcept {
     std::size_t i = 0;
     while (i < stamps.size()) {
-        double force = 0;
-        double slope = 0;
-        double from = 0;
-        double until = kNever;  // the run of samples that one straight line serves
-        if (!samples_.empty()) {
-            advance(normaliseCursor_, stamps[i]);
-            from = samples_.t(normaliseCursor_);
-            force = samples_.values(normaliseCursor_)[0];
-            if (stamps[i] < from) {
-                if (from - start_s > kLongestBridge_s) force = 0;
-                until = from;
-            } else if (hasNext(normaliseCursor_)) {
-                until = samples_.t(normaliseCursor_ + 1);
-                if (until - from <= kLongestBridge_s) {
-                    slope = (samples_.values(normaliseCursor_ + 1)[0] - force) / (until - from);
-                }
-            }
-        }
+        const Line line = lineAt(normaliseCursor_, stamps[i], start_s);
         std::size_t end = i + 1;
-        while (end < stamps.size() && stamps[end] < until) ++end;
+        while (end < stamps.size() && stamps[end] < line.until) ++end;
         for (; i < end; ++i) {
-            const double divisor = std::max(slope * (stamps[i] - from) + force, kSmallestDivisor_n);
-            const double factor = 1 / divisor;
+            const double factor = 1 / line.divisor(stamps[i]);
             for (auto* axis : axes) axis[i] *= factor;
         }
     }
+}
+
+void ForceTrack::divisors(std::span<const double> stamps, std::span<double> out, double start_s) const noexcept {
+    std::size_t cursor = samples_.begin();
+    for (std::size_t i = 0; i < stamps.size(); ++i) out[i] = lineAt(cursor, stamps[i], start_s).divisor(stamps[i]);
+}
+
+bool ForceTrack::unsteady(double begin_s, double end_s, double start_s) const noexcept {
+    constexpr double kSteady = 2;
+    // Straight lines are extreme at their ends.
+    std::size_t cursor = samples_.begin();
+    double smallest = lineAt(cursor, begin_s, start_s).divisor(begin_s);
+    double largest = smallest;
+    const auto see = [&](double divisor) {
+        smallest = std::min(smallest, divisor);
+        largest = std::max(largest, divisor);
+    };
+    for (std::size_t i = cursor; i < samples_.end() && samples_.t(i) <= end_s; ++i) {
+        if (samples_.t(i) >= begin_s) see(std::max(samples_.values(i)[0], kSmallestDivisor_n));
+    }
+    see(lineAt(cursor, end_s, start_s).divisor(end_s));
+    return largest > kSteady * smallest;
 }
 
 ForceTrack::Reading ForceTrack::at(double t_s) noexcept {

@@ -37,6 +37,11 @@ public:
     /// forward. `start_s` is when the stream that is normalised began.
     void normalise(std::span<const double> stamps, std::span<double* const> axes, double start_s) noexcept;
 
+    /// max(F, 0.1 N) at each of `stamps`, which lie at or before those normalised last.
+    void divisors(std::span<const double> stamps, std::span<double> out, double start_s) const noexcept;
+    /// True when max(F, 0.1 N) changes by more than a factor 2 between the two times.
+    [[nodiscard]] bool unsteady(double begin_s, double end_s, double start_s) const noexcept;
+
     struct Reading {
         double force_n;  ///< NaN when no sample can speak for that time
         bool contact;
@@ -54,6 +59,15 @@ public:
     [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }
 
 private:
+    /// F as a straight line: force + slope * (t - from), good for times before `until`.
+    struct Line {
+        double force = 0;
+        double slope = 0;
+        double from = 0;
+        double until;
+        [[nodiscard]] double divisor(double t_s) const noexcept;
+    };
+    [[nodiscard]] Line lineAt(std::size_t& cursor, double t_s, double start_s) const noexcept;
     /// The last sample at or before t, from `cursor` on; begin() - 1 stands for "before the first".
     void advance(std::size_t& cursor, double t_s) const noexcept;
     [[nodiscard]] bool hasNext(std::size_t cursor) const noexcept { return cursor + 1 < samples_.end(); }

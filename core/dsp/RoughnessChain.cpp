@@ -61,6 +61,7 @@ struct RoughnessChain::State {
     void evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                   std::vector<RoughnessFrame>& frames);
     [[nodiscard]] double spectralFeature(const AccelerationWindow& window, double& meanSquare);
+    [[nodiscard]] double undoneMeanSquare(const AccelerationWindow& window);
     [[nodiscard]] double forceKnown_s() const noexcept;
     [[nodiscard]] double horizon_s() const noexcept;
     [[nodiscard]] double streamBegin_s() const noexcept;
@@ -76,6 +77,8 @@ struct RoughnessChain::State {
     double period_s = 0;
     StreamKind pacedBy = StreamKind::Acceleration;
     BinRange whole, rough;
+    std::vector<double> divisors;                                    // scratch: one window's
+    std::array<std::vector<double>, AxesBandpass::kMaxAxes> undone;  // scratch: one window's axes
 
     std::optional<AccelerationTrack> acceleration;
     std::optional<PowerSpectrum> spectrum;
@@ -108,6 +111,8 @@ RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessS
         spectrum.emplace(acceleration->windowLength(), accelerationInfo->channels, accelerationInfo->rate_hz);
         const double top = std::min(AccelerationTrack::kHigh_hz, acceleration->upperEdge_hz());
         whole = spectrum->bins(AccelerationTrack::kLow_hz, top);
+        divisors.resize(acceleration->windowLength());
+        for (auto& axis : undone) axis.resize(acceleration->windowLength());
         if (top > settings.bandLow.value()) rough = spectrum->bins(settings.bandLow.value(), top);
     } else {
         const auto& paced = taxelInfo ? *taxelInfo : *forceInfo;
@@ -273,6 +278,20 @@ double RoughnessChain::State::spectralFeature(const AccelerationWindow& window, 
     return feature > 0 && std::isfinite(feature) ? feature : kNan;
 }
 
+/// The window's mean square with the normalisation undone sample by sample. While a finger lands or lifts, force
+/// changes tenfold within a window: undoing it with one number would make sensor noise a vibration (hazard H7).
+double RoughnessChain::State::undoneMeanSquare(const AccelerationWindow& window) {
+    const auto axes = acceleration->samples(window);
+    std::array<const double*, AxesBandpass::kMaxAxes> pointers{};
+    force->divisors(acceleration->stamps(window), divisors, streamBegin_s());
+    for (std::size_t a = 0; a < accelerationInfo->channels; ++a) {
+        for (std::size_t i = 0; i < divisors.size(); ++i) undone[a][i] = axes[a][i] * divisors[i];
+        pointers[a] = undone[a].data();
+    }
+    spectrum->transform(std::span(pointers).first(accelerationInfo->channels));
+    return spectrum->power(whole);
+}
+
 void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end_s, const AccelerationWindow* window,
                                      std::vector<RoughnessFrame>& frames) {
     RoughnessFrame frame;
@@ -289,6 +308,9 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
             const bool pressing = pressed.force_n > ForceTrack::kSmallestDivisor_n;
             const double divisor = pressing ? pressed.force_n : ForceTrack::kSmallestDivisor_n;
             meanSquare *= divisor * divisor;
+            if (force->unsteady(begin_s, end_s, streamBegin_s())) {
+                meanSquare = std::min(meanSquare, undoneMeanSquare(*window));
+            }
         }
     }
 

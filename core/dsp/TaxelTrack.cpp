@@ -101,7 +101,7 @@ void TaxelTrack::decide(double known_s) noexcept {
     if (declared_ && known_s <= declared_->end_s) return;
     if (declared_ && inDeclared_.count > 0) return adopt(inDeclared_);
     if (!(known_s >= first_ + kShortestRest_s)) return;
-    if (firstContact_ == kNever) return;  // the rest goes on
+    if (known_s < firstContact_) return;  // the rest goes on
     if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0) return adopt(beforeContact_);
     assumed_ = true;
     adopt(atStart_);
@@ -160,8 +160,11 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     if (samples_.empty()) return {kNan, kNan};
     while (cursor_ + 1 < samples_.end() && samples_.t(cursor_ + 1) <= t_s) ++cursor_;
     std::size_t nearest = cursor_;
-    if (nearest + 1 < samples_.end() && std::abs(samples_.t(nearest + 1) - t_s) < std::abs(samples_.t(nearest) - t_s)) {
-        ++nearest;
+    if (nearest + 1 < samples_.end()) {
+        // Between two at the same distance the earlier counts, however their stamps were rounded.
+        constexpr double kStampRounding = 1e-9;
+        const double later = std::abs(samples_.t(nearest + 1) - t_s);
+        if (later + kStampRounding < std::abs(samples_.t(nearest) - t_s)) ++nearest;
     }
     if (std::abs(samples_.t(nearest) - t_s) > reach_) return {kNan, kNan};
 

@@ -1,0 +1,31 @@
+// RoughnessOracle.h - science.md sections 2 and 3 written a second time, slowly and from the text: direct difference
+// equation, direct Fourier sums, whole arrays. For regular streams without NaN. Shares no code with core/dsp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/Stream.h"
+#include "core/dsp/RoughnessChain.h"
+
+namespace tacto::test {
+
+/// All streams must share t = 0; `declared.baseline` is honoured; rest before contact and the assumptions too.
+[[nodiscard]] std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams,
+                                                       std::span<const SampleBlock> blocks,
+                                                       const RoughnessSettings& settings,
+                                                       const DeclaredIntervals& declared = {});
+
+/// A simulated slide: rest to 1 s, static touch to 1.5 s, sliding to 3 s, static to 4.5 s, lifted. Deterministic.
+struct Slide {
+    std::vector<StreamInfo> streams;
+    std::vector<SampleBlock> blocks;
+};
+[[nodiscard]] Slide makeSlide(double acceleration_hz, std::size_t axes, double force_hz, double taxel_hz,
+                              std::size_t taxels, double seconds = 6);
+
+/// NaN equals NaN; otherwise within `tolerance`, relative.
+void expectSameFrames(std::span<const RoughnessFrame> actual, std::span<const RoughnessFrame> expected,
+                      double tolerance);
+
+}  // namespace tacto::test
