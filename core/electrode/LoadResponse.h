@@ -52,7 +52,9 @@ struct SegmentResponse {
     std::size_t count = 0;
     double endCapacitorVoltage = 0;
 
-    [[nodiscard]] std::span<const ResponsePiece> pieces() const noexcept { return {items.data(), count}; }
+    /// A view into this object: not of a temporary, which `for (… : respond(…).pieces())` would outlive.
+    [[nodiscard]] std::span<const ResponsePiece> pieces() const& noexcept { return {items.data(), count}; }
+    std::span<const ResponsePiece> pieces() const&& = delete;
     /// At `t_s` from the segment's start; held at the ends outside it.
     [[nodiscard]] double voltage(double t_s) const noexcept;
     [[nodiscard]] double current(double t_s) const noexcept;

@@ -23,7 +23,8 @@ double peakDuring(const Circuit& circuit, const PulseSegments& pulse, std::size_
     double peak = 0;
     for (std::size_t s = 0; s <= index; ++s) {
         peak = 0;
-        for (const auto& piece : response.add(pulse.items[s], PulsePart::LeadingPhase).pieces()) {
+        const auto added = response.add(pulse.items[s], PulsePart::LeadingPhase);
+        for (const auto& piece : added.pieces()) {
             peak = std::max(peak, piece.peakCurrent());
         }
     }
