@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tacto::sim {
@@ -71,7 +72,7 @@ Finger::Finger(const FingerSettings& settings, Instant opened)
       nextTarget_(std::numeric_limits<double>::infinity()),
       time_(opened_),
       noise_(settings.seed, "finger") {
-    tremor_.tune(10, 3, settings_.tickRate_hz);
+    tremor_.tune(10, 2, settings_.tickRate_hz);
     for (auto& axis : drag_) axis.tune(kDragCorner, settings_.tickRate_hz);
     // Skin: a = ω²s² / (s² + 2ζωs + ω²) of the height below it, ω² / (...) of a force on it; bilinear, prewarped.
     const double omega = 2 * kPi * settings_.resonance.value();
@@ -120,7 +121,11 @@ Result<void> Finger::present(std::string_view material, MillimetresPerSecond spe
     }
     const double at = toSeconds(now);
     const double earliest = opened_ + kFirstContact.count();
-    targets_.clear();
+    // What was planned up to now still happens in ticks that nobody has read yet; what comes later does not.
+    while (!presented_ && settings_.lift.count() > 0 && !targets_.empty() && targets_.back().from_s <= at) {
+        planStroke(targets_.back().from_s + settings_.lift.count());
+    }
+    while (!targets_.empty() && targets_.back().from_s > at) targets_.pop_back();
     if (material.empty()) {
         targets_.push_back({at, nullptr, 0, 0});
         presentedMaterial_.clear();

@@ -90,25 +90,31 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     const auto off = [&](double duration) {
         return DriveSegment{traits.gap == GapState::HighImpedance ? Drive::HighImpedance : drive, 0, 0, duration};
     };
-    const double fastest = std::min(settings_.rise.count(), width / 2);
+    const double edge = std::min(settings_.rise.count(), width / 2);
+    // A source that holds 0 V drives its falling edges too; one that opens its output just lets go, half an edge later,
+    // so that width at 50 % and charge stay.
+    const bool drivesDown = traits.gap == GapState::HoldsZero;
+    const double hold = drivesDown ? -edge : -edge / 2;
     DrivenPulse pulse;
     pulse.rest = off(0);
-    pulse.add({drive, 0, lead, fastest}, PulsePart::LeadingPhase);
-    pulse.add({drive, lead, lead, width - fastest}, PulsePart::LeadingPhase);
+    pulse.add({drive, 0, lead, edge}, PulsePart::LeadingPhase);
     if (train.shape == PulseShape::Monophasic) {
-        pulse.add({drive, lead, 0, fastest}, PulsePart::Rest);
+        pulse.add({drive, lead, lead, width + hold}, PulsePart::LeadingPhase);
+        if (drivesDown) pulse.add({drive, lead, 0, edge}, PulsePart::Rest);
         return pulse;
     }
     if (gap > 0) {
-        const double fall = std::min(fastest, gap);
-        pulse.add({drive, lead, 0, fall}, PulsePart::Gap);
+        const double fall = std::min(drivesDown ? edge : edge / 2, gap);
+        pulse.add({drive, lead, lead, width + hold}, PulsePart::LeadingPhase);
+        if (drivesDown) pulse.add({drive, lead, 0, fall}, PulsePart::Gap);
         pulse.add(off(gap - fall), PulsePart::Gap);
-        pulse.add({drive, 0, second, fastest}, PulsePart::SecondPhase);
+        pulse.add({drive, 0, second, edge}, PulsePart::SecondPhase);
     } else {
-        pulse.add({drive, lead, second, fastest}, PulsePart::SecondPhase);
+        pulse.add({drive, lead, lead, width - edge}, PulsePart::LeadingPhase);
+        pulse.add({drive, lead, second, edge}, PulsePart::SecondPhase);
     }
-    pulse.add({drive, second, second, secondWidth - fastest}, PulsePart::SecondPhase);
-    pulse.add({drive, second, 0, fastest}, PulsePart::Rest);
+    pulse.add({drive, second, second, secondWidth + hold}, PulsePart::SecondPhase);
+    if (drivesDown) pulse.add({drive, second, 0, edge}, PulsePart::Rest);
     return pulse;
 }
 

@@ -3,7 +3,7 @@
 // read-back that measures with its own noise.
 //
 // Ramps are placed so that width at 50 % and charge stay those asked for: each phase begins to rise at its onset and to
-// fall one phase width later, into the gap.
+// fall one phase width later, into the gap; a source that opens its output in the gap lets go half an edge later.
 //
 // Thread-safety: as Stimulator; forceOff() is lock-free.
 #pragma once

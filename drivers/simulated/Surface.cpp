@@ -11,6 +11,7 @@ namespace tacto::sim {
 namespace {
 // How skin meets a surface. Lengths in metres.
 constexpr double kPatch = 2e-3;            // a fingerprint ridge's contact along the path: asperities average over it
+constexpr double kCoherent = 0.5;          // of a grating's motion is left by the patch, several ridges wide
 constexpr double kFollow = 100e-6;         // the pulp bridges relief deeper than this
 constexpr double kCorneum = 2e-6;          // the stratum corneum conforms to finer relief than this
 constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses evenly
@@ -50,19 +51,6 @@ void Surface::makeProfile(std::uint64_t seed) {
     for (auto& w : white) w = static_cast<float>(noise.normal());
     const double keep = std::exp(-kCell_m / metres(material_.correlationLength));
     runAround(height_, keep, [&](std::size_t i) { return static_cast<double>(white[i]); });
-    const double depth = metres(material_.gratingDepth) / 2;
-    if (depth > 0) {
-        // The random part takes what the grating leaves of the stated Rq.
-        const double gratingRms = depth / std::numbers::sqrt2;
-        const double random = std::sqrt(std::max(0.0, rms(material_.ra) * rms(material_.ra) - gratingRms * gratingRms));
-        const double scale = random * std::sqrt(1 - keep * keep);
-        const double total = static_cast<double>(kCells) * kCell_m;
-        const double waves = std::round(total / (material_.gratingPeriod.value() * 1e-3));
-        for (std::size_t i = 0; i < kCells; ++i) {
-            const double phase = 2 * std::numbers::pi * waves * static_cast<double>(i) / static_cast<double>(kCells);
-            height_[i] = static_cast<float>(scale * static_cast<double>(height_[i]) + depth * std::sin(phase));
-        }
-    }
     double mean = 0;
     for (const float z : height_) mean += static_cast<double>(z);
     mean /= static_cast<double>(kCells);
@@ -70,6 +58,17 @@ void Surface::makeProfile(std::uint64_t seed) {
     for (const float z : height_) deviation += std::abs(static_cast<double>(z) - mean);
     const double scale = metres(material_.ra) * static_cast<double>(kCells) / deviation;
     for (float& z : height_) z = static_cast<float>((static_cast<double>(z) - mean) * scale);
+    gratingAmplitude_ = material_.gratingPeriod.value() > 0 ? metres(material_.gratingDepth) / 2 : 0;
+    for (std::size_t i = 0; i < kCells; ++i) height_[i] += static_cast<float>(grating(i));
+}
+
+double Surface::grating(std::size_t i) const noexcept {
+    if (gratingAmplitude_ <= 0) return 0;
+    // A whole number of waves fits, so that the path repeats without a seam.
+    const double total = static_cast<double>(kCells) * kCell_m;
+    const double waves = std::round(total / (material_.gratingPeriod.value() * 1e-3));
+    const double turns = waves * static_cast<double>(i) / static_cast<double>(kCells);
+    return gratingAmplitude_ * std::sin(2 * std::numbers::pi * turns);
 }
 
 void Surface::makeContact() {
@@ -77,7 +76,11 @@ void Surface::makeContact() {
     const double along = metres(material_.asperitySpacing) / kPatch;  // 1/sqrt(N) of N = (patch / spacing)²
     const double gain = std::min(1.0, along) * kFollow / (kFollow + rq);
     const double keep = std::exp(-kCell_m / kRidge);
-    runAround(contact_, keep, [&](std::size_t i) { return (1 - keep) * gain * static_cast<double>(height_[i]); });
+    // Asperities average out over the patch; the ridges of a grating move all of it together.
+    const double coherent = kCoherent * kFollow / (kFollow + gratingAmplitude_ / std::numbers::sqrt2) - gain;
+    runAround(contact_, keep, [&](std::size_t i) {
+        return (1 - keep) * (gain * static_cast<double>(height_[i]) + coherent * grating(i));
+    });
 }
 
 void Surface::makeBearing(std::uint64_t seed) {

@@ -1,8 +1,8 @@
 // Surface.h - one specimen of a material: a height profile along the path, in space, so that a faster finger hears
 // higher frequencies.
 //
-// The profile is Gaussian with exponential correlation plus the material's grating, periodic over length(), and scaled
-// so that its Ra is the material's to the last digit, as a certificate would state it. What the finger feels of it is
+// The profile is Gaussian with exponential correlation, scaled so that its Ra is the material's to the last digit, as a
+// certificate would state it, plus the material's grating; it repeats after length(). What the finger feels of it is
 // contactHeight(): the profile as far as skin can follow it. What the taxels feel is bearing(): how many summits
 // carry load under each of them.
 //
@@ -23,7 +23,7 @@ public:
     Surface(const Material& material, std::uint64_t seed);
 
     [[nodiscard]] const Material& material() const noexcept { return material_; }
-    /// Measured on this specimen: equals the material's.
+    /// Measured on this specimen: the material's, or more with a grating.
     [[nodiscard]] Micrometres ra() const noexcept;
     /// Measured on this specimen: mean peak-to-valley of five sampling lengths.
     [[nodiscard]] Micrometres rz() const noexcept;
@@ -56,6 +56,7 @@ private:
     }
 
     void makeProfile(std::uint64_t seed);
+    [[nodiscard]] double grating(std::size_t i) const noexcept;
     void makeContact();
     void makeBearing(std::uint64_t seed);
 
@@ -63,6 +64,7 @@ private:
     std::vector<float> height_;
     std::vector<float> contact_;
     std::vector<float> bearing_;
+    double gratingAmplitude_ = 0;  // metres
     double flicker_ = 0;
 };
 
