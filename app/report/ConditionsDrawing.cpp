@@ -89,8 +89,8 @@ private:
         auto* level = axes->axis(QCPAxis::atLeft);
         time->setRange(-0.03 * span_, span_);
         level->setRange(0, top_);
-        level->setTicker(QSharedPointer<PlainTicker>::create(2, roundBelow(top_ / kHeadroom)));
-        level->setLabel("V");
+        level->setTicker(
+            QSharedPointer<PlainTicker>::create(2, roundBelow(top_ / kHeadroom), QStringLiteral("\u202fV")));
         level->grid()->setVisible(false);
         time->setTickLabels(timeAxis);
         axes->setMaximumSize(QWIDGETSIZE_MAX, kLaneHeight + (timeAxis ? kAxisHeight : 0));

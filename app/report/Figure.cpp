@@ -215,6 +215,7 @@ ExposureFigure readExposure(Reader& in) {
         row.source = item.text("source");
         row.reason = item.text("reason");
         row.warning = item.flag("warning");
+        if (item.has("within")) row.within = item.flag("within");
         if (row.name.isEmpty()) item.complain("name", "the name of the limited quantity");
         figure.rows.push_back(std::move(row));
     });
@@ -242,6 +243,14 @@ TimelineFigure readTimeline(Reader& in) {
 }
 
 }  // namespace
+
+bool ExposureFigure::Row::evaluated() const { return std::isfinite(value); }
+
+bool ExposureFigure::Row::over() const {
+    if (!evaluated()) return false;
+    if (within && !*within) return true;
+    return std::isfinite(limit) && !(std::abs(value) <= limit);
+}
 
 Result<Figure> parseFigure(const QJsonObject& json) {
     const QString type = json.value(QLatin1String("type")).toString();

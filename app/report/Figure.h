@@ -34,6 +34,7 @@
 //    "rows": [{"name": "RMS current, 5 s",      "quantity" is taken too
 //              "value": 2.1, "limit": 10,       same unit; value null = not evaluated (drawn hatched)
 //              "unit": "mA", "source": "paper", optional
+//              "within": true,                  optional: the judge's word; at the limit may be over it ("<")
 //              "warning": false,                optional: the limit calls for attention, breaking it is no fault
 //              "reason": "no electrode area"}]} optional, shown when not evaluated
 //
@@ -127,6 +128,10 @@ struct ExposureFigure {
         QString source;
         QString reason;
         bool warning = false;
+        std::optional<bool> within = {};
+
+        [[nodiscard]] bool evaluated() const;  ///< there is a value
+        [[nodiscard]] bool over() const;       ///< evaluated and not within its limit
     };
     std::vector<Row> rows;
 };

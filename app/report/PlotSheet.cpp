@@ -146,7 +146,7 @@ QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
     if (std::abs(tick) < step_ * 1e-6) tick = 0;
     QString text = QString::number(tick, 'f', decimals + (half ? 1 : 0));
     if (text.startsWith('-')) text.replace(0, 1, QStringLiteral("−"));
-    return text;
+    return text + suffix_;
 }
 
 double PlainTicker::getTickStep(const QCPRange& range) {

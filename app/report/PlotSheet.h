@@ -70,8 +70,9 @@ private:
 /// Ticks with a true minus and as many decimals as their step needs, all alike.
 class PlainTicker : public QCPAxisTicker {
 public:
-    /// About `count` ticks, or one every `fixedStep` from 0.
-    explicit PlainTicker(int count, double fixedStep = 0) : fixed_(fixedStep) {
+    /// About `count` ticks, or one every `fixedStep` from 0; `suffix` is a unit where an axis has no room for a label.
+    explicit PlainTicker(int count, double fixedStep = 0, QString suffix = {})
+        : fixed_(fixedStep), suffix_(std::move(suffix)) {
         setTickCount(count);
         setTickStepStrategy(tssReadability);
     }
@@ -82,6 +83,7 @@ protected:
 
 private:
     double fixed_;
+    QString suffix_;
     double step_ = 1;
 };
 

@@ -26,7 +26,7 @@ enum class ReportFormat { Pdf, Html };
                                        const FontCheck& installed = fontInstalled);
 
 /// Reads `sessionFile` and writes its report to `path`.
-/// Errors: as writeReport(), and whatever reading the session answers (NotFound, ParseError, Io).
+/// Errors: as writeReport(), and as readSessionReport().
 [[nodiscard]] Result<void> writeSessionReport(const QString& sessionFile, const QString& path);
 
 }  // namespace tacto

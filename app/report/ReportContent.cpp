@@ -117,7 +117,7 @@ TableBlock exposureTable(const ReportModel& model, const QString& caption) {
     table.caption = caption;
     table.columns = {{"Quantity"}, {"Value", true}, {"Limit", true}, {"Share", true}, {"Limit set"}, {"Result"}};
     for (const auto& row : model.exposure) {
-        const bool evaluated = std::isfinite(row.value);
+        const bool evaluated = row.evaluated();
         const bool limited = std::isfinite(row.limit) && row.limit > 0;
         const double share = std::abs(row.value) / row.limit;
         QString result;
@@ -125,7 +125,7 @@ TableBlock exposureTable(const ReportModel& model, const QString& caption) {
             result = "not evaluated" + (row.reason.isEmpty() ? QString() : ": " + row.reason);
         } else if (!limited) {
             result = "no limit";
-        } else if (share <= 1) {
+        } else if (!row.over()) {
             result = "within";
         } else {
             result = row.warning ? "attention" : "over the limit";

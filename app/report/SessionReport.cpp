@@ -186,7 +186,8 @@ void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
         if (known.name != row.name || known.source != row.source || known.limit < row.limit || known.limit > row.limit)
             continue;
         if (!std::isfinite(known.value)) return;
-        if (!std::isfinite(row.value) || std::abs(row.value) > std::abs(known.value)) known = row;
+        const bool newlyOver = row.over() && !known.over();
+        if (!row.evaluated() || newlyOver || std::abs(row.value) > std::abs(known.value)) known = row;
         return;
     }
     model.exposure.push_back(row);

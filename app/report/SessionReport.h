@@ -22,8 +22,9 @@
 
 namespace tacto {
 
-/// Errors: NotFound, ParseError (not a session; a report item that breaks its contract is shown as a sentence in its
-/// place instead), Io.
+/// Errors: what SessionReader answers (NotFound, Unsupported for what is not a session, ParseError, Io);
+/// InvalidArgument for exposure rows that break their contract. A report item that does so is shown as a sentence in
+/// its place instead.
 [[nodiscard]] Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile);
 
 }  // namespace tacto

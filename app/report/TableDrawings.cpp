@@ -181,8 +181,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
             widest = std::max(widest, QFontMetricsF(textFont(10, true)).horizontalAdvance(brief));
             return addText(*sheet, axes, QPointF(100 * kReach, i), brief, Qt::AlignLeft | Qt::AlignVCenter);
         };
-        const bool evaluated = std::isfinite(row.value);
-        if (!evaluated) {
+        if (!row.evaluated()) {
             new HatchedRect(*sheet, axes, QRectF(0, i - 0.32, 100, 0.64));
             beside(row.reason.isEmpty() ? QString("not evaluated") : "not evaluated: " + row.reason);
             continue;
@@ -192,7 +191,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
             continue;
         }
         const double fraction = std::abs(row.value) / row.limit;
-        const bool over = !(fraction <= 1);
+        const bool over = row.over();
         const QColor color = over && !row.warning ? ink::kFault
                              : fraction >= 0.8    ? ink::kAmber
                                                   : QColor(0x5b, 0x82, 0xa6);

@@ -162,9 +162,17 @@ TEST(FigureDrawing, ShowsNotEvaluatedAsHatchedAndInWords) {
 
 TEST(FigureDrawing, NeverShowsAnExposureThatIsNotANumberAsWithin) {
     RecordProperty("hazard", "H9");
-    ExposureFigure figure{{{"Peak current", std::numeric_limits<double>::infinity(), 10, "mA", "paper", "", false}}};
+    ExposureFigure figure{
+        {{"Peak current", std::numeric_limits<double>::infinity(), 10, "mA", "paper", "", false, {}}}};
     auto sheet = drawExposure(figure, false);
     EXPECT_NE(textOf(sheetSvg(*sheet, "x")).find("not evaluated"), std::string::npos);
+}
+
+TEST(FigureDrawing, TakesTheJudgesWordThatAValueAtItsLimitIsOver) {
+    RecordProperty("hazard", "H9");
+    const QJsonObject row{{"name", "RMS"}, {"value", 10}, {"limit", 10}, {"unit", "mA"}, {"within", false}};
+    EXPECT_NE(textOf(svgOf({{"type", "exposure"}, {"rows", QJsonArray{row}}})).find("over the limit"),
+              std::string::npos);
 }
 
 TEST(FigureDrawing, KeepsEveryPeakOfALongSeries) {

@@ -180,7 +180,7 @@ TEST_F(SessionReport, RefusesWhatIsNotASession) {
     EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
     const auto text = readSessionReport(scratch_.write("notes.tacto", "not a session"));
     ASSERT_FALSE(text);
-    EXPECT_EQ(text.error().code, ErrorCode::ParseError);
+    EXPECT_EQ(text.error().code, ErrorCode::Unsupported);
 }
 
 }  // namespace
