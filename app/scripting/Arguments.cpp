@@ -23,6 +23,7 @@ std::string shown(const nlohmann::json& value) {
     if (value.is_number_float() && !std::isfinite(value.get<double>())) {
         return std::isnan(value.get<double>()) ? "NaN" : value.get<double>() > 0 ? "Infinity" : "-Infinity";
     }
+    if (value.is_number()) return fmt::format("{}", value.get<double>());
     if (value.is_null()) return "nothing";
     std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (text.size() > 60) {

@@ -122,13 +122,20 @@ std::vector<HostFunction> generalFunctions() {
          "What for...of takes.",
          "",
          progress,
+         // By hand: a frozen generator's objects do not iterate in this engine.
          R"js((list, label) => {
-            const total = list && list.length;
+            const total = list && list.length, done = { value: undefined, done: true };
             native(0, total, label);
-            return (function* () {
-                for (let i = 0; i < total; ++i) { native(i, total, label); yield list[i]; }
-                native(total, total, label);
-            })();
+            let next = 0;
+            const step = () => {
+                if (next >= total) return done;
+                const value = list[next];
+                if (next > 0) native(next, total, label);
+                next += 1;
+                return { value: value, done: false };
+            };
+            const end = () => { native(total, total, label); return done; };
+            return { [Symbol.iterator]: () => ({ next: () => (next < total ? step() : end()), return: () => done }) };
          })js"},
         {"",
          "verdict",

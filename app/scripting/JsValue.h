@@ -13,7 +13,8 @@
 namespace tacto {
 
 /// A deep copy. Whole numbers become integers; NaN and infinities stay what they are; undefined is null, and absent as
-/// a member. Getters of the script's objects run. Errors: InvalidArgument for a function or symbol, a value nested
+/// a member. Getters of the script's objects run; what one throws is lost, its value is then whatever
+/// the engine makes of it. Errors: InvalidArgument for a function or symbol, a value nested
 /// deeper than 32 levels (a cycle), or more than 10 million elements.
 [[nodiscard]] Result<nlohmann::json> toJson(const QJSValue& value);
 

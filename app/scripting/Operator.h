@@ -44,6 +44,8 @@ public:
 class PresetOperator final : public Operator {
 public:
     explicit PresetOperator(std::map<std::string, std::string> answers) : answers_(std::move(answers)) {}
+    PresetOperator(const PresetOperator&) = delete;
+    PresetOperator& operator=(const PresetOperator&) = delete;
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override {}
 

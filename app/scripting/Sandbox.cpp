@@ -2,7 +2,6 @@
 
 #include <QRegularExpression>
 #include <QUrl>
-#include <set>
 
 #include "app/scripting/HostBridge.h"
 #include "app/scripting/JsValue.h"
@@ -42,6 +41,15 @@ const QString kInstall = QStringLiteral(R"js(
 
 QString qtText(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
 
+QStringList hostNames() {
+    QStringList names;
+    for (const auto& function : hostFunctions()) {
+        const QString name = qtText(function.object.empty() ? function.name : function.object);
+        if (!names.contains(name)) names.push_back(name);
+    }
+    return names;
+}
+
 int findRunLine(const std::string& text) {
     static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
     const QString code = QString::fromStdString(text);
@@ -62,18 +70,33 @@ std::string ScriptError::text() const {
     return line > 0 ? fmt::format("{}:{}: {}", file, line, reason) : fmt::format("{}: {}", file, reason);
 }
 
+struct Sandbox::Engine {
+    Engine(HostPort& port, const ProtocolSource& from)
+        : source(from),
+          file(from.path.empty() ? from.name + ".js" : from.path.string()),
+          bridge(std::make_unique<HostBridge>(js, port, urlOf(file))) {
+        removeForeignGlobals();
+        installHost();
+    }
+
+    void removeForeignGlobals();
+    void installHost();
+    [[nodiscard]] std::optional<ScriptError> evaluate(const QString& code, const QString& from,
+                                                      QJSValue* result = nullptr);
+    [[nodiscard]] ScriptError errorFrom(const QJSValue& thrown, const QStringList& trace) const;
+
+    QJSEngine js;
+    const ProtocolSource source;
+    const std::string file;  // as errors name it
+    std::unique_ptr<HostBridge> bridge;
+};
+
 Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
-    : source_(source),
-      file_(source.path.empty() ? source.name + ".js" : source.path.string()),
-      runLine_(findRunLine(source.text)),
-      bridge_(std::make_unique<HostBridge>(engine_, port, urlOf(file_))) {
-    removeForeignGlobals();
-    installHost();
-}
+    : engine_(std::make_unique<Engine>(port, source)), runLine_(findRunLine(source.text)) {}
 
 Sandbox::~Sandbox() = default;
 
-void Sandbox::removeForeignGlobals() {
+void Sandbox::Engine::removeForeignGlobals() {
     static const QSet<QString> kKept = {"Object",
                                         "String",
                                         "Symbol",
@@ -123,8 +146,8 @@ void Sandbox::removeForeignGlobals() {
                                         "encodeURIComponent",
                                         "escape",
                                         "unescape"};
-    QJSValue global = engine_.globalObject();
-    const QJSValue names = engine_.evaluate(QStringLiteral("Object.getOwnPropertyNames")).call({global});
+    QJSValue global = js.globalObject();
+    const QJSValue names = js.evaluate(QStringLiteral("Object.getOwnPropertyNames")).call({global});
     const quint32 count = names.property(QStringLiteral("length")).toUInt();
     for (quint32 i = 0; i < count; ++i) {
         const QString name = names.property(i).toString();
@@ -132,80 +155,80 @@ void Sandbox::removeForeignGlobals() {
     }
 }
 
-void Sandbox::installHost() {
+void Sandbox::Engine::installHost() {
     const auto& functions = hostFunctions();
-    QJSValue table = engine_.newArray(static_cast<uint>(functions.size()));
-    QJSValue makers = engine_.newArray(static_cast<uint>(functions.size()));
+    QJSValue table = js.newArray(static_cast<uint>(functions.size()));
+    QJSValue makers = js.newArray(static_cast<uint>(functions.size()));
     for (std::size_t i = 0; i < functions.size(); ++i) {
-        QJSValue entry = engine_.newObject();
+        QJSValue entry = js.newObject();
         entry.setProperty(QStringLiteral("object"), qtText(functions[i].object));
         entry.setProperty(QStringLiteral("name"), qtText(functions[i].name));
         entry.setProperty(QStringLiteral("property"), functions[i].kind == HostKind::Property);
         table.setProperty(static_cast<quint32>(i), entry);
         if (functions[i].javascript.empty()) continue;
         const QString code = qtText(functions[i].javascript);
-        const QJSValue maker = engine_.evaluate(
+        const QJSValue maker = js.evaluate(
             QStringLiteral("(function (native) { \"use strict\"; return (") + code + QStringLiteral("); })"),
             kHostFile);
         Q_ASSERT_X(!maker.isError(), "Sandbox", qPrintable(maker.toString()));
         makers.setProperty(static_cast<quint32>(i), maker);
     }
-    QJSEngine::setObjectOwnership(bridge_.get(), QJSEngine::CppOwnership);
-    const QJSValue install = engine_.evaluate(kInstall, kHostFile);
-    const QJSValue done = install.call({engine_.newQObject(bridge_.get()), engine_.globalObject(), table, makers});
+    QJSEngine::setObjectOwnership(bridge.get(), QJSEngine::CppOwnership);
+    const QJSValue install = js.evaluate(kInstall, kHostFile);
+    const QJSValue done = install.call({js.newQObject(bridge.get()), js.globalObject(), table, makers});
     // Without its host objects a script would run against nothing, or against its own inventions.
     if (done.isError()) qFatal("host objects could not be installed: %s", qPrintable(done.toString()));
 }
 
 std::optional<ScriptError> Sandbox::load() {
-    if (auto error = evaluate(QStringLiteral("\"use strict\"; ") + QString::fromStdString(source_.text),
-                              QString::fromStdString(file_))) {
-        return error;
-    }
-    if (auto error = findRedefinition()) return error;
-    const QJSValue defined = engine_.evaluate(QStringLiteral("typeof run === 'function'"), kStartFile);
-    if (defined.isBool() && defined.toBool()) return std::nullopt;
-    return ScriptError{ErrorCode::ParseError, "the script has no function run(p)", file_, 1};
-}
+    // A script's `let` and `const` are seen by its own text only, so the question what it defines is put at its end.
+    const QStringList names = hostNames();
+    const QString text = QStringLiteral("\"use strict\"; ") + QString::fromStdString(engine_->source.text) +
+                         QStringLiteral("\n;({ run: typeof run === 'function' ? run : null, held: [") +
+                         names.join(QLatin1Char(',')) + QStringLiteral("] })");
+    QJSValue end;
+    if (auto error = engine_->evaluate(text, QString::fromStdString(engine_->file), &end)) return error;
 
-std::optional<ScriptError> Sandbox::findRedefinition() {
-    // `let bench = ...` at top level would hide the host object from the script's own later lines.
-    std::set<std::string_view> names;
-    for (const auto& function : hostFunctions())
-        names.insert(function.object.empty() ? function.name : function.object);
-    for (const auto name : names) {
-        const QString text = qtText(name);
-        const QJSValue seen = engine_.evaluate(text, kStartFile);
-        if (seen.strictlyEquals(engine_.globalObject().property(text))) continue;
-        return ScriptError{
-            ErrorCode::ParseError,
-            fmt::format("the script defines {0}, but {0} belongs to the program; choose another name", name), file_, 1};
+    const QJSValue held = end.property(QStringLiteral("held"));
+    for (qsizetype i = 0; held.isArray() && i < names.size(); ++i) {
+        if (held.property(static_cast<quint32>(i)).strictlyEquals(engine_->js.globalObject().property(names[i])))
+            continue;
+        return ScriptError{ErrorCode::ParseError,
+                           fmt::format("the script defines {0}, but {0} belongs to the program; choose another name",
+                                       names[i].toStdString()),
+                           engine_->file, 1};
     }
+    const QJSValue entry = end.property(QStringLiteral("run"));
+    if (!entry.isCallable()) {
+        return ScriptError{ErrorCode::ParseError, "the script has no function run(p)", engine_->file, 1};
+    }
+    engine_->js.globalObject().setProperty(QStringLiteral("run"), entry);
     return std::nullopt;
 }
 
 std::optional<ScriptError> Sandbox::run(const nlohmann::json& parameters) {
     const std::string given = parameters.dump(-1, ' ', true);  // ASCII: a JavaScript literal whatever it holds
-    return evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
+    return engine_->evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
 }
 
-void Sandbox::interrupt() noexcept { engine_.setInterrupted(true); }
+void Sandbox::interrupt() noexcept { engine_->js.setInterrupted(true); }
 
-std::optional<ScriptError> Sandbox::evaluate(const QString& code, const QString& file) {
+std::optional<ScriptError> Sandbox::Engine::evaluate(const QString& code, const QString& from, QJSValue* result) {
     QStringList trace;
-    const QJSValue value = engine_.evaluate(code, file, 1, &trace);
-    if (engine_.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file_, 0};
+    const QJSValue value = js.evaluate(code, from, 1, &trace);
+    if (result != nullptr) *result = value;
+    if (js.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file, 0};
     if (trace.isEmpty() && !value.isError()) return std::nullopt;
-    if (trace.isEmpty() && file == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
+    if (trace.isEmpty() && from == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
     return errorFrom(value, trace);
 }
 
-ScriptError Sandbox::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
-    ScriptError error{ErrorCode::ParseError, {}, file_, 0};
+ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
+    ScriptError error{ErrorCode::ParseError, {}, file, 0};
     // "function:line:column:file", innermost first; the innermost line of the script itself is what its author can act
     // on.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
-    const QString url = urlOf(file_);
+    const QString url = urlOf(file);
     for (const QString& entry : trace) {
         const auto match = frame.match(entry);
         if (!match.hasMatch() || match.captured(4) != url) continue;

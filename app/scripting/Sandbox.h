@@ -8,8 +8,6 @@
 // Thread-safety: constructed, used and destroyed by one thread; interrupt() from any.
 #pragma once
 
-#include <QJSEngine>
-#include <QString>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -38,8 +36,6 @@ struct ScriptError {
     [[nodiscard]] std::string text() const;  ///< "file:line: reason"
 };
 
-class HostBridge;
-
 class Sandbox {
 public:
     /// `port` outlives the sandbox.
@@ -59,17 +55,9 @@ public:
     [[nodiscard]] int runLine() const noexcept { return runLine_; }
 
 private:
-    void removeForeignGlobals();
-    void installHost();
-    [[nodiscard]] std::optional<ScriptError> evaluate(const QString& code, const QString& file);
-    [[nodiscard]] std::optional<ScriptError> findRedefinition();
-    [[nodiscard]] ScriptError errorFrom(const QJSValue& thrown, const QStringList& trace) const;
-
-    QJSEngine engine_;
-    const ProtocolSource source_;
-    const std::string file_;  ///< as errors name it
+    struct Engine;  // Qt stays out of this header
+    std::unique_ptr<Engine> engine_;
     const int runLine_;
-    std::unique_ptr<HostBridge> bridge_;
 };
 
 }  // namespace tacto

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include "app/scripting/ProtocolDeclaration.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::probe;
+
+constexpr const char* kFull = R"js(protocol({
+  title: "Probe", purpose: "Does it hold?", needs: ["stimulator", "oscilloscope"],
+  parameters: {
+    zeta: { label: "Repeats", type: "integer", min: 5, max: 500, value: 25 },
+    load: { label: "Load", unit: "ohm", min: 100, max: 100e3, value: 1e3 },
+    source: { type: "choice", choices: { ruler: "a ruler", finger: "a finger" }, value: "finger" },
+    note: { type: "text", value: "" },
+    quick: { type: "boolean", value: false },
+  },
+});
+function run(p) {
+  operator.confirm("wiring", "Check the wiring");
+  operator.enter('room temperature', "Enter it");
+  bench.fitLoad("500 ohm");
+}
+)js";
+
+std::string errorOf(const std::string& declaration) {
+    auto read = readDeclaration(probe("\n" + declaration + "\nfunction run() {}"));
+    return read ? "" : read.error().message;
+}
+std::string parameterError(const std::string& parameter) {
+    return errorOf("protocol({ title: 'x', parameters: { load: " + parameter + " } });");
+}
+
+TEST(ProtocolDeclaration, ReadsEverythingInTheOrderWritten) {
+    const auto read = readDeclaration(probe(kFull)).value();
+    EXPECT_EQ(read.name, "probe");
+    EXPECT_EQ(read.title, "Probe");
+    EXPECT_EQ(read.purpose, "Does it hold?");
+    EXPECT_EQ(read.needs, (std::set<Role>{Role::Stimulator, Role::Oscilloscope}));
+    ASSERT_EQ(read.parameters.size(), 5U);
+    EXPECT_EQ(read.parameters[0].name, "zeta");
+    EXPECT_EQ(read.parameters[0].type, ParameterType::Integer);
+    EXPECT_EQ(read.parameters[0].value, 25);
+    EXPECT_EQ(read.parameters[1].unit, "ohm");
+    EXPECT_EQ(read.parameters[1].max, 100e3);
+    EXPECT_EQ(read.parameters[2].choices,
+              (std::vector<std::pair<std::string, std::string>>{{"ruler", "a ruler"}, {"finger", "a finger"}}));
+    EXPECT_EQ(read.parameters[3].type, ParameterType::Text);
+    EXPECT_EQ(read.parameters[4].type, ParameterType::Boolean);
+    EXPECT_EQ(read.questions, (std::vector<std::string>{"wiring", "room temperature", "fit-load"}));
+    EXPECT_FALSE(read.hasOtherQuestions);
+}
+
+TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {
+    const auto json = toJson(readDeclaration(probe(kFull)).value());
+    EXPECT_EQ(json["name"], "probe");
+    EXPECT_EQ(json["title"], "Probe");
+    EXPECT_EQ(json["needs"], (nlohmann::json{"stimulator", "oscilloscope"}));
+    EXPECT_EQ(json["parameters"][1], (nlohmann::json{{"name", "load"},
+                                                     {"label", "Load"},
+                                                     {"type", "number"},
+                                                     {"unit", "ohm"},
+                                                     {"min", 100},
+                                                     {"max", 100e3},
+                                                     {"value", 1000}}));
+}
+
+TEST(ProtocolDeclaration, NamesFileLineAndWhatIsWrong) {
+    EXPECT_EQ(errorOf("protocol({ title: 'x', tilte: 1 });"),
+              "/lab/probe.js:2: protocol() has no tilte, only title, purpose, needs, parameters");
+    EXPECT_EQ(errorOf("protocol({});"), "/lab/probe.js:2: protocol(): title is missing, a text is expected");
+    EXPECT_EQ(errorOf("protocol({ title: 'x', needs: ['laser'] });"),
+              "/lab/probe.js:2: needs names \"laser\", only sensor, stimulator, oscilloscope, massager can be needed");
+    EXPECT_EQ(errorOf("const x = 1;"), "/lab/probe.js:1: the script does not call protocol({ title: ... })");
+    EXPECT_NE(errorOf("protocol({ title: 'x' }); protocol({ title: 'y' });"), "");
+    EXPECT_NE(errorOf("protocol();"), "");
+    EXPECT_NE(errorOf("protocol([1]);"), "");
+    EXPECT_EQ(errorOf("protocol({ title: 'x' }); bench.disarm();"),
+              "/lab/probe.js:2: bench.disarm can be used inside run(p) only");
+    EXPECT_EQ(errorOf("protocol({ title: 'x' }); throw 'no';"), "/lab/probe.js:2: no");
+}
+
+TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
+    EXPECT_EQ(parameterError("{ value: 5, min: 10 }"),
+              "/lab/probe.js:2: the default of load is 5, a number of at least 10 is expected");
+    EXPECT_EQ(parameterError("{ value: 5, min: 10, max: 1 }"),
+              "/lab/probe.js:2: parameter load: min 10 is above max 1");
+    EXPECT_EQ(parameterError("{ min: 1 }"), "/lab/probe.js:2: parameter load has no value, its default");
+    EXPECT_EQ(parameterError("{ value: 1.5, type: 'integer' }"),
+              "/lab/probe.js:2: the default of load is 1.5, a whole number is expected");
+    EXPECT_NE(parameterError("{ value: 1, type: 'float' }"), "");
+    EXPECT_NE(parameterError("{ value: NaN }"), "");
+    EXPECT_NE(parameterError("{ value: Infinity }"), "");
+    EXPECT_NE(parameterError("{ value: 1, max: NaN }"), "");
+    EXPECT_NE(parameterError("{ value: 'a', type: 'choice', choices: { b: 'B', c: 'C' } }"), "");
+    EXPECT_NE(parameterError("{ value: 'b', type: 'choice', choices: { b: 'B' } }"), "");
+    EXPECT_NE(parameterError("{ value: 1, units: 'ohm' }"), "");
+    EXPECT_NE(parameterError("7"), "");
+}
+
+TEST(ProtocolDeclaration, InterruptsATopLevelThatDoesNotEnd) {
+    RecordProperty("hazard", "H10");
+    const auto begin = std::chrono::steady_clock::now();
+    const auto read = readDeclaration(probe("protocol({ title: 'x' }); for (;;) {}"), std::chrono::milliseconds(100));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::Timeout);
+    EXPECT_TRUE(read.error().message.starts_with("/lab/probe.js:1: ")) << read.error().message;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST(ProtocolSettings, AreTypedAndChecked) {
+    const auto declaration = readDeclaration(probe(kFull)).value();
+    const auto applied = applySettings(declaration, {{"zeta", "30"},
+                                                     {"load", "2.2 kohm"},
+                                                     {"source", "ruler"},
+                                                     {"note", "a = b"},
+                                                     {"quick", "true"},
+                                                     {"wiring", "yes"}})
+                             .value();
+    EXPECT_EQ(
+        applied.parameters,
+        (nlohmann::json{{"zeta", 30}, {"load", 2200.0}, {"source", "ruler"}, {"note", "a = b"}, {"quick", true}}));
+    EXPECT_EQ(applied.answers, (std::map<std::string, std::string>{{"wiring", "yes"}}));
+}
+
+TEST(ProtocolSettings, AreRefusedInOneSentenceWithKeyValueAndRange) {
+    const auto declaration = readDeclaration(probe(kFull)).value();
+    const auto error = [&](const char* key, const char* value) {
+        auto applied = applySettings(declaration, {{key, value}});
+        return applied ? std::string() : applied.error().message;
+    };
+    EXPECT_EQ(error("zeta", "4"), "zeta is 4, a whole number from 5 to 500 is expected");
+    EXPECT_EQ(error("zeta", "5.5"), "zeta is 5.5, a whole number from 5 to 500 is expected");
+    EXPECT_EQ(error("load", "heavy"), "load is heavy, a number from 100 to 100000 (in ohm) is expected");
+    EXPECT_EQ(error("load", "nan"), "load is NaN, a number from 100 to 100000 (in ohm) is expected");
+    EXPECT_EQ(error("load", "inf"), "load is Infinity, a number from 100 to 100000 (in ohm) is expected");
+    EXPECT_EQ(error("load", ""), "load is , a number from 100 to 100000 (in ohm) is expected");
+    EXPECT_EQ(error("source", "toe"), "source is toe, one of ruler, finger is expected");
+    EXPECT_EQ(error("quick", "perhaps"), "quick is perhaps, true or false is expected");
+    EXPECT_EQ(
+        error("repaets", "5"),
+        "probe has no parameter repaets; it has zeta, load, source, note, quick, wiring, room temperature, fit-load");
+}
+
+TEST(ProtocolSettings, TakeAnyKeyWhereQuestionNamesAreComputed) {
+    const auto declaration = readDeclaration(probe("protocol({ title: 'x' });\nfunction run(p) {\n"
+                                                   "for (const n of ['a', 'b']) operator.confirm(n, 'Sure?'); }"))
+                                 .value();
+    EXPECT_TRUE(declaration.hasOtherQuestions);
+    EXPECT_EQ(applySettings(declaration, {{"b", "yes"}}).value().answers.at("b"), "yes");
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,77 @@
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+#include "app/scripting/ProtocolLibrary.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+class Library : public ::testing::Test {
+protected:
+    Library() {
+        folder_.write("shipped/separability.js", "// shipped");
+        folder_.write("shipped/live.js", "// live");
+        folder_.write("user/separability.js", "// ours");
+        folder_.write("user/touch.js", "// touch");
+        folder_.write("user/notes.txt", "no script");
+    }
+    test::ScratchDir folder_;
+    ProtocolLibrary library_{folder_.path() / "shipped", folder_.path() / "user"};
+};
+
+TEST_F(Library, ListsShippedAndOwnScriptsOnce) {
+    std::vector<std::string> names;
+    for (const auto& source : library_.list()) names.push_back(source.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"live", "separability", "touch"}));
+}
+
+TEST_F(Library, FindsByNameTheLabsOwnFirst) {
+    const auto own = library_.find("separability").value();
+    EXPECT_EQ(own.text, "// ours");
+    EXPECT_FALSE(own.shipped);
+    EXPECT_EQ(own.path, folder_.path() / "user/separability.js");
+    EXPECT_TRUE(library_.find("live").value().shipped);
+    EXPECT_EQ(library_.find("live").value().sha256.size(), 64U);
+}
+
+TEST_F(Library, FindsByPath) {
+    EXPECT_EQ(library_.find((folder_.path() / "shipped/separability.js").string()).value().text, "// shipped");
+}
+
+TEST_F(Library, NamesWhatIsNotThere) {
+    EXPECT_EQ(library_.find("serability").error().message,
+              "there is no protocol serability; there are live, separability, touch");
+    EXPECT_EQ(library_.find("/no/such.js").error().message, "there is no script /no/such.js");
+    EXPECT_EQ(library_.find("../user/touch").error().code, ErrorCode::NotFound);
+}
+
+TEST_F(Library, RefusesWhatIsNoText) {
+    folder_.write("user/bad.js", std::string("a\xFF\xFE", 3));
+    folder_.write("user/large.js", std::string(1'000'001, ' '));
+    EXPECT_EQ(library_.find("bad").error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(library_.find("large").error().code, ErrorCode::InvalidArgument);
+}
+
+TEST(Resources, AreTheSourceTreesInABuildAndTheEnvironmentsWhereSet) {
+    unsetenv("TACTOSCOPE_RESOURCES");
+    EXPECT_TRUE(std::filesystem::equivalent(resourcesFolder().value(), test::sourceDir() / "resources"));
+    test::ScratchDir folder;
+    folder.write("protocols/x.js", "");
+    setenv("TACTOSCOPE_RESOURCES", folder.path().c_str(), 1);
+    EXPECT_EQ(resourcesFolder().value(), folder.path());
+    setenv("TACTOSCOPE_RESOURCES", "/no/such/folder", 1);
+    EXPECT_EQ(resourcesFolder().error().code, ErrorCode::NotFound);
+    unsetenv("TACTOSCOPE_RESOURCES");
+}
+
+TEST(Resources, OfTheUserFollowTheXdgFolders) {
+    setenv("XDG_DATA_HOME", "/data/home", 1);
+    EXPECT_EQ(userProtocolsFolder(), "/data/home/tactoscope/protocols");
+    unsetenv("XDG_DATA_HOME");
+    setenv("HOME", "/home/someone", 1);
+    EXPECT_EQ(userProtocolsFolder(), "/home/someone/.local/share/tactoscope/protocols");
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,115 @@
+// Every shipped script runs on the simulated bench, as a lab would start it.
+#include <gtest/gtest.h>
+
+#include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+
+ProtocolLibrary shipped() { return {test::sourceDir() / "resources" / "protocols", {}}; }
+
+ScriptOutcome runShipped(RunBench& rig, const std::string& name, const std::map<std::string, std::string>& settings) {
+    auto source = shipped().find(name).value();
+    const auto declaration = readDeclaration(source).value();
+    auto request = rig.request(std::move(source));
+    request.parameters = applySettings(declaration, settings).value().parameters;
+    return runProtocol(std::move(request)).value();
+}
+
+std::vector<std::string> shippedNames() {
+    std::vector<std::string> names;
+    for (const auto& source : shipped().list()) names.push_back(source.name);
+    return names;
+}
+
+TEST(ShippedProtocols, AreThoseThatShouldBe) {
+    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "separability"}));
+}
+
+class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
+    RunBench rig(true, "sim:", 1, true);
+    std::map<std::string, std::string> settings;
+    if (GetParam() == "separability") settings["repeats"] = "2";
+    if (GetParam() == "live") settings["duration"] = "5";
+    const auto outcome = runShipped(rig, GetParam(), settings);
+    EXPECT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_TRUE(rig.outputOff());
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    EXPECT_GE(reader.reportItems().value().size(), 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(shippedNames()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(Separability, OfTheSimulatedFingerPasses) {
+    RunBench rig;
+    const auto outcome = runShipped(rig, "separability", {{"repeats", "20"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results.dump(1);
+    EXPECT_TRUE(outcome.log.empty()) << outcome.log.front();
+    const auto& conditions = outcome.results["conditions"];
+    ASSERT_EQ(conditions.size(), 4U);
+    const struct {
+        const char* name;
+        double amplitude_v, interval_s;
+    } expected[] = {{"smooth-low", 10, 2}, {"smooth-high", 10, 0.5}, {"rough-low", 40, 2}, {"rough-high", 40, 0.5}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(conditions[i]["name"], expected[i].name);
+        EXPECT_EQ(conditions[i]["n"], 20);
+        EXPECT_NEAR(conditions[i]["amplitude_v"]["mean"].get<double>(), expected[i].amplitude_v,
+                    0.05 * expected[i].amplitude_v);
+        EXPECT_NEAR(conditions[i]["interval_s"]["mean"].get<double>(), expected[i].interval_s,
+                    0.02 * expected[i].interval_s);
+    }
+    EXPECT_EQ(outcome.results["pairs"].size(), 6U);
+    EXPECT_EQ(outcome.results["confusion"].size(), 4U);
+    EXPECT_GE(outcome.results["accuracy"]["low"].get<double>(), 0.95);
+}
+
+TEST(Separability, DrivenDirectlyIsIndeterminateWithTooFewTrials) {
+    RunBench rig;
+    const auto outcome = runShipped(rig, "separability", {{"repeats", "5"}, {"source", "direct"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_FALSE(outcome.reasons.empty());
+}
+
+TEST(Separability, IntoALoadThatDrawsTooMuchIsRefusedByTheLimits) {
+    RecordProperty("hazard", "H1");
+    RunBench rig(true, "sim:stimulator?load=100ohm");
+    const auto outcome = runShipped(rig, "separability", {{"repeats", "2"}, {"source", "direct"}, {"load", "100"}});
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::LimitExceeded) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::None);
+}
+
+TEST(Separability, SameSeedSameResults) {
+    const auto resultsOf = [](std::uint64_t seed) {
+        RunBench rig(true, "sim:", seed);
+        return runShipped(rig, "separability", {{"repeats", "3"}}).results;
+    };
+    const auto first = resultsOf(5);
+    EXPECT_FALSE(first.is_null());
+    EXPECT_EQ(first, resultsOf(5));
+    EXPECT_NE(first["trials"], resultsOf(6)["trials"]);
+}
+
+TEST(Live, DrivesTheStimulatorAndJudgesNothing) {
+    RunBench rig;
+    const auto outcome = runShipped(rig, "live", {{"duration", "20"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::None);
+    EXPECT_NEAR(outcome.results["duration_s"].get<double>(), 20, 0.01);
+    EXPECT_GE(outcome.results["trains_delivered"].get<int>(), 8);
+}
+
+}  // namespace
+}  // namespace tacto
