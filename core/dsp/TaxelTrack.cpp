@@ -43,7 +43,8 @@ TaxelTrack::TaxelTrack(const StreamInfo& info, std::optional<TimeInterval> decla
       above_(info.channels),
       trailing_(info.channels),
       first_(kNever),
-      firstContact_(kNever) {
+      firstContact_(kNever),
+      validFrom_(kNever) {
     for (auto* stretch : {&inDeclared_, &beforeContact_, &atStart_}) stretch->sum.resize(info.channels);
 }
 
@@ -53,6 +54,7 @@ void TaxelTrack::clear() noexcept {
     first_ = firstContact_ = kNever;
     settled_ = cursor_ = window_ = invalid_ = outOfOrder_ = 0;
     known_ = preset_;
+    if (!preset_) validFrom_ = kNever;
     assumed_ = assumed_ && preset_;
 }
 
@@ -61,6 +63,7 @@ void TaxelTrack::preset(const RestLevels& rest) {
     baseline_ = rest.taxelBaseline;
     floor_ = rest.taxelFloor;
     known_ = preset_ = true;
+    validFrom_ = -kNever;
 }
 
 double TaxelTrack::newest_s() const noexcept { return samples_.end() == 0 ? -kNever : samples_.t(samples_.end() - 1); }
@@ -99,23 +102,26 @@ void TaxelTrack::settle(double known_s, double firstContact_s) noexcept {
 
 void TaxelTrack::decide(double known_s) noexcept {
     if (declared_ && known_s <= declared_->end_s) return;
-    if (declared_ && inDeclared_.count > 0) return adopt(inDeclared_);
+    if (declared_ && inDeclared_.count > 0) return adopt(inDeclared_, declared_->end_s);
     if (!(known_s >= first_ + kShortestRest_s)) return;
     if (known_s < firstContact_) return;  // the rest goes on
-    if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0) return adopt(beforeContact_);
+    if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
+        return adopt(beforeContact_, firstContact_);
     assumed_ = true;
-    adopt(atStart_);
+    adopt(atStart_, -kNever);
 }
 
 void TaxelTrack::close() noexcept {
     if (known_ || samples_.end() == 0) return;
-    if (inDeclared_.count > 0) return adopt(inDeclared_);
-    if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0) return adopt(beforeContact_);
+    if (inDeclared_.count > 0) return adopt(inDeclared_, declared_->end_s);
+    if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
+        return adopt(beforeContact_, firstContact_);
     assumed_ = true;
-    adopt(atStart_);
+    adopt(atStart_, -kNever);
 }
 
-void TaxelTrack::adopt(const Stretch& stretch) noexcept {
+void TaxelTrack::adopt(const Stretch& stretch, double validFrom_s) noexcept {
+    validFrom_ = validFrom_s;
     const auto count = static_cast<double>(stretch.count);
     for (std::size_t i = 0; i < taxels_; ++i) baseline_[i] = stretch.sum[i] / count;
     floor_ = kFloorDeviations * std::sqrt(stretch.squares / count);
@@ -172,7 +178,7 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     const double* values = samples_.values(nearest);
     for (std::size_t i = 0; i < taxels_; ++i) reading.mean += values[i];
     reading.mean /= static_cast<double>(taxels_);
-    if (known_) {
+    if (known_ && t_s >= validFrom_) {
         double meanAbove = 0;
         const double spread = variance(nearest, dynamic, meanAbove);
         // A mean of 0 has no relative variance; a mean under the floor is noise.

@@ -63,7 +63,7 @@ private:
         void add(const double* values) noexcept;
         void clear() noexcept;
     };
-    void adopt(const Stretch& stretch) noexcept;
+    void adopt(const Stretch& stretch, double validFrom_s) noexcept;
     void decide(double known_s) noexcept;
     [[nodiscard]] double variance(std::size_t sample, bool dynamic, double& meanAbove) noexcept;
 
@@ -78,6 +78,7 @@ private:
     double floor_ = 0;
     double first_;
     double firstContact_;
+    double validFrom_;         // frames before this time have no baseline, however much was fed when they came out
     std::size_t settled_ = 0;  // samples before this number are in the stretches
     std::size_t cursor_ = 0;   // last sample at or before the frame
     std::size_t window_ = 0;   // first sample of the moving average

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "core/measure/CaptureFile.h"
+#include "drivers/replay/ReplayDrivers.h"
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ScopeTraits kTraits{Hertz(1e9), 100'000'000, 32, Hertz(0)};
+
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+/// Gives the captures of a folder one after the other, each due when its time in the session has come. Settings are
+/// judged like an instrument's, but a file stays what it was recorded as.
+class ReplayedCaptures final : public Oscilloscope {
+public:
+    ReplayedCaptures(std::vector<Capture> captures, DeviceIdentity identity, const Clock& clock)
+        : captures_(std::move(captures)),
+          identity_(std::move(identity)),
+          clock_(clock),
+          opened_s_(toSeconds(clock.now())) {
+        origin_s_ = std::numeric_limits<double>::infinity();
+        for (const auto& capture : captures_) origin_s_ = std::min(origin_s_, capture.start_s);
+        for (auto& capture : captures_) {
+            capture.start_s += opened_s_ - origin_s_;
+            capture.trigger_s = triggerOf(capture, settings_);
+        }
+    }
+
+    const DeviceIdentity& identity() const noexcept override { return identity_; }
+    const ScopeTraits& traits() const noexcept override { return kTraits; }
+
+    Result<void> configure(const ScopeSettings& s) override {
+        const auto refuse = [](const char* what, double value, const char* expected) -> Result<void> {
+            return fail(ErrorCode::InvalidArgument, "oscilloscope: {} is {}; {} was expected", what, value, expected);
+        };
+        if (!(s.sampleRate.value() > 0 && s.sampleRate <= kTraits.maxRate)) {
+            return refuse("sample rate", s.sampleRate.value(), "above 0 to 1 GHz");
+        }
+        if (s.samples < 1 || s.samples > kTraits.memoryDepth) {
+            return refuse("samples", static_cast<double>(s.samples), "1 to 100 million");
+        }
+        if (!within(s.preTrigger, 0, 1)) return refuse("pre-trigger", s.preTrigger, "0 to 1");
+        if (!std::isfinite(s.triggerLevel)) return refuse("trigger level", s.triggerLevel, "a finite level");
+        if (!(s.voltageRange.value() > 0)) return refuse("voltage range", s.voltageRange.value(), "above 0 V");
+        if (!(s.currentRange.value() > 0)) return refuse("current range", s.currentRange.value(), "above 0 mA");
+        settings_ = s;
+        for (auto& capture : captures_) capture.trigger_s = triggerOf(capture, settings_);
+        return {};
+    }
+
+    Result<void> arm() override {
+        armed_ = true;
+        return {};
+    }
+    void disarm() noexcept override { armed_ = false; }
+
+    Result<std::optional<Capture>> poll() override {
+        if (!armed_ || next_ == captures_.size()) return std::optional<Capture>{};
+        const auto& capture = captures_[next_];
+        const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
+        if (end_s > toSeconds(clock_.now())) return std::optional<Capture>{};
+        return std::optional<Capture>(captures_[next_++]);
+    }
+
+private:
+    /// Where |signal| first rises through the level; NaN where it never does.
+    static double triggerOf(const Capture& capture, const ScopeSettings& settings) {
+        const std::string_view unit = settings.triggerOnCurrent ? "A" : "V";
+        const auto channel = std::ranges::find(capture.channels, unit, &CaptureChannel::unit);
+        if (channel == capture.channels.end()) return std::numeric_limits<double>::quiet_NaN();
+        const double level = std::abs(settings.triggerLevel);
+        for (std::size_t i = 1; i < channel->samples.size(); ++i) {
+            const auto before = std::abs(static_cast<double>(channel->samples[i - 1]));
+            const auto after = std::abs(static_cast<double>(channel->samples[i]));
+            if (before < level && after >= level) return capture.start_s + static_cast<double>(i) / capture.rate_hz;
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+
+    std::vector<Capture> captures_;
+    const DeviceIdentity identity_;
+    const Clock& clock_;
+    const double opened_s_;
+    double origin_s_ = 0;
+    ScopeSettings settings_;
+    std::size_t next_ = 0;
+    bool armed_ = false;
+};
+
+class CaptureDriver final : public Driver {
+public:
+    std::string_view scheme() const noexcept override { return "capture"; }
+    bool runsOnVirtualClock() const noexcept override { return true; }
+    std::vector<DeviceIdentity> list() const override {
+        return {{"capture:FOLDER", Role::Oscilloscope, "an oscilloscope from a folder of captures", "", "", false}};
+    }
+
+    Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
+                      DeviceSet& into) override {
+        if (into.has(Role::Oscilloscope)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "device \"{}\": an oscilloscope is open already, and a bench has one", uri.text());
+        }
+        if (!uri.parameters.empty()) {
+            return fail(ErrorCode::InvalidArgument, "device \"{}\": parameter {} is not known; capture: takes none",
+                        uri.text(), uri.parameters.front().first);
+        }
+        std::error_code error;
+        if (!fs::is_directory(uri.path, error)) {
+            return fail(ErrorCode::NotFound, "device \"{}\": {} is no folder; one with captures (*.csv) was expected",
+                        uri.text(), uri.path.empty() ? "\"\"" : uri.path);
+        }
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(uri.path, error)) {
+            if (entry.is_regular_file(error) && entry.path().extension() == ".csv") files.push_back(entry.path());
+        }
+        std::ranges::sort(files);
+        if (files.empty()) {
+            return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files *.csv were expected",
+                        uri.text(), uri.path);
+        }
+        std::vector<Capture> captures;
+        for (const auto& file : files) {
+            auto reading = readCapture(file);
+            if (!reading) return failure(reading);
+            captures.push_back(std::move(reading->capture));
+        }
+        DeviceIdentity identity{
+            uri.text(), Role::Oscilloscope, fmt::format("{} captures from {}", captures.size(), uri.path), "", "",
+            false};
+        into.oscilloscope = std::make_unique<ReplayedCaptures>(std::move(captures), std::move(identity), context.clock);
+        return {};
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Driver> makeCaptureDriver() { return std::make_unique<CaptureDriver>(); }
+
+}  // namespace tacto

@@ -1,0 +1,21 @@
+// ReplayDrivers.h - devices made of files, for the virtual clock as well as the steady one.
+//
+//   recording:PATH            a recording (core/acquisition) replayed as a fingertip, first stamp = when it was opened
+//   recording:PATH?speed=2    the same, played twice as fast; its stamps shrink with it
+//   capture:FOLDER            the project's own captures, *.csv in the order of their names, as an oscilloscope
+//
+// A file is not simulated: what it holds was measured once.
+//
+// Thread-safety: as Driver.
+#pragma once
+
+#include <memory>
+
+#include "core/devices/Driver.h"
+
+namespace tacto {
+
+[[nodiscard]] std::unique_ptr<Driver> makeRecordingDriver();
+[[nodiscard]] std::unique_ptr<Driver> makeCaptureDriver();
+
+}  // namespace tacto
