@@ -1,6 +1,7 @@
 #include "core/safety/ExposureMeter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tacto {
@@ -65,7 +66,7 @@ double ExposureMeter::largest(Quantity quantity, JudgedAt judged, Instant now) c
         const BookedTrain& train = entry(i);
         if (train.earliest <= now - toInstant(kLongestWindow) || train.earliest > now) continue;
         const double value = (judged == JudgedAt::Ohm500 ? train.at500 : train.overRange).at(quantity);
-        if (!(value <= largest)) largest = value;  // NaN must not hide
+        if (std::isnan(value) || value > largest) largest = value;  // NaN stays: nothing is above it
     }
     return largest;
 }

@@ -38,7 +38,6 @@ enum Check : int {
     ImpedanceFromFuture,
     ImpedanceOutOfRange,
     // approve()
-    NotConfigured,
     MeterFull,
     MalformedTrain,
     SourceKind,

@@ -13,7 +13,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The larger of both; NaN wins, so that it is refused and not lost.
-double larger(double a, double b) noexcept { return !(a <= b) ? a : b; }
+double larger(double a, double b) noexcept { return std::isnan(a) || a > b ? a : b; }
 
 /// What one run of a train adds up to, starting with some voltage on the load's capacitor.
 struct Run {

@@ -1,0 +1,279 @@
+#include "tests/safety/GateCases.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/safety/GateChecks.h"
+#include "core/safety/TrainExposure.h"
+#include "tests/safety/GateFixtures.h"
+
+namespace tacto::test {
+
+using namespace gate;
+
+namespace {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+template <class T>
+bool refuses(const Result<T>& result, ErrorCode code, std::string_view words) {
+    return !result && result.error().code == code && result.error().message.find(words) != std::string::npos;
+}
+
+/// Setups that configure() must refuse, each for one reason.
+void addConfigureCases(std::vector<GateCase>& cases) {
+    const auto add = [&cases](Check check, GateSetup setup, std::string words) {
+        cases.push_back({check, "configure: " + words,
+                         [setup, words] { return refuses(Rig(setup).configured, ErrorCode::InvalidArgument, words); }});
+    };
+    const auto bench = [](auto spoil) {
+        GateSetup setup = benchSetup();
+        spoil(setup);
+        return setup;
+    };
+    const auto person = [](auto spoil) {
+        GateSetup setup = personSetup();
+        spoil(setup);
+        return setup;
+    };
+    add(NoLimitSet, bench([](auto& s) { s.limits.clear(); }), "no limit set");
+    add(NoLimitSet,
+        bench([](auto& s) { s.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 9, LimitAction::Warn)})}; }),
+        "no limit set");
+    add(BadLimitRow, bench([](auto& s) { s.limits.push_back(limitsOf({rowFor(Quantity::PeakVoltage, kNaN)})); }),
+        "has a row");
+    add(BadCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakCurrent, kNaN}}; }), "ceiling is");
+    add(LoosenedCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakVoltage, 1.1e6}}; }), "only tighten");
+    add(BadSource, bench([](auto& s) { s.source.amplitudeMax = kNaN; }), "largest amplitude");
+    add(BadSource, bench([](auto& s) { s.source.drive = Drive::HighImpedance; }), "neither voltage nor current");
+    add(BadSource, bench([](auto& s) {
+            s.source = currentSource();
+            s.source.compliance = Volts(0);
+        }),
+        "no compliance");
+    add(BadLoad, bench([](auto& s) { s.load = LoadRange::declared(Load::openCircuit()); }), "cannot be judged");
+    add(BadLoad, bench([](auto& s) { s.load.max.series = Ohms(kNaN); }), "cannot be judged");
+    add(BadArea, bench([](auto& s) { s.electrodeArea = SquareCentimetres(0); }), "electrode area is");
+    add(BadCheckTrain, bench([](auto& s) { s.check.pulses = 0; }), "impedance check");
+    add(PersonMissing, person([](auto& s) { s.person.reset(); }), "needs a person's consent");
+    add(PersonConsent, person([](auto& s) { s.person->consentRecorded = false; }), "recorded consent");
+    add(PersonArea, person([](auto& s) { s.electrodeArea.reset(); }), "electrode area");
+    add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
+    add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
+    add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");
+    add(PersonVoltageSource, person([](auto& s) { s.source = voltageSource(); }), "voltage source is refused");
+    add(PersonMonophasicCheck, person([](auto& s) { s.check.shape = PulseShape::Monophasic; }), "monophasic check");
+}
+
+/// Requests that approve() must refuse for their form, beside the same request without the fault.
+void addRequestCases(std::vector<GateCase>& cases) {
+    const auto add = [&cases](Check check, auto spoilSource, auto spoil, std::string words) {
+        cases.push_back({check, "approve: " + words, [spoilSource, spoil, words] {
+                             GateSetup setup = benchSetup();
+                             spoilSource(setup.source);
+                             Rig rig(setup);
+                             TrainRequest request{volts(10), Seconds(2), rig.clock.now()};
+                             const bool fine = rig.gate.approve(request).has_value();
+                             spoil(request);
+                             return fine && refuses(rig.gate.approve(request), ErrorCode::InvalidArgument, words);
+                         }});
+    };
+    const auto plain = [](SourceTraits&) {};
+    add(
+        MalformedTrain, plain, [](auto& r) { r.train.amplitude = Volts(kNaN); }, "amplitude nan V");
+    add(
+        MalformedTrain, plain, [](auto& r) { r.train.interPhaseGap = Micros(-50); }, "gap -50");
+    add(
+        SourceKind, plain, [](auto& r) { r.train.amplitude = Milliamps(1); }, "of a voltage source");
+    add(
+        AmplitudeMax, plain, [](auto& r) { r.train.amplitude = Volts(60.1); }, "above the device's largest");
+    add(
+        AmplitudeGrid, [](auto& s) { s.amplitudeStep = 0.1; }, [](auto& r) { r.train.amplitude = Volts(10.05); },
+        "device's step");
+    add(
+        WidthRange, plain, [](auto& r) { r.train.phaseWidth = Micros(4001); }, "outside the device's");
+    add(
+        WidthRange, plain, [](auto& r) { r.train.phaseWidth = Micros(9); }, "outside the device's");
+    add(
+        WidthGrid, plain, [](auto& r) { r.train.phaseWidth = Micros(200.5); }, "phase width 200.5");
+    add(
+        GapGrid, plain, [](auto& r) { r.train.interPhaseGap = Micros(100.5); }, "gap 100.5");
+    add(
+        PulsesMax, [](auto& s) { s.pulsesMax = 3; }, [](auto& r) { r.train.pulses = 4; }, "more than the device's");
+    add(
+        IntervalValue, plain, [](auto& r) { r.interval = Seconds(kNaN); }, "not a finite time");
+    add(
+        IntervalBelowTrain, plain, [](auto& r) { r.interval = Seconds(0.009); }, "shorter than the train");
+    add(
+        OnsetAhead, plain, [](auto& r) { r.onset += std::chrono::milliseconds(101); }, "planned");
+    cases.push_back({OnsetAhead, "a check pulse planned ahead", [] {
+                         Rig rig(benchSetup());
+                         return rig.gate.approveCheck(rig.clock.now()).has_value() &&
+                                refuses(rig.gate.approveCheck(std::chrono::seconds(1)), ErrorCode::InvalidArgument,
+                                        "planned");
+                     }});
+}
+
+void addStateCases(std::vector<GateCase>& cases) {
+    const auto add = [&cases](Check check, std::string name, std::function<bool()> holds) {
+        cases.push_back({check, std::move(name), std::move(holds)});
+    };
+    add(ImpedanceValue, "an impedance that is no number", [] {
+        Rig rig(personSetup());
+        return refuses(rig.gate.updateImpedance(Ohms(kNaN), rig.clock.now()), ErrorCode::InvalidArgument,
+                       "not above 0");
+    });
+    add(ImpedanceFromFuture, "an impedance from the future", [] {
+        Rig rig(personSetup());
+        return refuses(rig.gate.updateImpedance(Ohms(1000), std::chrono::seconds(1)), ErrorCode::InvalidArgument,
+                       "ahead of now");
+    });
+    add(ImpedanceOutOfRange, "a person's impedance out of range", [] {
+        Rig rig(personSetup());
+        return refuses(rig.gate.updateImpedance(Ohms(499), rig.clock.now()), ErrorCode::LimitExceeded, "500 to 1e+04");
+    });
+    add(ImpedanceOutOfRange, "a bench load that is not the declared one", [] {
+        Rig rig(benchSetup());
+        return rig.gate.updateImpedance(Ohms(1190), rig.clock.now()).has_value() &&
+               refuses(rig.gate.updateImpedance(Ohms(100), rig.clock.now()), ErrorCode::LimitExceeded, "declared load");
+    });
+    add(ImpedanceDisowned, "a train after a bad reading", [] {
+        Rig rig(benchSetup());
+        (void)rig.gate.updateImpedance(Ohms(100), rig.clock.now());
+        const bool refused = refuses(rig.ask(volts(10)), ErrorCode::LimitExceeded, "out of range");
+        const bool checked = rig.gate.approveCheck(rig.clock.now()).has_value();
+        return refused && checked && rig.gate.updateImpedance(Ohms(1000), rig.clock.now()) && rig.ask(volts(10));
+    });
+    add(MeterFull, "more trains than the meter holds", [] {
+        Rig rig(benchSetup());
+        int approved = 0;
+        while (approved < 5000 && rig.ask(volts(1), 1).has_value()) ++approved;
+        return approved == 4096;
+    });
+    const auto withPerson = [add](Check check, std::string name, std::function<bool(Rig&)> holds) {
+        add(check, std::move(name), [holds] {
+            Rig rig(personSetup());
+            return rig.configured.has_value() && holds(rig);
+        });
+    };
+    withPerson(PersonNoImpedance, "a person without an impedance", [](Rig& rig) {
+        return refuses(rig.ask(milliamps(0.4)), ErrorCode::LimitExceeded, "no impedance") &&
+               rig.gate.updateImpedance(Ohms(2000), rig.clock.now()) && rig.ask(milliamps(0.4));
+    });
+    withPerson(PersonStaleImpedance, "a person's impedance over 5 s old", [](Rig& rig) {
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+        rig.wait(5);
+        const bool fresh = rig.ask(milliamps(0.4)).has_value();
+        rig.wait(0.001);
+        return fresh && refuses(rig.ask(milliamps(0.4)), ErrorCode::LimitExceeded, "at most 5 s");
+    });
+    withPerson(PersonMonophasic, "monophasic for a person", [](Rig& rig) {
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+        PulseTrain train = milliamps(0.4);
+        train.shape = PulseShape::Monophasic;
+        return refuses(rig.ask(train), ErrorCode::LimitExceeded, "monophasic");
+    });
+    withPerson(PersonLevel, "a jump above the ramp", [](Rig& rig) {
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+        return refuses(rig.ask(milliamps(0.6)), ErrorCode::LimitExceeded, "ramp rule") && rig.ask(milliamps(0.5));
+    });
+    withPerson(CheckDiscomfort, "a check pulse above the discomfort limit", [](Rig& rig) {
+        const bool fine = rig.gate.approveCheck(rig.clock.now()).has_value();
+        (void)rig.gate.reportDiscomfort(Milliamps(0.4));
+        return fine && refuses(rig.gate.approveCheck(rig.clock.now()), ErrorCode::LimitExceeded, "discomfort");
+    });
+    add(BurstIntensity, "a vibration above 1", [] {
+        Rig rig;
+        return rig.gate.approve(VibrationBurst{1, Seconds(1)}) &&
+               refuses(rig.gate.approve(VibrationBurst{1.01, Seconds(1)}), ErrorCode::InvalidArgument, "intensity") &&
+               refuses(rig.gate.approve(VibrationBurst{kNaN, Seconds(1)}), ErrorCode::InvalidArgument, "intensity");
+    });
+    add(BurstDuration, "a vibration over 1 s", [] {
+        Rig rig;
+        return refuses(rig.gate.approve(VibrationBurst{1, Seconds(1.01)}), ErrorCode::InvalidArgument,
+                       "vibration of") &&
+               refuses(rig.gate.approve(VibrationBurst{1, Seconds(kNaN)}), ErrorCode::InvalidArgument, "vibration of");
+    });
+    add(Epoch, "a train approved before a stop", [] {
+        Rig rig(benchSetup());
+        const auto train = rig.ask(volts(10));
+        const auto burst = rig.gate.approve(VibrationBurst{1, Seconds(1)});
+        const bool before = rig.gate.isCurrent(*train) && rig.gate.isCurrent(*burst);
+        rig.gate.latchStop();
+        return before && !rig.gate.isCurrent(*train) && !rig.gate.isCurrent(*burst);
+    });
+    add(Expiry, "a train approved over 100 ms ago", [] {
+        Rig rig(benchSetup());
+        const auto train = rig.ask(volts(10));
+        const auto burst = rig.gate.approve(VibrationBurst{1, Seconds(1)});
+        rig.wait(0.1);
+        const bool inTime = rig.gate.isCurrent(*train) && rig.gate.isCurrent(*burst);
+        rig.wait(0.001);
+        return inTime && !rig.gate.isCurrent(*train) && !rig.gate.isCurrent(*burst);
+    });
+}
+
+/// A monophasic train into the RC load: no quantity of it is zero.
+GateSetup limitSetup() {
+    GateSetup setup = benchSetup(benchRcLoad());
+    setup.electrodeArea = SquareCentimetres(2);
+    return setup;
+}
+PulseTrain limitTrain() {
+    PulseTrain train = volts(10);
+    train.shape = PulseShape::Monophasic;
+    return train;
+}
+
+/// For each quantity: just above its limit is refused and just below approved, by a row and by a ceiling, for the
+/// request alone and for what came before it.
+void addLimitCases(std::vector<GateCase>& cases) {
+    for (std::size_t k = 0; k < kQuantityCount; ++k) {
+        const auto q = static_cast<Quantity>(k);
+        for (const bool ceiling : {false, true}) {
+            const auto limited = [q, ceiling](double max) {
+                GateSetup setup = limitSetup();
+                if (ceiling) {
+                    setup.ceilings = {{q, max}};
+                } else {
+                    setup.limits.push_back(limitsOf({rowFor(q, max)}));
+                }
+                return setup;
+            };
+            const std::string by = std::string(keyOf(q)) + (ceiling ? " by a ceiling" : " by a limit");
+            cases.push_back({limitCheck(ceiling ? RequestCeiling : RequestLimit, q), by, [q, limited] {
+                                 // Twice a second: over windows the steady state exceeds what one train does.
+                                 const GateSetup setup = limitSetup();
+                                 const double value =
+                                     worstExposure(limitTrain(), Seconds(0.25), setup.load, setup.source, 2).at(q);
+                                 Rig below(limited(value * 1.001));
+                                 Rig above(limited(value * 0.999));
+                                 return value > 0 && below.ask(limitTrain(), 0.25) &&
+                                        refuses(above.ask(limitTrain(), 0.25), ErrorCode::LimitExceeded, titleOf(q));
+                             }});
+            if (windowOf(q) == 0) continue;
+            cases.push_back(
+                {limitCheck(ceiling ? MeterCeiling : MeterLimit, q), by + " after another train", [q, limited] {
+                     const GateSetup setup = limitSetup();
+                     const double one = worstExposure(limitTrain(), Seconds(6), setup.load, setup.source, 2).at(q);
+                     Rig rig(limited(one * 1.2));  // Two trains: √2 in an RMS, 2 in a mean
+                     const bool first = rig.ask(limitTrain(), 6).has_value();
+                     rig.wait(0.2);
+                     const bool second = refuses(rig.ask(limitTrain(), 6), ErrorCode::LimitExceeded, "before it");
+                     rig.wait(5.2);
+                     return first && second && rig.ask(limitTrain(), 6);
+                 }});
+        }
+    }
+}
+}  // namespace
+
+std::vector<GateCase> gateCases() {
+    std::vector<GateCase> cases;
+    addConfigureCases(cases);
+    addRequestCases(cases);
+    addStateCases(cases);
+    addLimitCases(cases);
+    return cases;
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,21 @@
+// GateCases.h - one directed case per check of the gate: something that this check alone refuses.
+//
+// The product's gate must hold every case; with a check taken away (GateMutationTest) its case must fail.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tacto::test {
+
+struct GateCase {
+    int check;  ///< gate::Check, or limitCheck()
+    std::string name;
+    std::function<bool()> holds;  ///< true when the gate refused as it must, and permitted what it may
+};
+
+/// Every check of GateChecks.h, at least once.
+[[nodiscard]] std::vector<GateCase> gateCases();
+
+}  // namespace tacto::test

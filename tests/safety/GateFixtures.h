@@ -1,0 +1,98 @@
+// GateFixtures.h - setups that the gate's tests start from: complete and valid, each test spoils one thing.
+#pragma once
+
+#include <string>
+
+#include "core/safety/SafetyGate.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+
+inline LimitSet limitsOf(std::vector<LimitRow> rows, std::string id = "test") {
+    LimitSet set;
+    set.id = std::move(id);
+    set.title = "a set for a test";
+    for (auto& row : rows) row.source = "a test";
+    set.rows = std::move(rows);
+    return set;
+}
+
+inline LimitRow rowFor(Quantity quantity, double max, LimitAction action = LimitAction::Refuse) {
+    LimitRow row;
+    row.quantity = quantity;
+    row.max = max;
+    row.action = action;
+    return row;
+}
+
+/// Refuses nothing that a test asks for.
+inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}, "lenient"); }
+
+inline std::vector<LimitSet> shippedLimits() { return loadLimitSets(sourceDir() / "resources" / "limits").value(); }
+
+inline SourceTraits voltageSource() {
+    SourceTraits source;
+    source.drive = Drive::Voltage;
+    source.amplitudeMax = 60;
+    source.compliance = Volts(60);
+    return source;
+}
+
+inline SourceTraits currentSource() {
+    SourceTraits source;
+    source.drive = Drive::Current;
+    source.amplitudeMax = 100;
+    source.compliance = Volts(100);
+    return source;
+}
+
+inline GateSetup benchSetup(Load load = Load::resistor(Ohms(1000))) {
+    GateSetup setup;
+    setup.source = voltageSource();
+    setup.load = LoadRange::declared(load);
+    setup.limits = {lenient()};
+    return setup;
+}
+
+inline GateSetup personSetup() {
+    GateSetup setup;
+    setup.mode = OutputMode::Person;
+    setup.source = currentSource();
+    setup.limits = shippedLimits();
+    setup.electrodeArea = SquareCentimetres(1);
+    PersonSetup person;
+    person.participant = "P01";
+    person.consentRecorded = true;
+    person.discomfortLimit = Milliamps(5);
+    person.rampStep = Milliamps(0.5);
+    setup.person = person;
+    return setup;
+}
+
+/// 200 µs + 200 µs, 100 µs apart, once.
+inline PulseTrain volts(double v) {
+    PulseTrain train;
+    train.amplitude = Volts(v);
+    return train;
+}
+inline PulseTrain milliamps(double mA) {
+    PulseTrain train;
+    train.amplitude = Milliamps(mA);
+    return train;
+}
+
+/// A gate on a clock that the test moves.
+struct Rig {
+    VirtualClock clock;
+    SafetyGate gate{clock};
+    explicit Rig(const GateSetup& setup) : configured(gate.configure(setup)) {}
+    Rig() = default;
+    Result<void> configured;
+
+    Result<ApprovedTrain> ask(const PulseTrain& train, double interval_s = 2) {
+        return gate.approve({train, Seconds(interval_s), clock.now()});
+    }
+    void wait(double seconds) { clock.advanceTo(clock.now() + toInstant(seconds)); }
+};
+
+}  // namespace tacto::test

@@ -1,0 +1,249 @@
+#include <array>
+#include <gtest/gtest.h>
+#include <limits>
+#include <thread>
+
+#include "core/safety/Interlock.h"
+
+namespace tacto {
+
+namespace {
+using namespace std::chrono_literals;
+using State = InterlockState;
+
+ArmingEvidence goodEvidence(Instant at = 0s) {
+    ArmingEvidence e;
+    e.limitsLoaded = e.deviceIdentified = e.operatorConfirmed = true;
+    e.impedance = Ohms(1000);
+    e.impedanceLow = Ohms(800);
+    e.impedanceHigh = Ohms(1200);
+    e.impedanceAt = at;
+    return e;
+}
+
+/// Brings a new interlock into a state by the legal way.
+void bringTo(Interlock& lock, State state) {
+    if (state == State::Disconnected) return;
+    ASSERT_TRUE(lock.connect());
+    if (state == State::Faulted) return lock.fault(FaultCause::OpenElectrode, "open");
+    if (state == State::Disarmed) return;
+    const auto ticket = lock.requestArming(0s);
+    ASSERT_TRUE(ticket);
+    ASSERT_TRUE(lock.confirmArming(*ticket, 0s));
+    if (state == State::Checking) return;
+    ASSERT_TRUE(lock.arm(goodEvidence(), 0s));
+    if (state == State::Armed) return;
+    ASSERT_TRUE(lock.beginDelivery());
+    if (state == State::Paused) {
+        ASSERT_TRUE(lock.pause());
+    }
+    ASSERT_EQ(lock.state(), state);
+}
+
+constexpr std::array kAll{State::Disconnected, State::Disarmed, State::Checking, State::Armed,
+                          State::Delivering,   State::Paused,   State::Faulted};
+}  // namespace
+
+TEST(Interlock, OnlyTheListedTransitionsAreLegal) {
+    RecordProperty("hazard", "H12");
+    struct Move {
+        const char* name;
+        bool (*go)(Interlock&);
+        std::vector<std::pair<State, State>> legal;
+    };
+    const std::vector<Move> moves{
+        {"connect", [](Interlock& l) { return l.connect().has_value(); }, {{State::Disconnected, State::Disarmed}}},
+        {"disconnect",
+         [](Interlock& l) { return l.disconnect().has_value(); },
+         {{State::Disarmed, State::Disconnected}}},
+        {"request", [](Interlock& l) { return l.requestArming(0s).has_value(); }, {{State::Disarmed, State::Disarmed}}},
+        {"arm", [](Interlock& l) { return l.arm(goodEvidence(), 0s).has_value(); }, {{State::Checking, State::Armed}}},
+        {"deliver",
+         [](Interlock& l) { return l.beginDelivery().has_value(); },
+         {{State::Armed, State::Delivering}, {State::Delivering, State::Delivering}}},
+        {"pause", [](Interlock& l) { return l.pause().has_value(); }, {{State::Delivering, State::Paused}}},
+        {"resume", [](Interlock& l) { return l.resume().has_value(); }, {{State::Paused, State::Delivering}}},
+        {"reset",
+         [](Interlock& l) {
+             l.causeGone(FaultCause::OpenElectrode);
+             return l.reset().has_value();
+         },
+         {{State::Faulted, State::Disarmed}}},
+    };
+    for (const auto& move : moves) {
+        for (const State from : kAll) {
+            Interlock lock;
+            bringTo(lock, from);
+            State to = from;
+            bool legal = false;
+            for (const auto& [a, b] : move.legal) {
+                if (a == from) {
+                    to = b;
+                    legal = true;
+                }
+            }
+            EXPECT_EQ(move.go(lock), legal) << move.name << " from " << nameOf(from);
+            EXPECT_EQ(lock.state(), to) << move.name << " from " << nameOf(from);
+        }
+    }
+}
+
+TEST(Interlock, DisarmWorksFromEverywhereAndLeavesAFaultLatched) {
+    RecordProperty("hazard", "H2");
+    for (const State from : kAll) {
+        Interlock lock;
+        bringTo(lock, from);
+        lock.disarm("Esc");
+        const bool output =
+            from == State::Checking || from == State::Armed || from == State::Delivering || from == State::Paused;
+        EXPECT_EQ(lock.state(), output ? State::Disarmed : from) << nameOf(from);
+        EXPECT_EQ(lock.reason().view() == "Esc", output);
+        EXPECT_FALSE(lock.mayDeliver());
+        EXPECT_FALSE(lock.mayCheck());
+    }
+}
+
+TEST(Interlock, FaultLatchesFromEverywhereAndNeedsItsCausesGone) {
+    RecordProperty("hazard", "H2");
+    for (const State from : kAll) {
+        Interlock lock;
+        bringTo(lock, from);
+        if (from == State::Faulted) lock.causeGone(FaultCause::OpenElectrode);
+        lock.fault(FaultCause::StatusMissing, "no status");
+        lock.fault(FaultCause::ShortElectrode, "shorted as well");
+        EXPECT_EQ(lock.state(), State::Faulted) << nameOf(from);
+        EXPECT_EQ(lock.reason().view(), from == State::Faulted ? "open" : "no status") << "the first reason is kept";
+        lock.disarm("operator");
+        EXPECT_FALSE(lock.reset());
+        lock.causeGone(FaultCause::StatusMissing);
+        const auto still = lock.reset();
+        ASSERT_FALSE(still);
+        EXPECT_NE(still.error().message.find("shorted electrode"), std::string::npos);
+        EXPECT_TRUE(lock.causePersists(FaultCause::ShortElectrode));
+        EXPECT_EQ(lock.state(), State::Faulted) << "a cause that goes does not leave the fault";
+        lock.causeGone(FaultCause::ShortElectrode);
+        EXPECT_EQ(lock.state(), State::Faulted);
+        EXPECT_TRUE(lock.reset());
+        EXPECT_EQ(lock.state(), State::Disarmed);
+        EXPECT_TRUE(lock.reason().empty());
+    }
+}
+
+TEST(Interlock, ALostDeviceComesBackDisconnected) {
+    Interlock lock;
+    bringTo(lock, State::Delivering);
+    lock.fault(FaultCause::DeviceLost, "unplugged");
+    lock.causeGone(FaultCause::DeviceLost);
+    EXPECT_TRUE(lock.reset());
+    EXPECT_EQ(lock.state(), State::Disconnected);
+}
+
+TEST(Interlock, CheckingTakesTwoStepsThatBelongTogether) {
+    RecordProperty("hazard", "H12");
+    Interlock lock;
+    bringTo(lock, State::Disarmed);
+    EXPECT_FALSE(lock.confirmArming(0, 0s)) << "no first step";
+    EXPECT_FALSE(lock.confirmArming(1, 0s));
+    auto ticket = lock.requestArming(10s);
+    EXPECT_FALSE(lock.confirmArming(*ticket, 40s + 1ns)) << "too late";
+    EXPECT_FALSE(lock.confirmArming(*ticket, 11s)) << "used";
+    ticket = lock.requestArming(50s);
+    lock.disarm("stop");
+    EXPECT_FALSE(lock.confirmArming(*ticket, 51s)) << "a stop came between";
+    ticket = lock.requestArming(60s);
+    const auto newer = lock.requestArming(61s);
+    EXPECT_FALSE(lock.confirmArming(*ticket, 62s)) << "a newer request stands";
+    ticket = lock.requestArming(63s);
+    EXPECT_NE(*ticket, *newer);
+    EXPECT_TRUE(lock.confirmArming(*ticket, 63s));
+    EXPECT_EQ(lock.state(), State::Checking);
+    EXPECT_TRUE(lock.mayCheck());
+    EXPECT_FALSE(lock.mayDeliver());
+}
+
+TEST(Interlock, ArmingNeedsAllOfItsEvidence) {
+    RecordProperty("hazard", "H12");
+    const auto refused = [](auto spoil, const std::string& words, Instant now = 0s) {
+        Interlock lock;
+        bringTo(lock, State::Checking);
+        ArmingEvidence evidence = goodEvidence();
+        spoil(evidence);
+        const auto armed = lock.arm(evidence, now);
+        ASSERT_FALSE(armed) << words;
+        EXPECT_NE(armed.error().message.find(words), std::string::npos) << armed.error().message;
+        EXPECT_EQ(lock.state(), State::Checking);
+    };
+    refused([](auto& e) { e = ArmingEvidence{}; }, "no limit set");
+    refused([](auto& e) { e.limitsLoaded = false; }, "no limit set");
+    refused([](auto& e) { e.deviceIdentified = false; }, "not identified");
+    refused([](auto& e) { e.operatorConfirmed = false; }, "operator");
+    refused([](auto& e) { e.impedance.reset(); }, "no impedance");
+    refused(
+        [](auto& e) {
+            e.impedance.reset();
+            e.declaredLoadConfirmed = true;
+        },
+        "no impedance");
+    refused(
+        [](auto& e) {
+            e.impedance.reset();
+            e.readsBack = false;
+        },
+        "not confirmed");
+    refused([](auto& e) { e.impedance = Ohms(799); }, "799 ohm");
+    refused([](auto& e) { e.impedance = Ohms(std::numeric_limits<double>::quiet_NaN()); }, "nan ohm");
+    refused([](auto& e) { e.impedance = Ohms(std::numeric_limits<double>::infinity()); }, "inf ohm");
+    refused([](auto&) {}, "at most 5 s", 5s + 1ns);
+    refused([](auto& e) { e.impedanceAt = 1s; }, "at most 5 s");
+    // An impedance that was read is judged, whatever was declared.
+    refused(
+        [](auto& e) {
+            e.readsBack = false;
+            e.declaredLoadConfirmed = true;
+            e.impedance = Ohms(1);
+        },
+        "1 ohm");
+}
+
+TEST(Interlock, DeclaredLoadStandsInWhereNothingReadsBackAndAMassagerNeedsNone) {
+    for (const bool massager : {false, true}) {
+        Interlock lock;
+        bringTo(lock, State::Checking);
+        ArmingEvidence evidence = goodEvidence();
+        evidence.impedance.reset();
+        evidence.readsBack = false;
+        evidence.declaredLoadConfirmed = !massager;
+        evidence.needsImpedance = !massager;
+        EXPECT_TRUE(lock.arm(evidence, 0s));
+    }
+}
+
+TEST(Interlock, StopWinsAgainstALoopThatDelivers) {
+    RecordProperty("hazard", "H2");
+    Interlock lock;
+    bringTo(lock, State::Armed);
+    std::atomic<bool> stopped{false};
+    std::thread loop([&] {
+        while (!stopped.load()) {
+            (void)lock.beginDelivery();
+            (void)lock.pause();
+            (void)lock.resume();
+            (void)lock.reason();
+        }
+    });
+    std::this_thread::yield();
+    lock.disarm("stop");
+    EXPECT_EQ(lock.state(), State::Disarmed);
+    stopped = true;
+    loop.join();
+    EXPECT_EQ(lock.state(), State::Disarmed) << "the loop cannot take it back";
+}
+
+TEST(Interlock, NamesEveryStateAndCause) {
+    EXPECT_EQ(nameOf(State::Disconnected), "disconnected");
+    EXPECT_EQ(nameOf(State::Faulted), "faulted");
+    EXPECT_EQ(nameOf(FaultCause::DeviceLost), "device lost");
+    EXPECT_EQ(nameOf(FaultCause::Internal), "internal error");
+}
+
+}  // namespace tacto

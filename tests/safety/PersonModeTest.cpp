@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "core/safety/AcceptedLevels.h"
+#include "tests/safety/GateFixtures.h"
+
+namespace tacto::test {
+
+namespace {
+/// A person connected, measured and ready.
+struct Person : Rig {
+    Person() : Rig(personSetup()) { measure(2000); }
+    void measure(double ohm) { EXPECT_TRUE(gate.updateImpedance(Ohms(ohm), clock.now())); }
+    bool may(double mA) { return ask(milliamps(mA)).has_value(); }
+    /// Up by steps, each accepted.
+    void rampTo(double mA) {
+        for (double level = 0.5; level < mA + 0.25; level += 0.5) {
+            ASSERT_TRUE(may(level)) << level;
+            ASSERT_TRUE(gate.accept(milliamps(level)));
+        }
+    }
+};
+}  // namespace
+
+TEST(PersonMode, NeedsEverythingThatIsKnownOfAPerson) {
+    RecordProperty("hazard", "H4");
+    EXPECT_TRUE(Rig(personSetup()).configured);
+    // One by one: GateCases.cpp. Volts never reach a person's current source:
+    Person rig;
+    EXPECT_FALSE(rig.ask(volts(1)));
+}
+
+TEST(PersonMode, JudgesWithTheMeasuredImpedance) {
+    Person rig;
+    ASSERT_TRUE(rig.gate.loadRange());
+    EXPECT_NEAR(rig.gate.loadRange()->min.series.value(), 1400, 1e-9);
+    EXPECT_NEAR(rig.gate.loadRange()->max.series.value(), 2600, 1e-9);
+    rig.rampTo(4.5);
+    // 4.5 mA · 9000 Ω is 40.5 V.
+    rig.measure(8800);
+    EXPECT_TRUE(rig.may(4.5));
+    rig.measure(9000);
+    const auto refused = rig.ask(milliamps(4.5));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("commanded voltage"), std::string::npos);
+}
+
+TEST(PersonMode, ABadReadingStopsEverythingButChecks) {
+    RecordProperty("hazard", "H3");
+    Person rig;
+    const auto approved = rig.ask(milliamps(0.5));
+    ASSERT_TRUE(approved);
+    EXPECT_FALSE(rig.gate.updateImpedance(Ohms(std::numeric_limits<double>::infinity()), rig.clock.now()));
+    EXPECT_FALSE(rig.gate.isCurrent(*approved)) << "an open electrode voids what was approved";
+    EXPECT_FALSE(rig.may(0.5));
+    EXPECT_TRUE(rig.gate.approveCheck(rig.clock.now()));
+    rig.measure(2000);
+    EXPECT_TRUE(rig.may(0.5));
+}
+
+TEST(PersonMode, AnOlderReadingChangesNothing) {
+    Person rig;
+    rig.wait(1);
+    rig.measure(3000);
+    EXPECT_TRUE(rig.gate.updateImpedance(Ohms(2000), rig.clock.now() - std::chrono::milliseconds(500)));
+    EXPECT_NEAR(rig.gate.loadRange()->nominal.series.value(), 3000, 1e-9);
+}
+
+TEST(PersonMode, ALevelNotYetAcceptedIsReachedByARamp) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    EXPECT_FALSE(rig.may(2)) << "a jump";
+    EXPECT_TRUE(rig.may(0.5));
+    EXPECT_FALSE(rig.may(1)) << "delivered is not accepted";
+    ASSERT_TRUE(rig.gate.accept(milliamps(0.5)));
+    EXPECT_TRUE(rig.may(1));
+    EXPECT_FALSE(rig.may(1.01));
+    EXPECT_FALSE(rig.gate.accept(milliamps(3))) << "what was not permitted cannot be accepted";
+    EXPECT_NEAR(rig.gate.levelCeiling(milliamps(1))->value(), 1, 1e-12);
+}
+
+TEST(PersonMode, AnAcceptedLevelMayBeEnteredInOneStep) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    EXPECT_TRUE(rig.may(0.5));
+    EXPECT_TRUE(rig.may(3));
+    EXPECT_TRUE(rig.may(3.5));
+    EXPECT_FALSE(rig.may(3.6));
+}
+
+TEST(PersonMode, AnotherKindOfTrainStartsAgain) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    PulseTrain longer = milliamps(3);
+    longer.phaseWidth = Micros(1000);
+    EXPECT_FALSE(rig.ask(longer)) << "five times the charge at an accepted current";
+    longer.amplitude = Milliamps(0.5);
+    EXPECT_TRUE(rig.ask(longer));
+}
+
+TEST(PersonMode, AscendingLimitsHaveTheirOwnCeiling) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    rig.gate.beginAscending();
+    EXPECT_FALSE(rig.may(1)) << "accepted before, but this series starts from nothing";
+    EXPECT_TRUE(rig.may(0.5));
+    ASSERT_TRUE(rig.gate.accept(milliamps(0.5)));
+    EXPECT_TRUE(rig.may(1));
+    EXPECT_FALSE(rig.may(1.5));
+    rig.gate.endAscending();
+    EXPECT_TRUE(rig.may(3));
+}
+
+TEST(PersonMode, NothingExceedsTheDiscomfortLimitAfterwards) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    const auto approved = rig.ask(milliamps(3));
+    ASSERT_TRUE(approved);
+    ASSERT_TRUE(rig.gate.reportDiscomfort(Milliamps(2.5)));
+    EXPECT_FALSE(rig.gate.isCurrent(*approved));
+    EXPECT_FALSE(rig.may(2.6));
+    EXPECT_TRUE(rig.may(2.5));
+    ASSERT_TRUE(rig.gate.reportDiscomfort(Milliamps(4)));
+    EXPECT_FALSE(rig.may(2.6)) << "a later, higher report does not raise it";
+    // Not by configuring again for the same participant either.
+    ASSERT_TRUE(rig.gate.configure(personSetup()));
+    rig.measure(2000);
+    EXPECT_FALSE(rig.may(2.6));
+    EXPECT_TRUE(rig.may(2.5)) << "what was accepted stays accepted";
+    EXPECT_FALSE(rig.gate.reportDiscomfort(Milliamps(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(PersonMode, AnotherParticipantHasAcceptedNothing) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    GateSetup setup = personSetup();
+    setup.person->participant = "P02";
+    ASSERT_TRUE(rig.gate.configure(setup));
+    rig.measure(2000);
+    EXPECT_FALSE(rig.may(1));
+    EXPECT_TRUE(rig.may(0.5));
+}
+
+TEST(PersonMode, LevelsAreNotAcceptedOnABenchLoad) {
+    Rig rig(benchSetup());
+    EXPECT_EQ(rig.gate.accept(milliamps(1)).error().code, ErrorCode::NotArmed);
+    EXPECT_EQ(rig.gate.reportDiscomfort(Milliamps(1)).error().code, ErrorCode::NotArmed);
+    EXPECT_FALSE(rig.gate.levelCeiling(milliamps(1)));
+}
+
+TEST(AcceptedLevels, DecimalStepsMeetTheirCeiling) {
+    AcceptedLevels levels;
+    levels.begin(Milliamps(5), Milliamps(0.1));
+    for (int k = 1; k <= 50; ++k) {
+        ASSERT_TRUE(levels.permits(milliamps(0.1 * k))) << k;
+        ASSERT_TRUE(levels.accept(milliamps(0.1 * k)));
+    }
+    EXPECT_FALSE(levels.permits(milliamps(5.1)));
+    EXPECT_FALSE(levels.permits(milliamps(std::numeric_limits<double>::quiet_NaN())));
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,322 @@
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <limits>
+#include <new>
+#include <thread>
+
+#include "core/safety/SafetyGate.h"
+#include "tests/safety/GateCases.h"
+#include "tests/safety/GateFixtures.h"
+
+namespace {
+thread_local long allocations = 0;
+}
+
+// Counts, so that a test can say that approving does not allocate. The sanitizers bring their own.
+#if !defined(TACTOSCOPE_SANITIZED)
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
+
+namespace tacto::test {
+
+static_assert(!std::is_copy_constructible_v<ApprovedTrain>, "one approval, one delivery");
+static_assert(!std::is_default_constructible_v<ApprovedTrain>, "only the gate makes one");
+static_assert(!std::is_constructible_v<ApprovedTrain, PulseTrain, Seconds, std::uint64_t, Instant>,
+              "only the gate makes one");
+static_assert(!std::is_copy_constructible_v<ApprovedBurst> && !std::is_default_constructible_v<ApprovedBurst>);
+
+namespace {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+GateSetup shippedSetup(double ohm) {
+    GateSetup setup = benchSetup(Load::resistor(Ohms(ohm)));
+    setup.limits = shippedLimits();
+    return setup;
+}
+}  // namespace
+
+TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
+    RecordProperty("hazard", "H1");
+    for (const double ohm : {500.0, 1000.0, 2000.0, 10'000.0, 100'000.0}) {
+        Rig rig(shippedSetup(ohm));
+        const auto approved = rig.ask(volts(40), 0.5);
+        EXPECT_TRUE(approved) << ohm << ": " << approved.error().message;
+    }
+    Rig rig(shippedSetup(100));
+    const auto refused = rig.ask(volts(40), 0.5);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::LimitExceeded);
+    // Quantity, value, the nominal figure, limit and source.
+    EXPECT_EQ(refused.error().message.rfind(
+                  "RMS current over 5 s would be 14.14 mA in the worst case (11.31 mA into 100 ohm); "
+                  "paper allows less than 10 mA (",
+                  0),
+              0U)
+        << refused.error().message;
+}
+
+TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {
+    // Twelve seconds of rough-high, as the live loop asks: the meter must not stop what the steady state allows.
+    Rig rig(shippedSetup(500));
+    for (int k = 0; k < 24; ++k) {
+        ASSERT_TRUE(rig.ask(volts(40), 0.5)) << k;
+        rig.wait(0.5);
+    }
+}
+
+TEST(SafetyGate, EveryDirectedCaseHolds) {
+    RecordProperty("hazard", "H1");
+    for (const auto& c : gateCases()) EXPECT_TRUE(c.holds()) << c.name;
+}
+
+TEST(SafetyGate, VoltageLimitIsExact) {
+    Rig rig(shippedSetup(1000));
+    EXPECT_TRUE(rig.ask(volts(40)));
+    const auto refused = rig.ask(volts(std::nextafter(40.0, 41.0)));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("commanded voltage"), std::string::npos);
+}
+
+TEST(SafetyGate, CurrentMadeFromFortyVoltsIsApproved) {
+    // I = A / |Z| and back must not miss "at most 40 V" by its last bits, whatever |Z|.
+    for (double ohm = 700; ohm < 9000; ohm *= 1.0137) {
+        GateSetup setup = shippedSetup(ohm);
+        setup.source = currentSource();
+        Rig rig(setup);
+        const auto approved = rig.ask(milliamps(40 / ohm * 1e3), 2);
+        ASSERT_TRUE(approved) << ohm << ": " << approved.error().message;
+        ASSERT_FALSE(rig.ask(milliamps(40.001 / ohm * 1e3), 2)) << ohm;
+    }
+}
+
+TEST(SafetyGate, RefusesEveryFieldThatIsNoNumber) {
+    RecordProperty("hazard", "H1");
+    Rig rig(shippedSetup(1000));
+    for (const double wrong : {kNaN, -kNaN, kInf, -kInf, -1.0, 1e308, -std::numeric_limits<double>::denorm_min()}) {
+        PulseTrain train = volts(wrong);
+        EXPECT_FALSE(rig.ask(train)) << "amplitude " << wrong;
+        train = volts(10);
+        train.phaseWidth = Micros(wrong);
+        EXPECT_FALSE(rig.ask(train)) << "width " << wrong;
+        train = volts(10);
+        train.rate = Hertz(wrong);
+        EXPECT_FALSE(rig.ask(train)) << "rate " << wrong;
+        train = volts(10);
+        train.interPhaseGap = Micros(wrong);
+        EXPECT_FALSE(rig.ask(train)) << "gap " << wrong;
+        train = volts(10);
+        train.shape = PulseShape::AsymmetricBiphasic;
+        train.rechargeRatio = wrong;
+        EXPECT_FALSE(rig.ask(train)) << "recharge ratio " << wrong;
+        if (wrong != 1e308) {
+            EXPECT_FALSE(rig.ask(volts(10), wrong)) << "interval " << wrong;
+        }
+    }
+    for (const int pulses : {0, -1, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+        PulseTrain train = volts(10);
+        train.pulses = pulses;
+        EXPECT_FALSE(rig.ask(train, 100)) << pulses;
+    }
+    EXPECT_FALSE(rig.ask(volts(10), 0));
+    EXPECT_TRUE(rig.ask(volts(10))) << "the sound one passes";
+}
+
+TEST(SafetyGate, NothingIsApprovedBeforeOrAfterABadConfigure) {
+    RecordProperty("hazard", "H1");
+    Rig rig;
+    EXPECT_EQ(rig.ask(volts(1)).error().code, ErrorCode::NotArmed);
+    EXPECT_EQ(rig.gate.approveCheck(Instant{}).error().code, ErrorCode::NotArmed);
+    EXPECT_EQ(rig.gate.updateImpedance(Ohms(1000), Instant{}).error().code, ErrorCode::NotArmed);
+    ASSERT_TRUE(rig.gate.configure(benchSetup()));
+    const auto approved = rig.ask(volts(1));
+    ASSERT_TRUE(approved);
+    GateSetup broken = benchSetup();
+    broken.limits.clear();
+    EXPECT_FALSE(rig.gate.configure(broken));
+    EXPECT_FALSE(rig.gate.isCurrent(*approved));
+    EXPECT_EQ(rig.ask(volts(1)).error().code, ErrorCode::NotArmed);
+    EXPECT_FALSE(rig.gate.loadRange());
+}
+
+TEST(SafetyGate, DecimalStepsAreOnTheGrid) {
+    GateSetup setup = benchSetup();
+    setup.source.amplitudeStep = 0.1;
+    Rig rig(setup);
+    for (int k = 1; k <= 400; ++k) ASSERT_TRUE(rig.ask(volts(0.1 * k), 5)) << k;
+    EXPECT_FALSE(rig.ask(volts(10.0001)));
+    EXPECT_FALSE(rig.ask(volts(kNaN)));
+}
+
+TEST(SafetyGate, BurstsAddUpAcrossDifferentTrains) {
+    RecordProperty("hazard", "H1");
+    // Into 100 Ω at one train in 10 s rough-high is fine; asked for again and again it must end before 10 mA.
+    Rig rig(shippedSetup(100));
+    int approved = 0;
+    while (approved < 100 && rig.ask(volts(40), 10)) {
+        ++approved;
+        rig.wait(0.02);
+    }
+    // One train puts (0.5 A)² · 0.4 ms = 1e-4 A²s into the load range's low end; 5 s hold less than 5e-4 A²s.
+    EXPECT_EQ(approved, 4);
+    rig.wait(5.2);
+    EXPECT_TRUE(rig.ask(volts(40), 10));
+}
+
+TEST(SafetyGate, ApprovalIsBookedEvenWhenItIsNotDelivered) {
+    Rig rig(shippedSetup(100));
+    for (int k = 0; k < 4; ++k) ASSERT_TRUE(rig.ask(volts(40), 10));
+    EXPECT_FALSE(rig.ask(volts(40), 10)) << "four approvals at one moment could all be delivered";
+    rig.gate.latchStop();
+    EXPECT_FALSE(rig.ask(volts(40), 10)) << "a stop does not wipe the meter";
+    ASSERT_TRUE(rig.gate.configure(shippedSetup(100)));
+    EXPECT_FALSE(rig.ask(volts(40), 10)) << "nor does configure()";
+}
+
+TEST(SafetyGate, NoGateHonoursAnothersApproval) {
+    RecordProperty("hazard", "H1");
+    Rig one(benchSetup());
+    Rig two(benchSetup());
+    const auto approved = one.ask(volts(10));
+    ASSERT_TRUE(approved);
+    EXPECT_FALSE(two.gate.isCurrent(*approved));
+}
+
+TEST(SafetyGate, AStopDuringApprovalVoidsIt) {
+    RecordProperty("hazard", "H2");
+    Rig rig(benchSetup());
+    std::atomic<bool> go{true};
+    std::thread stopper([&] {
+        while (go.load()) rig.gate.latchStop();
+    });
+    for (int k = 0; k < 200; ++k) {
+        const auto approved = rig.gate.approve(VibrationBurst{0.5, Seconds(0.1)});
+        ASSERT_TRUE(approved);
+        (void)rig.gate.isCurrent(*approved);
+    }
+    go = false;
+    stopper.join();
+    const auto approved = rig.ask(volts(10));
+    ASSERT_TRUE(approved);
+    rig.gate.latchStop();
+    EXPECT_FALSE(rig.gate.isCurrent(*approved));
+}
+
+TEST(SafetyGate, CheckPulseIsSmallAndJudged) {
+    GateSetup setup = benchSetup();
+    setup.source = currentSource();
+    setup.source.amplitudeStep = 0.3;
+    Rig rig(setup);
+    auto check = rig.gate.approveCheck(rig.clock.now());
+    ASSERT_TRUE(check);
+    EXPECT_NEAR(siValue(check->train().amplitude), 0.3e-3, 1e-12) << "0.5 mA rounded toward zero onto steps of 0.3 mA";
+    setup.source.amplitudeStep = 2;
+    Rig coarse(setup);
+    check = coarse.gate.approveCheck(coarse.clock.now());
+    ASSERT_TRUE(check);
+    EXPECT_NEAR(siValue(check->train().amplitude), 2e-3, 1e-12) << "the device's smallest";
+    setup.limits.push_back(limitsOf({rowFor(Quantity::PeakCurrent, 1)}));
+    Rig limited(setup);
+    EXPECT_FALSE(limited.gate.approveCheck(limited.clock.now()));
+}
+
+TEST(SafetyGate, MissingAreaDoesNotStopABenchAndReadsNotEvaluated) {
+    RecordProperty("hazard", "H9");
+    Rig rig(shippedSetup(500));
+    ASSERT_TRUE(rig.ask(volts(40), 0.5));
+    std::vector<ExposureRow> rows;
+    rig.gate.exposure(rows);
+    int open = 0;
+    for (const auto& row : rows) open += row.evaluated ? 0 : 1;
+    EXPECT_EQ(open, 2) << "current density and power density";
+}
+
+TEST(SafetyGate, PowerDensityIsRefusedOnceTheAreaIsKnown) {
+    GateSetup setup = shippedSetup(500);
+    setup.electrodeArea = SquareCentimetres(0.01);
+    Rig rig(setup);
+    // 40 V into 400 Ω: 4 W for 0.4 ms twice a second is 3.2 mW, 0.32 W/cm².
+    const auto refused = rig.ask(volts(40), 0.5);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("power density over 1 s would be 0.32 W/cm2"), std::string::npos)
+        << refused.error().message;
+}
+
+TEST(SafetyGate, FrequencyBandsFollowTheLowestRepetition) {
+    GateSetup setup = benchSetup(Load::resistor(Ohms(500)));
+    LimitRow slow = rowFor(Quantity::RmsCurrent5s, 10);
+    slow.upToHz = 400;
+    LimitRow fast = rowFor(Quantity::RmsCurrent5s, 30);
+    fast.aboveHz = 400;
+    setup.limits = {limitsOf({slow, fast})};
+    PulseTrain train = volts(10);  // 25 mA into 400 Ω
+    train.rate = Hertz(500);
+    Rig rig(setup);
+    // Every 2 ms: 25 mA · √(0.4/2) = 11.2 mA, allowed above 400 Hz. Every 2.6 ms (385 Hz): 9.8 mA is under 10.
+    EXPECT_TRUE(rig.ask(train, 0.002));
+    rig.wait(6);
+    train.amplitude = Volts(11);
+    const auto refused = rig.ask(train, 0.0026);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("at most 10 mA"), std::string::npos);
+}
+
+TEST(SafetyGate, ExposureShowsTheLastFiveSeconds) {
+    Rig rig(shippedSetup(500));
+    for (int k = 0; k < 10; ++k) {
+        ASSERT_TRUE(rig.ask(volts(40), 0.5));
+        rig.wait(0.5);
+    }
+    std::vector<ExposureRow> rows;
+    rig.gate.exposure(rows);
+    const auto row = std::find_if(rows.begin(), rows.end(), [](const auto& r) {
+        return r.quantity == Quantity::RmsCurrent5s && r.set.view() == "paper";
+    });
+    ASSERT_NE(row, rows.end());
+    // At load_min, 400 Ω: 2.263 mA · 500 / 400; the first of the ten trains began just 5 s ago and no longer counts.
+    EXPECT_NEAR(row->value, 2.2627417 * 1.25 * std::sqrt(0.9), 1e-6);
+    EXPECT_TRUE(row->within);
+    EXPECT_EQ(row->unit, "mA");
+}
+
+TEST(SafetyGate, ApprovingDoesNotAllocate) {
+#if defined(TACTOSCOPE_SANITIZED)
+    GTEST_SKIP() << "the sanitizers bring their own allocator";
+#endif
+    GateSetup setup = benchSetup(benchRcLoad());
+    setup.limits = shippedLimits();
+    setup.electrodeArea = SquareCentimetres(1);
+    Rig rig(setup);
+    std::vector<ExposureRow> rows;
+    rig.gate.exposure(rows);
+    PulseTrain train = volts(10);
+    train.pulses = 3;
+    const long before = allocations;
+    for (int k = 0; k < 20; ++k) {
+        const auto approved = rig.ask(train, 0.5);
+        ASSERT_TRUE(approved);
+        ASSERT_TRUE(rig.gate.isCurrent(*approved));
+        ASSERT_TRUE(rig.gate.approve(VibrationBurst{0.5, Seconds(0.1)}));
+        rig.gate.exposure(rows);
+        rig.gate.latchStop();
+        rig.wait(0.5);
+    }
+    EXPECT_EQ(allocations, before);
+}
+
+TEST(SafetyGate, VibrationNeedsNoElectrodes) {
+    Rig rig;
+    EXPECT_TRUE(rig.gate.approve(VibrationBurst{0, Seconds(0.05)}));
+    for (const double wrong : {kNaN, kInf, -0.1, 1.1}) {
+        EXPECT_FALSE(rig.gate.approve(VibrationBurst{wrong, Seconds(0.1)})) << wrong;
+        EXPECT_FALSE(rig.gate.approve(VibrationBurst{0.5, Seconds(wrong)})) << wrong;
+    }
+}
+
+}  // namespace tacto::test

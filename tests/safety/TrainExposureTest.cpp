@@ -1,0 +1,220 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "core/safety/TrainExposure.h"
+#include "tests/safety/GateFixtures.h"
+#include "tests/safety/IndependentBody.h"
+
+namespace tacto::test {
+
+namespace {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TrainExposure into(double ohm, const PulseTrain& train, double interval) {
+    return exposureOf(train, Seconds(interval), Load::resistor(Ohms(ohm)), voltageSource(), kNaN);
+}
+}  // namespace
+
+TEST(TrainExposure, RoughHighInto500OhmIsThePublishedFigure) {
+    // 40 V into 500 Ω is 80 mA for 0.4 ms, ten times in 5 s.
+    const auto e = into(500, volts(40), 0.5);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrent5s), 2.2627417, 1e-6);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrentTrain), 16, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrent1s), std::sqrt(2 * 0.08 * 0.08 * 4e-4) * 1e3, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::PeakVoltage), 40, 1e-12);
+    EXPECT_NEAR(e.at(Quantity::PeakCurrent), 80, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::PhaseCharge), 16, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::NetCharge), 0, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::PulseEnergy), 40 * 0.08 * 4e-4 * 1e3, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::DcCurrent), 0, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::RmsVoltage5s), 40 * std::sqrt(4e-3 / 5), 1e-9);
+    EXPECT_TRUE(std::isnan(e.at(Quantity::CurrentDensity))) << "no area, no density";
+    EXPECT_TRUE(std::isnan(e.at(Quantity::PowerDensity)));
+}
+
+TEST(TrainExposure, RoughHighInto100OhmIs11Point3) {
+    EXPECT_NEAR(into(100, volts(40), 0.5).at(Quantity::RmsCurrent5s), 11.3137085, 1e-6);
+}
+
+TEST(TrainExposure, DensitiesFollowTheArea) {
+    const auto e = exposureOf(volts(40), Seconds(0.5), Load::resistor(Ohms(500)), voltageSource(), 2.0);
+    EXPECT_NEAR(e.at(Quantity::CurrentDensity), 2.2627417 / 2, 1e-6);
+    EXPECT_NEAR(e.at(Quantity::PowerDensity), 2 * 40 * 0.08 * 4e-4 / 2, 1e-12);
+}
+
+TEST(TrainExposure, WorstSlidingWindowHoldsWholeTrains) {
+    // 0.4 s: 5 s hold 12.5 intervals, a window can touch 13 trains.
+    EXPECT_NEAR(into(500, volts(40), 0.4).at(Quantity::RmsCurrent5s), std::sqrt(13 * 0.08 * 0.08 * 4e-4 / 5) * 1e3,
+                1e-9);
+    // 7 s: never more than one train.
+    EXPECT_NEAR(into(500, volts(40), 7).at(Quantity::RmsCurrent5s), std::sqrt(0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
+    // 100 pulses at 10 Hz last 10 s: 50 of them are in any 5 s, 10 in a second.
+    PulseTrain train = volts(40);
+    train.pulses = 100;
+    train.rate = Hertz(10);
+    const auto e = into(500, train, 10);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrent5s), std::sqrt(50 * 0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrent1s), std::sqrt(10 * 0.08 * 0.08 * 4e-4) * 1e3, 1e-9);
+}
+
+TEST(TrainExposure, RcLoadPeaksAsScienceMdSays) {
+    SourceTraits source = voltageSource();
+    PulseTrain train = volts(40);
+    const Load rc = benchRcLoad();
+    // A high-impedance gap keeps the capacitor charged: 361 mA; without a gap 396 mA; held at zero 200 mA on the edges.
+    source.gap = GapState::HighImpedance;
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 361, 1);
+    train.interPhaseGap = Micros(0);
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 396, 1);
+    train.interPhaseGap = Micros(100);
+    source.gap = GapState::HoldsZero;
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 200, 1);
+}
+
+TEST(TrainExposure, HighImpedanceGapLeaves58PercentOfAPhase) {
+    SourceTraits source = voltageSource();
+    source.gap = GapState::HighImpedance;
+    const auto e = exposureOf(volts(40), Seconds(0.5), benchRcLoad(), source, kNaN);
+    // Against the leading phase's charge, which the second phase exceeds.
+    IndependentBody body;
+    body.fit({200, 10'000, 50e-9});
+    PulseTrain leading = volts(40);
+    leading.shape = PulseShape::Monophasic;
+    const double phase = body.deliver(leading, {true, 1e9}, 0).phaseCharge * 1e6;
+    EXPECT_NEAR(e.at(Quantity::NetCharge) / phase, 0.58, 0.01);
+}
+
+// Against the model that shares no arithmetic: all shapes, sources and gaps, into the RC load, from rest.
+TEST(TrainExposure, AgreesWithTheIndependentModel) {
+    RecordProperty("hazard", "H1");
+    for (const auto shape : {PulseShape::SymmetricBiphasic, PulseShape::AsymmetricBiphasic, PulseShape::Monophasic}) {
+        for (const bool current : {false, true}) {
+            for (const auto gap : {GapState::HoldsZero, GapState::HighImpedance}) {
+                for (const int pulses : {1, 7}) {
+                    SourceTraits source = current ? currentSource() : voltageSource();
+                    source.gap = gap;
+                    PulseTrain train = current ? milliamps(3) : volts(30);
+                    train.shape = shape;
+                    train.pulses = pulses;
+                    train.rate = Hertz(380);  // 2.6 ms: the RC load (0.5 ms) keeps a little between pulses
+                    const auto e = exposureOf(train, Seconds(1), benchRcLoad(), source, 1);
+                    IndependentBody body;
+                    body.fit({200, 10'000, 50e-9});
+                    const PulseFacts facts = body.deliver(train, {gap == GapState::HighImpedance, 1e9}, 0);
+                    const std::string where = fmt::format("shape {} {} gap {} n {}", static_cast<int>(shape), current,
+                                                          static_cast<int>(gap), pulses);
+                    EXPECT_NEAR(e.at(Quantity::PeakCurrent) / (facts.peakI * 1e3), 1, 1e-6) << where;
+                    EXPECT_NEAR(e.at(Quantity::PeakVoltage) / facts.peakV, 1, 1e-6) << where;
+                    EXPECT_NEAR(e.at(Quantity::PhaseCharge) / (facts.phaseCharge * 1e6), 1, 1e-6) << where;
+                    EXPECT_NEAR(e.at(Quantity::PulseEnergy) / (facts.energy * 1e3), 1, 1e-6) << where;
+                    EXPECT_NEAR(e.at(Quantity::RmsCurrent5s) / (std::sqrt(body.worstI2(100) * 5 / 5) * 1e3), 1, 1e-6)
+                        << where;
+                    EXPECT_NEAR(e.at(Quantity::PowerDensity) / body.worstEnergy(100), 1, 1e-6) << where;
+                    EXPECT_NEAR(e.at(Quantity::NetCharge), facts.netCharge * 1e6, 1e-3 * facts.phaseCharge * 1e6)
+                        << where;
+                }
+            }
+        }
+    }
+}
+
+TEST(TrainExposure, ChargeLeftBehindIsCarriedIntoTheSteadyState) {
+    // Rp·C = 2 s: a monophasic train every 0.5 s charges the load far above what one train leaves.
+    SourceTraits source = voltageSource();
+    source.gap = GapState::HighImpedance;
+    PulseTrain train = volts(30);
+    train.shape = PulseShape::Monophasic;
+    train.pulses = 5;
+    const Load slow = Load::skin(Ohms(1000), Ohms(1e6), Nanofarads(2000));
+    const auto e = exposureOf(train, Seconds(0.5), slow, source, kNaN);
+    IndependentBody body;
+    body.fit({1000, 1e6, 2e-6});
+    for (int k = 0; k < 200; ++k) body.deliver(train, {true, 1e9}, 0.5 * k);
+    PulseTrain reversed = train;
+    reversed.polarity = Polarity::Negative;
+    // What 200 trains left makes the reversed train peak higher; the gate carries that voltage.
+    const double peak = body.deliver(reversed, {true, 1e9}, 100).peakI * 1e3;
+    EXPECT_GT(peak, 1.2 * e.at(Quantity::PeakCurrent));
+    EXPECT_GT(exposureOf(reversed, Seconds(0.5), slow, source, kNaN, {e.residual_V}).at(Quantity::PeakCurrent), peak);
+}
+
+TEST(TrainExposure, VoltageOfACurrentSourceIsCappedByCompliance) {
+    SourceTraits source = currentSource();
+    source.compliance = Volts(80);
+    const auto e = exposureOf(milliamps(20), Seconds(1), Load::resistor(Ohms(10'000)), source, kNaN);
+    EXPECT_NEAR(e.at(Quantity::PeakVoltage), 80, 1e-12);
+    EXPECT_NEAR(e.at(Quantity::CommandVoltage), 200, 1e-9) << "the command is judged uncapped";
+    // Phases that clip on a charged load no longer balance: net charge must not read zero.
+    const auto rc =
+        exposureOf(milliamps(20), Seconds(1), Load::skin(Ohms(1000), Ohms(50'000), Nanofarads(20)), source, kNaN);
+    EXPECT_GE(rc.at(Quantity::NetCharge), rc.at(Quantity::PhaseCharge));
+}
+
+TEST(TrainExposure, CommandOfACurrentSourceIsJudgedAtTheNominalLoad) {
+    // 3.50 kΩ is the RC load's |Z| for a current source at 200 µs.
+    const auto e = worstExposure(milliamps(10), Seconds(1), LoadRange::declared(benchRcLoad()), currentSource(), kNaN);
+    EXPECT_NEAR(e.at(Quantity::CommandVoltage), 35.0, 0.1);
+    EXPECT_GT(e.at(Quantity::PeakVoltage), 40) << "the worst case is at load_max";
+}
+
+TEST(TrainExposure, WorstCaseIsTheLowLoadForVoltsAndTheHighOneForCurrents) {
+    const LoadRange range = LoadRange::declared(Load::resistor(Ohms(1000)));
+    EXPECT_NEAR(worstExposure(volts(40), Seconds(1), range, voltageSource(), kNaN).at(Quantity::PeakCurrent), 50, 1e-9);
+    const auto current = worstExposure(milliamps(10), Seconds(1), range, currentSource(), kNaN);
+    EXPECT_NEAR(current.at(Quantity::PeakVoltage), 12, 1e-9);
+    EXPECT_NEAR(current.at(Quantity::PulseEnergy), 12 * 0.01 * 4e-4 * 1e3, 1e-9);
+}
+
+TEST(TrainExposure, LostContactAndDriftDoNotHideALoad) {
+    RecordProperty("hazard", "H1");
+    Load load = Load::resistor(Ohms(500));
+    load.windowCount = 1;
+    load.windows[0] = {0, 100};
+    load.openFraction = 1;
+    load.driftPerSecond = 1;
+    EXPECT_NEAR(exposureOf(volts(40), Seconds(0.5), load, voltageSource(), kNaN).at(Quantity::PeakCurrent), 80, 1e-9);
+}
+
+TEST(TrainExposure, WhatIsNoTrainIsNoNumber) {
+    PulseTrain train = volts(kNaN);
+    for (const double value : exposureOf(train, Seconds(1), Load::resistor(Ohms(1000)), voltageSource(), 1).values) {
+        EXPECT_TRUE(std::isnan(value));
+    }
+    for (const double interval : {kNaN, 0.0, -1.0, 0.005}) {
+        EXPECT_TRUE(std::isnan(into(500, volts(10), interval).at(Quantity::PeakCurrent))) << interval;
+    }
+    EXPECT_TRUE(std::isnan(worse(into(500, volts(10), 1), into(500, volts(10), kNaN)).at(Quantity::PeakCurrent)));
+}
+
+TEST(ExposureTable, ListsEveryLimitAndSaysWhatWasNotEvaluated) {
+    RecordProperty("hazard", "H9");
+    GateSetup setup = benchSetup(Load::resistor(Ohms(500)));
+    setup.limits = shippedLimits();
+    auto rows = exposureTable(setup, volts(40), Seconds(0.5));
+    int densities = 0;
+    for (const auto& row : rows) {
+        if (!needsArea(row.quantity)) {
+            EXPECT_TRUE(row.evaluated) << keyOf(row.quantity);
+            EXPECT_TRUE(row.within) << keyOf(row.quantity);
+        } else {
+            ++densities;
+            EXPECT_FALSE(row.evaluated);
+            EXPECT_FALSE(row.within) << "not evaluated is not a pass";
+            EXPECT_FALSE(row.reason.empty());
+        }
+    }
+    EXPECT_EQ(densities, 2);
+    EXPECT_EQ(rows.back().quantity, Quantity::RmsCurrentTrain);
+    EXPECT_TRUE(std::isnan(rows.back().limit)) << "the in-train figure has no limit";
+
+    setup.electrodeArea = SquareCentimetres(0.5);
+    rows = exposureTable(setup, volts(40), Seconds(0.5));
+    for (const auto& row : rows) EXPECT_TRUE(row.evaluated);
+    const auto density =
+        std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.quantity == Quantity::CurrentDensity; });
+    EXPECT_FALSE(density->within) << "5.66 mA/cm² is above the warning at 2";
+    EXPECT_EQ(density->action, LimitAction::Warn);
+}
+
+}  // namespace tacto::test
