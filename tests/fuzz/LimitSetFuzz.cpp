@@ -1,0 +1,23 @@
+// Any text for a limit set is either refused with a sentence or gives limits that can be judged (H10).
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/safety/LimitSet.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto set = tacto::parseLimitSet({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+    if (!set) {
+        if (set.error().code != tacto::ErrorCode::ParseError || !set.error().message.starts_with("fuzz.json: "))
+            std::abort();
+        return 0;
+    }
+    if (set->id.empty() || set->id.size() > 31 || set->rows.empty()) std::abort();
+    for (const auto& row : set->rows) {
+        if (!(row.max > 0) || !std::isfinite(row.max) || row.source.empty()) std::abort();
+        if (tacto::indexOf(row.quantity) >= tacto::kQuantityCount) std::abort();
+        if (row.upToHz != 0 && !(row.upToHz > row.aboveHz)) std::abort();
+    }
+    return 0;
+}
