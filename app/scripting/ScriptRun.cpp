@@ -161,9 +161,8 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
         result.verdict = ScriptVerdict::Stopped;
         result.line = line;
         result.error =
-            Error{ErrorCode::Stopped, stopText(line) +
-                                          "; it was still running a second later, so it was abandoned with the "
-                                          "output off"};
+            Error{ErrorCode::Stopped,
+                  stopText(line) + "; it did not end within a second, so it was abandoned with the output off"};
         request.onProgress = nullptr;
         request.onLog = nullptr;
     } else {

@@ -15,8 +15,8 @@ namespace tacto {
 
 class ScriptThread {
 public:
-    /// How long a script may go on after it was told to end.
-    static constexpr std::chrono::milliseconds kGrace{1000};
+    /// How long a script may go on after it was told to end: given up, with time to say so, within a second.
+    static constexpr std::chrono::milliseconds kGrace{800};
     enum class End {
         Done,       ///< the body returned; its thread has ended
         Abandoned,  ///< it did not end in kGrace: thread, engine and port are leaked until it does, if ever

@@ -17,6 +17,13 @@ using test::withRun;
 const std::string kArmed =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(0.6); log('here');\n";
 
+/// From stop() to the report that a script was abandoned. Sanitizers and a busy machine slow the report, not the stop.
+#ifdef TACTOSCOPE_SANITIZED
+constexpr milliseconds kReported{4000};
+#else
+constexpr milliseconds kReported{1000};
+#endif
+
 /// Waits for somebody who never comes.
 class NobodyAtTheDesk final : public Operator {
 public:
@@ -83,7 +90,7 @@ TEST(ScriptStop, EndsAnEndlessLoop) {
     const Stopping stopping(rig, "for (;;) {}");
     expectStopped(stopping, 2);
     EXPECT_FALSE(stopping.outcome.abandoned);
-    EXPECT_LT(stopping.took, milliseconds(900));
+    EXPECT_LT(stopping.took, milliseconds(700));
 }
 
 TEST(ScriptStop, EndsALoopThatCatchesEverything) {
@@ -113,7 +120,7 @@ TEST(ScriptStop, WakesABlockedHostCall) {
     const Stopping stopping(rig, "\nbench.wait(3600);");
     expectStopped(stopping, 4);
     EXPECT_FALSE(stopping.outcome.abandoned);
-    EXPECT_LT(stopping.took, milliseconds(900));
+    EXPECT_LT(stopping.took, milliseconds(700));
 }
 
 TEST(ScriptStop, WakesAQuestionThatNobodyAnswers) {
@@ -147,8 +154,7 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
     const auto outcome = run->wait();
     const auto took = steady_clock::now() - begin;
     EXPECT_TRUE(outcome.abandoned);
-    EXPECT_GE(took, milliseconds(1000));
-    EXPECT_LT(took, milliseconds(1500));
+    EXPECT_LT(took, kReported);
     EXPECT_EQ(ScriptRun::abandonedRunning(), 1);
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
     EXPECT_TRUE(outcome.error->message.starts_with("/lab/probe.js:3: stopped by the test")) << outcome.error->message;
@@ -162,22 +168,23 @@ TEST(ScriptStop, AbandonsRecursiveTryFinally) {
     const Stopping stopping(rig, "function f() { try { f(); } finally { f(); } }\nf();");
     expectStopped(stopping, 2);
     EXPECT_TRUE(stopping.outcome.abandoned);
-    EXPECT_LT(stopping.took, milliseconds(1500));
+    EXPECT_LT(stopping.took, kReported);
 }
 
 TEST(ScriptStop, AnAbandonedScriptReachesTheBenchNoMore) {
     RecordProperty("hazard", "H10");
     auto rig = std::make_unique<RunBench>();
     std::atomic<int> logged{0};
-    auto request = rig->request(withRun(
-        kArmed +
-        "function f() { try { f(); } finally { try { bench.arm(); log('alive'); } catch (e) {} f(); } }\nf();"));
+    // The sort goes on calling the host function when the interpreter runs no statement any more.
+    auto request = rig->request(
+        withRun("const a = []; for (let i = 0; i < 1e6; ++i) a[i] = i * 7919 % 1000003;\n" + kArmed + "a.sort(log);"));
     request.onLog = [&](const std::string&) { ++logged; };
     auto run = ScriptRun::start(std::move(request)).value();
-    while (logged == 0) std::this_thread::yield();
+    while (logged < 100) std::this_thread::yield();
     run->stop("the test");
     const auto outcome = run->wait();
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    EXPECT_TRUE(outcome.abandoned);
     const int before = logged;
     EXPECT_TRUE(rig->outputOff());
     run.reset();
