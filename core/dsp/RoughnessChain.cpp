@@ -10,6 +10,7 @@
 #include "core/dsp/PowerSpectrum.h"
 #include "core/dsp/RoughnessIndex.h"
 #include "core/dsp/SlidingRest.h"
+#include "core/dsp/StreamCheck.h"
 #include "core/dsp/TaxelTrack.h"
 
 namespace tacto {
@@ -20,33 +21,6 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlice_s = 0.05;  // how far one stream may run ahead inside feed()
 constexpr double kSkew_s = 0.25;   // how far it may between calls, with margin
-
-Result<void> checkStream(const StreamInfo& info) {
-    if (!(info.rate_hz > 0 && info.rate_hz <= 1e6)) {
-        return fail(ErrorCode::InvalidArgument, "{}: its rate is {} Hz; above 0 to 1 MHz was expected",
-                    nameOf(info.kind), info.rate_hz);
-    }
-    switch (info.kind) {
-        case StreamKind::Acceleration:
-            // Measured rates miss a nominal 100 Hz or 20 kHz by a little.
-            if (!(info.rate_hz >= 99 && info.rate_hz <= 20'200)) {
-                return fail(ErrorCode::InvalidArgument,
-                            "acceleration: its rate is {:.6g} Hz; 100 Hz to 20 kHz was expected", info.rate_hz);
-            }
-            if (info.channels < 1 || info.channels > AxesBandpass::kMaxAxes) {
-                return fail(ErrorCode::InvalidArgument, "acceleration: it has {} axes; 1 to 3 were expected",
-                            info.channels);
-            }
-            return {};
-        case StreamKind::Force:
-            if (info.channels == 1) return {};
-            return fail(ErrorCode::InvalidArgument, "force: it has {} channels; 1 was expected", info.channels);
-        case StreamKind::Taxels:
-            if (info.channels >= 2) return {};
-            return fail(ErrorCode::InvalidArgument, "taxels: there are {}; at least 2 were expected", info.channels);
-    }
-    return {};
-}
 
 }  // namespace
 
@@ -308,7 +282,7 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
             const bool pressing = pressed.force_n > ForceTrack::kSmallestDivisor_n;
             const double divisor = pressing ? pressed.force_n : ForceTrack::kSmallestDivisor_n;
             meanSquare *= divisor * divisor;
-            if (force->unsteady(begin_s, end_s, streamBegin_s())) {
+            if (frame.contact && force->unsteady(begin_s, end_s, streamBegin_s())) {
                 meanSquare = std::min(meanSquare, undoneMeanSquare(*window));
             }
         }
@@ -347,19 +321,7 @@ Result<std::unique_ptr<RoughnessChain>> RoughnessChain::create(std::span<const S
                                                                const RoughnessSettings& settings,
                                                                const DeclaredIntervals& declared) {
     if (const auto valid = validate(settings); !valid) return failure(valid);
-    if (streams.empty()) {
-        return fail(ErrorCode::InvalidArgument,
-                    "roughness: there is no stream; acceleration, force or taxels was expected");
-    }
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-        if (const auto good = checkStream(streams[i]); !good) return failure(good);
-        for (std::size_t j = 0; j < i; ++j) {
-            if (streams[i].kind == streams[j].kind) {
-                return fail(ErrorCode::InvalidArgument, "roughness: there are two {} streams; one was expected",
-                            nameOf(streams[i].kind));
-            }
-        }
-    }
+    if (const auto good = checkStreams(streams); !good) return failure(good);
     return std::unique_ptr<RoughnessChain>(new RoughnessChain(std::make_unique<State>(streams, settings, declared)));
 }
 

@@ -6,8 +6,13 @@
 // Promptness. A frame describes the middle of its window, so it comes out half a window (32 ms) after its
 // t_s, plus the wait for the next force sample, to interpolate towards (5 ms at 200 Hz), and for the taxel
 // sample that may be nearer (none, at 200 Hz). With taxels and no declared baseline the first 250 ms are held
-// back until the baseline is known, once. When force or taxels stop coming frames are held for up to 1.25 s;
+// back until the baseline is known, once; before the first contact ends the rest, or a declared baseline has
+// passed, frames have no v. When force or taxels stop coming frames are held for up to 1.25 s;
 // so a caller that stimulates watches the age of the newest frame and of every stream (StreamHealth).
+//
+// While force more than doubles within a window (a finger landing or lifting), the frame slides only if its vibration
+// with the normalisation undone sample by sample says so too: one force for the whole window would turn the sensor's
+// noise into a vibration, and static contact must never read as rough (hazard H7).
 //
 // What is not finite, repeated or stepped back in time is not used; a gap or a NaN in acceleration starts the
 // filter and the windows anew behind it. All of it is counted and shows among the flags.
@@ -66,7 +71,8 @@ public:
     /// Forgets all samples, contact and rest; keeps settings, plans and buffers.
     void reset();
 
-    /// Uses these instead of measuring; for a declared baseline that lies behind the frames that need it.
+    /// Uses these instead of measuring, reset() included; for a declared baseline that lies behind the frames that need
+    /// it.
     void presetRest(const RestLevels& rest);
     /// The levels in use, once they are known.
     [[nodiscard]] const RestLevels* rest() const noexcept;

@@ -84,3 +84,13 @@ TEST(RealRecordings, FabricSlideShowsTheGratingAtEverySpeed) {
         EXPECT_NEAR(speed_mmps / best_hz, 3.98, 0.05) << "period in mm at " << speed_mmps << " mm/s";
     }
 }
+
+TEST(RealRecordings, TheShippedExampleOpensAndCarriesItsLicence) {
+    const auto folder = tacto::test::sourceDir() / "resources/examples/linen-slide";
+    const auto recording = Recording::open(folder);
+    ASSERT_TRUE(recording) << recording.error().message;
+    EXPECT_EQ(recording->licence, "MIT");
+    EXPECT_TRUE(std::filesystem::exists(folder / "LICENSE"));
+    EXPECT_EQ(recording->streams.at(0).samples.samples(), 1059U);
+    EXPECT_TRUE(recording->streams.at(0).health.continuous());
+}
