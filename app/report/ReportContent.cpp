@@ -242,7 +242,7 @@ ReportContent contentOf(const ReportModel& model) {
     if (model.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"No fault, refusal or stop was recorded.", true});
     } else {
-        blocks.emplace_back(eventsTable(model, captions.table("Faults, refusals and stops")));
+        blocks.emplace_back(eventsTable(model, captions.table("Faults, refusals, stops and remarks")));
     }
     if (!model.reproduce.isEmpty()) {
         blocks.emplace_back(HeadingBlock{"How to reproduce"});

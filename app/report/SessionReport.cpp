@@ -81,6 +81,19 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     for (const auto& set : about.limitSets) hash("Limits " + text(set.id), set.sha256);
 }
 
+/// The worse of two rows alike: one not evaluated first, then the larger share of its limit.
+void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
+    for (auto& known : model.exposure) {
+        if (known.name != row.name || known.source != row.source || known.limit < row.limit || known.limit > row.limit)
+            continue;
+        if (!std::isfinite(known.value)) return;
+        const bool newlyOver = row.over() && !known.over();
+        if (!row.evaluated() || newlyOver || std::abs(row.value) > std::abs(known.value)) known = row;
+        return;
+    }
+    model.exposure.push_back(row);
+}
+
 class ItemReader {
 public:
     ItemReader(const SessionReader& reader, ReportModel& model) : reader_(reader), model_(model) {}
@@ -122,6 +135,11 @@ private:
         const QString caption = item["caption"].toString();
         auto figure = parseFigure(item["figure"].toObject());
         if (figure) {
+            if (const auto* exposure = std::get_if<ExposureFigure>(&figure->content)) {
+                // It has a section of its own, with its table; twice would be one too many.
+                for (const auto& row : exposure->rows) addExposure(model_, row);
+                return;
+            }
             const auto resolved = resolveCaptures(*figure, [&](qint64 id) { return reader_.capture(id); });
             if (resolved) {
                 model_.items.emplace_back(ReportFigure{caption, std::move(*figure)});
@@ -152,10 +170,16 @@ ReportVerdict verdictNamed(const std::string& name) {
 
 bool isQuiet(const std::string& kind) {
     static const std::vector<std::string> quiet{
-        "open",     "opened",   "armed",   "arm",         "disarmed", "disarm",     "checking", "check",    "started",
-        "start",    "finished", "closed",  "close",       "end",      "delivering", "state",    "rounding", "rounded",
-        "progress", "paused",   "resumed", "calibration", "drive",    "profile",    "capture"};
+        "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
+        "start",   "finished", "closed", "close",   "end",         "delivering", "state",    "interlock", "rounding",
+        "rounded", "progress", "paused", "resumed", "calibration", "drive",      "profile",  "capture"};
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
+}
+
+/// A run with such an event and no verdict did not come to its end.
+bool endsARun(const std::string& kind) {
+    return kind == "stop" || kind == "stopped" || kind == "fault" || kind == "script abandoned" ||
+           kind == "script ended by an error";
 }
 
 /// The sentence of an event: its own text, else its fields.
@@ -180,19 +204,6 @@ void addEvent(ReportModel& model, const SessionRow& row) {
     model.events.push_back(std::move(event));
 }
 
-/// The worse of two rows alike: one not evaluated first, then the larger share of its limit.
-void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
-    for (auto& known : model.exposure) {
-        if (known.name != row.name || known.source != row.source || known.limit < row.limit || known.limit > row.limit)
-            continue;
-        if (!std::isfinite(known.value)) return;
-        const bool newlyOver = row.over() && !known.over();
-        if (!row.evaluated() || newlyOver || std::abs(row.value) > std::abs(known.value)) known = row;
-        return;
-    }
-    model.exposure.push_back(row);
-}
-
 Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const std::vector<SessionRow>& events) {
     const auto verdicts = reader.verdicts();
     if (!verdicts) return failure(verdicts);
@@ -201,7 +212,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
         for (const auto& reason : verdicts->back().reasons) model.reasons << text(reason);
     } else {
         for (const auto& event : events) {
-            if (event.name != "stop" && event.name != "stopped" && event.name != "fault") continue;
+            if (!endsARun(event.name)) continue;
             model.verdict = ReportVerdict::Stopped;
             model.reasons = QStringList{sentenceOf(objectOf(event.body))};
         }

@@ -7,11 +7,12 @@
 //   {"kind": "table", "caption": "Pairs", "rows": [{"a": "smooth-low", "mahalanobis": 50.1}],
 //    "columns": ["a", "b", "mahalanobis"]}                                                        columns optional
 //   {"kind": "text", "text": "..."}
-// Exposure: measurements named "exposure" with {"rows": [...]} as in Figure.h's type exposure. Of rows alike in name
-// and source the worst is shown, and one that was not evaluated is worse than any number (hazard H9). Captures in
-// figures are named by their seq. Verdict: the last verdict row; without one, a "stop" or "fault" event makes it
-// *stopped*, and a session that was not closed is *stopped* whatever else it says. Events: those named fault, refused,
-// stop, warning, adverse ... all but the quiet ones of a normal run.
+// Exposure: figures of type exposure, and measurements named "exposure" with {"rows": [...]} like theirs, in a section
+// of its own. Of rows alike in name, source and limit the worst is shown; not evaluated is worse than any number (H9).
+// Captures in figures are named by their seq.
+// Verdict: the last verdict row; without one, a stop, a fault or a script's error makes it *stopped*; a session that
+// was not closed is *stopped*, whatever its last verdict: close() it before its report is made. Events: faults,
+// refusals, stops, remarks; not the quiet ones of a normal run.
 //
 // Thread-safety: pure function of the file.
 #pragma once

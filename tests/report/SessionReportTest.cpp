@@ -131,6 +131,23 @@ TEST_F(SessionReport, SaysStoppedWhereAStopEndedIt) {
     EXPECT_EQ(model.reasons, QStringList{"Stopped by the operator."});
 }
 
+TEST_F(SessionReport, SaysStoppedWhereTheScriptEndedByAnError) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(
+        writer_->event(toInstant(1.5), "script ended by an error", {{"message", "separability.js:12: no trains"}}));
+    const auto model = closedAndRead();
+    EXPECT_EQ(model.verdict, ReportVerdict::Stopped);
+    EXPECT_EQ(model.reasons, QStringList{"separability.js:12: no trains"});
+}
+
+TEST_F(SessionReport, MovesTheScriptsExposureFigureIntoItsSection) {
+    ASSERT_TRUE(writer_->reportItem(Instant{0},
+                                    {{"kind", "figure"}, {"caption", "Exposure"}, {"figure", toJson(exposureJson())}}));
+    const auto model = closedAndRead();
+    EXPECT_TRUE(model.items.empty());
+    EXPECT_EQ(model.exposure.size(), 6U);
+}
+
 TEST_F(SessionReport, ListsFaultsAndRefusalsButNotTheQuietEvents) {
     ASSERT_TRUE(writer_->event(toInstant(1), "armed", {}));
     for (int i = 0; i < 3; ++i) {
