@@ -108,10 +108,33 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     return made;
 }
 
-Result<void> SessionStore::begin(Durability durability) {
+Result<void> SessionStore::settle() {
+    if (!committing_) return {};
+    auto done = committing_->wait();
+    recycle(written_);
+    return done;
+}
+
+Result<void> SessionStore::collect() {
+    if (!committing_ || committing_->busy()) return {};
+    return settle();
+}
+
+void SessionStore::recycle(std::vector<QueuedChunk>& chunks) {
+    for (auto& chunk : chunks) {
+        chunk.block.clear();
+        spare_.push_back(std::move(chunk.block));
+    }
+    chunks.clear();
+}
+
+Result<void> SessionStore::open(Durability durability) {
     if (inTransaction_ && (durability == current_ || current_ == Durability::PowerLoss)) return {};
     // A stronger demand ends the transaction; the next commit's sync covers the journal as a whole, this one included.
-    if (auto done = commit(); !done) return done;
+    if (inTransaction_) {
+        if (auto done = database_->execute("COMMIT"); !done) return done;
+        inTransaction_ = false;
+    }
     if (durability != current_) {
         const bool full = durability == Durability::PowerLoss;
         auto set = database_->execute(full ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL");
@@ -123,78 +146,133 @@ Result<void> SessionStore::begin(Durability durability) {
     return begun;
 }
 
-Result<std::int64_t> SessionStore::insert(const Entry& entry) {
-    const Digest hash = chainHash(head_, entry);
-    auto& row = statements_->entry;
-    row.bind(1, entry.seq);
-    row.bind(2, entry.kind);
-    row.bind(3, entry.t_ns);
-    row.bind(4, entry.name);
-    row.bind(5, entry.body);
-    if (entry.digest) {
-        row.bind(6, bytesOf(*entry.digest));
-    } else {
-        row.bindNull(6);
-    }
-    row.bind(7, bytesOf(head_));
-    row.bind(8, bytesOf(hash));
-    if (auto ran = row.run(); !ran) return failure(ran);
+Result<void> SessionStore::begin(Durability durability) {
+    if (auto settled = settle(); !settled) return settled;
+    if (auto opened = open(durability); !opened) return opened;
+    auto written = writeAll(queued_);
+    recycle(queued_);
+    return written;
+}
+
+SessionStore::Row SessionStore::seal(std::string_view kind, Instant at, std::string_view name, std::string_view body,
+                                     const std::optional<Digest>& digest) {
+    const Digest hash = chainHash(head_, {seq_ + 1, kind, at.count(), name, body, digest});
+    Row row{seq_ + 1, at, kind, name, body, digest, head_, hash};
     head_ = hash;
-    seq_ = entry.seq;
-    return seq_;
+    ++seq_;
+    return row;
+}
+
+Result<void> SessionStore::write(const Row& row) {
+    auto& insert = statements_->entry;
+    insert.bind(1, row.seq);
+    insert.bind(2, row.kind);
+    insert.bind(3, std::int64_t{row.at.count()});
+    insert.bind(4, row.name);
+    insert.bind(5, row.body);
+    if (row.digest) {
+        insert.bind(6, bytesOf(*row.digest));
+    } else {
+        insert.bindNull(6);
+    }
+    insert.bind(7, bytesOf(row.previous));
+    insert.bind(8, bytesOf(row.hash));
+    return insert.run();
+}
+
+Result<void> SessionStore::write(const QueuedChunk& chunk) {
+    auto& insert = statements_->chunk;
+    insert.bind(1, chunk.row.seq);
+    insert.bind(2, std::int64_t{chunk.head.stream});
+    insert.bind(3, chunk.head.index);
+    if (chunk.head.line) {
+        insert.bindNull(4);
+    } else {
+        insert.bind(4, std::as_bytes(std::span(chunk.block.t_s)));
+    }
+    insert.bind(5, std::as_bytes(std::span(chunk.block.values)));
+    if (auto ran = insert.run(); !ran) return ran;
+    auto row = chunk.row;
+    row.body = chunk.body;  // the string may have moved since it was sealed
+    return write(row);
+}
+
+Result<void> SessionStore::writeAll(const std::vector<QueuedChunk>& chunks) {
+    for (const auto& chunk : chunks) {
+        if (auto written = write(chunk); !written) return written;
+    }
+    return {};
 }
 
 Result<std::int64_t> SessionStore::add(std::string_view kind, Instant at, std::string_view name,
                                        std::string_view body) {
     if (auto begun = begin(background_); !begun) return failure(begun);
-    return insert({seq_ + 1, kind, at.count(), name, body, std::nullopt});
+    const auto row = seal(kind, at, name, body, std::nullopt);
+    if (auto written = write(row); !written) return failure(written);
+    return row.seq;
 }
 
 Result<std::int64_t> SessionStore::addNow(std::string_view kind, Instant at, std::string_view name,
                                           std::string_view body) {
     if (auto begun = begin(Durability::PowerLoss); !begun) return failure(begun);
-    auto row = insert({seq_ + 1, kind, at.count(), name, body, std::nullopt});
-    if (!row) return row;
+    const auto row = seal(kind, at, name, body, std::nullopt);
+    if (auto written = write(row); !written) return failure(written);
     if (auto done = commit(); !done) return failure(done);
-    return row;
+    return row.seq;
 }
 
-Result<std::int64_t> SessionStore::addChunk(Instant at, ChunkHead head, std::span<const std::byte> stamps,
-                                            std::span<const std::byte> data) {
-    if (auto begun = begin(background_); !begun) return failure(begun);
-    hashing_->start(stamps, data);
-    auto& row = statements_->chunk;
-    row.bind(1, seq_ + 1);
-    row.bind(2, std::int64_t{head.stream});
-    row.bind(3, head.index);
-    if (head.line) {
-        row.bindNull(4);
-    } else {
-        row.bind(4, stamps);
+void SessionStore::queueChunk(Instant at, ChunkHead head, SampleBlock& block) {
+    QueuedChunk chunk;
+    head.line = lineThrough(block.t_s);
+    const std::span<const double> stamps = head.line ? std::span<const double>() : block.t_s;
+    const std::span<const std::byte> parts[] = {std::as_bytes(stamps), std::as_bytes(std::span(block.values))};
+    head.crc = crc32(parts);
+    chunk.head = head;
+    chunk.body = toJsonText(head);
+    chunk.row = seal(kind::kChunk, at, "", chunk.body, bulkDigest(parts));
+    std::swap(chunk.block, block);
+    queued_.push_back(std::move(chunk));
+    if (!spare_.empty()) {
+        block = std::move(spare_.back());
+        spare_.pop_back();
     }
-    row.bind(5, data);
-    auto ran = row.run();
-    const auto checks = hashing_->wait();  // also when the insert failed: the worker still reads the bytes
-    if (!ran) return failure(ran);
-    head.crc = checks.crc;
-    return insert({seq_ + 1, kind::kChunk, at.count(), "", toJsonText(head), checks.digest});
 }
 
 Result<std::int64_t> SessionStore::addCapture(Instant at, std::string_view body, const Digest& digest,
                                               std::span<const std::byte> data) {
     if (auto begun = begin(background_); !begun) return failure(begun);
-    auto& row = statements_->capture;
-    row.bind(1, seq_ + 1);
-    row.bind(2, data);
-    if (auto ran = row.run(); !ran) return failure(ran);
-    return insert({seq_ + 1, kind::kCapture, at.count(), "", body, digest});
+    const auto row = seal(kind::kCapture, at, "", body, digest);
+    auto& insert = statements_->capture;
+    insert.bind(1, row.seq);
+    insert.bind(2, data);
+    if (auto ran = insert.run(); !ran) return failure(ran);
+    if (auto written = write(row); !written) return failure(written);
+    return row.seq;
 }
 
 Result<void> SessionStore::commit() {
+    if (auto settled = settle(); !settled) return settled;
+    if (!queued_.empty()) {
+        if (auto begun = begin(background_); !begun) return begun;
+    }
     if (!inTransaction_) return {};
     auto done = database_->execute("COMMIT");
     if (done) inTransaction_ = false;
     return done;
+}
+
+Result<void> SessionStore::commitInBackground() {
+    if (auto settled = settle(); !settled) return settled;
+    if (!inTransaction_ && queued_.empty()) return {};
+    if (auto opened = open(background_); !opened) return opened;
+    inTransaction_ = false;
+    std::swap(queued_, written_);
+    if (!committing_) committing_ = std::make_unique<CommitThread>();
+    committing_->start([this] {
+        auto written = writeAll(written_);
+        return written ? database_->execute("COMMIT") : written;
+    });
+    return {};
 }
 
 Result<void> SessionStore::close() {
@@ -205,6 +283,14 @@ Result<void> SessionStore::close() {
     statements_.reset();
     database_.reset();
     return done;
+}
+
+void SessionStore::abandon() noexcept {
+    if (!database_) return;
+    static_cast<void>(settle());
+    queued_.clear();
+    statements_.reset();
+    database_.reset();  // closing rolls an open transaction back
 }
 
 }  // namespace tacto

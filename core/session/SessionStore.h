@@ -6,16 +6,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
 #include "core/session/Chain.h"
 #include "core/session/Chunk.h"
+#include "core/session/CommitThread.h"
 #include "core/session/Database.h"
-#include "core/session/HashWorker.h"
 
 namespace tacto {
 
@@ -37,14 +39,22 @@ public:
     /// Adds a row and commits it, with all before it, so that it survives power loss.
     [[nodiscard]] Result<std::int64_t> addNow(std::string_view kind, Instant at, std::string_view name,
                                               std::string_view body);
-    /// Adds samples with their row. `stamps` is empty when `head.line` is set. `head.crc` is filled in here.
-    [[nodiscard]] Result<std::int64_t> addChunk(Instant at, ChunkHead head, std::span<const std::byte> stamps,
-                                                std::span<const std::byte> data);
+    /// Hashes samples and queues them with their row; the next commit of either kind writes them. `block` is taken and
+    /// an empty one with room given back. `head` is complete but for line and crc.
+    void queueChunk(Instant at, ChunkHead head, SampleBlock& block);
     [[nodiscard]] Result<std::int64_t> addCapture(Instant at, std::string_view body, const Digest& digest,
                                                   std::span<const std::byte> data);
     [[nodiscard]] Result<void> commit();
+    /// Writes the queued chunks and commits on another thread, while the caller hashes the next ones; what it meets is
+    /// told by the next call here.
+    [[nodiscard]] Result<void> commitInBackground();
+    /// The result of a commit started before, if it has ended. Never waits.
+    [[nodiscard]] Result<void> collect();
     /// Commits, and moves everything from the journal into the file.
     [[nodiscard]] Result<void> close();
+    /// Closes after an error: what is not committed is dropped. A later row without the one that failed would be a
+    /// hole.
+    void abandon() noexcept;
 
     [[nodiscard]] const Digest& head() const noexcept { return head_; }
     [[nodiscard]] std::int64_t rows() const noexcept { return seq_; }
@@ -55,21 +65,52 @@ private:
         Statement chunk;
         Statement capture;
     };
+    /// A row that has its place in the chain.
+    struct Row {
+        std::int64_t seq = 0;
+        Instant at{0};
+        std::string_view kind;
+        std::string_view name;
+        std::string_view body;
+        std::optional<Digest> digest;
+        Digest previous{};
+        Digest hash{};
+    };
+    struct QueuedChunk {
+        ChunkHead head;
+        SampleBlock block;
+        std::string body;  // What row.body looks at
+        Row row;
+    };
+
     SessionStore(Database database, Statements statements) noexcept
         : database_(std::move(database)), statements_(std::move(statements)) {}
-    /// Makes sure that a transaction of at least this durability is open.
-    [[nodiscard]] Result<void> begin(Durability durability);
-    [[nodiscard]] Result<std::int64_t> insert(const Entry& entry);
     [[nodiscard]] static Result<SessionStore> attach(Database database);
+    /// Gives a row its number and hash.
+    [[nodiscard]] Row seal(std::string_view kind, Instant at, std::string_view name, std::string_view body,
+                           const std::optional<Digest>& digest);
+    [[nodiscard]] Result<void> write(const Row& row);
+    [[nodiscard]] Result<void> write(const QueuedChunk& chunk);
+    [[nodiscard]] Result<void> writeAll(const std::vector<QueuedChunk>& chunks);
+    /// Makes sure that a transaction of at least this durability is open and holds all that was queued.
+    [[nodiscard]] Result<void> begin(Durability durability);
+    /// The same without a look at the queue.
+    [[nodiscard]] Result<void> open(Durability durability);
+    /// Waits for a commit started before, and tells how it went.
+    [[nodiscard]] Result<void> settle();
+    void recycle(std::vector<QueuedChunk>& chunks);
 
     std::optional<Database> database_;      // Nothing once closed
     std::optional<Statements> statements_;  // After database_: destroyed before it
-    std::unique_ptr<HashWorker> hashing_ = std::make_unique<HashWorker>();
     Digest head_{};
     std::int64_t seq_ = 0;
+    std::vector<QueuedChunk> queued_;   // Sealed, not yet written
+    std::vector<QueuedChunk> written_;  // Being written by committing_
+    std::vector<SampleBlock> spare_;    // Empty, with room: keeps a steady state from allocating
     bool inTransaction_ = false;
     Durability background_ = Durability::PowerLoss;
     Durability current_ = Durability::PowerLoss;  // SQLite's setting; it cannot change inside a transaction
+    std::unique_ptr<CommitThread> committing_;    // Made by the first background commit; destroyed first
 };
 
 }  // namespace tacto

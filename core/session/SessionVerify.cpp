@@ -6,7 +6,6 @@
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chain.h"
 #include "core/session/Chunk.h"
-#include "core/session/HashWorker.h"
 #include "core/session/JsonFields.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionSource.h"
@@ -194,9 +193,8 @@ private:
             problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
         }
         const std::span<const std::byte> parts[] = {row.blob(2), row.blob(3)};
-        const auto checks = checksOf(parts);
-        if (checks.crc != head->crc) problem("{} does not match its CRC-32", name);
-        if (entry.digest != checks.digest) problem("the samples of {} were altered: their hash is wrong", name);
+        if (crc32(parts) != head->crc) problem("{} does not match its CRC-32", name);
+        if (entry.digest != bulkDigest(parts)) problem("the samples of {} were altered: their hash is wrong", name);
         if (stream.columns == 0) return {};
         if (auto unpacked = unpackChunk(*head, stream.columns, parts[0], parts[1], scratch_); !unpacked) {
             problem("row {}: {}", entry.seq, unpacked.error().message);
@@ -217,9 +215,8 @@ private:
             return {};
         }
         const std::span<const std::byte> parts[] = {row.blob(0)};
-        const auto checks = checksOf(parts);
-        if (checks.crc != countOr(body, "crc32")) problem("capture {} does not match its CRC-32", entry.seq);
-        if (entry.digest != checks.digest) problem("capture {} was altered: its hash is wrong", entry.seq);
+        if (crc32(parts) != countOr(body, "crc32")) problem("capture {} does not match its CRC-32", entry.seq);
+        if (entry.digest != bulkDigest(parts)) problem("capture {} was altered: its hash is wrong", entry.seq);
         if (auto unpacked = unpackCapture(body, parts[0]); !unpacked) {
             problem("capture {}: {}", entry.seq, unpacked.error().message);
         }

@@ -77,33 +77,41 @@ struct SessionWriter::State {
         return row;
     }
 
-    [[nodiscard]] Result<void> writeChunk(std::size_t index) {
+    void queueChunk(std::size_t index) {
         auto& stream = streams[index];
-        auto& pending = stream.pending;
-        if (pending.samples() == 0) return {};
-        ChunkHead head{static_cast<int>(index) + 1, stream.nextIndex, stream.nextSample, pending.samples(),
-                       lineThrough(pending.t_s)};
-        const std::span<const double> stamps = head.line ? std::span<const double>() : pending.t_s;
-        auto row = kept(store.addChunk(clock.now(), head, std::as_bytes(stamps),
-                                       std::as_bytes(std::span<const double>(pending.values))));
-        if (!row) return failure(row);
+        const auto samples = stream.pending.samples();
+        if (samples == 0) return;
+        store.queueChunk(clock.now(),
+                         {static_cast<int>(index) + 1, stream.nextIndex, stream.nextSample, samples, {}, 0},
+                         stream.pending);
         ++stream.nextIndex;
-        stream.nextSample += pending.samples();
-        pending.clear();
-        return {};
+        stream.nextSample += samples;
+    }
+
+    void queueChunks() {
+        for (std::size_t i = 0; i < streams.size(); ++i) queueChunk(i);
+        lastCommit = clock.now();
     }
 
     [[nodiscard]] Result<void> commit() {
-        for (std::size_t i = 0; i < streams.size(); ++i) {
-            if (auto written = writeChunk(i); !written) return written;
-        }
-        lastCommit = clock.now();
+        queueChunks();
         return kept(store.commit());
     }
 
+    /// The end mark, once everything before it is written.
+    [[nodiscard]] Result<void> end(std::string_view reason) {
+        if (failed) return tl::unexpected<Error>(*failed);
+        if (auto done = commit(); !done) return done;
+        const auto counts = lineOf({{"rows", store.rows() + 1}, {"trials", trials}});
+        auto row = kept(store.addNow(kind::kEnd, clock.now(), reason, counts));
+        if (!row) return failure(row);
+        return kept(store.close());
+    }
+
     [[nodiscard]] Result<void> commitIfDue() {
-        if (clock.now() - lastCommit < kCommitEvery) return {};
-        return commit();
+        if (clock.now() - lastCommit < kCommitEvery) return kept(store.collect());
+        queueChunks();
+        return kept(store.commitInBackground());
     }
 };
 
@@ -168,10 +176,10 @@ Result<void> SessionWriter::append(int stream, const SampleBlock& block) {
     auto& pending = buffer.pending;
     pending.t_s.insert(pending.t_s.end(), block.t_s.begin(), block.t_s.end());
     pending.values.insert(pending.values.end(), block.values.begin(), block.values.end());
-    if (pending.values.size() >= kChunkValues) {
-        if (auto written = state_->writeChunk(index); !written) return written;
-    }
-    return state_->commitIfDue();
+    if (pending.values.size() < kChunkValues) return state_->commitIfDue();
+    state_->queueChunk(index);
+    if (state_->clock.now() - state_->lastCommit >= kCommitEvery) return state_->commitIfDue();
+    return state_->kept(state_->store.commitInBackground());
 }
 
 Result<std::int64_t> SessionWriter::event(Instant at, std::string_view kind, const nlohmann::json& details) {
@@ -202,9 +210,9 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
     // Compressed and hashed before the lock: it takes milliseconds and needs nothing of the session.
     const auto packed = packSamples(capture);
     const std::span<const std::byte> parts[] = {packed.data};
-    const auto checks = checksOf(parts);
+    const auto digest = bulkDigest(parts);
     auto body = describe(capture, packed);
-    body["crc32"] = checks.crc;
+    body["crc32"] = crc32(parts);
 
     const std::lock_guard lock(state_->mutex);
     if (auto ready = state_->open(); !ready) return failure(ready);
@@ -215,7 +223,7 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
         }
         body["trial"] = *trial;
     }
-    auto row = state_->kept(state_->store.addCapture(at, lineOf(body), checks.digest, packed.data));
+    auto row = state_->kept(state_->store.addCapture(at, lineOf(body), digest, packed.data));
     if (!row) return row;
     if (auto committed = state_->commitIfDue(); !committed) return failure(committed);
     return row;
@@ -259,20 +267,14 @@ Result<void> SessionWriter::close(std::string_view reason) {
     const std::lock_guard lock(state_->mutex);
     if (state_->closed) return {};
     state_->closed = true;
-    if (state_->failed) {
-        static_cast<void>(state_->store.close());
-        return tl::unexpected<Error>(*state_->failed);
-    }
-    if (auto done = state_->commit(); !done) return done;
-    auto end =
-        state_->kept(state_->store.addNow(kind::kEnd, state_->clock.now(), reason,
-                                          lineOf({{"rows", state_->store.rows() + 1}, {"trials", state_->trials}})));
-    if (!end) return failure(end);
-    return state_->kept(state_->store.close());
+    auto done = state_->end(reason);
+    if (!done) state_->store.abandon();
+    return done;
 }
 
 std::optional<Error> SessionWriter::failed() const {
     const std::lock_guard lock(state_->mutex);
+    if (!state_->failed) static_cast<void>(state_->kept(state_->store.collect()));
     return state_->failed;
 }
 

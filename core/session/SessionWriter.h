@@ -2,10 +2,10 @@
 //
 // Promise (hazard H8): when event(), trial(), verdict() or reportItem() returned a value, that row survives kill -9
 // and power loss. Samples, commands, captures, measurements and log lines are committed at least once a second of the
-// session's clock, and with every row named before. On a virtual clock those once-a-second commits survive kill -9
-// but wait for the next acknowledged row before they survive power loss.
-// Nothing is lost silently: the first error of the disk is returned by the call that met it and by every call after
-// it, and failed() says so to anyone.
+// session's clock, and with every row named before; that disk write runs beside the caller. On a virtual clock those
+// once-a-second commits survive kill -9 but wait for the next acknowledged row before they survive power loss. Nothing
+// is lost silently: the first error of the disk is returned by the call that met it and by every call after it, and
+// failed() says so to anyone.
 //
 // With a virtual clock the same calls write the same rows and chunks, whatever the machine.
 //
@@ -83,7 +83,8 @@ public:
 
     /// Why nothing more is recorded, once the disk refused; nothing while all is well.
     [[nodiscard]] std::optional<Error> failed() const;
-    /// The hash of the last row, 64 hexadecimal digits: printed in the report. Stays available after close().
+    /// The hash of the last row, 64 hexadecimal digits: printed in the report. Stays available after close(). Once
+    /// failed() it may be that of a row the disk refused.
     [[nodiscard]] std::string chainHead() const;
     [[nodiscard]] const std::filesystem::path& path() const noexcept;
 

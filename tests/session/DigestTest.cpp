@@ -3,7 +3,6 @@
 
 #include "core/session/Chain.h"
 #include "core/session/Digest.h"
-#include "core/session/HashWorker.h"
 
 namespace tacto {
 namespace {
@@ -28,23 +27,12 @@ TEST(Digest, Crc32IsZlibsOverAllParts) {
     EXPECT_EQ(crc32(parts), 0xCBF43926U);
 }
 
-TEST(Digest, TheWorkerAnswersAsTheCallerWouldForSmallAndLargeChunks) {
-    HashWorker worker;
-    for (const std::size_t size : {0UL, 1UL, 100UL, 40'000UL, 300'000UL}) {
-        const std::vector<std::byte> data(size, std::byte{0x5a});
-        const std::span<const std::byte> parts[] = {bytes("stamps"), data};
-        worker.start(parts[0], parts[1]);
-        const auto checks = worker.wait();
-        EXPECT_EQ(checks.digest, bulkDigest(parts));
-        EXPECT_EQ(checks.crc, crc32(parts));
-    }
-}
-
 TEST(Chain, HashIsSha256OfThePreviousHashAndTheDocumentedText) {
     Digest previous;
     previous.fill(7);
     const Entry entry{12, "event", -5, "armed", R"({"a":1})", std::nullopt};
-    const std::string text = std::string(32, '\7') + "12\n-5\nevent\n5:armed\n7:{\"a\":1}\n-\n";
+    std::string text(32, '\7');
+    text.append("12\n-5\nevent\n5:armed\n7:{\"a\":1}\n-\n");
     EXPECT_EQ(hexText(chainHash(previous, entry)), sha256Hex(text));
 }
 
