@@ -47,6 +47,7 @@ struct HostFunction {
 
 // One table per object.
 [[nodiscard]] std::vector<HostFunction> benchFunctions();
+[[nodiscard]] std::vector<HostFunction> surfaceFunctions();
 [[nodiscard]] std::vector<HostFunction> benchStateFunctions();
 [[nodiscard]] std::vector<HostFunction> operatorFunctions();
 [[nodiscard]] std::vector<HostFunction> recordFunctions();

@@ -6,8 +6,8 @@ namespace tacto {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        for (auto* part : {generalFunctions, benchFunctions, benchStateFunctions, operatorFunctions, recordFunctions,
-                           measureFunctions, plotFunctions}) {
+        for (auto* part : {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
+                           recordFunctions, measureFunctions, plotFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }
