@@ -42,11 +42,14 @@ void AccelerationTrack::clear() noexcept {
     losses_ = {};
 }
 
-bool AccelerationTrack::finite(const double* sample) const noexcept {
-    return std::all_of(sample, sample + axes_, [](double x) { return std::isfinite(x); });
+inline bool AccelerationTrack::finite(const double* sample) const noexcept {
+    // 0 unless one is infinite or NaN: one comparison for all axes.
+    double zero = 0;
+    for (std::size_t a = 0; a < axes_; ++a) zero += sample[a] * 0.0;
+    return zero == 0;
 }
 
-AccelerationTrack::Use AccelerationTrack::judge(double t_s, const double* sample) noexcept {
+inline AccelerationTrack::Use AccelerationTrack::judge(double t_s, const double* sample) noexcept {
     const auto kind = grid_.next(t_s);
     switch (kind) {
         case StampClass::Regular:

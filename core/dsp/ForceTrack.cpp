@@ -80,6 +80,14 @@ void ForceTrack::normalise(std::span<const double> stamps, std::span<double* con
         const Line line = lineAt(normaliseCursor_, stamps[i], start_s);
         std::size_t end = i + 1;
         while (end < stamps.size() && stamps[end] < line.until) ++end;
+        // Four at a time: the divisions need not wait for each other.
+        for (; i + 4 <= end; i += 4) {
+            double factors[4];
+            for (std::size_t j = 0; j < 4; ++j) factors[j] = 1 / line.divisor(stamps[i + j]);
+            for (auto* axis : axes) {
+                for (std::size_t j = 0; j < 4; ++j) axis[i + j] *= factors[j];
+            }
+        }
         for (; i < end; ++i) {
             const double factor = 1 / line.divisor(stamps[i]);
             for (auto* axis : axes) axis[i] *= factor;

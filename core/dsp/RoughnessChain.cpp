@@ -306,10 +306,7 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
     } else if (taxelInfo && taxelInfo->unit == StreamUnit::Pascal) {
         frame.pressure_pa = taxelMean;
     }
-    if (!std::isnan(frame.pressure_pa)) {
-        const double low = settings.pressureMin.value();
-        frame.P = std::clamp((frame.pressure_pa - low) / (settings.pressureMax.value() - low), 0.0, 1.0);
-    }
+    if (!std::isnan(frame.pressure_pa)) frame.P = pressureIndex(frame.pressure_pa, settings);
     frames.push_back(frame);
     if (force) force->release(begin_s);
 }

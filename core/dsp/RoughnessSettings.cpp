@@ -167,6 +167,11 @@ double ReferenceScale::g(double x) const noexcept {
     return std::clamp((std::log10(x) - from) / (std::log10(rough) - from), 0.0, 1.0);
 }
 
+double pressureIndex(double pressure_pa, const RoughnessSettings& settings) noexcept {
+    const double low = settings.pressureMin.value();
+    return std::clamp((pressure_pa - low) / (settings.pressureMax.value() - low), 0.0, 1.0);
+}
+
 Result<void> validate(const RoughnessSettings& s) {
     if (!(s.bandLow.value() >= 5 && s.bandLow.value() < 1000)) {
         return outOfRange("band_low_hz", s.bandLow.value(), "5 to below 1000 Hz");

@@ -71,6 +71,9 @@ struct RoughnessSettings {
     bool operator==(const RoughnessSettings&) const = default;
 };
 
+/// P in 0..1 of a contact pressure (science.md section 3); NaN when it is NaN.
+[[nodiscard]] double pressureIndex(double pressure_pa, const RoughnessSettings& settings) noexcept;
+
 /// Errors: InvalidArgument naming the key, its value and what it takes (NaN and equal references are refused).
 [[nodiscard]] Result<void> validate(const RoughnessSettings& settings);
 
