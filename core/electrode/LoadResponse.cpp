@@ -226,14 +226,16 @@ RampCuts cutsOf(double start, double end, double T, double limit, bool atZero) n
     if (start == end) return cuts;
     const auto consider = [&](double level) {
         const double t = T * ((level - start) / (end - start));
-        if (t > 0 && t < T) cuts.at[cuts.count++] = t;
+        if (!(t > 0 && t < T) || cuts.count == cuts.at.size()) return;
+        std::size_t place = cuts.count++;
+        for (; place > 0 && cuts.at[place - 1] > t; --place) cuts.at[place] = cuts.at[place - 1];
+        cuts.at[place] = t;
     };
     if (std::isfinite(limit)) {
         consider(limit);
         consider(-limit);
     }
     if (atZero) consider(0);
-    std::sort(cuts.at.begin(), cuts.at.begin() + static_cast<std::ptrdiff_t>(cuts.count));
     return cuts;
 }
 
