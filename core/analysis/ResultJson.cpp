@@ -36,12 +36,9 @@ json toJson(const Separability& found) {
                          {"amplitude_jnd", numberOrNull(p.amplitudeJnd)},
                          {"interval_jnd", numberOrNull(p.intervalJnd)}});
     }
-    return {{"conditions", conditions},
-            {"pairs", pairs},
-            {"confusion", found.confusion},
-            {"accuracy", toJson(found.accuracy)},
-            {"folds", found.folds},
-            {"verdict", nameOf(found.verdict)},
+    return {{"conditions", conditions},     {"pairs", pairs},
+            {"confusion", found.confusion}, {"accuracy", toJson(found.accuracy)},
+            {"folds", found.folds},         {"verdict", nameOf(found.verdict)},
             {"reasons", found.reasons}};
 }
 

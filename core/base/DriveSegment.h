@@ -14,9 +14,9 @@ enum class Drive { Voltage, Current, HighImpedance };
 /// levels carry the sign of the phase; ignored for HighImpedance (no current flows).
 struct DriveSegment {
     Drive drive = Drive::Voltage;
-    double start = 0;      ///< V or A
-    double end = 0;        ///< V or A
-    double duration_s = 0; ///< > 0
+    double start = 0;       ///< V or A
+    double end = 0;         ///< V or A
+    double duration_s = 0;  ///< > 0
 };
 
 /// The segments of one pulse, in time order: leading phase, gap (if any), second phase (if any). Never allocates.

@@ -1,11 +1,10 @@
 #include "core/base/Text.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace tacto {
 
@@ -54,8 +53,8 @@ std::optional<double> parseQuantity(std::string_view text, std::string_view unit
     for (const auto& prefix : kParsed) {
         if (!text.ends_with(prefix.symbol)) continue;
         // Parsing "1.5e3" keeps the nearest double, which 1.5 * 1000.0 might miss.
-        const std::string number = fmt::format("{}e{}", trimmed(text.substr(0, text.size() - prefix.symbol.size())),
-                                               prefix.exponent);
+        const std::string number =
+            fmt::format("{}e{}", trimmed(text.substr(0, text.size() - prefix.symbol.size())), prefix.exponent);
         return parseNumber(number);
     }
     return std::nullopt;

@@ -5,9 +5,8 @@
 // `.value()` belongs in arithmetic kernels, wire protocols, file formats and plots.
 #pragma once
 
-#include <units.h>
-
 #include <chrono>
+#include <units.h>
 
 namespace tacto {
 

@@ -124,9 +124,10 @@ Result<void> Bench::State::open() {
         parts.recorder = recorder.get();
     }
     if (config.devices.stimulator) {
-        stimulator = std::make_unique<StimulatorSession>(*config.devices.stimulator, gate, heartbeat, *config.clock, [this] {
-            if (stimulatorThread) stimulatorThread->wake();
-        });
+        stimulator =
+            std::make_unique<StimulatorSession>(*config.devices.stimulator, gate, heartbeat, *config.clock, [this] {
+                if (stimulatorThread) stimulatorThread->wake();
+            });
         parts.stimulator = stimulator.get();
     }
     if (config.devices.oscilloscope) scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope);
@@ -140,9 +141,11 @@ Result<void> Bench::State::open() {
 void Bench::State::startThreads() {
     const auto& clock = *config.clock;
     if (stimulator) {
-        stimulatorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return stimulator->serve(now); });
+        stimulatorThread =
+            std::make_unique<DeviceThread>(clock, [this](Instant now) { return stimulator->serve(now); });
     }
-    if (sensor) sensorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return sensor->serve(now); });
+    if (sensor)
+        sensorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return sensor->serve(now); });
     if (scope) scopeThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return scope->serve(now); });
     loopThread = std::make_unique<DeviceThread>(clock, [this, due = clock.now()](Instant now) mutable {
         loop->step(now);
@@ -221,23 +224,24 @@ GateSetup Bench::State::setupFor(const Load& load) const {
 ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
     ArmCommand command;
     command.setup = setupFor(load);
-    const auto checkLevel =
-        source.drive == Drive::Current ? source.checkCurrent.value() : source.checkVoltage.value();
+    const auto checkLevel = source.drive == Drive::Current ? source.checkCurrent.value() : source.checkVoltage.value();
     // |Z| depends on width and intensity; the range is that of the same pulse on the two ends of the load range.
     command.impedanceRange = [range = command.setup.load, check = command.setup.check, source = source,
                               checkLevel](std::optional<double> amplitude) {
         PulseTrain train = check;
         const double level = amplitude.value_or(checkLevel);
-        if (source.drive == Drive::Current) train.amplitude = Milliamps(level);
-        else train.amplitude = Volts(level);
+        if (source.drive == Drive::Current)
+            train.amplitude = Milliamps(level);
+        else
+            train.amplitude = Volts(level);
         const auto leading = segmentsOf(train, source.gap).items[0];
-        const SourceLimits limits{.compliance_V = source.compliance.value() > 0
-                                                      ? source.compliance.value()
-                                                      : std::numeric_limits<double>::infinity(),
-                                  .current_A = source.currentLimit.value() > 0
-                                                   ? source.currentLimit.value() * 1e-3
-                                                   : std::numeric_limits<double>::infinity()};
-        return std::pair(effectiveImpedance(range.min, leading, limits), effectiveImpedance(range.max, leading, limits));
+        const SourceLimits limits{
+            .compliance_V =
+                source.compliance.value() > 0 ? source.compliance.value() : std::numeric_limits<double>::infinity(),
+            .current_A = source.currentLimit.value() > 0 ? source.currentLimit.value() * 1e-3
+                                                         : std::numeric_limits<double>::infinity()};
+        return std::pair(effectiveImpedance(range.min, leading, limits),
+                         effectiveImpedance(range.max, leading, limits));
     };
     auto& evidence = command.evidence;
     evidence.limitsLoaded = !config.limits.empty();
@@ -290,9 +294,7 @@ void Bench::disarm() noexcept {
 void Bench::stop(const char* by) noexcept {
     state_->stopped.store(true, std::memory_order_release);
     state_->off(by);
-    {
-        const std::scoped_lock lock(state_->waitMutex);
-    }
+    { const std::scoped_lock lock(state_->waitMutex); }
     state_->waitChanged.notify_all();
 }
 
@@ -359,8 +361,8 @@ Result<void> Bench::setProfile(const Profile& profile) {
     auto withSameRoughness = profile;
     withSameRoughness.roughness = s.config.profile.roughness;
     if (armed && toJson(withSameRoughness) != toJson(s.config.profile)) {
-        return fail(ErrorCode::NotArmed, "the encoding and the limits of the profile cannot change while {}: disarm first",
-                    nameOf(state));
+        return fail(ErrorCode::NotArmed,
+                    "the encoding and the limits of the profile cannot change while {}: disarm first", nameOf(state));
     }
     auto finger = s.makeFinger(profile);
     if (!finger) return failure(finger);
@@ -390,7 +392,8 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     auto& s = *state_;
     if (!s.scope) return fail(ErrorCode::Unsupported, "no oscilloscope is open to capture with");
     if (trains < 1 || trains > static_cast<int>(ScopeSession::kMaxCaptures)) {
-        return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains, ScopeSession::kMaxCaptures);
+        return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains,
+                    ScopeSession::kMaxCaptures);
     }
     const auto wanted = static_cast<std::size_t>(trains);
     s.scope->request(settings);
@@ -417,7 +420,11 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
 
 bool Bench::sensorFinished() const noexcept { return state_->sensor && state_->sensor->finished(); }
 
-Telemetry Bench::telemetry() const { return state_->loop->telemetry(); }
+Telemetry Bench::telemetry() const {
+    auto seen = state_->loop->telemetry();
+    seen.state = state_->interlock.state();  // a stop shows before the loop's next step
+    return seen;
+}
 DeviceSet& Bench::devices() noexcept { return state_->config.devices; }
 const Clock& Bench::clock() const noexcept { return *state_->config.clock; }
 

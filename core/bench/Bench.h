@@ -27,18 +27,18 @@ class SessionWriter;
 
 struct BenchConfig {
     DeviceSet devices;
-    std::shared_ptr<Clock> clock;              ///< a VirtualClock makes the bench step itself
+    std::shared_ptr<Clock> clock;  ///< a VirtualClock makes the bench step itself
     Profile profile;
     std::vector<LimitSet> limits;
     OutputMode mode = OutputMode::BenchLoad;
-    std::optional<PersonSetup> person;         ///< required in person mode
-    SessionWriter* session = nullptr;          ///< not owned; null records nothing
+    std::optional<PersonSetup> person;  ///< required in person mode
+    SessionWriter* session = nullptr;   ///< not owned; null records nothing
 };
 
 /// What the operator states when arming.
 struct ArmRequest {
-    std::string load = "1 kohm";                     ///< declared load, as parseLoad() reads it (bench loads)
-    bool declaredLoadConfirmed = true;               ///< the operator's word, where the device cannot read back
+    std::string load = "1 kohm";        ///< declared load, as parseLoad() reads it (bench loads)
+    bool declaredLoadConfirmed = true;  ///< the operator's word, where the device cannot read back
 };
 
 class Bench {

@@ -14,31 +14,39 @@ constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
 
 FaultCause causeOf(TrainFinding finding) noexcept {
     switch (finding) {
-        case TrainFinding::Open: return FaultCause::OpenElectrode;
-        case TrainFinding::Short: return FaultCause::ShortElectrode;
-        case TrainFinding::NetCharge: return FaultCause::NetCharge;
-        case TrainFinding::StatusMissing: return FaultCause::StatusMissing;
+        case TrainFinding::Open:
+            return FaultCause::OpenElectrode;
+        case TrainFinding::Short:
+            return FaultCause::ShortElectrode;
+        case TrainFinding::NetCharge:
+            return FaultCause::NetCharge;
+        case TrainFinding::StatusMissing:
+            return FaultCause::StatusMissing;
         case TrainFinding::StuckOn:
-        case TrainFinding::Garbage: return FaultCause::DeviceFault;
+        case TrainFinding::Garbage:
+            return FaultCause::DeviceFault;
         case TrainFinding::Pending:
-        case TrainFinding::Ok: break;
+        case TrainFinding::Ok:
+            break;
     }
     return FaultCause::Internal;
 }
 
 ElectrodeReading readingOf(ElectrodeState state) noexcept {
     switch (state) {
-        case ElectrodeState::NotMeasured: return ElectrodeReading::NotMeasured;
-        case ElectrodeState::Ok: return ElectrodeReading::Ok;
-        case ElectrodeState::Open: return ElectrodeReading::Open;
-        case ElectrodeState::Short: return ElectrodeReading::Short;
+        case ElectrodeState::NotMeasured:
+            return ElectrodeReading::NotMeasured;
+        case ElectrodeState::Ok:
+            return ElectrodeReading::Ok;
+        case ElectrodeState::Open:
+            return ElectrodeReading::Open;
+        case ElectrodeState::Short:
+            return ElectrodeReading::Short;
     }
     return ElectrodeReading::NotMeasured;
 }
 
-std::optional<double> present(double value) noexcept {
-    return std::isnan(value) ? std::nullopt : std::optional(value);
-}
+std::optional<double> present(double value) noexcept { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 TrainReadBack readBackOf(const TrainReport& report) noexcept {
     return {.at = report.statusAt,
@@ -129,14 +137,14 @@ void ControlLoop::takeCommands(Instant now) noexcept {
 void ControlLoop::noteState(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     if (state == seenState_) return;
-    seenState_ = state;
+    const bool wasConnected = std::exchange(seenState_, state) != InterlockState::Disconnected;
     const auto reason = parts_.interlock.reason();
     shown_.reason = FixedText<200>(reason.view());
     if (parts_.recorder != nullptr && state != InterlockState::Delivering) {
-        parts_.recorder->event(now, "interlock", {}, fmt::format("{}{}{}", nameOf(state), reason.empty() ? "" : ": ",
-                                                                 reason.view()));
+        parts_.recorder->event(now, "interlock", {},
+                               fmt::format("{}{}{}", nameOf(state), reason.empty() ? "" : ": ", reason.view()));
     }
-    if (state == InterlockState::Disarmed || state == InterlockState::Faulted) {
+    if (wasConnected && (state == InterlockState::Disarmed || state == InterlockState::Faulted)) {
         if (arming_) {
             finishArming(fail(state == InterlockState::Faulted ? ErrorCode::Device : ErrorCode::Stopped,
                               "arming ended: {}", reason.empty() ? nameOf(state) : reason.view()));
@@ -193,8 +201,13 @@ void ControlLoop::readFinger(Instant now) noexcept {
             shown_.sumV += frame.v;
         }
         if (parts_.recorder != nullptr) {
-            const double columns[] = {frame.contact ? 1.0 : 0.0, frame.sliding ? 1.0 : 0.0, frame.h, frame.v, frame.R,
-                                      frame.pressure_pa,         frame.P};
+            const double columns[] = {frame.contact ? 1.0 : 0.0,
+                                      frame.sliding ? 1.0 : 0.0,
+                                      frame.h,
+                                      frame.v,
+                                      frame.R,
+                                      frame.pressure_pa,
+                                      frame.P};
             parts_.recorder->frame(parts_.frameStream, frame.t_s, columns);
         }
     }

@@ -28,7 +28,8 @@ Result<Ceilings> readCeilings(const json& section) {
         const auto quantity = quantityOf(key);
         if (!quantity) {
             return fail(ErrorCode::ParseError,
-                        "safety.ceilings has \"{}\", which is no quantity; for example peak_current, rms_current_5s", key);
+                        "safety.ceilings has \"{}\", which is no quantity; for example peak_current, rms_current_5s",
+                        key);
         }
         const auto max = positive(value, "ceilings." + key);
         if (!max) return failure(max);
@@ -91,8 +92,8 @@ Result<Profile> parseProfile(std::string_view text, std::string_view source) {
             if (const auto read = readSafety(value, profile); !read) return within(read);
         } else {
             return fail(ErrorCode::ParseError,
-                        "{}: unknown key \"{}\" or wrong type; a profile has name, roughness, encoding and safety", source,
-                        key);
+                        "{}: unknown key \"{}\" or wrong type; a profile has name, roughness, encoding and safety",
+                        source, key);
         }
     }
     return profile;

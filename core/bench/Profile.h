@@ -26,7 +26,7 @@ struct Profile {
     std::string name = "default";
     RoughnessSettings roughness;
     EncodingProfile encoding;
-    Ohms loadLow{500};       ///< previews, and the range in which a person's |Z| must lie
+    Ohms loadLow{500};  ///< previews, and the range in which a person's |Z| must lie
     Ohms loadHigh{10'000};
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     Ceilings ceilings;

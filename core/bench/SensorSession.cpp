@@ -12,8 +12,8 @@ constexpr double kRingSeconds = 1;
 Result<std::unique_ptr<SensorSession>> SensorSession::create(TactileSensor& device) {
     for (const auto& stream : device.streams()) {
         if (stream.channels == 0 || stream.channels > kMaxChannels) {
-            return fail(ErrorCode::Unsupported, "stream \"{}\" of {} has {} channels; 1 to {} are supported", stream.name,
-                        device.identity().name, stream.channels, kMaxChannels);
+            return fail(ErrorCode::Unsupported, "stream \"{}\" of {} has {} channels; 1 to {} are supported",
+                        stream.name, device.identity().name, stream.channels, kMaxChannels);
         }
     }
     return std::unique_ptr<SensorSession>(new SensorSession(device));
@@ -23,8 +23,10 @@ SensorSession::SensorSession(TactileSensor& device) : device_(device) {
     for (const auto& info : device.streams()) {
         const auto capacity = static_cast<std::size_t>(std::max(64.0, info.rate_hz * kRingSeconds));
         Stream stream{info.channels, {}};
-        if (info.channels <= 3) stream.ring = std::make_unique<NarrowRing>(capacity);
-        else stream.ring = std::make_unique<WideRing>(capacity);
+        if (info.channels <= 3)
+            stream.ring = std::make_unique<NarrowRing>(capacity);
+        else
+            stream.ring = std::make_unique<WideRing>(capacity);
         streams_.push_back(std::move(stream));
     }
     blocks_.resize(streams_.size());

@@ -60,7 +60,7 @@ private:
     std::vector<SampleBlock> blocks_;  // the device thread's
     std::atomic<bool> failed_{false};
     std::atomic<bool> finished_{false};
-    FixedText<160> error_;             // written once, before failed_ is set
+    FixedText<160> error_;  // written once, before failed_ is set
 };
 
 }  // namespace tacto

@@ -2,11 +2,21 @@
 
 #include <algorithm>
 
+#include "core/safety/TrainCheck.h"
+
 namespace tacto {
 
 namespace {
 constexpr Instant kIdlePoll = std::chrono::milliseconds(20);
 constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
+constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
+
+/// An open electrode may read as infinite; NaN and negative numbers are no readings.
+bool isPlausible(const StimulatorStatus& status) noexcept {
+    const auto fine = [](double value) { return value >= 0; };
+    return (!status.impedance || fine(status.impedance->value())) && (!status.imbalance || fine(*status.imbalance)) &&
+           (!status.imbalanceUncertainty || fine(*status.imbalanceUncertainty));
+}
 }  // namespace
 
 StimulatorSession::StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat,
@@ -31,8 +41,10 @@ Instant StimulatorSession::serve(Instant now) noexcept {
     Instant next = now + kIdlePoll;
     feedDeadMan(now);
     if (awaitingStatus_) {
-        if (now >= statusDue_) readStatus(now);
-        else next = std::min(next, statusDue_);
+        if (now >= statusDue_)
+            readStatus(now);
+        else
+            next = std::min(next, statusDue_);
     }
     std::optional<Pending> due;
     {
@@ -83,21 +95,26 @@ void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
 
 void StimulatorSession::readStatus(Instant now) noexcept {
     TrainReport made = *awaitingStatus_;
-    awaitingStatus_.reset();
     const auto status = device_.status();
-    if (!status) {
+    if (status && status->delivering && now < made.end + kStatusDeadline) {
+        statusDue_ = now + kStatusRetry;  // a device that is merely slow to end has until the deadline
+        return;
+    }
+    awaitingStatus_.reset();
+    made.statusAt = std::max(now, clock_.now());
+    if (!status || !isPlausible(*status)) {
         device_.forceOff();
         made.outcome = TrainOutcome::Failed;
-        made.error = std::string_view(status.error().message);
-    } else {
-        made.outcome = TrainOutcome::Delivered;
-        made.stillDelivering = status->delivering;
-        made.electrode = status->electrode;
-        if (status->impedance) made.impedance_ohm = status->impedance->value();
-        if (status->imbalance) made.imbalance = *status->imbalance;
-        if (status->imbalanceUncertainty) made.imbalanceUncertainty = *status->imbalanceUncertainty;
+        made.error = status ? std::string_view("the stimulator's status holds a value that no measurement gives")
+                            : std::string_view(status.error().message);
+        return report(made);
     }
-    made.statusAt = std::max(now, clock_.now());
+    made.outcome = TrainOutcome::Delivered;
+    made.stillDelivering = status->delivering;
+    made.electrode = status->electrode;
+    if (status->impedance) made.impedance_ohm = status->impedance->value();
+    if (status->imbalance) made.imbalance = *status->imbalance;
+    if (status->imbalanceUncertainty) made.imbalanceUncertainty = *status->imbalanceUncertainty;
     report(made);
 }
 

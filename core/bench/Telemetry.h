@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/safety/FixedText.h"
 #include "core/base/Units.h"
 #include "core/safety/Exposure.h"
+#include "core/safety/FixedText.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto {
@@ -21,41 +21,43 @@ struct Telemetry {
 
     Instant at{0};
     InterlockState state = InterlockState::Disconnected;
-    FixedText<200> reason;             ///< of a fault or the last stop; else empty
+    FixedText<200> reason;  ///< of a fault or the last stop; else empty
     bool paused = false;
 
-    double roughness = NAN;            ///< R, 0..1
-    double pressure = NAN;             ///< P, 0..1
-    double h = NAN;                    ///< spectral feature of the last frame
-    double v = NAN;                    ///< spatial feature of the last frame
+    double roughness = NAN;  ///< R, 0..1
+    double pressure = NAN;   ///< P, 0..1
+    double h = NAN;          ///< spectral feature of the last frame
+    double v = NAN;          ///< spatial feature of the last frame
     double pressure_pa = NAN;
     bool contact = false;
     bool sliding = false;
-    double sensorAge_s = NAN;          ///< of the newest sample
-    std::uint64_t slidingFrames = 0;   ///< frames with a spectral feature so far, and the sum of it:
-    double sumH = 0;                   ///< the difference of two readings gives the mean between them
-    std::uint64_t contactFrames = 0;   ///< the same for the spatial feature
+    double sensorAge_s = NAN;         ///< of the newest sample
+    std::uint64_t slidingFrames = 0;  ///< frames with a spectral feature so far, and the sum of it:
+    double sumH = 0;                  ///< the difference of two readings gives the mean between them
+    std::uint64_t contactFrames = 0;  ///< the same for the spatial feature
     double sumV = 0;
 
-    double amplitude_v = NAN;          ///< command A of the encoder
-    double interval_s = NAN;           ///< command T of the encoder
-    double nextTrain_s = NAN;          ///< due time; NaN when none is pending
+    double amplitude_v = NAN;  ///< command A of the encoder
+    double interval_s = NAN;   ///< command T of the encoder
+    double nextTrain_s = NAN;  ///< due time; NaN when none is pending
 
-    double impedance_ohm = NAN;        ///< last measured |Z|
+    double impedance_ohm = NAN;  ///< last measured |Z|
     double impedanceAge_s = NAN;
-    double imbalance = NAN;            ///< of the last pulse
+    double imbalance = NAN;  ///< of the last pulse
 
     std::uint64_t trainsDelivered = 0;
-    std::uint64_t trainsRefused = 0;   ///< by the limits
-    std::uint64_t trainsSkipped = 0;   ///< for stale or missing sensor data
+    std::uint64_t trainsRefused = 0;  ///< by the limits
+    std::uint64_t trainsSkipped = 0;  ///< for stale or missing sensor data
     FixedText<200> lastRefusal;
-    std::uint64_t samplesLost = 0;     ///< ring overflows since the start
-    std::uint64_t gaps = 0;            ///< found in the sensor streams
-    std::uint64_t steps = 0;           ///< control-loop steps
+    std::uint64_t samplesLost = 0;  ///< ring overflows since the start
+    std::uint64_t gaps = 0;         ///< found in the sensor streams
+    std::uint64_t steps = 0;        ///< control-loop steps
 
     std::array<ExposureRow, kMaxExposureRows> exposureRows{};
     std::size_t exposureCount = 0;
-    [[nodiscard]] std::span<const ExposureRow> exposure() const noexcept { return {exposureRows.data(), exposureCount}; }
+    [[nodiscard]] std::span<const ExposureRow> exposure() const noexcept {
+        return {exposureRows.data(), exposureCount};
+    }
 };
 
 }  // namespace tacto

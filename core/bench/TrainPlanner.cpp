@@ -25,8 +25,10 @@ Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure
     const bool starting = !wanted_;
     wanted_ = *encoded;
     command_ = last_ ? encoder_.limited(*last_, *wanted_, Seconds(now - lastOnset_)) : *wanted_;
-    if (starting) scheduler_.start(now, command_->interval);
-    else scheduler_.setInterval(command_->interval, now);
+    if (starting)
+        scheduler_.start(now, command_->interval);
+    else
+        scheduler_.setInterval(command_->interval, now);
     return {};
 }
 

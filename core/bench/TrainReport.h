@@ -18,18 +18,18 @@ enum class TrainOutcome {
 /// Trivially copyable: it crosses threads in a ring.
 struct TrainReport {
     TrainOutcome outcome = TrainOutcome::Voided;
-    bool isCheck = false;           ///< the impedance check, not a train
-    Instant onset{0};               ///< when it was written
-    Instant end{0};                 ///< of its last pulse
-    bool stillDelivering = false;   ///< what the device said when its status was read
-    double amplitude = 0;           ///< V or mA, as delivered
+    bool isCheck = false;          ///< the impedance check, not a train
+    Instant onset{0};              ///< when it was written
+    Instant end{0};                ///< of its last pulse
+    bool stillDelivering = false;  ///< what the device said when its status was read
+    double amplitude = 0;          ///< V or mA, as delivered
     double interval_s = 0;
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     double impedance_ohm = NAN;
     double imbalance = NAN;
     double imbalanceUncertainty = NAN;
     Instant statusAt{0};
-    FixedText<160> error;           ///< when Failed
+    FixedText<160> error;  ///< when Failed
 };
 
 }  // namespace tacto

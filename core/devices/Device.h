@@ -15,7 +15,7 @@ enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
 [[nodiscard]] std::string_view nameOf(Role role) noexcept;  // "sensor", "stimulator", "oscilloscope", "massager"
 
 struct DeviceIdentity {
-    std::string uri;       ///< opens this device again
+    std::string uri;  ///< opens this device again
     Role role;
     std::string name;
     std::string serial;

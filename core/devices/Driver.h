@@ -22,9 +22,10 @@ inline constexpr const char* kDefaultLoad = "1 kohm";
 
 /// What drivers may know of the run they open devices for.
 struct OpenContext {
-    const Clock& clock;             ///< outlives the devices
+    const Clock& clock;  ///< outlives the devices
     std::uint64_t seed = 1;
-    std::string declaredLoad = kDefaultLoad;  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
+    std::string declaredLoad =
+        kDefaultLoad;  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
 };
 
 /// The open devices of a bench, at most one per role. Owns them.
@@ -61,7 +62,8 @@ public:
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
     /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
-    /// Errors: NotFound naming the unknown scheme and the known ones, or the role that nothing fills; as Driver::open().
+    /// Errors: NotFound naming the unknown scheme and the known ones, or the role that nothing fills; as
+    /// Driver::open().
     [[nodiscard]] Result<DeviceSet> open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
                                          const OpenContext& context);
 

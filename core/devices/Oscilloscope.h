@@ -13,17 +13,17 @@ namespace tacto {
 
 struct ScopeSettings {
     Hertz sampleRate{2e6};
-    std::size_t samples = 20'000;    ///< per channel and capture
-    double preTrigger = 0.1;         ///< fraction of the record before the trigger, 0..1
-    bool triggerOnCurrent = false;   ///< else on the voltage channel
-    double triggerLevel = 0.5;       ///< V or A; the trigger fires where |signal| rises through it
-    Volts voltageRange{50};          ///< full scale is ± this
-    Milliamps currentRange{200};     ///< full scale is ± this
+    std::size_t samples = 20'000;   ///< per channel and capture
+    double preTrigger = 0.1;        ///< fraction of the record before the trigger, 0..1
+    bool triggerOnCurrent = false;  ///< else on the voltage channel
+    double triggerLevel = 0.5;      ///< V or A; the trigger fires where |signal| rises through it
+    Volts voltageRange{50};         ///< full scale is ± this
+    Milliamps currentRange{200};    ///< full scale is ± this
 };
 
 struct ScopeTraits {
     Hertz maxRate{0};
-    std::size_t memoryDepth = 0;     ///< samples per channel
+    std::size_t memoryDepth = 0;  ///< samples per channel
     int bits = 8;
     Hertz bandwidth{0};
 };

@@ -6,20 +6,28 @@ namespace tacto {
 
 std::string_view nameOf(Role role) noexcept {
     switch (role) {
-        case Role::Sensor: return "sensor";
-        case Role::Stimulator: return "stimulator";
-        case Role::Oscilloscope: return "oscilloscope";
-        case Role::Massager: return "massager";
+        case Role::Sensor:
+            return "sensor";
+        case Role::Stimulator:
+            return "stimulator";
+        case Role::Oscilloscope:
+            return "oscilloscope";
+        case Role::Massager:
+            return "massager";
     }
     return "device";
 }
 
 bool DeviceSet::has(Role role) const noexcept {
     switch (role) {
-        case Role::Sensor: return sensor != nullptr;
-        case Role::Stimulator: return stimulator != nullptr;
-        case Role::Oscilloscope: return oscilloscope != nullptr;
-        case Role::Massager: return massager != nullptr;
+        case Role::Sensor:
+            return sensor != nullptr;
+        case Role::Stimulator:
+            return stimulator != nullptr;
+        case Role::Oscilloscope:
+            return oscilloscope != nullptr;
+        case Role::Massager:
+            return massager != nullptr;
     }
     return false;
 }

@@ -16,11 +16,11 @@ namespace tacto {
 enum class ElectrodeState { NotMeasured, Ok, Open, Short };
 
 struct StimulatorStatus {
-    Instant at{0};                           ///< when the device was read
-    bool delivering = false;                 ///< a train is in progress
+    Instant at{0};            ///< when the device was read
+    bool delivering = false;  ///< a train is in progress
     ElectrodeState electrode = ElectrodeState::NotMeasured;
-    std::optional<Ohms> impedance;           ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
-    std::optional<double> imbalance;         ///< |net charge| / phase charge of the last pulse, tail included
+    std::optional<Ohms> impedance;    ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
+    std::optional<double> imbalance;  ///< |net charge| / phase charge of the last pulse, tail included
     std::optional<double> imbalanceUncertainty;  ///< of `imbalance`, 95 %
     std::uint64_t trainsDelivered = 0;
 };

@@ -21,7 +21,8 @@ public:
     /// Errors: Device when unplugged or the data are garbage.
     [[nodiscard]] virtual Result<void> read(std::span<SampleBlock> blocks) = 0;
 
-    /// What whoever made the data states about rest and contact, on the session's time base; a live finger states nothing.
+    /// What whoever made the data states about rest and contact, on the session's time base; a live finger states
+    /// nothing.
     [[nodiscard]] virtual DeclaredIntervals declared() const { return {}; }
 
     /// True when no further sample will come (the end of a replayed recording).
@@ -34,7 +35,8 @@ public:
     virtual ~SurfacePresenter() = default;
     /// Slides the finger over `material` (e.g. "glass", "P120") from now on. An empty material lifts the finger.
     /// Errors: InvalidArgument for an unknown material, a negative or non-finite speed or force.
-    [[nodiscard]] virtual Result<void> present(std::string_view material, MillimetresPerSecond speed, Newtons force) = 0;
+    [[nodiscard]] virtual Result<void> present(std::string_view material, MillimetresPerSecond speed,
+                                               Newtons force) = 0;
 };
 
 }  // namespace tacto

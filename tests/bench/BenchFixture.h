@@ -1,9 +1,8 @@
 // BenchFixture.h - a whole bench on simulated devices, named by their URIs.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
+#include <gtest/gtest.h>
 
 #include "core/bench/Bench.h"
 #include "core/session/SessionWriter.h"
@@ -19,8 +18,10 @@ protected:
               bool realTime = false, const std::string& load = "1 kohm") {
         bench_.reset();
         clock_.reset();
-        if (realTime) clock_ = std::make_shared<SteadyClock>();
-        else clock_ = std::make_shared<VirtualClock>();
+        if (realTime)
+            clock_ = std::make_shared<SteadyClock>();
+        else
+            clock_ = std::make_shared<VirtualClock>();
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
         Registry registry(std::move(drivers));

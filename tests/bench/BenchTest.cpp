@@ -1,8 +1,7 @@
 // The whole bench on the virtual clock and the simulated devices.
-#include "tests/bench/BenchFixture.h"
-
 #include "core/measure/PulseMeasurement.h"
 #include "core/session/SessionReader.h"
+#include "tests/bench/BenchFixture.h"
 
 namespace tacto {
 namespace {
@@ -184,7 +183,9 @@ TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
         const auto delivered = bench_->telemetry().trainsDelivered;
         const auto waited = bench_->wait(Seconds(5));
         EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << fault;
-        if (std::string(fault) == "unplug@3s") EXPECT_FALSE(settled && waited) << "the script must hear of it";
+        if (std::string(fault) == "unplug@3s") {
+            EXPECT_FALSE(settled && waited) << "the script must hear of it";
+        }
     }
 }
 
@@ -197,7 +198,9 @@ TEST_F(BenchTest, SilenceAndAFingerAtRestDeliverNothingRough) {
         ASSERT_TRUE(bench_->wait(Seconds(0.1)));
         const auto seen = bench_->telemetry();
         if (seen.sliding) continue;
-        if (!std::isnan(seen.roughness) && i > 30) EXPECT_LT(seen.roughness, 0.05) << "static contact read as rough";
+        if (!std::isnan(seen.roughness) && i > 30) {
+            EXPECT_LT(seen.roughness, 0.05) << "static contact read as rough";
+        }
     }
 }
 
@@ -250,14 +253,14 @@ TEST_F(BenchTest, RecordsStreamsFramesTrainsAndEvents) {
     }
     const auto reader = SessionReader::open(path);
     ASSERT_TRUE(reader) << reader.error().message;
-    const auto streams = (*reader)->streams();
+    const auto streams = reader->streams();
     ASSERT_TRUE(streams);
     ASSERT_EQ(streams->size(), 4U) << "acceleration, taxels, force and frames";
     for (const auto& stream : *streams) EXPECT_GT(stream.samples, 100U) << stream.stream.name;
-    const auto commands = (*reader)->commands();
+    const auto commands = reader->commands();
     ASSERT_TRUE(commands);
     EXPECT_GT(commands->size(), 3U);
-    const auto events = (*reader)->events();
+    const auto events = reader->events();
     ASSERT_TRUE(events);
     EXPECT_GE(events->size(), 3U) << "checking, armed, disarmed";
 }

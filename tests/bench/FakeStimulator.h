@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/bench/ControlLoop.h"
 #include "core/devices/Stimulator.h"
 
 namespace tacto::test {
@@ -85,6 +86,22 @@ private:
     setup.load = LoadRange::declared(Load::resistor(load));
     setup.limits = {generousLimits()};
     return setup;
+}
+
+/// Takes `loop` through arming on a declared kiloohm; armed after its next steps.
+inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock) {
+    interlock.connect().value();
+    const auto ticket = interlock.requestArming(clock.now()).value();
+    interlock.confirmArming(ticket, clock.now()).value();
+    ArmCommand command;
+    command.setup = benchSetup(device.traits());
+    command.evidence.limitsLoaded = true;
+    command.evidence.deviceIdentified = true;
+    command.evidence.operatorConfirmed = true;
+    command.evidence.impedanceLow = Ohms(800);
+    command.evidence.impedanceHigh = Ohms(1200);
+    command.impedanceRange = [](std::optional<double>) { return std::pair(Ohms(800), Ohms(1200)); };
+    loop.arm(std::move(command));
 }
 
 }  // namespace tacto::test

@@ -1,10 +1,8 @@
-#include "core/bench/Profile.h"
-
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
+#include "core/bench/Profile.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -42,7 +40,8 @@ TEST(Profile, RefusesWhatItDoesNotKnowByName) {
         const auto parsed = parseProfile(text, "lab.json");
         ASSERT_FALSE(parsed) << text;
         EXPECT_NE(parsed.error().message.find(named), std::string::npos) << parsed.error().message;
-        EXPECT_TRUE(parsed.error().message.find("lab.json") == 0 || parsed.error().message.find("safety") != std::string::npos)
+        EXPECT_TRUE(parsed.error().message.find("lab.json") == 0 ||
+                    parsed.error().message.find("safety") != std::string::npos)
             << parsed.error().message;
     }
 }

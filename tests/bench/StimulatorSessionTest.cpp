@@ -1,7 +1,6 @@
-#include "core/bench/StimulatorSession.h"
-
 #include <gtest/gtest.h>
 
+#include "core/bench/StimulatorSession.h"
 #include "tests/bench/FakeStimulator.h"
 
 namespace tacto {

@@ -1,9 +1,8 @@
 #include "tests/support/Support.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <fstream>
+#include <unistd.h>
 
 namespace tacto::test {
 

@@ -1,0 +1,84 @@
+#include "app/cli/Command.h"
+
+#include <QFileInfo>
+#include <QSaveFile>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/Text.h"
+
+namespace tacto::cli {
+
+int exitFor(const Error& error) noexcept {
+    switch (error.code) {
+        case ErrorCode::InvalidArgument:
+            return kUsage;
+        case ErrorCode::LimitExceeded:
+        case ErrorCode::NotArmed:
+        case ErrorCode::Stopped:
+            return kStopped;
+        case ErrorCode::ParseError:
+        case ErrorCode::NotFound:
+        case ErrorCode::Io:
+        case ErrorCode::Device:
+        case ErrorCode::Timeout:
+        case ErrorCode::Unsupported:
+            break;
+    }
+    return kCouldNotRun;
+}
+
+int failWith(const Error& error) {
+    fmt::print(stderr, "tactoscope-cli: {}\n", error.message);
+    return exitFor(error);
+}
+
+int couldNotRun(const Error& error) {
+    fmt::print(stderr, "tactoscope-cli: {}\n", error.message);
+    return kCouldNotRun;
+}
+
+int usage(const std::string& sentence) {
+    fmt::print(stderr, "tactoscope-cli: {}\n", sentence);
+    return kUsage;
+}
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,
+                                          kMeasure, kAnalyze,   kReport,  kVerify};
+    return all;
+}
+
+Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what) {
+    const auto given = parser.positionalArguments();
+    if (given.size() == 1) return given.front().toStdString();
+    if (given.isEmpty()) return fail(ErrorCode::InvalidArgument, "{} is missing", what);
+    return fail(ErrorCode::InvalidArgument, "one {} is expected, and \"{}\" is a second one", what,
+                given.at(1).toStdString());
+}
+
+Result<double> numberOption(const QCommandLineParser& parser, const char* name) {
+    if (!parser.isSet(name)) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
+    const auto text = parser.value(name).toStdString();
+    const auto number = parseNumber(text);
+    if (!number || !std::isfinite(*number)) {
+        return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a number is expected", name, text);
+    }
+    return *number;
+}
+
+void printJson(const nlohmann::json& value) {
+    fmt::print("{}\n", value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    std::fflush(stdout);
+}
+
+Result<void> writeFile(const std::string& path, const std::string& content) {
+    QSaveFile file(QString::fromStdString(path));
+    if (!file.open(QIODevice::WriteOnly) || file.write(content.data(), static_cast<qint64>(content.size())) < 0 ||
+        !file.commit()) {
+        return fail(ErrorCode::Io, "cannot write {}: {}", path, file.errorString().toStdString());
+    }
+    return {};
+}
+
+}  // namespace tacto::cli

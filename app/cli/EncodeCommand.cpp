@@ -1,0 +1,107 @@
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+#include "app/cli/Profiles.h"
+#include "core/analysis/ResultJson.h"
+#include "core/base/Text.h"
+#include "core/encoding/Encoder.h"
+#include "core/safety/SafetyGate.h"
+
+namespace tacto::cli {
+
+namespace {
+
+/// The ideal voltage source that a preview is judged with: no grid, no ceiling of its own but the standard's 500 V.
+SourceTraits idealVoltageSource() {
+    SourceTraits source;
+    source.drive = Drive::Voltage;
+    source.amplitudeMax = 500;
+    source.compliance = Volts(500);
+    source.widthStep = Micros(0);
+    source.widthMin = Micros(1);
+    source.widthMax = Micros(100'000);
+    return source;
+}
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption({"roughness", "Roughness index, 0 to 1.", "R"});
+    parser.addOption({"pressure-pa", "Contact pressure in Pa, 0 or more.", "P"});
+    parser.addOption({"load", "Declared load in ohm; the limits are judged at ± 20 % of it.", "OHM"});
+    parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
+    parser.addOption({"json", "Prints one JSON value."});
+}
+
+Result<Load> loadOption(const QCommandLineParser& parser) {
+    if (!parser.isSet("load")) return fail(ErrorCode::InvalidArgument, "--load is missing");
+    return parseLoad(parser.value("load").toStdString());
+}
+
+int run(const QCommandLineParser& parser) {
+    if (!parser.positionalArguments().isEmpty()) {
+        return usage(fmt::format("encode takes options only, and \"{}\" is none",
+                                 parser.positionalArguments().front().toStdString()));
+    }
+    const auto roughness = numberOption(parser, "roughness");
+    if (!roughness) return usage("encode: " + roughness.error().message);
+    if (!(*roughness >= 0 && *roughness <= 1)) {
+        return usage(fmt::format("encode: --roughness is {}; 0 to 1 is expected", *roughness));
+    }
+    const auto pressure_pa = numberOption(parser, "pressure-pa");
+    if (!pressure_pa) return usage("encode: " + pressure_pa.error().message);
+    if (!(*pressure_pa >= 0)) {
+        return usage(fmt::format("encode: --pressure-pa is {}; 0 or more is expected", *pressure_pa));
+    }
+    const auto load = loadOption(parser);
+    if (!load) return usage("encode: " + load.error().message);
+    const auto profile = profileOption(parser);
+    if (!profile) return couldNotRun(profile.error());
+    const auto limits = shippedLimits();
+    if (!limits) return couldNotRun(limits.error());
+
+    const double P = pressureIndex(*pressure_pa, profile->roughness);
+    const auto command = Encoder(profile->encoding).encode(*roughness, P);
+    if (!command) return failWith(command.error());
+
+    GateSetup setup;
+    setup.source = idealVoltageSource();
+    setup.load = LoadRange::declared(*load);
+    setup.limits = limits->sets;
+    setup.ceilings = profile->ceilings;
+    setup.electrodeArea = profile->electrodeArea;
+    setup.check = profile->encoding.train;
+    const VirtualClock clock;
+    SafetyGate gate(clock);
+    if (const auto configured = gate.configure(setup); !configured) return couldNotRun(configured.error());
+    const auto train = voltageTrain(profile->encoding, command->amplitude);
+    const auto approved = gate.approve(TrainRequest{train, command->interval, Instant(0)});
+
+    const Ohms impedance = effectiveImpedance(*load, segmentsOf(train, setup.source.gap).items[0]);
+    const double amplitude_ma = command->amplitude.value() / impedance.value() * 1e3;
+    if (parser.isSet("json")) {
+        printJson({{"amplitude_v", command->amplitude.value()},
+                   {"amplitude_ma", numberOrNull(amplitude_ma)},
+                   {"interval_s", command->interval.count()},
+                   {"approved", approved.has_value()},
+                   {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
+    } else {
+        fmt::print("amplitude  {}  ({} into {})\ninterval   {}\n", formatQuantity(command->amplitude.value(), "V", 4),
+                   formatQuantity(amplitude_ma * 1e-3, "A", 4), load->text(),
+                   formatQuantity(command->interval.count(), "s", 4));
+        if (approved)
+            fmt::print("approved   yes, from 80 to 120 % of the declared load\n");
+        else
+            fmt::print("approved   no: {}\n", approved.error().message);
+    }
+    return approved ? kDone : kStopped;
+}
+
+}  // namespace
+
+const Command kEncode{"encode",
+                      "--roughness R --pressure-pa P --load OHM [--profile F] [--json]",
+                      "Amplitude and interval for a roughness and a pressure, judged against the limits",
+                      false,
+                      declare,
+                      run};
+
+}  // namespace tacto::cli

@@ -1,0 +1,128 @@
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+#include "core/analysis/ResultJson.h"
+#include "core/base/Text.h"
+#include "core/measure/CaptureFile.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto::cli {
+
+namespace {
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption({"channel", "Measures only this channel.", "NAME"});
+    parser.addOption(
+        {"shunt", "Resistance in ohm across which the channel was measured: volts become amperes.", "OHM"});
+    parser.addOption({"rate", "Intra-train pulse rate in Hz: pulses up to 1.5 periods apart form a train.", "HZ"});
+    parser.addOption({"train-gap", "Pulses up to this many seconds apart form a train.", "S"});
+    parser.addOption({"json", "Prints one JSON value."});
+}
+
+nlohmann::json toJson(const ChannelMeasurement& m) {
+    using tacto::toJson;
+    return {{"name", m.name},
+            {"unit", m.unit},
+            {"rate_hz", numberOrNull(m.rate_hz)},
+            {"samples", m.samples},
+            {"pulses", m.measuredPulses},
+            {"trains", m.trains.size()},
+            {"amplitude", toJson(m.amplitude)},
+            {"width_s", toJson(m.width_s)},
+            {"interval_s", toJson(m.interval_s)},
+            {"rise_s", toJson(m.rise_s)},
+            {"fall_s", toJson(m.fall_s)},
+            {"overshoot", toJson(m.overshoot)},
+            {"droop", toJson(m.droop)},
+            {"gap_s", toJson(m.gap_s)},
+            {"charge", toJson(m.charge)},
+            {"imbalance", toJson(m.imbalance)},
+            {"baseline", numberOrNull(m.states.baseline)},
+            {"amplitude_uncertainty", numberOrNull(m.uncertainty.amplitude)},
+            {"width_uncertainty_s", numberOrNull(m.uncertainty.width_s)}};
+}
+
+void printStatistic(const char* name, const Statistics& s, const std::string& unit) {
+    if (s.n == 0) return;
+    fmt::print("  {:<11} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
+               formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
+}
+
+Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
+    MeasureOptions options;
+    for (const auto* name : {"rate", "train-gap"}) {
+        if (!parser.isSet(name)) continue;
+        const auto number = numberOption(parser, name);
+        if (!number) return failure(number);
+        if (!(*number > 0)) {
+            return fail(ErrorCode::InvalidArgument, "--{} is {}; a number above 0 is expected", name, *number);
+        }
+        if (std::string_view(name) == "rate")
+            options.intraTrainRate = Hertz(*number);
+        else
+            options.trainGap = Seconds(*number);
+    }
+    return options;
+}
+
+int run(const QCommandLineParser& parser) {
+    const auto path = onlyArgument(parser, "CAPTURE");
+    if (!path) return usage(fmt::format("measure: {}", path.error().message));
+    const auto options = optionsFrom(parser);
+    if (!options) return usage("measure: " + options.error().message);
+    std::optional<Ohms> shunt;
+    if (parser.isSet("shunt")) {
+        const auto ohm = numberOption(parser, "shunt");
+        if (!ohm) return usage("measure: " + ohm.error().message);
+        if (!(*ohm > 0)) return usage(fmt::format("measure: --shunt is {}; a number above 0 is expected", *ohm));
+        shunt = Ohms(*ohm);
+    }
+    auto reading = readCapture(*path);
+    if (!reading) return couldNotRun(reading.error());
+    std::optional<std::size_t> channel;
+    const auto channelName = parser.value("channel").toStdString();
+    if (parser.isSet("channel")) {
+        const auto found = findChannel(reading->capture, channelName);
+        if (!found) return usage("measure: " + found.error().message);
+        channel = *found;
+    }
+    if (shunt) {
+        const auto name = channel ? std::optional<std::string_view>(channelName) : std::nullopt;
+        if (const auto converted = convertShunt(reading->capture, name, *shunt); !converted) {
+            return usage("measure: " + converted.error().message);
+        }
+    }
+    const auto found = measureCapture(reading->capture, channel, *options);
+    auto warnings = reading->warnings;
+    warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    if (parser.isSet("json")) {
+        auto channels = nlohmann::json::array();
+        for (const auto& m : found.channels) channels.push_back(toJson(m));
+        printJson({{"channels", channels}, {"warnings", warnings}});
+        return kDone;
+    }
+    for (const auto& m : found.channels) {
+        fmt::print("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
+                   m.measuredPulses);
+        printStatistic("amplitude", m.amplitude, m.unit);
+        printStatistic("width", m.width_s, "s");
+        printStatistic("interval", m.interval_s, "s");
+        printStatistic("rise", m.rise_s, "s");
+        printStatistic("fall", m.fall_s, "s");
+        printStatistic("gap", m.gap_s, "s");
+        if (m.imbalance.n > 0) fmt::print("  {:<11} {:>10.3g} %\n", "imbalance", 100 * m.imbalance.mean);
+    }
+    for (const auto& warning : warnings) fmt::print(stderr, "{}\n", warning);
+    return kDone;
+}
+
+}  // namespace
+
+const Command kMeasure{"measure",
+                       "CAPTURE [--channel NAME] [--shunt OHM] [--json]",
+                       "Amplitude, width and interval of the pulses in an oscilloscope record",
+                       false,
+                       declare,
+                       run};
+
+}  // namespace tacto::cli

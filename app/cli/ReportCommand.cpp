@@ -1,0 +1,30 @@
+#include "app/cli/Command.h"
+#include "app/report/Report.h"
+
+namespace tacto::cli {
+
+namespace {
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption({"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"});
+}
+
+int run(const QCommandLineParser& parser) {
+    const auto session = onlyArgument(parser, "SESSION");
+    if (!session) return usage(fmt::format("report: {}", session.error().message));
+    if (!parser.isSet("out")) return usage("report: --out is missing");
+    const auto format = reportFormat(parser.value("out"));
+    if (!format) return usage("report: " + format.error().message);
+    if (const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out")); !made) {
+        return couldNotRun(made.error());
+    }
+    fmt::print("{}\n", parser.value("out").toStdString());
+    return kDone;
+}
+
+}  // namespace
+
+const Command kReport{"report", "SESSION --out report.pdf", "The report of a session, as PDF or HTML", true, declare,
+                      run};
+
+}  // namespace tacto::cli

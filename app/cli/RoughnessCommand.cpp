@@ -1,0 +1,82 @@
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+#include "app/cli/Profiles.h"
+#include "core/acquisition/Recording.h"
+#include "core/analysis/ResultJson.h"
+#include "core/dsp/RoughnessAnalysis.h"
+
+namespace tacto::cli {
+
+namespace {
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
+    parser.addOption({"out", "Writes one row per frame to this CSV file.", "frames.csv"});
+    parser.addOption({"json", "Prints one JSON value."});
+}
+
+void printRow(const char* name, const Statistics& s) {
+    if (s.n == 0)
+        fmt::print("  {:<12} –\n", name);
+    else
+        fmt::print("  {:<12} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>7}\n", name, s.mean, s.sd, s.min, s.max, s.n);
+}
+
+int run(const QCommandLineParser& parser) {
+    const auto path = onlyArgument(parser, "RECORDING");
+    if (!path) return usage(fmt::format("roughness: {}", path.error().message));
+    const auto profile = profileOption(parser);
+    if (!profile) return couldNotRun(profile.error());
+    const auto recording = Recording::open(*path);
+    if (!recording) return couldNotRun(recording.error());
+    const auto found =
+        analyseRoughness(recording->infos(), recording->blocks(), profile->roughness, recording->declared);
+    if (!found) return couldNotRun(found.error());
+    const auto& summary = found->summary;
+    if (parser.isSet("out")) {
+        if (const auto written = writeFile(parser.value("out").toStdString(), framesCsv(found->frames)); !written) {
+            return failWith(written.error());
+        }
+    }
+    if (parser.isSet("json")) {
+        printJson({{"frames", summary.frames},
+                   {"contact_frames", summary.contactFrames},
+                   {"rate_hz", numberOrNull(summary.rate_hz)},
+                   {"flags", summary.flags},
+                   {"h", toJson(summary.h)},
+                   {"v", toJson(summary.v)},
+                   {"R", toJson(summary.R)},
+                   {"pressure_pa", toJson(summary.pressure_pa)},
+                   {"P", toJson(summary.P)}});
+        return kDone;
+    }
+    fmt::print("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames,
+               summary.contactFrames, summary.rate_hz);
+    fmt::print("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
+    printRow("h", summary.h);
+    printRow("v", summary.v);
+    printRow("R", summary.R);
+    printRow("pressure Pa", summary.pressure_pa);
+    printRow("P", summary.P);
+    if (!summary.flags.empty()) {
+        fmt::print("\nFlags: ");
+        for (std::size_t i = 0; i < summary.flags.size(); ++i) fmt::print("{}{}", i ? ", " : "", summary.flags[i]);
+        fmt::print("\n");
+    }
+    fmt::print(
+        "\nR is repeatable and specific to a material; that it ranks felt roughness rests on the reference "
+        "surfaces.\n");
+    return kDone;
+}
+
+}  // namespace
+
+const Command kRoughness{"roughness",
+                         "RECORDING [--profile F] [--out frames.csv] [--json]",
+                         "Roughness R and pressure P of a fingertip recording",
+                         false,
+                         declare,
+                         run};
+
+}  // namespace tacto::cli

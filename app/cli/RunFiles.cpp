@@ -1,0 +1,67 @@
+#include "app/cli/RunFiles.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/base/Clock.h"
+
+namespace tacto::cli {
+
+namespace fs = std::filesystem;
+
+fs::path RunFiles::report(const char* ending) const {
+    auto path = session;
+    return path.replace_extension(ending);
+}
+
+fs::path userSessionsFolder() {
+    const auto* data = std::getenv("XDG_DATA_HOME");
+    if (data != nullptr && *data != '\0') return fs::path(data) / "tactoscope" / "sessions";
+    const auto* home = std::getenv("HOME");
+    return fs::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "sessions";
+}
+
+namespace {
+
+bool holdsARun(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(folder / "captures", error)) return true;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        if (entry.path().extension() == ".tacto") return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& protocol) {
+    auto stamp = wallTimeUtc();
+    std::erase_if(stamp, [](char c) { return c == '-' || c == ':'; });
+    const std::string name = protocol + "-" + stamp;
+    fs::path folder = out.empty() ? userSessionsFolder() : fs::path(out);
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+        return fail(ErrorCode::Io, "--out {} is a file; a folder is expected", folder.string());
+    }
+    if (!out.empty() && holdsARun(folder)) {
+        fs::path own = folder / name;
+        for (int n = 2; fs::exists(own, error); ++n) own = folder / fmt::format("{}-{}", name, n);
+        folder = own;
+    }
+    fs::create_directories(folder, error);
+    if (error) return fail(ErrorCode::Io, "cannot make the folder {}: {}", folder.string(), error.message());
+    RunFiles files;
+    files.session = folder / (name + ".tacto");
+    for (int n = 2; fs::exists(files.session, error); ++n) {
+        files.session = folder / fmt::format("{}-{}.tacto", name, n);
+    }
+    if (!out.empty()) {
+        files.captures = folder / "captures";
+        fs::create_directories(files.captures, error);
+        if (error)
+            return fail(ErrorCode::Io, "cannot make the folder {}: {}", files.captures.string(), error.message());
+    }
+    return files;
+}
+
+}  // namespace tacto::cli

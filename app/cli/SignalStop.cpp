@@ -1,0 +1,45 @@
+#include "app/cli/SignalStop.h"
+
+#include <csignal>
+#include <ctime>
+
+namespace tacto::cli {
+
+namespace {
+sigset_t stopSignals() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    return set;
+}
+}  // namespace
+
+SignalStop::SignalStop() {
+    const auto set = stopSignals();
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    thread_ = std::thread([this] { wait(); });
+}
+
+SignalStop::~SignalStop() {
+    quitting_ = true;
+    thread_.join();
+}
+
+void SignalStop::onStop(std::function<void()> stop) {
+    const std::scoped_lock lock(mutex_);
+    stop_ = std::move(stop);
+}
+
+void SignalStop::wait() {
+    const auto set = stopSignals();
+    while (!quitting_) {
+        const std::timespec look{0, 50'000'000};
+        if (sigtimedwait(&set, nullptr, &look) < 0) continue;
+        signalled_ = true;
+        const std::scoped_lock lock(mutex_);
+        if (stop_) stop_();
+    }
+}
+
+}  // namespace tacto::cli

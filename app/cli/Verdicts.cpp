@@ -1,0 +1,48 @@
+#include "app/cli/Verdicts.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+
+namespace tacto::cli {
+
+int exitForVerdict(std::string_view verdict) noexcept {
+    if (verdict == "fail") return kVerdictFailed;
+    if (verdict == "indeterminate") return kIndeterminate;
+    if (verdict == "stopped") return kStopped;
+    return kDone;
+}
+
+namespace {
+double at(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+}
+}  // namespace
+
+void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons) {
+    fmt::print("  verdict  {}\n", verdict);
+    for (const auto& reason : reasons) fmt::print("           {}\n", reason);
+}
+
+void printSeparability(const nlohmann::json& results) {
+    fmt::print("\n  {:<14} {:>4} {:>22} {:>24}\n", "condition", "n", "amplitude (V)", "interval (s)");
+    for (const auto& c : results.value("conditions", nlohmann::json::array())) {
+        const auto& amplitude = c.at("amplitude_v");
+        const auto& interval = c.at("interval_s");
+        fmt::print("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.4f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
+                   at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
+    }
+    fmt::print("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
+    for (const auto& p : results.value("pairs", nlohmann::json::array())) {
+        fmt::print("  {:<28} {:>12.1f} {:>15.1f} {:>14.1f}\n", p.value("a", "") + " / " + p.value("b", ""),
+                   at(p, "mahalanobis"), at(p, "amplitude_jnd"), at(p, "interval_jnd"));
+    }
+    const auto accuracy = results.value("accuracy", nlohmann::json::object());
+    fmt::print("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"),
+               100 * at(accuracy, "low"), 100 * at(accuracy, "high"));
+}
+
+}  // namespace tacto::cli

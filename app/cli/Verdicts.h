@@ -1,0 +1,19 @@
+// Verdicts.h - verdicts as exit codes and as text.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto::cli {
+
+/// pass 0, fail 1, indeterminate 5, stopped 4; nothing (a protocol that judges nothing) 0.
+[[nodiscard]] int exitForVerdict(std::string_view verdict) noexcept;
+
+/// The verdict in a word, then why.
+void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons);
+/// The results of a separability run or analysis, as a table on stdout, without the verdict.
+void printSeparability(const nlohmann::json& results);
+
+}  // namespace tacto::cli

@@ -1,0 +1,57 @@
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+#include "core/session/SessionVerify.h"
+
+namespace tacto::cli {
+
+namespace {
+
+void declare(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
+
+int run(const QCommandLineParser& parser) {
+    const auto path = onlyArgument(parser, "SESSION");
+    if (!path) return usage(fmt::format("verify: {}", path.error().message));
+    const auto report = verifySession(*path);
+    if (!report) return couldNotRun(report.error());
+    if (parser.isSet("json")) {
+        printJson({{"status", nameOf(report->status)},
+                   {"closed", report->closed},
+                   {"recovered", report->recovered},
+                   {"notes", report->notes},
+                   {"problems", report->problems},
+                   {"head", report->head},
+                   {"rows", report->rows},
+                   {"events", report->events},
+                   {"trials", report->trials},
+                   {"captures", report->captures},
+                   {"verdicts", report->verdicts},
+                   {"chunks", report->chunks},
+                   {"samples", report->samples}});
+    } else {
+        fmt::print("{}: {}\n", *path, nameOf(report->status));
+        for (const auto& note : report->notes) fmt::print("  {}\n", note);
+        for (const auto& problem : report->problems) fmt::print("  {}\n", problem);
+        if (report->status != SessionStatus::NotASession) {
+            fmt::print("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
+                       report->captures, report->samples, report->head);
+        }
+    }
+    switch (report->status) {
+        case SessionStatus::Intact:
+            return kDone;
+        case SessionStatus::Damaged:
+            return kVerdictFailed;
+        case SessionStatus::NotASession:
+            break;
+    }
+    return kCouldNotRun;
+}
+
+}  // namespace
+
+const Command kVerify{
+    "verify", "SESSION [--json]", "Whether a session is what was recorded: integrity and hash chain", false, declare,
+    run};
+
+}  // namespace tacto::cli

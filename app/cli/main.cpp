@@ -1,0 +1,105 @@
+// tactoscope-cli - all of Tactoscope without a window. `tactoscope-cli help` is the contract.
+#include <QApplication>
+#include <QCoreApplication>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "app/cli/Command.h"
+#include "drivers/replay/ReplayDrivers.h"
+#include "drivers/simulated/SimulatedDriver.h"
+
+namespace tacto::cli {
+
+// The only place that names concrete drivers.
+Registry makeRegistry() {
+    std::vector<std::unique_ptr<Driver>> drivers;
+    drivers.push_back(makeSimulatedDriver());
+    drivers.push_back(makeRecordingDriver());
+    drivers.push_back(makeCaptureDriver());
+    return Registry(std::move(drivers));
+}
+
+namespace {
+
+constexpr const char* kNotice =
+    "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
+
+void printHelp(std::FILE* to) {
+    fmt::print(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
+               TACTOSCOPE_VERSION);
+    for (const auto& command : commands()) {
+        fmt::print(to, "  tactoscope-cli {} {}\n        {}\n", command.name, command.arguments, command.summary);
+    }
+    fmt::print(to,
+               "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
+               "4 stopped by safety or by the operator, 5 indeterminate. --json prints one JSON value on stdout.\n"
+               "{}\n",
+               kNotice);
+}
+
+/// Qt's own warnings are for developers; its fatal errors are for everybody.
+void quietly(QtMsgType type, const QMessageLogContext&, const QString& text) {
+    if (type == QtFatalMsg || type == QtCriticalMsg) fmt::print(stderr, "{}\n", text.toStdString());
+}
+
+int runCommand(const Command& command, int argc, char** argv) {
+    if (command.draws) {
+        // Drawing needs fonts and a QApplication but no display, and no word about a missing session of a desktop.
+        if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+        qInstallMessageHandler(quietly);
+    }
+    std::unique_ptr<QCoreApplication> application;
+    if (command.draws)
+        application = std::make_unique<QApplication>(argc, argv);
+    else
+        application = std::make_unique<QCoreApplication>(argc, argv);
+    QCoreApplication::setApplicationName("tactoscope");
+    QCoreApplication::setApplicationVersion(TACTOSCOPE_VERSION);
+
+    QCommandLineParser parser;
+    parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
+    parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
+    parser.setApplicationDescription(command.summary);
+    parser.addOption({{"h", "help"}, "Shows this."});
+    command.declare(parser);
+
+    auto words = QCoreApplication::arguments();
+    words.removeAt(1);  // the command's name
+    if (!parser.parse(words)) {
+        return usage(fmt::format("{}: {} (tactoscope-cli {} {})", command.name, parser.errorText().toStdString(),
+                                 command.name, command.arguments));
+    }
+    if (parser.isSet("help")) {
+        fmt::print("tactoscope-cli {} {}\n", command.name, command.arguments);
+        fmt::print("{}\n", parser.helpText().section('\n', 1).toStdString());
+        return kDone;
+    }
+    return command.run(parser);
+}
+
+}  // namespace
+}  // namespace tacto::cli
+
+int main(int argc, char** argv) {
+    using namespace tacto::cli;
+    const char* name = argc > 1 ? argv[1] : nullptr;
+    if (name == nullptr) {
+        printHelp(stderr);
+        return kUsage;
+    }
+    if (std::strcmp(name, "help") == 0 || std::strcmp(name, "--help") == 0 || std::strcmp(name, "-h") == 0) {
+        printHelp(stdout);
+        return kDone;
+    }
+    if (std::strcmp(name, "--version") == 0) {
+        fmt::print("tactoscope-cli {}\n", TACTOSCOPE_VERSION);
+        return kDone;
+    }
+    std::string known;
+    for (const auto& command : commands()) {
+        if (std::strcmp(name, command.name) == 0) return runCommand(command, argc, argv);
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", command.name);
+    }
+    return usage(fmt::format("there is no command \"{}\"; the commands are {}", name, known));
+}
