@@ -1,19 +1,15 @@
 #include <gtest/gtest.h>
 
-#ifndef TACTOSCOPE_SANITIZED
-
-#include <atomic>
-
 #include "core/acquisition/StreamHealth.h"
 #include "core/dsp/RoughnessChain.h"
 #include "tests/dsp/RoughnessOracle.h"
-
-extern std::atomic<long> allocationsMade;
+#include "tests/support/Allocations.h"
 
 using namespace tacto;
 using namespace tacto::test;
 
 TEST(Allocation, FeedingBlocksMakesNone) {
+    if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
     const auto slide = makeSlide(4000, 3, 200, 200, 8);
     RoughnessSettings settings;
     settings.taxel = TaxelFeature::Dynamic;
@@ -33,15 +29,13 @@ TEST(Allocation, FeedingBlocksMakesNone) {
     std::vector<StreamHealth> health(3, StreamHealth(200));
     std::vector<RoughnessFrame> frames;
     frames.reserve(1000);
-    const long before = allocationsMade.load();
+    const auto before = allocationsOfThisThread();
     for (const auto& step : steps) {
         for (std::size_t s = 0; s < 3; ++s) health[s].feed(step[s], slide.streams[s].channels);
         (*chain)->feed(step, frames);
     }
-    EXPECT_EQ(allocationsMade.load() - before, 0);
+    EXPECT_EQ(allocationsOfThisThread() - before, 0U);
     EXPECT_GT(frames.size(), 360U);
     ::operator delete(::operator new(8));  // the counter counts
-    EXPECT_GT(allocationsMade.load(), before);
+    EXPECT_GT(allocationsOfThisThread(), before);
 }
-
-#endif

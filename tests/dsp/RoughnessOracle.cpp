@@ -121,6 +121,10 @@ Spectra spectraOf(const SampleBlock& block, const StreamInfo& info, const Sample
         w.push_back(std::pow(std::sin(kPi * static_cast<double>(i) / static_cast<double>(n)), 2));
         energy += w.back() * w.back();
     }
+    std::vector<Complex> wave;  // e^(-2πi m/n)
+    for (std::size_t m = 0; m < n; ++m) {
+        wave.push_back(std::polar(1.0, -2 * kPi * static_cast<double>(m) / static_cast<double>(n)));
+    }
     Spectra out;
     out.hop_s = static_cast<double>(hop) / fs;
     for (std::size_t first = 0; first + n <= block.samples(); first += hop) {
@@ -133,12 +137,13 @@ Spectra spectraOf(const SampleBlock& block, const StreamInfo& info, const Sample
             const auto power = [&](const std::vector<Series>& signals) {
                 double sum = 0;
                 for (const auto& signal : signals) {
-                    Complex x = 0;
+                    double real = 0;
+                    double imaginary = 0;
                     for (std::size_t i = 0; i < n; ++i) {
-                        const auto angle = static_cast<double>(k * i % n) / static_cast<double>(n);
-                        x += signal[first + i] * w[i] * std::polar(1.0, -2 * kPi * angle);
+                        real += signal[first + i] * w[i] * wave[k * i % n].real();
+                        imaginary += signal[first + i] * w[i] * wave[k * i % n].imag();
                     }
-                    sum += 2 * std::norm(x) / (fs * energy) * fs / static_cast<double>(n);
+                    sum += 2 * (real * real + imaginary * imaginary) / (fs * energy) * fs / static_cast<double>(n);
                 }
                 return sum;
             };
