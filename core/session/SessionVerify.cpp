@@ -18,6 +18,9 @@ namespace {
 /// Enough to see what happened; a broken first row would otherwise give a sentence for every row after it.
 constexpr std::size_t kMostProblems = 40;
 
+/// No recording gets there; beyond it, counting on would overflow.
+constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
+
 std::optional<Digest> digestFrom(std::span<const std::byte> bytes) {
     Digest digest;
     if (bytes.size() != digest.size()) return std::nullopt;
@@ -103,6 +106,10 @@ private:
             if (!*more) break;
             const Entry entry{rows->integer(0), rows->text(1), rows->integer(2),
                               rows->text(3),    rows->text(4), digestFrom(rows->blob(5))};
+            if (entry.seq < expected || entry.seq > kLastSeq) {
+                problem("row {} has a number that no session gives", entry.seq);
+                break;
+            }
             if (entry.seq == expected + 1) problem("row {} is missing", expected);
             if (entry.seq > expected + 1) problem("rows {} to {} are missing", expected, entry.seq - 1);
             expected = entry.seq + 1;
