@@ -1,22 +1,17 @@
-// What the control loop calls for every train must not allocate: counted by this program's own operator new.
-#include <atomic>
-#include <cstdlib>
+// What the control loop calls for every train must not allocate.
 #include <gtest/gtest.h>
-#include <new>
 
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Rounding.h"
 #include "core/encoding/TrainScheduler.h"
 #include "core/encoding/Waveform.h"
-
-#ifndef TACTOSCOPE_SANITIZED  // the sanitizers bring their own operator new
-
-extern std::atomic<long> allocations;  // CountingNew.cpp
+#include "tests/support/Allocations.h"
 
 namespace tacto {
 namespace {
 
 TEST(EncodingInTheLoop, DoesNotAllocate) {
+    if (!test::countsAllocations()) GTEST_SKIP() << test::kNotCounted;
     EncodingProfile profile;
     profile.amplitudeSlew_V_per_s = 50;
     profile.intervalRatioPerTrain = 1.3;
@@ -27,7 +22,7 @@ TEST(EncodingInTheLoop, DoesNotAllocate) {
     Command last = *encoder.encode(0.5, 0.5);
     std::vector<double> samples(2000);
     double sum = 0;
-    const long before = allocations;
+    const auto before = test::allocationsOfThisThread();
     for (int step = 0; step < 1000; ++step) {
         const Instant now = std::chrono::milliseconds(step);
         const auto wanted = encoder.encode(step / 1000.0, 1 - step / 1000.0);
@@ -39,12 +34,10 @@ TEST(EncodingInTheLoop, DoesNotAllocate) {
         if (synthesize(rounded->train, Hertz(1e5), samples)) sum += samples[0];
         last = next;
     }
-    const long after = allocations;
-    EXPECT_EQ(after - before, 0);
+    const auto after = test::allocationsOfThisThread();
+    EXPECT_EQ(after - before, 0U);
     EXPECT_GT(sum, 0);
 }
 
 }  // namespace
 }  // namespace tacto
-
-#endif
