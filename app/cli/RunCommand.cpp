@@ -185,18 +185,16 @@ Finished runScript(const Order& order, Bench& bench, SessionWriter& session, con
     finished.outcome = (*run)->wait();
     interrupts.onStop({});
     line.clear();
-    finished.stoppedBySafety = bench.telemetry().state == InterlockState::Faulted;
+    finished.stoppedBySafety = bench.faults() > 0;
     return finished;
 }
 
 int exitFor(const Finished& finished) {
-    if (finished.outcome.error) {
-        const auto code = finished.outcome.error->code;
-        const bool safety = finished.stoppedBySafety || code == ErrorCode::LimitExceeded ||
-                            code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
-        return safety ? kStopped : kCouldNotRun;
-    }
-    return exitForVerdict(nameOf(finished.outcome.verdict));
+    if (finished.stoppedBySafety) return kStopped;
+    if (!finished.outcome.error) return exitForVerdict(nameOf(finished.outcome.verdict));
+    const auto code = finished.outcome.error->code;
+    const bool safety = code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
+    return safety ? kStopped : kCouldNotRun;
 }
 
 void printSummary(const Order& order, const Finished& finished, const json& value) {

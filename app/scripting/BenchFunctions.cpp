@@ -27,6 +27,15 @@ Result<std::string> loadText(const Arguments& arguments, const Json& value) {
     return text;
 }
 
+Result<bool> confirm(ScriptSession& session, const char* name, const std::string& text) {
+    OperatorQuestion question;
+    question.name = name;
+    question.text = text;
+    auto answer = session.ask(question);
+    if (!answer) return failure(answer);
+    return answer->is_boolean() && answer->get<bool>();
+}
+
 Result<Json> arm(ScriptSession& session, const Json& list) {
     const Arguments arguments("bench.arm", list);
     auto options = arguments.options(0, {"load"});
@@ -37,7 +46,20 @@ Result<Json> arm(ScriptSession& session, const Json& list) {
         if (!load) return failure(load);
         request.load = *load;
     }
-    if (auto armed = session.bench().arm(request); !armed) return failure(armed);
+    auto& bench = session.bench();
+    // Running a protocol on a bench load is the deliberate act; a person, and a load nobody can read, need a word more.
+    request.operatorConfirmed = bench.mode() == OutputMode::BenchLoad;
+    if (!request.operatorConfirmed) {
+        auto confirmed = confirm(session, "confirm-arming", "Arm the stimulator on this person");
+        if (!confirmed) return failure(confirmed);
+        request.operatorConfirmed = *confirmed;
+    }
+    if (const auto& stimulator = bench.devices().stimulator; stimulator && !stimulator->traits().readsBack) {
+        auto confirmed = confirm(session, "confirm-load", fmt::format("{} is connected", request.load));
+        if (!confirmed) return failure(confirmed);
+        request.declaredLoadConfirmed = *confirmed;
+    }
+    if (auto armed = bench.arm(request); !armed) return failure(armed);
     return Json();
 }
 

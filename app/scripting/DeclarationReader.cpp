@@ -47,6 +47,11 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     }
     static const QRegularExpression presents(QStringLiteral(R"(\bbench\s*\.\s*(?:present|measureReference)\b)"));
     static const QRegularExpression fits(QStringLiteral(R"(\bbench\s*\.\s*fitLoad\b)"));
+    static const QRegularExpression arms(QStringLiteral(R"(\bbench\s*\.\s*arm\b)"));
+    if (arms.match(text).hasMatch()) {
+        declaration.questions.emplace_back("confirm-load");
+        declaration.questions.emplace_back("confirm-arming");
+    }
     if (presents.match(text).hasMatch()) declaration.questions.emplace_back("surface-*");
     if (fits.match(text).hasMatch()) declaration.questions.emplace_back("fit-load");
 }

@@ -4,7 +4,7 @@
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
-#include "core/analysis/Separability.h"
+#include "core/analysis/ResultJson.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto {
@@ -12,13 +12,6 @@ namespace tacto {
 namespace {
 
 using Json = nlohmann::json;
-
-Json orNull(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json toJson(const Statistics& s) {
-    return {{"mean", orNull(s.mean)}, {"sd", orNull(s.sd)},   {"median", orNull(s.median)},
-            {"min", orNull(s.min)},   {"max", orNull(s.max)}, {"n", s.n}};
-}
 
 /// Over the trains, not over their pulses: a train is one event on the skin.
 template <class Member>
@@ -49,19 +42,19 @@ Result<Json> train(ScriptSession& session, const Json& list) {
 
     auto voltage = measureTrains(captures, "voltage", options);
     if (!voltage) return failure(voltage);
-    Json out = {{"amplitude_v", orNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
-                {"amplitude_u_v", orNull(voltage->uncertainty.amplitude)},
-                {"interval_s", orNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
-                {"interval_u_s", orNull(voltage->uncertainty.interval_s)},
-                {"width_s", orNull(meanOfTrains(*voltage, &TrainMeasurement::width_s))},
+    Json out = {{"amplitude_v", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
+                {"amplitude_u_v", numberOrNull(voltage->uncertainty.amplitude)},
+                {"interval_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
+                {"interval_u_s", numberOrNull(voltage->uncertainty.interval_s)},
+                {"width_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::width_s))},
                 {"trains", voltage->trains.size()},
                 {"pulses", voltage->measuredPulses},
                 {"warnings", voltage->warnings},
                 {"captures", ids}};
     if (auto current = measureTrains(captures, "current", options)) {
-        out["amplitude_ma"] = orNull(1e3 * meanOfTrains(*current, &TrainMeasurement::amplitude));
-        out["charge_uc"] = orNull(1e6 * meanOfTrains(*current, &TrainMeasurement::charge));
-        out["imbalance"] = orNull(meanOfTrains(*current, &TrainMeasurement::imbalance));
+        out["amplitude_ma"] = numberOrNull(1e3 * meanOfTrains(*current, &TrainMeasurement::amplitude));
+        out["charge_uc"] = numberOrNull(1e6 * meanOfTrains(*current, &TrainMeasurement::charge));
+        out["imbalance"] = numberOrNull(meanOfTrains(*current, &TrainMeasurement::imbalance));
     }
     return out;
 }
@@ -87,42 +80,24 @@ Result<Json> separability(ScriptSession&, const Json& list) {
         trial.amplitudeUncertainty = value("amplitude_u_v");
         trial.intervalUncertainty_s = value("interval_u_s");
         features.push_back({{"condition", trial.condition},
-                            {"amplitude_v", orNull(trial.amplitude)},
-                            {"interval_s", orNull(trial.interval_s)}});
+                            {"amplitude_v", numberOrNull(trial.amplitude)},
+                            {"interval_s", numberOrNull(trial.interval_s)}});
         trials.push_back(std::move(trial));
     }
-    auto found = judgeSeparability(trials);
+    SeparabilityOptions options;
+    if (auto expected = arguments.options(1, {"conditions"}); !expected) {
+        return failure(expected);
+    } else if (expected->contains("conditions")) {
+        for (const auto& name : (*expected)["conditions"]) {
+            if (!name.is_string()) return arguments.wrong("conditions", (*expected)["conditions"], "a list of names");
+            options.conditions.push_back(name.get<std::string>());
+        }
+    }
+    auto found = judgeSeparability(trials, options);
     if (!found) return failure(found);
-
-    Json conditions = Json::array();
-    for (const auto& c : found->conditions) {
-        conditions.push_back({{"name", c.name},
-                              {"n", c.n},
-                              {"not_measured", c.notMeasured},
-                              {"amplitude_v", toJson(c.amplitude)},
-                              {"interval_s", toJson(c.interval_s)},
-                              {"amplitude_variation", orNull(c.amplitudeVariation)},
-                              {"interval_variation", orNull(c.intervalVariation)}});
-    }
-    Json pairs = Json::array();
-    for (const auto& p : found->pairs) {
-        pairs.push_back({{"a", p.a},
-                         {"b", p.b},
-                         {"mahalanobis", orNull(p.mahalanobis)},
-                         {"amplitude_jnd", orNull(p.amplitudeJnd)},
-                         {"interval_jnd", orNull(p.intervalJnd)}});
-    }
-    return Json{{"verdict", nameOf(found->verdict)},
-                {"reasons", found->reasons},
-                {"conditions", conditions},
-                {"pairs", pairs},
-                {"confusion", found->confusion},
-                {"accuracy",
-                 {{"value", orNull(found->accuracy.value)},
-                  {"low", orNull(found->accuracy.low)},
-                  {"high", orNull(found->accuracy.high)}}},
-                {"folds", found->folds},
-                {"trials", features}};
+    Json out = toJson(*found);
+    out["trials"] = features;
+    return out;
 }
 
 }  // namespace
@@ -142,7 +117,8 @@ std::vector<HostFunction> measureFunctions() {
         {"analysis",
          "separability",
          HostKind::Function,
-         {{"trials", "list", "", "objects with condition, amplitude_v, interval_s; from record.trials()"}},
+         {{"trials", "list", "", "objects with condition, amplitude_v, interval_s; from record.trials()"},
+          {"options", "object", "", "conditions: the names that must all be there, else the verdict cannot be a pass"}},
          "Judges whether the conditions can be told apart from what was measured.",
          "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",
          "Throws for fewer than two conditions, or a value that is not above zero.",

@@ -62,6 +62,7 @@ struct ScriptRun::State final : HostPort {
     void execute(Sandbox& sandbox);
     void writeAbout();
     void conclude(ScriptThread::End end);
+    std::uint64_t faultsBefore = 0;  // of the bench, at the start
     void writeVerdict();
     void writeEvent(std::string_view kind, const nlohmann::json& details);
     [[nodiscard]] std::string stopText(int at);
@@ -176,6 +177,12 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
             result.line = error->line;
             result.error = Error{error->code, error->text()};
         }
+        // A fault that the script swallowed is still the end of the run: no verdict stands on what came after it.
+        if (!result.error && request.bench != nullptr && request.bench->faults() > faultsBefore) {
+            result.verdict = ScriptVerdict::Stopped;
+            result.error = Error{ErrorCode::Device, fmt::format("fault during the run: {}. Output is off.",
+                                                                request.bench->telemetry().reason.view())};
+        }
         if (result.error) {
             result.results = nlohmann::json();
             result.reasons = {result.error->message};
@@ -213,6 +220,7 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     }
     request.bench->clearStop();
     auto state = std::make_shared<State>(std::move(request));
+    state->faultsBefore = state->request.bench->faults();
     State* raw = state.get();  // the thread keeps the port, which is the state, alive
     state->thread = std::make_unique<ScriptThread>(state, state->request.script,
                                                    [raw](Sandbox& sandbox) { raw->execute(sandbox); });

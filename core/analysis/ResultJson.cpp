@@ -25,8 +25,8 @@ json toJson(const Separability& found) {
                               {"not_measured", c.notMeasured},
                               {"amplitude_v", toJson(c.amplitude)},
                               {"interval_s", toJson(c.interval_s)},
-                              {"amplitude_cv", numberOrNull(c.amplitudeVariation)},
-                              {"interval_cv", numberOrNull(c.intervalVariation)}});
+                              {"amplitude_variation", numberOrNull(c.amplitudeVariation)},
+                              {"interval_variation", numberOrNull(c.intervalVariation)}});
     }
     json pairs = json::array();
     for (const auto& p : found.pairs) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "core/bench/DeviceThread.h"
@@ -45,7 +46,8 @@ struct Bench::State {
     std::condition_variable waitChanged;  // a stop, a pause or its end
     void (*progress)(void*) = nullptr;
     void* progressContext = nullptr;
-    DriveSource driving = DriveSource::Off;
+    std::atomic<DriveSource> driving{DriveSource::Off};
+    std::uint64_t refusalsSeen = 0;  // by the caller of drive(), wait() and capture()
 
     // Virtual clock only:
     Instant nextTick{0};
@@ -62,20 +64,25 @@ struct Bench::State {
 
     ~State() {
         off("the bench closes");
-        heartbeat.end();
         loopThread.reset();
+        heartbeat.end();
+        off("the bench closes");  // whatever the loop's last step may have handed over
         scopeThread.reset();
         sensorThread.reset();
         stimulatorThread.reset();
+        if (stimulator) stimulator->forceOff();
         if (loop) loop->noteState(config.clock->now());
         recorder.reset();
     }
 
+    /// Disarmed first: see ControlLoop::mayPost().
     void off(const char* why) noexcept {
+        interlock.disarm(why);
         gate.latchStop();
         if (stimulator) stimulator->forceOff();
         if (config.devices.massager) config.devices.massager->forceOff();
-        interlock.disarm(why);
+        if (loop) loop->drive({});
+        driving.store(DriveSource::Off, std::memory_order_release);
     }
 
     [[nodiscard]] Result<std::unique_ptr<FingerInput>> makeFinger(const Profile& profile) {
@@ -92,6 +99,14 @@ struct Bench::State {
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
     [[nodiscard]] Result<void> health() const;
+    /// A train driven by hand was refused since the caller last heard of one.
+    [[nodiscard]] bool refusedByHand() const noexcept {
+        return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
+    }
+    [[nodiscard]] Result<void> refusal() {
+        refusalsSeen = loop->refusals();
+        return fail(ErrorCode::LimitExceeded, "{}", loop->telemetry().lastRefusal.view());
+    }
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
     [[nodiscard]] ArmCommand armCommandFor(const ArmRequest& request, const Load& load) const;
 };
@@ -224,32 +239,21 @@ GateSetup Bench::State::setupFor(const Load& load) const {
 ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
     ArmCommand command;
     command.setup = setupFor(load);
-    const auto checkLevel = source.drive == Drive::Current ? source.checkCurrent.value() : source.checkVoltage.value();
-    // |Z| depends on width and intensity; the range is that of the same pulse on the two ends of the load range.
-    command.impedanceRange = [range = command.setup.load, check = command.setup.check, source = source,
-                              checkLevel](std::optional<double> amplitude) {
-        PulseTrain train = check;
-        const double level = amplitude.value_or(checkLevel);
-        if (source.drive == Drive::Current)
-            train.amplitude = Milliamps(level);
-        else
-            train.amplitude = Volts(level);
-        const auto leading = segmentsOf(train, source.gap).items[0];
-        const SourceLimits limits{
-            .compliance_V =
-                source.compliance.value() > 0 ? source.compliance.value() : std::numeric_limits<double>::infinity(),
-            .current_A = source.currentLimit.value() > 0 ? source.currentLimit.value() * 1e-3
-                                                         : std::numeric_limits<double>::infinity()};
-        return std::pair(effectiveImpedance(range.min, leading, limits),
-                         effectiveImpedance(range.max, leading, limits));
-    };
+    // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
+    PulseTrain check = command.setup.check;
+    if (source.drive == Drive::Current)
+        check.amplitude = source.checkCurrent;
+    else
+        check.amplitude = source.checkVoltage;
+    const auto leading = segmentsOf(check, source.gap).items[0];
     auto& evidence = command.evidence;
     evidence.limitsLoaded = !config.limits.empty();
     evidence.deviceIdentified = config.devices.stimulator && !config.devices.stimulator->identity().name.empty();
-    evidence.operatorConfirmed = true;  // both steps were taken by whoever called arm()
+    evidence.operatorConfirmed = request.operatorConfirmed;
     evidence.needsImpedance = config.devices.stimulator != nullptr;
     evidence.readsBack = source.readsBack;
-    std::tie(evidence.impedanceLow, evidence.impedanceHigh) = command.impedanceRange(std::nullopt);
+    evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
+    evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
     evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
     return command;
 }
@@ -268,6 +272,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     if (!s.config.devices.stimulator) return fail(ErrorCode::Unsupported, "not armed: no stimulator is open");
     const auto load = parseLoad(request.load);
     if (!load) return failure(load);
+    if (const auto well = s.health(); !well) return well;
     const auto ticket = s.interlock.requestArming(s.config.clock->now());
     if (!ticket) return failure(ticket);
     if (const auto confirmed = s.interlock.confirmArming(*ticket, s.config.clock->now()); !confirmed) return confirmed;
@@ -287,7 +292,6 @@ Result<void> Bench::arm(const ArmRequest& request) {
 
 void Bench::disarm() noexcept {
     state_->off("disarmed");
-    state_->driving = DriveSource::Off;
     if (state_->virtualClock != nullptr) state_->loop->noteState(state_->config.clock->now());
 }
 
@@ -298,18 +302,21 @@ void Bench::stop(const char* by) noexcept {
     state_->waitChanged.notify_all();
 }
 
-void Bench::clearStop() noexcept { state_->stopped.store(false, std::memory_order_release); }
+void Bench::clearStop() noexcept {
+    resume();  // a pause from before the stop is over too
+    state_->stopped.store(false, std::memory_order_release);
+}
 
 void Bench::pause() noexcept {
     state_->paused.store(true, std::memory_order_release);
     state_->loop->pauseOutput(true);
     // Refused unless Delivering: a bench that delivers nothing has nothing to pause, and the wish is kept anyway.
-    if (const auto paused = state_->interlock.pause(); !paused) return;
+    static_cast<void>(state_->interlock.pause());
+    state_->gate.latchStop();  // a train already handed over does not come after the pause
 }
 
 void Bench::resume() noexcept {
-    if (const auto resumed = state_->interlock.resume(); !resumed) { /* was not Paused: nothing to leave */
-    }
+    static_cast<void>(state_->interlock.resume());  // refused when it was not Paused: nothing to leave
     state_->loop->pauseOutput(false);
     {
         const std::scoped_lock lock(state_->waitMutex);
@@ -322,17 +329,24 @@ Result<void> Bench::resetFault() {
     auto& s = *state_;
     if (s.interlock.state() != InterlockState::Faulted) return {};
     // Looked at again: a device that answers and delivers nothing is well; what its load is, the next check tells.
-    const auto causeIsThere = [&]() -> std::optional<std::string> {
-        if (!s.config.devices.stimulator || s.virtualClock == nullptr) return std::nullopt;
-        const auto status = s.config.devices.stimulator->status();
-        if (!status) return status.error().message;
-        if (status->delivering) return "the stimulator still delivers";
-        return std::nullopt;
-    }();
-    for (int cause = 0; cause < kFaultCauseCount && !causeIsThere; ++cause) {
-        s.interlock.causeGone(static_cast<FaultCause>(cause));
+    if (s.stimulator) {
+        constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);
+        static_cast<void>(s.stimulator->health());  // an old answer
+        s.stimulator->askHealth();
+        std::optional<Result<void>> answer;
+        const Instant until = s.config.clock->now() + kAnswerWithin;
+        while (!(answer = s.stimulator->health()) && s.config.clock->now() < until) {
+            if (s.virtualClock != nullptr) {
+                s.stimulator->serve(s.config.clock->now());
+            } else {
+                s.stimulatorThread->wake();
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+        }
+        if (!answer) return fail(ErrorCode::NotArmed, "the fault is still there: the stimulator does not answer");
+        if (!*answer) return fail(ErrorCode::NotArmed, "the fault is still there: {}", answer->error().message);
     }
-    if (causeIsThere) return fail(ErrorCode::NotArmed, "the fault is still there: {}", *causeIsThere);
+    for (int cause = 0; cause < kFaultCauseCount; ++cause) s.interlock.causeGone(static_cast<FaultCause>(cause));
     return s.interlock.reset();
 }
 
@@ -348,7 +362,8 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
             }
         }
     }
-    s.driving = source;
+    s.driving.store(source, std::memory_order_release);
+    s.refusalsSeen = s.loop->refusals();
     s.loop->drive({source, roughness, pressure});
     return {};
 }
@@ -379,12 +394,9 @@ Result<void> Bench::wait(Seconds duration) {
     if (!(duration.count() >= 0 && duration.count() <= 1e7)) {
         return fail(ErrorCode::InvalidArgument, "a wait of {} s; 0 to 10000000 s is expected", duration.count());
     }
-    const auto refusedBefore = telemetry().trainsRefused;
-    const auto passed = s.advance(s.config.clock->now() + toInstant(duration), [&] {
-        return s.driving == DriveSource::Manual && telemetry().trainsRefused != refusedBefore;
-    });
+    const auto passed = s.advance(s.config.clock->now() + toInstant(duration), [&s] { return s.refusedByHand(); });
     if (!passed) return failure(passed);
-    if (*passed) return fail(ErrorCode::LimitExceeded, "{}", telemetry().lastRefusal.view());
+    if (*passed) return s.refusal();
     return {};
 }
 
@@ -396,12 +408,11 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
                     ScopeSession::kMaxCaptures);
     }
     const auto wanted = static_cast<std::size_t>(trains);
-    s.scope->request(settings);
+    s.scope->request(settings, s.config.clock->now());
     const Instant longest = toInstant(s.config.profile.encoding.intervalMax) * (trains + 1) + kCaptureGrace;
-    const auto refusedBefore = telemetry().trainsRefused;
     bool refused = false;
     const auto passed = s.advance(s.config.clock->now() + longest, [&] {
-        refused = s.driving == DriveSource::Manual && telemetry().trainsRefused != refusedBefore;
+        refused = s.refusedByHand();
         return refused || s.scope->failed() || s.scope->ready() >= wanted;
     });
     auto taken = s.scope->take();
@@ -409,7 +420,7 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     if (s.virtualClock != nullptr) s.scope->serve(s.config.clock->now());
     if (!passed) return failure(passed);
     if (!taken) return taken;
-    if (refused) return fail(ErrorCode::LimitExceeded, "{}", telemetry().lastRefusal.view());
+    if (refused) return failure(s.refusal());
     if (taken->size() < wanted) {
         return fail(ErrorCode::Timeout, "the oscilloscope was triggered {} times in {:.1f} s; {} were expected",
                     taken->size(), toSeconds(longest), trains);
@@ -426,6 +437,8 @@ Telemetry Bench::telemetry() const {
     return seen;
 }
 DeviceSet& Bench::devices() noexcept { return state_->config.devices; }
+std::uint64_t Bench::faults() const noexcept { return state_->loop->faults(); }
+OutputMode Bench::mode() const noexcept { return state_->config.mode; }
 const Clock& Bench::clock() const noexcept { return *state_->config.clock; }
 
 void Bench::onProgress(void (*callback)(void* context), void* context) noexcept {

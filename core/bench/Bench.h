@@ -37,8 +37,9 @@ struct BenchConfig {
 
 /// What the operator states when arming.
 struct ArmRequest {
-    std::string load = "1 kohm";        ///< declared load, as parseLoad() reads it (bench loads)
-    bool declaredLoadConfirmed = true;  ///< the operator's word, where the device cannot read back
+    std::string load = "1 kohm";         ///< declared load, as parseLoad() reads it (bench loads)
+    bool declaredLoadConfirmed = false;  ///< the operator's word, where the device cannot read back
+    bool operatorConfirmed = false;      ///< deliberate: not a default button, not a key that repeats
 };
 
 class Bench {
@@ -78,7 +79,10 @@ public:
     [[nodiscard]] bool sensorFinished() const noexcept;
 
     [[nodiscard]] Telemetry telemetry() const;
+    /// Faults since the bench was made. Any thread.
+    [[nodiscard]] std::uint64_t faults() const noexcept;
     [[nodiscard]] DeviceSet& devices() noexcept;
+    [[nodiscard]] OutputMode mode() const noexcept;
     [[nodiscard]] const Clock& clock() const noexcept;
     /// Asked in loops of waiting calls; lets a script host report progress. May be null.
     void onProgress(void (*callback)(void* context), void* context) noexcept;

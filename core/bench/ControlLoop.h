@@ -8,11 +8,9 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/base/Latest.h"
@@ -38,9 +36,6 @@ struct DriveCommand {
 struct ArmCommand {
     GateSetup setup;
     ArmingEvidence evidence;  ///< its impedance is filled in from the check pulse
-    /// Lowest and highest |Z| that the limits were judged at, for a train of this amplitude (V or mA; absent: the check
-    /// pulse). A reading outside them means that something else is connected.
-    std::function<std::pair<Ohms, Ohms>(std::optional<double>)> impedanceRange;
 };
 
 class ControlLoop {
@@ -76,6 +71,10 @@ public:
     void noteState(Instant now) noexcept;
 
     [[nodiscard]] Telemetry telemetry() const noexcept { return latest_.read(); }
+    /// Trains refused so far. Any thread.
+    [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
+    /// Faults so far. Any thread.
+    [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
 private:
     struct Inbox {
@@ -88,8 +87,11 @@ private:
     void beginCheck(Instant now) noexcept;
     void finishArming(Result<void> result) noexcept;
     void readFinger(Instant now) noexcept;
-    void judgeReports(Instant now) noexcept;
+    void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
+    void judgeImpedance(const TrainReport& report) noexcept;
+    void recordOutcome(const TrainReport& report, const char* name) noexcept;
+    [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
     void watchForSilence(Instant now) noexcept;
     void updateWish(Instant now) noexcept;
@@ -103,6 +105,8 @@ private:
     std::unique_ptr<FingerInput> finger_;
     std::unique_ptr<TrainPlanner> planner_;
     std::atomic<bool> paused_{false};
+    std::atomic<std::uint64_t> refusals_{0};
+    std::atomic<std::uint64_t> faults_{0};
 
     std::mutex inboxMutex_;  // held to move a setting in or out
     Inbox inbox_;
@@ -112,12 +116,12 @@ private:
 
     // The loop's own:
     std::optional<ArmCommand> arming_;
+    bool checkPosted_ = false;  // of arming_
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;
     std::optional<Ohms> impedance_;
     Instant impedanceAt_{0};
-    std::function<std::pair<Ohms, Ohms>(std::optional<double>)> impedanceRange_;
     Instant postedEnd_{0};  // when the train in the session ends
     Telemetry shown_;
     std::vector<ExposureRow> exposure_;

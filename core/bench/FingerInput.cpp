@@ -1,6 +1,8 @@
 #include "core/bench/FingerInput.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace tacto {
 
@@ -8,6 +10,21 @@ namespace {
 constexpr std::size_t kFramesPerStep = 256;  // a step after a stall of seconds still finds room
 // A frame stands for the middle of its window: half of 64 ms, one hop, and the next force sample behind.
 constexpr double kFrameLatency_s = 0.032 + 0.016 + 0.03;
+
+/// Beyond these no fingertip works: 200 g, 1 kN, 100 MPa. Counts have no scale.
+double largestPlausible(const StreamInfo& stream) noexcept {
+    switch (stream.unit) {
+        case StreamUnit::MetrePerSecondSquared:
+            return 2000;
+        case StreamUnit::Newton:
+            return 1000;
+        case StreamUnit::Pascal:
+            return 1e8;
+        case StreamUnit::Count:
+            break;
+    }
+    return std::numeric_limits<double>::infinity();
+}
 }  // namespace
 
 Result<std::unique_ptr<FingerInput>> FingerInput::create(SensorSession& session, const RoughnessSettings& settings) {
@@ -33,7 +50,10 @@ void FingerInput::update() {
     const bool over = session_.finished();  // asked first: what it left behind is collected now
     session_.collect(blocks_);
     const auto streams = session_.device().streams();
-    for (std::size_t s = 0; s < blocks_.size(); ++s) health_[s].feed(blocks_[s], streams[s].channels);
+    for (std::size_t s = 0; s < blocks_.size(); ++s) {
+        health_[s].feed(blocks_[s], streams[s].channels);
+        watchRange(blocks_[s], streams[s]);
+    }
     frames_.clear();
     chain_->feed(blocks_, frames_);
     if (over && !finished_) {
@@ -50,8 +70,21 @@ double FingerInput::age_s(double now_s) const noexcept {
 }
 
 bool FingerInput::fresh(double now_s) const noexcept {
-    return !std::ranges::any_of(health_, [&](const StreamHealth& health) { return health.stale(now_s); }) &&
-           now_s - latest_.t_s <= StreamHealth::kStale_s + kFrameLatency_s;
+    // A stamp ahead of time says nothing of how old the data are: as bad as a stale one.
+    const auto current = [&](double age_s, double allowed_s) {
+        return age_s <= StreamHealth::kStale_s + allowed_s && age_s >= -StreamHealth::kStale_s;
+    };
+    const bool streams =
+        std::ranges::all_of(health_, [&](const StreamHealth& health) { return current(health.age_s(now_s), 0); });
+    return streams && current(now_s - latest_.t_s, kFrameLatency_s) &&
+           !(std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s);
+}
+
+void FingerInput::watchRange(const SampleBlock& block, const StreamInfo& stream) noexcept {
+    const double largest = largestPlausible(stream);
+    for (std::size_t i = 0; i < block.values.size(); ++i) {
+        if (!(std::abs(block.values[i]) <= largest)) implausible_s_ = block.t_s[i / stream.channels];
+    }
 }
 
 std::uint64_t FingerInput::gaps() const noexcept {

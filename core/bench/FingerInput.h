@@ -28,13 +28,15 @@ public:
 
     /// Age of the oldest stream's newest sample; infinite before the first.
     [[nodiscard]] double age_s(double now_s) const noexcept;
-    /// True when every stream, and the newest frame allowing for its window, is at most 100 ms old (hazard H7).
+    /// True when every stream, and the newest frame allowing for its window, is at most 100 ms old, none is stamped in
+    /// the future, and no value of the last 100 ms was outside what a fingertip can give (hazard H7).
     [[nodiscard]] bool fresh(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;
     [[nodiscard]] std::vector<std::string> flags() const { return chain_->flags(); }
     [[nodiscard]] SensorSession& session() const noexcept { return session_; }
 
 private:
+    void watchRange(const SampleBlock& block, const StreamInfo& stream) noexcept;
     FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain> chain);
 
     SensorSession& session_;
@@ -43,6 +45,7 @@ private:
     std::vector<SampleBlock> blocks_;
     std::vector<RoughnessFrame> frames_;
     RoughnessFrame latest_;
+    double implausible_s_ = -1;  // stamp of the newest value outside its range
     bool finished_ = false;
 };
 

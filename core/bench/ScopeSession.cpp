@@ -1,11 +1,13 @@
 #include "core/bench/ScopeSession.h"
 
 #include <iterator>
+#include <utility>
 
 namespace tacto {
 
-void ScopeSession::request(const ScopeSettings& settings) {
+void ScopeSession::request(const ScopeSettings& settings, Instant now) {
     const std::scoped_lock lock(mutex_);
+    notBefore_s_ = toSeconds(now);
     requested_ = settings;
     cancelled_ = false;
     captures_.clear();
@@ -69,6 +71,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
             break;
         } else {
             const std::scoped_lock lock(mutex_);
+            if ((*capture)->trigger_s < notBefore_s_) continue;
             if (captures_.size() == kMaxCaptures) captures_.pop_front();
             captures_.push_back(std::move(**capture));
         }

@@ -21,8 +21,8 @@ public:
     /// `device` outlives the session.
     explicit ScopeSession(Oscilloscope& device) : device_(device) {}
 
-    /// Asks for captures with these settings from the next serve() on; throws away older ones.
-    void request(const ScopeSettings& settings);
+    /// Asks for captures triggered from `now` on, with these settings; throws away older ones.
+    void request(const ScopeSettings& settings, Instant now);
     /// No more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
@@ -41,6 +41,7 @@ private:
     bool active_ = false;                     // guarded
     bool cancelled_ = false;                  // guarded
     std::deque<Capture> captures_;            // guarded
+    double notBefore_s_ = 0;                  // guarded: a trigger before it belongs to an earlier request
     std::optional<Error> error_;              // guarded
 };
 

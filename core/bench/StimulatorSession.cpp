@@ -1,6 +1,7 @@
 #include "core/bench/StimulatorSession.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/safety/TrainCheck.h"
 
@@ -14,7 +15,8 @@ constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
 /// An open electrode may read as infinite; NaN and negative numbers are no readings.
 bool isPlausible(const StimulatorStatus& status) noexcept {
     const auto fine = [](double value) { return value >= 0; };
-    return (!status.impedance || fine(status.impedance->value())) && (!status.imbalance || fine(*status.imbalance)) &&
+    return (!status.amplitude || fine(*status.amplitude)) && (!status.impedance || fine(status.impedance->value())) &&
+           (!status.imbalance || fine(*status.imbalance)) &&
            (!status.imbalanceUncertainty || fine(*status.imbalanceUncertainty));
 }
 }  // namespace
@@ -40,6 +42,7 @@ void StimulatorSession::forceOff() noexcept {
 Instant StimulatorSession::serve(Instant now) noexcept {
     Instant next = now + kIdlePoll;
     feedDeadMan(now);
+    if (healthAsked_.exchange(false, std::memory_order_acq_rel)) answerHealth();
     if (awaitingStatus_) {
         if (now >= statusDue_)
             readStatus(now);
@@ -112,19 +115,46 @@ void StimulatorSession::readStatus(Instant now) noexcept {
     made.outcome = TrainOutcome::Delivered;
     made.stillDelivering = status->delivering;
     made.electrode = status->electrode;
+    if (status->amplitude) made.measured = *status->amplitude;
     if (status->impedance) made.impedance_ohm = status->impedance->value();
     if (status->imbalance) made.imbalance = *status->imbalance;
     if (status->imbalanceUncertainty) made.imbalanceUncertainty = *status->imbalanceUncertainty;
     report(made);
 }
 
+void StimulatorSession::answerHealth() noexcept {
+    const auto status = device_.status();
+    Result<void> answer;
+    if (!status)
+        answer = failure(status);
+    else if (!isPlausible(*status))
+        answer = fail(ErrorCode::Device, "the stimulator's status holds no readings");
+    else if (status->delivering)
+        answer = fail(ErrorCode::Device, "the stimulator still delivers");
+    const std::scoped_lock lock(mailbox_);
+    health_ = std::move(answer);
+}
+
+std::optional<Result<void>> StimulatorSession::health() {
+    const std::scoped_lock lock(mailbox_);
+    return std::exchange(health_, std::nullopt);
+}
+
 void StimulatorSession::feedDeadMan(Instant now) noexcept {
     if (!heartbeat_.alive(clock_.now())) {
-        // The loop is silent: whatever the device still does on its own has to end.
-        if (!silenced_) device_.forceOff();
-        silenced_ = true;
+        // The loop is silent: whatever the device still does on its own has to end. Said once, for the loop to find
+        // when it comes back.
+        if (!std::exchange(silenced_, true) && everServed_) {
+            device_.forceOff();
+            TrainReport silent;
+            silent.outcome = TrainOutcome::LoopSilent;
+            silent.onset = silent.statusAt = now;
+            silent.error = std::string_view("the control loop was silent for more than 100 ms");
+            reports_.push(silent);
+        }
         return;
     }
+    everServed_ = true;
     silenced_ = false;
     const auto deadMan = device_.traits().deadMan;
     if (deadMan.count() <= 0 || now < keepAliveDue_) return;

@@ -4,8 +4,8 @@
 // One train is in the session at a time: it is idle again when its report was made, so a status that was
 // not read holds back the next train.
 //
-// Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench). post(),
-// idle() and takeReport() have one caller, the control loop. forceOff() any thread.
+// Thread-safety: askHealth() and health() any thread; serve() has one caller, the device's thread (on the virtual
+// clock, the bench). post(), idle() and takeReport() have one caller, the control loop. forceOff() any thread.
 #pragma once
 
 #include <atomic>
@@ -35,6 +35,11 @@ public:
     /// Output off now, and again after a write that is in flight. The bench latches the gate first.
     void forceOff() noexcept;
 
+    /// Asks the device how it is, outside any train: for leaving a fault. Answered by the next serve().
+    void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
+    /// Nothing while unanswered; then success when the device answers and delivers nothing, else why not.
+    [[nodiscard]] std::optional<Result<void>> health();
+
     /// Does what is due and returns when it wants to be called again.
     Instant serve(Instant now) noexcept;
 
@@ -49,6 +54,7 @@ private:
     void deliver(Pending&& pending, Instant now) noexcept;
     void readStatus(Instant now) noexcept;
     void feedDeadMan(Instant now) noexcept;
+    void answerHealth() noexcept;
     void report(const TrainReport& made) noexcept;
 
     Stimulator& device_;
@@ -62,12 +68,15 @@ private:
     std::mutex mailbox_;                  // guards pending_; held for a move only
     std::optional<Pending> pending_;
     SpscRing<TrainReport> reports_{16};
+    std::atomic<bool> healthAsked_{false};
+    std::optional<Result<void>> health_;  // guarded by mailbox_
 
     // The device thread's own:
     std::optional<TrainReport> awaitingStatus_;
     Instant statusDue_{0};
     Instant keepAliveDue_{0};
-    bool silenced_ = false;  // the heartbeat was found dead and the output switched off
+    bool silenced_ = false;    // the heartbeat was found dead and the output switched off
+    bool everServed_ = false;  // the heartbeat was once alive
 };
 
 }  // namespace tacto

@@ -10,9 +10,10 @@
 namespace tacto {
 
 enum class TrainOutcome {
-    Delivered,  ///< and the device's status was read afterwards
-    Voided,     ///< a stop, a new configuration or time took the approval back; nothing was written
-    Failed,     ///< the device refused, went away or did not answer; it was switched off
+    Delivered,   ///< and the device's status was read afterwards
+    Voided,      ///< a stop, a new configuration or time took the approval back; nothing was written
+    Failed,      ///< the device refused, went away or did not answer; it was switched off
+    LoopSilent,  ///< no train: the control loop was silent for 100 ms and the output was switched off
 };
 
 /// Trivially copyable: it crosses threads in a ring.
@@ -23,6 +24,7 @@ struct TrainReport {
     Instant end{0};                ///< of its last pulse
     bool stillDelivering = false;  ///< what the device said when its status was read
     double amplitude = 0;          ///< V or mA, as delivered
+    double measured = NAN;         ///< the same, as the device read it back; NaN where it does not
     double interval_s = 0;
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     double impedance_ohm = NAN;

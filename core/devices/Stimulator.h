@@ -19,6 +19,7 @@ struct StimulatorStatus {
     Instant at{0};            ///< when the device was read
     bool delivering = false;  ///< a train is in progress
     ElectrodeState electrode = ElectrodeState::NotMeasured;
+    std::optional<double> amplitude;  ///< V or mA by drive: the leading phase's end, as the device measured it
     std::optional<Ohms> impedance;    ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
     std::optional<double> imbalance;  ///< |net charge| / phase charge of the last pulse, tail included
     std::optional<double> imbalanceUncertainty;  ///< of `imbalance`, 95 %

@@ -33,12 +33,12 @@ struct ReferenceSurface {
     bool operator==(const ReferenceSurface&) const = default;
 };
 
-/// What the shipped simulated finger reads on plastic (smooth) and P120 (rough); see resources and the calibration
-/// protocol. A result that stands on these is "uncalibrated R".
-inline constexpr ReferenceScale kSimulatedH{0.05, 0.60};
-inline constexpr ReferenceScale kSimulatedHAbs{1e-3, 10.0};
-inline constexpr ReferenceScale kSimulatedVStatic{0.05, 0.5};
-inline constexpr ReferenceScale kSimulatedVDynamic{1e-5, 1e-2};
+/// What the shipped simulated finger reads on plastic (smooth) and P120 (rough), 4 s at 50 mm/s and 1 N, as the
+/// separability protocol measures them. A result that stands on these is "uncalibrated R".
+inline constexpr ReferenceScale kSimulatedH{0.024, 0.334};
+inline constexpr ReferenceScale kSimulatedHAbs{0.042, 0.772};  // (m/s2/N)2
+inline constexpr ReferenceScale kSimulatedVStatic{2.0e-4, 0.052};
+inline constexpr ReferenceScale kSimulatedVDynamic{1.8e-4, 0.045};
 
 struct RoughnessSettings {
     SpectralFeature spectral = SpectralFeature::Relative;

@@ -189,6 +189,7 @@ Result<StimulatorStatus> SimulatedStimulator::status() {
     }
     const bool drove = std::abs(volts) > 5 * kVoltageFloor || std::abs(amps) > 5 * kCurrentFloor;
     if (!drove) return status;  // an amplitude of 0 measures nothing
+    status.amplitude = traits().drive == Drive::Current ? 1e3 * std::abs(amps) : std::abs(volts);
     const bool open = std::abs(amps) < 5 * kCurrentFloor || std::abs(volts) > kOpenOhms * std::abs(amps);
     status.electrode = open ? ElectrodeState::Open : ElectrodeState::Ok;
     if (!open) {

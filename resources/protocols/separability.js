@@ -30,7 +30,7 @@ function feelReferences() {
   const smooth = bench.measureReference("plastic");
   const rough = bench.measureReference("P120");
   bench.setReferences(smooth, rough);
-  report.table("Reference surfaces", [smooth, rough]);
+  report.table("Reference surfaces", [smooth, rough], ["material", "h", "v", "frames"]);
 }
 
 function run(p) {
@@ -49,7 +49,9 @@ function run(p) {
   bench.lift();
   if (unsettled > 0) log(unsettled + " of " + trials.length + " trials began before R and P had settled");
 
-  const found = analysis.separability(record.trials());
+  const found = analysis.separability(record.trials(), {
+    conditions: bench.conditions.map((condition) => condition.name),
+  });
   report.figure("Four conditions", plot.conditions(found));
   report.figure("Amplitude and interval", plot.plane(found));
   report.figure("Measured waveforms", plot.waveforms());

@@ -43,7 +43,9 @@ protected:
         bench_ = std::move(*bench);
     }
 
-    [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") { return bench_->arm(ArmRequest{load, true}); }
+    [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") {
+        return bench_->arm(ArmRequest{load, true, true});
+    }
     [[nodiscard]] InterlockState state() const { return bench_->telemetry().state; }
 
     std::uint64_t seed_ = 1;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <thread>
 
 #include "core/bench/ControlLoop.h"
 #include "core/devices/Stimulator.h"
@@ -31,6 +32,7 @@ public:
         return {};
     }
     Result<StimulatorStatus> status() override {
+        while (statusBlocks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (statusFails) return fail(ErrorCode::Timeout, "the fake does not answer");
         StimulatorStatus answer;
         answer.at = clock_.now();
@@ -53,6 +55,7 @@ public:
     std::function<void()> onDeliver;
     bool deliverFails = false;
     bool statusFails = false;
+    std::atomic<bool> statusBlocks{false};
     ElectrodeState electrode = ElectrodeState::Ok;
     Ohms impedance{1000};
     std::atomic<int> delivered{0};
@@ -90,9 +93,9 @@ private:
 
 /// Takes `loop` through arming on a declared kiloohm; armed after its next steps.
 inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock) {
-    interlock.connect().value();
+    if (!interlock.connect()) return;
     const auto ticket = interlock.requestArming(clock.now()).value();
-    interlock.confirmArming(ticket, clock.now()).value();
+    if (!interlock.confirmArming(ticket, clock.now())) return;
     ArmCommand command;
     command.setup = benchSetup(device.traits());
     command.evidence.limitsLoaded = true;
@@ -100,7 +103,6 @@ inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulato
     command.evidence.operatorConfirmed = true;
     command.evidence.impedanceLow = Ohms(800);
     command.evidence.impedanceHigh = Ohms(1200);
-    command.impedanceRange = [](std::optional<double>) { return std::pair(Ohms(800), Ohms(1200)); };
     loop.arm(std::move(command));
 }
 

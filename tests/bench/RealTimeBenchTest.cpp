@@ -45,20 +45,19 @@ TEST_F(RealTimeBenchTest, StopReachesForceOffWithinTenMilliseconds) {
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 
-TEST_F(RealTimeBenchTest, StopEndsAWaitWithinTenMilliseconds) {
+TEST_F(RealTimeBenchTest, StopEndsAWaitAtOnce) {
     RecordProperty("hazard", "H2");
     open({}, {Role::Stimulator}, true);
-    std::atomic<bool> ended{false};
+    steady_clock::time_point ended;
     std::thread waiter([&] {
         EXPECT_FALSE(bench_->wait(Seconds(60)));
-        ended = true;
+        ended = steady_clock::now();
     });
     std::this_thread::sleep_for(30ms);
-    bench_->stop("test");
     const auto begun = steady_clock::now();
+    bench_->stop("test");
     waiter.join();
-    EXPECT_LT(steady_clock::now() - begun, 1s);
-    EXPECT_TRUE(ended);
+    EXPECT_LT(ended - begun, 500ms);  // 2 ms on an idle machine
 }
 
 TEST_F(RealTimeBenchTest, ClosesWithEverythingRunning) {
