@@ -262,7 +262,7 @@ TEST(ScriptStop, AfterTheEndLeavesTheBenchAlone) {
     EXPECT_EQ(run->wait().verdict, ScriptVerdict::Pass);
     run->stop("too late");
     EXPECT_EQ(run->wait().verdict, ScriptVerdict::Pass);
-    EXPECT_TRUE(rig.bench().arm({}));  // a stopped bench would refuse
+    EXPECT_TRUE(rig.bench().arm({"1 kohm", true, true}));  // a stopped bench would refuse
 }
 
 }  // namespace
