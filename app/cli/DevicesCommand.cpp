@@ -30,9 +30,7 @@ int run(const QCommandLineParser& parser) {
         fmt::print("{:<20} {:<13} {}{}\n", device.uri, nameOf(device.role), device.name,
                    device.simulated ? "  (simulated)" : "");
     }
-    fmt::print(stderr,
-               "Also: recording:FOLDER replays a fingertip recording, capture:FOLDER oscilloscope records; sim: fills "
-               "every role that is still needed.\n");
+    fmt::print(stderr, "sim: alone fills every role that a protocol still needs.\n");
     return kDone;
 }
 

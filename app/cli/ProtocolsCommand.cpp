@@ -13,13 +13,20 @@ void declare(QCommandLineParser& parser) {
     parser.addOption({"reference", "Prints what scripts may call, as Markdown."});
 }
 
+/// A member as text; empty where it is absent or null.
+std::string textOf(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || found->is_null()) return {};
+    if (found->is_number()) return fmt::format("{:g}", found->get<double>());
+    return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
 std::string rangeOf(const nlohmann::json& parameter) {
     std::string text;
-    if (parameter.contains("choices")) {
-        for (const auto& [key, label] : parameter["choices"].items()) text += (text.empty() ? "" : " | ") + key;
-    } else if (parameter.contains("min") && !parameter["min"].is_null()) {
-        text = fmt::format("{} to {}", parameter["min"].dump(),
-                           parameter.contains("max") ? parameter["max"].dump() : "any");
+    if (const auto choices = parameter.find("choices"); choices != parameter.end() && choices->is_array()) {
+        for (const auto& choice : *choices) text += (text.empty() ? "" : " | ") + textOf(choice, "value");
+    } else if (!textOf(parameter, "min").empty() || !textOf(parameter, "max").empty()) {
+        text = fmt::format("{} to {}", textOf(parameter, "min"), textOf(parameter, "max"));
     }
     return text;
 }
@@ -45,13 +52,14 @@ int run(const QCommandLineParser& parser) {
         return broken ? kCouldNotRun : kDone;
     }
     for (const auto& protocol : all) {
-        fmt::print("{}: {}\n", protocol["name"].get<std::string>(), protocol["title"].get<std::string>());
+        fmt::print("{}: {}\n", textOf(protocol, "name"), textOf(protocol, "title"));
         for (const auto& parameter : protocol["parameters"]) {
-            fmt::print(
-                "    --set {}={}{}{}   {}  {}\n", parameter["name"].get<std::string>(),
-                parameter["value"].is_string() ? parameter["value"].get<std::string>() : parameter["value"].dump(),
-                parameter.value("unit", "").empty() ? "" : " ", parameter.value("unit", ""),
-                parameter.value("label", ""), rangeOf(parameter).empty() ? "" : "(" + rangeOf(parameter) + ")");
+            const auto range = rangeOf(parameter);
+            const auto unit = textOf(parameter, "unit");
+            fmt::print("    --set {:<28} {}{}\n",
+                       fmt::format("{}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
+                                   unit.empty() ? "" : "   ", unit),
+                       textOf(parameter, "label"), range.empty() ? "" : " (" + range + ")");
         }
     }
     return broken ? kCouldNotRun : kDone;

@@ -199,10 +199,10 @@ int exitFor(const Finished& finished) {
 
 void printSummary(const Order& order, const Finished& finished, const json& value) {
     const auto& outcome = finished.outcome;
-    if (order.script.name == "separability" && outcome.results.is_object())
+    if (outcome.results.is_object() && outcome.results.contains("confusion"))
         printSeparability(outcome.results);
     else if (outcome.results.is_object())
-        fmt::print("{}\n", outcome.results.dump(2));
+        printResults(outcome.results);
     fmt::print("\n");
     if (value["simulated"].get<bool>()) fmt::print("  SIMULATED: no number here was measured on hardware.\n");
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()

@@ -22,6 +22,14 @@ double at(const nlohmann::json& object, const char* key) {
 }
 }  // namespace
 
+void printResults(const nlohmann::json& results) {
+    fmt::print("\n");
+    for (const auto& [key, value] : results.items()) {
+        if (key != "verdict")
+            fmt::print("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+}
+
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons) {
     fmt::print("  verdict  {}\n", verdict);
     for (const auto& reason : reasons) fmt::print("           {}\n", reason);

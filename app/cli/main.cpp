@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <memory>
 
 #include "app/cli/Command.h"
@@ -75,7 +76,13 @@ int runCommand(const Command& command, int argc, char** argv) {
         fmt::print("{}\n", parser.helpText().section('\n', 1).toStdString());
         return kDone;
     }
-    return command.run(parser);
+    try {
+        return command.run(parser);
+    } catch (const std::exception& surprise) {
+        // Of a library: nothing of ours throws. Devices were switched off when their bench was unwound.
+        fmt::print(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
+        return kCouldNotRun;
+    }
 }
 
 }  // namespace
