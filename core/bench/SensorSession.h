@@ -20,7 +20,7 @@ namespace tacto {
 
 class SensorSession {
 public:
-    static constexpr std::size_t kMaxChannels = 64;
+    static constexpr std::size_t kMaxChannels = 63;  // what the session recorder takes
 
     /// Errors: Unsupported for a stream of more than kMaxChannels channels. `device` outlives the session.
     [[nodiscard]] static Result<std::unique_ptr<SensorSession>> create(TactileSensor& device);
