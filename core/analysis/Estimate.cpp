@@ -16,10 +16,4 @@ Estimate wilsonInterval(std::size_t successes, std::size_t n) noexcept {
     return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
 }
 
-double justNoticeableDifferences(double x1, double x2, double weberFraction) noexcept {
-    const auto usable = [](double x) { return x > 0 && std::isfinite(x); };
-    if (!usable(x1) || !usable(x2) || !usable(weberFraction)) return std::numeric_limits<double>::quiet_NaN();
-    return std::abs(std::log(x1 / x2)) / std::log1p(weberFraction);
-}
-
 }  // namespace tacto

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/analysis/LinearDiscriminant.h"
+#include "core/base/JustNoticeable.h"
 
 namespace tacto {
 

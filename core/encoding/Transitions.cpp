@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/JustNoticeable.h"
 #include "core/encoding/TrainScheduler.h"
 
 namespace tacto {
 namespace {
-
-double distance(double a, double b, double weber) noexcept { return std::abs(std::log(a / b)) / std::log1p(weber); }
 
 /// The control loop's step: how often the pending train may move.
 constexpr Instant kStep = std::chrono::milliseconds(1);
@@ -57,8 +56,12 @@ constexpr int kTrainsAfterJump = 50;
 
 }  // namespace
 
-double amplitudeDistance(Volts a, Volts b) noexcept { return distance(a.value(), b.value(), kAmplitudeWeber); }
-double intervalDistance(Seconds a, Seconds b) noexcept { return distance(a.count(), b.count(), kIntervalWeber); }
+double amplitudeDistance(Volts a, Volts b) noexcept {
+    return justNoticeableDifferences(a.value(), b.value(), kAmplitudeWeberFraction);
+}
+double intervalDistance(Seconds a, Seconds b) noexcept {
+    return justNoticeableDifferences(a.count(), b.count(), kIntervalWeberFraction);
+}
 
 Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const TransitionSweep& sweep) {
     if (auto valid = validate(profile); !valid) return failure(valid);

@@ -13,9 +13,6 @@
 
 namespace tacto {
 
-inline constexpr double kAmplitudeWeber = 0.10;
-inline constexpr double kIntervalWeber = 0.16;
-
 /// Both above 0.
 [[nodiscard]] double amplitudeDistance(Volts a, Volts b) noexcept;
 [[nodiscard]] double intervalDistance(Seconds a, Seconds b) noexcept;

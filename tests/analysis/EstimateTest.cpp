@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/Estimate.h"
+#include "core/base/JustNoticeable.h"
 
 namespace tacto::test {
 namespace {

@@ -4,10 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <chrono>
 
-#include "core/bench/ControlLoop.h"
-#include "core/bench/Profile.h"
-#include "tests/bench/FakeStimulator.h"
-#include "tests/bench/TapedFinger.h"
+#include "tests/bench/LoopRig.h"
 
 namespace tacto {
 namespace {
@@ -20,12 +17,11 @@ void reportMedian(benchmark::State& state, std::vector<double>& seconds) {
 }
 
 template <class Turn>
-void measure(benchmark::State& state, VirtualClock& clock, SensorSession& sensor, Turn turn) {
+void measure(benchmark::State& state, test::LoopRig& rig, Turn turn) {
     std::vector<double> seconds;
     seconds.reserve(1'000'000);
     for (auto _ : state) {
-        clock.advanceTo(clock.now() + ControlLoop::kPeriod);
-        sensor.serve(clock.now());
+        rig.nextSamples();
         const auto begun = std::chrono::steady_clock::now();
         turn();
         const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -36,34 +32,19 @@ void measure(benchmark::State& state, VirtualClock& clock, SensorSession& sensor
 }
 
 void chainAlone(benchmark::State& state) {
-    VirtualClock clock;
-    test::TapedFinger finger(clock);
-    auto sensor = SensorSession::create(finger).value();
-    auto input = FingerInput::create(*sensor, RoughnessSettings{}).value();
-    measure(state, clock, *sensor, [&] { input->update(); });
+    test::LoopRig rig;
+    auto input = FingerInput::create(*rig.sensor, rig.profile.roughness).value();
+    measure(state, rig, [&] { input->update(); });
 }
 BENCHMARK(chainAlone)->Name("loop/baseline: roughness chain alone")->UseManualTime()->Unit(benchmark::kMicrosecond);
 
 void loopStep(benchmark::State& state) {
-    VirtualClock clock;
-    SafetyGate gate(clock);
-    Interlock interlock;
-    Heartbeat heartbeat;
-    test::FakeStimulator device(clock);
-    StimulatorSession stimulator(device, gate, heartbeat, clock, {});
-    test::TapedFinger finger(clock);
-    auto sensor = SensorSession::create(finger).value();
-    const Profile profile;
-    ControlLoop loop({clock, gate, interlock, heartbeat, OutputMode::BenchLoad, &stimulator, nullptr, 0, {}},
-                     FingerInput::create(*sensor, profile.roughness).value(),
-                     std::make_unique<TrainPlanner>(profile.encoding, device.traits(), gate));
-    test::armFake(loop, interlock, device, clock);
-    loop.drive({DriveSource::Sensor, 0, 0});
-    measure(state, clock, *sensor, [&] {
-        loop.step(clock.now());
-        stimulator.serve(clock.now());
+    test::LoopRig rig;
+    measure(state, rig, [&] {
+        rig.loop.step(rig.clock.now());
+        rig.serveStimulator();
     });
-    state.counters["trains"] = static_cast<double>(loop.telemetry().trainsDelivered);
+    state.counters["trains"] = static_cast<double>(rig.loop.telemetry().trainsDelivered);
 }
 BENCHMARK(loopStep)->Name("loop/one step, null stimulator")->UseManualTime()->Unit(benchmark::kMicrosecond);
 
