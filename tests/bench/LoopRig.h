@@ -1,0 +1,41 @@
+// LoopRig.h - a control loop by itself: taped samples in, a null stimulator out, armed and driven by the finger.
+#pragma once
+
+#include "core/bench/ControlLoop.h"
+#include "core/bench/Profile.h"
+#include "tests/bench/FakeStimulator.h"
+#include "tests/bench/TapedFinger.h"
+
+namespace tacto::test {
+
+struct LoopRig {
+    LoopRig() {
+        armFake(loop, interlock, device, clock);
+        loop.drive({DriveSource::Sensor, 0, 0});
+    }
+    /// One turn later, the finger's samples are there.
+    void nextSamples() {
+        clock.advanceTo(clock.now() + ControlLoop::kPeriod);
+        sensor->serve(clock.now());
+    }
+    /// Writes what is due, and reads the status of what was written.
+    void serveStimulator() {
+        stimulator.serve(clock.now());
+        stimulator.serve(clock.now());
+    }
+
+    VirtualClock clock;
+    SafetyGate gate{clock};
+    Interlock interlock;
+    Heartbeat heartbeat;
+    FakeStimulator device{clock};
+    StimulatorSession stimulator{device, gate, heartbeat, clock, {}};
+    TapedFinger finger{clock};
+    std::unique_ptr<SensorSession> sensor = SensorSession::create(finger).value();
+    Profile profile;
+    ControlLoop loop{{clock, gate, interlock, heartbeat, OutputMode::BenchLoad, &stimulator, nullptr, 0, {}},
+                     FingerInput::create(*sensor, profile.roughness).value(),
+                     std::make_unique<TrainPlanner>(profile.encoding, device.traits(), gate)};
+};
+
+}  // namespace tacto::test
