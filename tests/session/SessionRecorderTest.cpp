@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "core/session/SessionRecorder.h"
-#include "tests/support/Allocations.h"
 #include "tests/session/SessionSupport.h"
+#include "tests/support/Allocations.h"
 
 namespace tacto {
 namespace {
