@@ -197,7 +197,7 @@ int exitFor(const Finished& finished) {
     return safety ? kStopped : kCouldNotRun;
 }
 
-void printSummary(const Order& order, const Finished& finished, const json& value) {
+void printSummary(const Finished& finished, const json& value) {
     const auto& outcome = finished.outcome;
     if (outcome.results.is_object() && outcome.results.contains("confusion"))
         printSeparability(outcome.results);
@@ -286,7 +286,7 @@ int run(const QCommandLineParser& parser) {
     if (parser.isSet("json"))
         printJson(value);
     else
-        printSummary(*order, finished, value);
+        printSummary(finished, value);
     if (outcome.abandoned) {
         std::fflush(nullptr);
         std::_Exit(exitCode);
