@@ -27,6 +27,7 @@ enum Check : int {
     BadCheckTrain,
     PersonMissing,
     PersonConsent,
+    PersonPseudonym,
     PersonArea,
     PersonDiscomfort,
     PersonRampStep,

@@ -88,6 +88,9 @@ Result<void> checkPerson(const GateSetup& setup) {
         return invalid("person mode needs a person's consent, limits and ramp step");
     const PersonSetup person = setup.person.value_or(PersonSetup{});
     if (checks(PersonConsent) && !person.consentRecorded) return invalid("person mode needs a recorded consent");
+    if (checks(PersonPseudonym) && person.participant.empty()) {
+        return invalid("person mode needs the participant's pseudonym: accepted levels belong to one person");
+    }
     if (checks(PersonArea) && !setup.electrodeArea) return invalid("person mode needs the electrode area in cm2");
     if (checks(PersonVoltageSource) && setup.source.drive != Drive::Current) {
         return invalid("a voltage source is refused for a person; a current source is needed");

@@ -92,16 +92,16 @@ TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& s
             return found(TrainFinding::NetCharge, percentText(*status->imbalance, uncertainty));
         }
     }
+    if (late && status->delivering) {
+        return found(TrainFinding::StuckOn, "the stimulator still delivers 50 ms after its train should have ended");
+    }
     if (status->at - trainEnd > kStatusDeadline) {
         return found(TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train");
     }
     if (status->delivering || status->at < trainEnd) {
         // Read too early: wait for a newer one, but not for ever.
         if (!late) return judgement;
-        return status->delivering
-                   ? found(TrainFinding::StuckOn,
-                           "the stimulator still delivers 50 ms after its train should have ended")
-                   : found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train");
+        return found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train");
     }
     judgement.finding = TrainFinding::Ok;
     return judgement;

@@ -56,6 +56,7 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(BadCheckTrain, bench([](auto& s) { s.check.pulses = 0; }), "impedance check");
     add(PersonMissing, person([](auto& s) { s.person.reset(); }), "needs a person's consent");
     add(PersonConsent, person([](auto& s) { s.person->consentRecorded = false; }), "recorded consent");
+    add(PersonPseudonym, person([](auto& s) { s.person->participant.clear(); }), "pseudonym");
     add(PersonArea, person([](auto& s) { s.electrodeArea.reset(); }), "electrode area");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
