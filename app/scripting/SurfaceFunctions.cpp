@@ -64,6 +64,13 @@ Result<bool> settle(Bench& bench, double tolerance, double limit_s) {
     return false;
 }
 
+Result<Json> settledState(Bench& bench, double tolerance, double limit_s) {
+    auto settled = settle(bench, tolerance, limit_s);
+    if (!settled) return failure(settled);
+    const Telemetry now = bench.telemetry();
+    return Json{{"settled", *settled}, {"roughness", now.roughness}, {"pressure", now.pressure}};
+}
+
 Result<Json> present(ScriptSession& session, const Json& list) {
     const Arguments arguments("bench.present", list);
     auto condition = arguments.object(0, "condition");
@@ -77,26 +84,23 @@ Result<Json> present(ScriptSession& session, const Json& list) {
     if (!pressure || std::isnan(*pressure)) return arguments.wrong("condition", **condition, "one of bench.conditions");
     auto source = arguments.text(*options, "source", "finger");
     if (!source) return failure(source);
+    auto tolerance = arguments.number(*options, "tolerance", 0.02, {0, 1});
+    if (!tolerance) return failure(tolerance);
+    auto limit = arguments.number(*options, "limit_s", 5, {0.5, 600});
+    if (!limit) return failure(limit);
     Bench& bench = session.bench();
     if (*source == "direct") {
         if (auto driven = bench.drive(DriveSource::Manual, *roughness, *pressure); !driven) return failure(driven);
-        return Json{{"settled", true}, {"roughness", *roughness}, {"pressure", *pressure}};
+        return settledState(bench, *tolerance, *limit);
     }
     if (*source != "finger") return arguments.wrong("source", *source, "\"finger\" or \"direct\"");
 
     const Sliding usual{*roughness < 0.5 ? "glass" : "P60", 50, *pressure < 0.5 ? 0.15 : 6};
     auto sliding = slidingFrom(arguments, *options, usual);
     if (!sliding) return failure(sliding);
-    auto tolerance = arguments.number(*options, "tolerance", 0.02, {0, 1});
-    if (!tolerance) return failure(tolerance);
-    auto limit = arguments.number(*options, "limit_s", 5, {0.5, 600});
-    if (!limit) return failure(limit);
     if (auto slid = slide(session, *sliding); !slid) return failure(slid);
     if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
-    auto settled = settle(bench, *tolerance, *limit);
-    if (!settled) return failure(settled);
-    const Telemetry now = bench.telemetry();
-    return Json{{"settled", *settled}, {"roughness", now.roughness}, {"pressure", now.pressure}};
+    return settledState(bench, *tolerance, *limit);
 }
 
 Result<Json> lift(ScriptSession& session, const Json&) {

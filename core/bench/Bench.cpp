@@ -408,7 +408,7 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
                     ScopeSession::kMaxCaptures);
     }
     const auto wanted = static_cast<std::size_t>(trains);
-    s.scope->request(settings, s.config.clock->now());
+    s.scope->request(settings, s.config.clock->now(), wanted);
     const Instant longest = toInstant(s.config.profile.encoding.intervalMax) * (trains + 1) + kCaptureGrace;
     bool refused = false;
     const auto passed = s.advance(s.config.clock->now() + longest, [&] {

@@ -1,14 +1,14 @@
 #include "core/bench/ScopeSession.h"
 
-#include <iterator>
 #include <utility>
 
 namespace tacto {
 
-void ScopeSession::request(const ScopeSettings& settings, Instant now) {
+void ScopeSession::request(const ScopeSettings& settings, Instant now, std::size_t wanted) {
     const std::scoped_lock lock(mutex_);
     notBefore_s_ = toSeconds(now);
     requested_ = settings;
+    wanted_ = wanted;
     cancelled_ = false;
     captures_.clear();
     error_.reset();
@@ -38,9 +38,7 @@ bool ScopeSession::active() const {
 Result<std::vector<Capture>> ScopeSession::take() {
     const std::scoped_lock lock(mutex_);
     if (error_) return tl::unexpected<Error>(*error_);
-    std::vector<Capture> taken(std::make_move_iterator(captures_.begin()), std::make_move_iterator(captures_.end()));
-    captures_.clear();
-    return taken;
+    return std::exchange(captures_, {});
 }
 
 Instant ScopeSession::serve(Instant now) noexcept {
@@ -72,8 +70,11 @@ Instant ScopeSession::serve(Instant now) noexcept {
         } else {
             const std::scoped_lock lock(mutex_);
             if ((*capture)->trigger_s < notBefore_s_) continue;
-            if (captures_.size() == kMaxCaptures) captures_.pop_front();
             captures_.push_back(std::move(**capture));
+            if (captures_.size() < wanted_) continue;
+            active_ = false;
+            device_.disarm();
+            break;
         }
     }
     if (!done) {

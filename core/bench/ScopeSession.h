@@ -2,10 +2,9 @@
 // until somebody takes them.
 //
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); the rest
-// any thread. Captures are large: what nobody takes is bounded to kMaxCaptures, the oldest dropped.
+// any thread. Captures are large: no more than kMaxCaptures may be asked for at once.
 #pragma once
 
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -21,8 +20,9 @@ public:
     /// `device` outlives the session.
     explicit ScopeSession(Oscilloscope& device) : device_(device) {}
 
-    /// Asks for captures triggered from `now` on, with these settings; throws away older ones.
-    void request(const ScopeSettings& settings, Instant now);
+    /// Asks for `wanted` captures triggered from `now` on, with these settings; throws away older ones. The device
+    /// is disarmed with the last of them, so that none is taken that nobody asked for.
+    void request(const ScopeSettings& settings, Instant now, std::size_t wanted);
     /// No more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
@@ -38,9 +38,10 @@ private:
     Oscilloscope& device_;
     mutable std::mutex mutex_;
     std::optional<ScopeSettings> requested_;  // guarded
+    std::size_t wanted_ = 0;                  // guarded
     bool active_ = false;                     // guarded
     bool cancelled_ = false;                  // guarded
-    std::deque<Capture> captures_;            // guarded
+    std::vector<Capture> captures_;           // guarded
     double notBefore_s_ = 0;                  // guarded: a trigger before it belongs to an earlier request
     std::optional<Error> error_;              // guarded
 };

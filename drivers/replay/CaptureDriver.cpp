@@ -17,22 +17,13 @@ constexpr ScopeTraits kTraits{Hertz(1e9), 100'000'000, 32, Hertz(0)};
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-/// Gives the captures of a folder one after the other, each due when its time in the session has come. Settings are
-/// judged like an instrument's, but a file stays what it was recorded as.
+/// Gives the captures of a folder one after the other. Arming makes the next file begin now; those after it keep
+/// their distance in time, so that intervals stay what they were and no file is waited for longer than it took.
+/// Settings are judged like an instrument's, but a file stays what it was recorded as.
 class ReplayedCaptures final : public Oscilloscope {
 public:
     ReplayedCaptures(std::vector<Capture> captures, DeviceIdentity identity, const Clock& clock)
-        : captures_(std::move(captures)),
-          identity_(std::move(identity)),
-          clock_(clock),
-          opened_s_(toSeconds(clock.now())) {
-        origin_s_ = std::numeric_limits<double>::infinity();
-        for (const auto& capture : captures_) origin_s_ = std::min(origin_s_, capture.start_s);
-        for (auto& capture : captures_) {
-            capture.start_s += opened_s_ - origin_s_;
-            capture.trigger_s = triggerOf(capture, settings_);
-        }
-    }
+        : captures_(std::move(captures)), identity_(std::move(identity)), clock_(clock) {}
 
     const DeviceIdentity& identity() const noexcept override { return identity_; }
     const ScopeTraits& traits() const noexcept override { return kTraits; }
@@ -52,22 +43,26 @@ public:
         if (!(s.voltageRange.value() > 0)) return refuse("voltage range", s.voltageRange.value(), "above 0 V");
         if (!(s.currentRange.value() > 0)) return refuse("current range", s.currentRange.value(), "above 0 mA");
         settings_ = s;
-        for (auto& capture : captures_) capture.trigger_s = triggerOf(capture, settings_);
         return {};
     }
 
     Result<void> arm() override {
         armed_ = true;
+        if (next_ < captures_.size()) shift_s_ = toSeconds(clock_.now()) - captures_[next_].start_s;
         return {};
     }
     void disarm() noexcept override { armed_ = false; }
 
     Result<std::optional<Capture>> poll() override {
         if (!armed_ || next_ == captures_.size()) return std::optional<Capture>{};
-        const auto& capture = captures_[next_];
-        const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
+        Capture& next = captures_[next_];
+        const double start_s = next.start_s + shift_s_;
+        const double end_s = start_s + static_cast<double>(next.samples()) / next.rate_hz;
         if (end_s > toSeconds(clock_.now())) return std::optional<Capture>{};
-        return std::optional<Capture>(captures_[next_++]);
+        ++next_;
+        next.start_s = start_s;
+        next.trigger_s = triggerOf(next, settings_);
+        return std::optional<Capture>(std::move(next));
     }
 
 private:
@@ -85,11 +80,10 @@ private:
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    std::vector<Capture> captures_;
+    std::vector<Capture> captures_;  ///< those before next_ were given away
     const DeviceIdentity identity_;
     const Clock& clock_;
-    const double opened_s_;
-    double origin_s_ = 0;
+    double shift_s_ = 0;  ///< from a file's own time to the session's
     ScopeSettings settings_;
     std::size_t next_ = 0;
     bool armed_ = false;

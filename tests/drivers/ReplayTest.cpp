@@ -147,20 +147,22 @@ TEST(ReplayedRecording, RefusesWhatItCannotOpen) {
     EXPECT_TRUE(driver->runsOnVirtualClock());
 }
 
-TEST(ReplayedCaptures, ComeInOrderWhenTheirTimeHasCome) {
+TEST(ReplayedCaptures, ComeInOrderFromArmingOnAtTheirOwnDistances) {
     const ScratchDir folder;
     ASSERT_TRUE(writeCapture(folder.path() / "a.csv", pulseCapture(20.0)));
     ASSERT_TRUE(writeCapture(folder.path() / "b.csv", pulseCapture(20.5)));
+    ASSERT_TRUE(writeCapture(folder.path() / "c.csv", pulseCapture(1000)));
     FileBench bench;
-    bench.wait(Seconds(1));
     ASSERT_TRUE(bench.open(*makeCaptureDriver(), "capture:" + folder.path().string()));
     auto& scope = *bench.devices.oscilloscope;
     ScopeSettings settings;
     settings.triggerLevel = 5;
     ASSERT_TRUE(scope.configure(settings));
-    bench.wait(Seconds(0.1));
+    bench.wait(Seconds(1));
     EXPECT_FALSE(scope.poll()->has_value()) << "not armed";
     ASSERT_TRUE(scope.arm());
+    EXPECT_FALSE(scope.poll()->has_value()) << "the record is not yet complete";
+    bench.wait(Seconds(0.1));
     const auto first = scope.poll();
     ASSERT_TRUE(first->has_value());
     EXPECT_FALSE((*first)->simulated);
@@ -169,6 +171,10 @@ TEST(ReplayedCaptures, ComeInOrderWhenTheirTimeHasCome) {
     EXPECT_FALSE(scope.poll()->has_value()) << "the second is half a second later";
     bench.wait(Seconds(0.5));
     EXPECT_NEAR((*scope.poll())->trigger_s, 1.5005, 2e-5);
+    scope.disarm();
+    ASSERT_TRUE(scope.arm());
+    bench.wait(Seconds(0.4));
+    EXPECT_NEAR((*scope.poll())->trigger_s, 1.6005, 2e-5) << "armed at 1.6 s: nobody waits out the gap between files";
     bench.wait(Seconds(5));
     EXPECT_FALSE(scope.poll()->has_value());
 }
