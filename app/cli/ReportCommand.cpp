@@ -16,7 +16,13 @@ int run(const QCommandLineParser& parser) {
     const auto format = reportFormat(parser.value("out"));
     if (!format) return usage("report: " + format.error().message);
     if (const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out")); !made) {
-        return couldNotRun(made.error());
+        auto error = made.error();
+        // The database's own words name no file.
+        if (error.message.find(*session) == std::string::npos &&
+            error.message.find(parser.value("out").toStdString()) == std::string::npos) {
+            error.message = fmt::format("{}: {}", *session, error.message);
+        }
+        return couldNotRun(error);
     }
     fmt::print("{}\n", parser.value("out").toStdString());
     return kDone;

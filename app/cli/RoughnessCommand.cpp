@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
@@ -23,6 +25,15 @@ void printRow(const char* name, const Statistics& s) {
         fmt::print("  {:<12} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>7}\n", name, s.mean, s.sd, s.min, s.max, s.n);
 }
 
+/// Whether `out` is one of the files that the recording is made of.
+bool isOf(const Recording& recording, const std::filesystem::path& out) {
+    std::error_code absent;
+    if (std::filesystem::equivalent(recording.path, out, absent)) return true;
+    return std::any_of(recording.streams.begin(), recording.streams.end(), [&](const RecordedStream& stream) {
+        return std::filesystem::equivalent(stream.file, out, absent);
+    });
+}
+
 int run(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
@@ -30,12 +41,16 @@ int run(const QCommandLineParser& parser) {
     if (!profile) return couldNotRun(profile.error());
     const auto recording = Recording::open(*path);
     if (!recording) return couldNotRun(recording.error());
+    const auto out = parser.value("out").toStdString();
+    if (!out.empty() && isOf(*recording, out)) {
+        return usage(fmt::format("roughness: --out {} is a file of the recording itself; another is expected", out));
+    }
     const auto found =
         analyseRoughness(recording->infos(), recording->blocks(), profile->roughness, recording->declared);
     if (!found) return couldNotRun(found.error());
     const auto& summary = found->summary;
     if (parser.isSet("out")) {
-        if (const auto written = writeFile(parser.value("out").toStdString(), framesCsv(found->frames)); !written) {
+        if (const auto written = writeFile(out, framesCsv(found->frames)); !written) {
             return failWith(written.error());
         }
     }

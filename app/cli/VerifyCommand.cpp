@@ -14,6 +14,11 @@ int run(const QCommandLineParser& parser) {
     if (!path) return usage(fmt::format("verify: {}", path.error().message));
     const auto report = verifySession(*path);
     if (!report) return couldNotRun(report.error());
+    if (report->status == SessionStatus::NotASession) {
+        return couldNotRun(Error{ErrorCode::ParseError, report->problems.empty()
+                                                            ? fmt::format("{} is not a Tactoscope session", *path)
+                                                            : report->problems.front()});
+    }
     if (parser.isSet("json")) {
         printJson({{"status", nameOf(report->status)},
                    {"closed", report->closed},
@@ -32,20 +37,10 @@ int run(const QCommandLineParser& parser) {
         fmt::print("{}: {}\n", *path, nameOf(report->status));
         for (const auto& note : report->notes) fmt::print("  {}\n", note);
         for (const auto& problem : report->problems) fmt::print("  {}\n", problem);
-        if (report->status != SessionStatus::NotASession) {
-            fmt::print("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
-                       report->captures, report->samples, report->head);
-        }
+        fmt::print("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
+                   report->captures, report->samples, report->head);
     }
-    switch (report->status) {
-        case SessionStatus::Intact:
-            return kDone;
-        case SessionStatus::Damaged:
-            return kVerdictFailed;
-        case SessionStatus::NotASession:
-            break;
-    }
-    return kCouldNotRun;
+    return report->status == SessionStatus::Intact ? kDone : kVerdictFailed;
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ private:
         };
         if (!inside()) {
             return tl::unexpected<Error>(Error{
-                ErrorCode::InvalidArgument,
+                ErrorCode::ParseError,
                 fmt::format("{}: stream {}: \"file\" is \"{}\"; a file inside the recording's folder was expected, "
                             "not an absolute path or one that climbs out of it",
                             file_.string(), number, *name)});

@@ -100,7 +100,7 @@ TEST(RecordingRefusal, FilesOutsideTheFolder) {
     RecordProperty("hazard", "H10");
     for (const std::string file : {"/etc/passwd", "../f.csv", "sub/../../f.csv", ".."}) {
         const auto error = refused(kGoodCsv, describe("", "N", file));
-        EXPECT_EQ(error.code, ErrorCode::InvalidArgument) << file;
+        EXPECT_EQ(error.code, ErrorCode::ParseError) << file;
         EXPECT_THAT(error.message, HasSubstr("inside the recording's folder")) << file;
     }
     const ScratchDir outside;

@@ -1,0 +1,71 @@
+// RunCli.h - runs the built tactoscope-cli as a user does, without a display, and says what came out of it.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+
+using Words = std::vector<std::string>;
+
+struct Ran {
+    int code = 0;     ///< exit code; a signal's number, negative, when that ended the program
+    std::string out;  ///< stdout
+    std::string err;  ///< stderr
+};
+
+/// A user's folder with a home of its own: nothing outside it is written.
+class Desk {
+public:
+    /// Starts the program here, to be signalled and waited for.
+    class Started {
+    public:
+        ~Started();
+        Started(const Started&) = delete;
+        Started& operator=(const Started&) = delete;
+        /// False when the program ended first, or after 20 s.
+        [[nodiscard]] bool waitUntil(const std::function<bool()>& isSo) const;
+        void signal(int number) const;
+        /// Waits for its end; after `limit` it is killed, and its code is -9.
+        [[nodiscard]] Ran wait(std::chrono::seconds limit = std::chrono::seconds(120));
+
+    private:
+        friend class Desk;
+        Started(const Desk& desk, const Words& words);
+        [[nodiscard]] bool endedWithin(std::chrono::milliseconds time) const;
+        std::filesystem::path out_, err_;
+        pid_t pid_ = -1;
+        int ended_ = -1;  // a descriptor that polls as readable once the program has ended
+    };
+
+    [[nodiscard]] Ran run(const Words& words) const { return start(words).wait(); }
+    [[nodiscard]] Started start(const Words& words) const { return {*this, words}; }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
+    /// A path below the folder, as text.
+    [[nodiscard]] std::string at(std::string_view name) const { return (path() / name).string(); }
+    std::string write(std::string_view name, std::string_view content) const;
+    /// Puts a script where the program looks for the user's protocols; returns its path.
+    std::string protocol(std::string_view name, std::string_view script) const;
+    /// Every file below a folder of the desk, with what it holds.
+    [[nodiscard]] std::map<std::string, std::string> files(std::string_view below = ".") const;
+    /// The files below a folder whose names end so, sorted.
+    [[nodiscard]] Words named(std::string_view below, std::string_view ending) const;
+
+private:
+    ScratchDir folder_;
+    ScratchDir home_;
+    ScratchDir streams_;
+    mutable int count_ = 0;
+};
+
+[[nodiscard]] std::string contentOf(const std::filesystem::path& file);
+
+}  // namespace tacto::test

@@ -1,0 +1,229 @@
+// run: separability on the simulated bench, live from real recordings.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/Result.h"
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+const Words kRunKeys{"protocol", "verdict", "simulated", "seed", "session", "report", "results"};
+
+Words separability(const std::string& out, const std::string& repeats, const std::string& seed = "1") {
+    return {"run", "separability", "--device", "sim:",  "--set", "repeats=" + repeats, "--out",
+            out,   "--seed",       seed,       "--json"};
+}
+
+double firstTime(const std::string& capture) {
+    const auto text = contentOf(capture);
+    return std::stod(text.substr(text.find('\n') + 1));
+}
+
+TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
+    const Desk desk;
+    const auto ran = desk.run({"run", "separability", "--device", "sim:", "--out", desk.at("out"), "--json"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    const auto value = jsonOf(ran);
+    expectKeys(value, kRunKeys, "run");
+    EXPECT_EQ(value["protocol"], "separability");
+    EXPECT_EQ(value["verdict"], "pass");
+    EXPECT_EQ(value["simulated"], true);
+    EXPECT_TRUE(std::filesystem::exists(value["session"].get<std::string>()));
+    EXPECT_TRUE(contentOf(value["report"].get<std::string>()).starts_with("%PDF-"));
+
+    const auto& results = value["results"];
+    expectSeparability(results);
+    constexpr std::array<double, 4> kVolts{10, 10, 40, 40};
+    constexpr std::array<double, 4> kSeconds{2, 0.5, 2, 0.5};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& condition = results["conditions"][i];
+        EXPECT_EQ(condition["n"], 25);
+        EXPECT_NEAR(condition["amplitude_v"]["mean"].get<double>(), kVolts[i], 0.02 * kVolts[i]);
+        EXPECT_GT(condition["amplitude_v"]["sd"].get<double>(), 0) << "a bench has noise";
+        EXPECT_NEAR(condition["interval_s"]["mean"].get<double>(), kSeconds[i], 0.01 * kSeconds[i]);
+    }
+
+    // The captures say the same as the trials: two of a train each, one interval apart.
+    const auto captures = desk.named("out/captures", ".csv");
+    ASSERT_EQ(captures.size(), 200U);
+    EXPECT_TRUE(contentOf(captures[0]).starts_with("time_s,voltage_v,current_a\n"));
+    for (const std::size_t trial : {0U, 1U, 50U, 99U}) {
+        const auto& made = results["trials"][trial];
+        EXPECT_NEAR(firstTime(captures[2 * trial + 1]) - firstTime(captures[2 * trial]),
+                    made["interval_s"].get<double>(), 1e-4);
+        const auto measured = jsonOf(desk.run({"measure", captures[2 * trial], "--json"}));
+        EXPECT_NEAR(measured["channels"][0]["amplitude"]["mean"].get<double>(), made["amplitude_v"].get<double>(),
+                    0.01 * made["amplitude_v"].get<double>());
+    }
+
+    // And so does the analysis of the trials as a table.
+    std::string table = "condition,amplitude,interval\n";
+    for (const auto& trial : results["trials"])
+        table += trial["condition"].get<std::string>() + "," + trial["amplitude_v"].dump() + "," +
+                 trial["interval_s"].dump() + "\n";
+    const auto again = desk.run({"analyze", "separability", desk.write("trials.csv", table), "--json"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    const auto analysed = jsonOf(again);
+    expectSeparability(analysed);
+    EXPECT_EQ(analysed["verdict"], value["verdict"]);
+    EXPECT_EQ(analysed["confusion"], results["confusion"]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (const auto* quantity : {"amplitude_v", "interval_s"}) {
+            EXPECT_NEAR(analysed["conditions"][i][quantity]["mean"].get<double>(),
+                        results["conditions"][i][quantity]["mean"].get<double>(), 1e-9);
+        }
+    }
+}
+
+TEST(RunSeparability, TooFewTrialsAreIndeterminateAndExitFive) {
+    const Desk desk;
+    const auto ran = desk.run(separability(desk.at("out"), "5"));
+    EXPECT_EQ(ran.code, 5) << ran.err;
+    EXPECT_EQ(jsonOf(ran)["verdict"], "indeterminate");
+}
+
+TEST(RunSeparability, TheSameSeedGivesTheSameResultsAndAnotherSeedDoesNot) {
+    const Desk desk;
+    const auto first = jsonOf(desk.run(separability(desk.at("a"), "2", "7")));
+    const auto same = jsonOf(desk.run(separability(desk.at("b"), "2", "7")));
+    const auto other = jsonOf(desk.run(separability(desk.at("c"), "2", "8")));
+    EXPECT_EQ(first["seed"], 7);
+    EXPECT_EQ(first["results"], same["results"]);
+    EXPECT_NE(first["results"], other["results"]);
+    const auto captures = desk.files("a/captures");
+    ASSERT_EQ(captures.size(), 16U);
+    for (const auto& [path, content] : captures) {
+        EXPECT_EQ(content, contentOf(desk.path() / "b" / "captures" / std::filesystem::path(path).filename())) << path;
+    }
+}
+
+TEST(RunSeparability, OutTwiceInTheSameFolderWritesNothingOver) {
+    RecordProperty("hazard", "H8");
+    const Desk desk;
+    const auto first = jsonOf(desk.run(separability(desk.at("out"), "2")));
+    const auto before = desk.files("out");
+    const auto second = jsonOf(desk.run(separability(desk.at("out"), "2")));
+    const auto after = desk.files("out");
+    for (const auto& [path, content] : before) {
+        ASSERT_TRUE(after.contains(path)) << path;
+        EXPECT_EQ(after.at(path), content) << path;
+    }
+    EXPECT_NE(first["session"], second["session"]);
+    EXPECT_NE(first["report"], second["report"]);
+    EXPECT_EQ(after.size(), 2 * before.size());
+    const auto beside = std::filesystem::path(second["session"].get<std::string>()).parent_path() / "captures";
+    EXPECT_TRUE(std::filesystem::exists(beside)) << beside;
+}
+
+TEST(RunSeparability, ALoadThatTheLimitsForbidStopsTheRunBeforeItsFirstTrain) {
+    RecordProperty("hazard", "H1");
+    const Desk desk;
+    auto words = separability(desk.at("out"), "2");
+    words.insert(words.end(), {"--set", "source=direct", "--set", "load=100"});
+    const auto ran = desk.run(words);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_EQ(jsonOf(ran)["verdict"], "stopped");
+    EXPECT_THAT(ran.err, HasSubstr("10 mA"));
+    EXPECT_THAT(ran.err, HasSubstr("separability.js:"));
+}
+
+TEST(RunSeparability, ALoadThatIsNotTheDeclaredOneIsNotArmed) {
+    RecordProperty("hazard", "H3");
+    const Desk desk;
+    auto words = separability(desk.at("out"), "2");
+    words.insert(words.begin() + 2, {"--device", "sim:stimulator?load=300"});
+    const auto ran = desk.run(words);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_THAT(ran.err, testing::AllOf(HasSubstr("measured impedance is 299"), HasSubstr("declared load is 1 kohm"),
+                                        HasSubstr("20 %")));
+}
+
+TEST(RunSeparability, AnElectrodeThatLiftsStopsTheRun) {
+    RecordProperty("hazard", "H3");
+    const Desk desk;
+    auto words = separability(desk.at("out"), "3");
+    words.insert(words.begin() + 2, {"--device", "sim:stimulator?mode=current&fault=open@12s"});
+    const auto ran = desk.run(words);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    const auto value = jsonOf(ran);
+    EXPECT_EQ(value["verdict"], "stopped");
+    EXPECT_TRUE(value["results"].is_null());
+    EXPECT_THAT(ran.err, HasSubstr("open"));
+    EXPECT_EQ(desk.run({"verify", value["session"]}).code, 0);
+}
+
+TEST(RunSeparability, TextSaysThatItIsSimulatedAndWhereThingsAre) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto ran = desk.run({"run", "separability", "--device", "sim:", "--set", "repeats=2", "--out", "out"});
+    EXPECT_EQ(ran.code, 5) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("SIMULATED"));
+    EXPECT_THAT(ran.out, HasSubstr("indeterminate"));
+    EXPECT_THAT(ran.out, HasSubstr(desk.named("out", ".tacto").at(0).substr(desk.path().string().size() + 1)));
+}
+
+TEST(RunLive, ARealFingerDrivesTheStimulatorAndIsRecorded) {
+    if (!sharedData("biotac")) GTEST_SKIP() << kNoSharedData;
+    const Desk desk;
+    for (const auto* material : {"mat1_1", "mat6_1", "mat11_1", "mat16_1"}) {
+        const auto ran =
+            desk.run({"run", "live", "--device", "recording:" + sharedData("biotac")->string() + "/" + material,
+                      "--device", "sim:", "--out", desk.at(material), "--json"});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        const auto value = jsonOf(ran);
+        expectKeys(value, kRunKeys, "run");
+        EXPECT_TRUE(value["verdict"].is_null());
+        EXPECT_GT(value["results"]["trains_delivered"].get<int>(), 2) << material;
+        EXPECT_TRUE(std::filesystem::exists(value["report"].get<std::string>()));
+        const auto verified = desk.run({"verify", value["session"], "--json"});
+        EXPECT_EQ(verified.code, 0);
+        EXPECT_GT(jsonOf(verified)["samples"].get<int>(), 10000) << "the finger is in the session";
+    }
+}
+
+TEST(RunLive, TheShippedExampleRuns) {
+    const Desk desk;
+    const auto ran =
+        desk.run({"run", "live", "--device", "recording:" + (sourceDir() / "resources/examples/linen-slide").string(),
+                  "--device", "sim:", "--out", desk.at("out"), "--json"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_GT(jsonOf(ran)["results"]["trains_delivered"].get<int>(), 2);
+}
+
+TEST(RunLive, TheVirtualClockIsFasterThanTheRealOneAndRealtimeIsNot) {
+    const Desk desk;
+    const auto seconds = [&](const Words& more) {
+        Words words{"run", "live", "--device", "sim:", "--out", desk.at("out")};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto begun = std::chrono::steady_clock::now();
+        EXPECT_EQ(desk.run(words).code, 0);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    };
+    EXPECT_LT(seconds({"--set", "duration=120"}), 60);
+    EXPECT_GE(seconds({"--set", "duration=1.5", "--realtime"}), 1.5);
+}
+
+TEST(RunCaptureFolder, AnOscilloscopeFromFilesGivesTheTrialsOfThoseFiles) {
+    const Desk desk;
+    auto words = separability(desk.at("first"), "3", "5");
+    words.insert(words.end(), {"--set", "source=direct"});
+    const auto first = jsonOf(desk.run(words));
+    words = separability(desk.at("second"), "3", "5");
+    words.insert(words.begin() + 2, {"--device", "capture:" + desk.at("first/captures")});
+    words.insert(words.end(), {"--set", "source=direct"});
+    const auto ran = desk.run(words);
+    const auto second = jsonOf(ran);
+    ASSERT_TRUE(second["results"].is_object()) << ran.err;
+    ASSERT_EQ(second["results"]["trials"].size(), 12U);
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_NEAR(second["results"]["trials"][i]["amplitude_v"].get<double>(),
+                    first["results"]["trials"][i]["amplitude_v"].get<double>(), 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,118 @@
+// report and verify, on sessions that this program recorded.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/Result.h"
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Session : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto ran = desk.run(
+            {"run", "separability", "--device", "sim:", "--set", "repeats=2", "--out", desk.at("out"), "--json"});
+        ASSERT_EQ(ran.code, 5) << ran.err;
+        session = jsonOf(ran)["session"];
+    }
+    /// The session with one byte changed at `place`.
+    std::string flipped(std::size_t place) const {
+        auto content = contentOf(session);
+        content.at(place) = static_cast<char>(content.at(place) ^ 0x04);
+        return desk.write("altered.tacto", content);
+    }
+    const Desk desk;
+    std::string session;
+};
+
+TEST_F(Session, IsIntactAfterTheRun) {
+    const auto ran = desk.run({"verify", session, "--json"});
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_EQ(ran.err, "");
+    const auto value = jsonOf(ran);
+    EXPECT_EQ(value["status"], "intact");
+    EXPECT_EQ(value["recovered"], false);
+    EXPECT_EQ(value["trials"], 8);
+    EXPECT_EQ(value["captures"], 16);
+    EXPECT_THAT(desk.run({"verify", session}).out, HasSubstr(value["head"].get<std::string>()));
+}
+
+TEST_F(Session, AChangedByteAnywhereIsDamageAndExitsOne) {
+    RecordProperty("hazard", "H8");
+    const auto content = contentOf(session);
+    // A trial's condition, a word of the verdict's reason, a byte in the middle of the samples.
+    for (const auto place : {content.find("rough-high", content.size() / 2), content.rfind("rough-high"),
+                             content.find("trials cannot show"), content.size() / 2, content.size() / 4}) {
+        ASSERT_LT(place, content.size());
+        const auto ran = desk.run({"verify", flipped(place), "--json"});
+        EXPECT_EQ(ran.code, 1) << "byte " << place << " of " << content.size() << ": " << ran.out << ran.err;
+        EXPECT_EQ(jsonOf(ran)["status"], "damaged");
+        EXPECT_GE(jsonOf(ran)["problems"].size(), 1U);
+    }
+}
+
+TEST_F(Session, CutShortIsDamaged) {
+    RecordProperty("hazard", "H8");
+    const auto cut = desk.write("cut.tacto", contentOf(session).substr(0, std::filesystem::file_size(session) / 2));
+    EXPECT_EQ(desk.run({"verify", cut}).code, 1);
+    const auto report = desk.run({"report", cut, "--out", desk.at("cut.pdf")});
+    EXPECT_NE(report.code, 0);
+    expectRefused(report, 3, {"cut.tacto"});
+    EXPECT_FALSE(std::filesystem::exists(desk.at("cut.pdf")));
+}
+
+TEST_F(Session, VerifyingChangesNothing) {
+    const auto before = desk.files();
+    EXPECT_EQ(desk.run({"verify", session}).code, 0);
+    EXPECT_EQ(desk.run({"verify", flipped(contentOf(session).find("trials cannot show"))}).code, 1);
+    std::filesystem::remove(desk.at("altered.tacto"));
+    EXPECT_EQ(desk.files(), before);
+}
+
+TEST_F(Session, ReportsAsPdfAndAsHtmlFromTheSessionAlone) {
+    const auto alone = desk.write("alone.tacto", contentOf(session));
+    std::filesystem::remove_all(desk.at("out"));
+    const auto pdf = desk.run({"report", alone, "--out", desk.at("r.pdf")});
+    EXPECT_EQ(pdf.code, 0) << pdf.err;
+    const auto content = contentOf(desk.at("r.pdf"));
+    EXPECT_TRUE(content.starts_with("%PDF-"));
+    EXPECT_THAT(content.substr(content.size() - 16), HasSubstr("%%EOF"));
+    EXPECT_GT(content.size(), 20000U);
+
+    const auto html = desk.run({"report", alone, "--out", desk.at("r.html")});
+    EXPECT_EQ(html.code, 0) << html.err;
+    const auto page = contentOf(desk.at("r.html"));
+    EXPECT_THAT(page, HasSubstr("<html"));
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_THAT(page, HasSubstr("simulated"));
+    EXPECT_THAT(page, HasSubstr("ndeterminate"));
+    for (const auto& condition : kConditions) EXPECT_THAT(page, HasSubstr(condition));
+    const auto head = jsonOf(desk.run({"verify", alone, "--json"}))["head"].get<std::string>();
+    EXPECT_THAT(page, HasSubstr(head)) << "the head of the hash chain is printed in the report";
+}
+
+TEST_F(Session, AReportNeedsAnEndingThatIsKnownAndAPlace) {
+    expectRefused(desk.run({"report", session}), 2, {"--out"});
+    expectRefused(desk.run({"report", session, "--out", desk.at("r.docx")}), 2, {"r.docx", ".pdf", ".html"});
+    expectRefused(desk.run({"report", session, "--out", desk.at("no/such/r.pdf")}), 3, {"r.pdf"});
+    EXPECT_FALSE(std::filesystem::exists(desk.at("r.docx")));
+}
+
+TEST(NotASession, ExitsThreeWithOneSentence) {
+    const Desk desk;
+    const auto text = desk.write("notes.tacto", "These are notes, and no session of any kind.\n");
+    const auto empty = desk.write("empty.tacto", "");
+    for (const auto& file : {text, empty, desk.at("none.tacto"), desk.path().string()}) {
+        expectRefused(desk.run({"verify", file}), 3, {file});
+        expectRefused(desk.run({"verify", file, "--json"}), 3, {file});
+        expectRefused(desk.run({"report", file, "--out", desk.at("r.pdf")}), 3, {file});
+    }
+    EXPECT_EQ(contentOf(text), "These are notes, and no session of any kind.\n");
+    EXPECT_EQ(desk.files().size(), 2U);
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,31 @@
+// Shape.h - the shapes that cli.md promises.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/cli/RunCli.h"
+
+namespace tacto::test {
+
+using Json = nlohmann::json;
+
+/// What stdout holds, which must be one JSON value and nothing else.
+[[nodiscard]] Json jsonOf(const Ran& ran);
+
+/// Exit code, nothing on stdout, and one sentence on stderr in which every one of `parts` occurs.
+void expectRefused(const Ran& ran, int code, const Words& parts);
+
+/// {"mean","sd","median","min","max","n"}, in order, and null where there is nothing.
+void expectStatistic(const Json& value, const std::string& what);
+/// {"value","low","high"}
+void expectEstimate(const Json& value, const std::string& what);
+void expectKeys(const Json& value, const Words& keys, const std::string& what);
+
+/// What run separability and analyze separability both print.
+void expectSeparability(const Json& results);
+
+extern const Words kConditions;
+
+}  // namespace tacto::test
