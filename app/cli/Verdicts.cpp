@@ -40,7 +40,7 @@ void printSeparability(const nlohmann::json& results) {
     for (const auto& c : results.value("conditions", nlohmann::json::array())) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
-        fmt::print("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.4f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
+        fmt::print("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
                    at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
     }
     fmt::print("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");

@@ -58,6 +58,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/analysis/Estimate.h"
 #include "core/base/Result.h"
 #include "core/measure/Capture.h"
 
@@ -72,12 +73,6 @@ struct Statistic {
     double min = kUnknown;
     double max = kUnknown;
     double n = kUnknown;
-};
-
-struct Estimate {
-    double value = kUnknown;
-    double low = kUnknown;  ///< 95 %
-    double high = kUnknown;
 };
 
 struct ConditionsFigure {

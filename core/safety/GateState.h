@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,9 @@ struct SafetyGate::State {
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
     bool disowned = false;  // The last reading was no number or out of range
 
-    AcceptedLevels levels;
-    std::string participant;
-    bool anyParticipant = false;
+    std::map<std::string, AcceptedLevels> people;  // Who comes back has not forgotten
+    AcceptedLevels nobody;                         // Permits nothing
+    AcceptedLevels* levels = &nobody;              // Of the person set up now: in people
 
     [[nodiscard]] bool person() const noexcept { return setup->mode == OutputMode::Person; }
     [[nodiscard]] double carriedAt(Instant now) const noexcept;

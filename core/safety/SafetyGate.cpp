@@ -39,13 +39,13 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
     if (setup.mode == OutputMode::Person && setup.person) {
         const PersonSetup& person = *setup.person;
         s.load = LoadRange::between(person.impedanceLow, person.impedanceHigh);
-        if (s.anyParticipant && s.participant == person.participant) {
-            s.levels.resume(person.discomfortLimit, person.rampStep);
+        const auto [known, isNew] = s.people.try_emplace(person.participant);
+        s.levels = &known->second;
+        if (isNew) {
+            s.levels->begin(person.discomfortLimit, person.rampStep);
         } else {
-            s.levels.begin(person.discomfortLimit, person.rampStep);
+            s.levels->resume(person.discomfortLimit, person.rampStep);
         }
-        s.participant = person.participant;
-        s.anyParticipant = true;
     }
     s.setup = setup;
     return {};
@@ -121,7 +121,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
                         toSeconds(now - s.impedanceAt));
         }
         if (checks(PersonLevel)) {
-            if (auto permitted = s.levels.permits(request.train); !permitted) return failure(permitted);
+            if (auto permitted = s.levels->permits(request.train); !permitted) return failure(permitted);
         }
     }
     return grant(request.train, request.interval, epoch, now);
@@ -139,10 +139,10 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     const Seconds interval = std::max(kCheckInterval, s.check.duration());
     if (s.person() && checks(CheckDiscomfort)) {
         const double level = siValue(s.check.amplitude) * 1e3;
-        if (!(level <= s.levels.discomfortLimit().value())) {
+        if (!(level <= s.levels->discomfortLimit().value())) {
             return fail(ErrorCode::LimitExceeded,
                         "the check pulse of {:.4g} mA is above this person's discomfort limit of {:.4g} mA", level,
-                        s.levels.discomfortLimit().value());
+                        s.levels->discomfortLimit().value());
         }
     }
     return grant(s.check, interval, epoch, now);
@@ -187,7 +187,7 @@ Result<void> SafetyGate::accept(const PulseTrain& train) {
     if (!state_->setup || !state_->person())
         return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
     if (auto sound = validate(train); !sound) return sound;
-    return state_->levels.accept(train);
+    return state_->levels->accept(train);
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
@@ -198,20 +198,20 @@ Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
                     level.value());
     }
     latchStop();
-    state_->levels.reportDiscomfort(level);
+    state_->levels->reportDiscomfort(level);
     return {};
 }
 
 void SafetyGate::beginAscending() noexcept {
     latchStop();
-    state_->levels.beginAscending();
+    state_->levels->beginAscending();
 }
 
-void SafetyGate::endAscending() noexcept { state_->levels.endAscending(); }
+void SafetyGate::endAscending() noexcept { state_->levels->endAscending(); }
 
 std::optional<Milliamps> SafetyGate::levelCeiling(const PulseTrain& train) const noexcept {
     if (!state_->setup || !state_->person()) return std::nullopt;
-    return state_->levels.ceilingFor(train);
+    return state_->levels->ceilingFor(train);
 }
 
 std::optional<LoadRange> SafetyGate::loadRange() const {

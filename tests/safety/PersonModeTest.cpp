@@ -146,6 +146,20 @@ TEST(PersonMode, AnotherParticipantHasAcceptedNothing) {
     EXPECT_TRUE(rig.may(0.5));
 }
 
+TEST(PersonMode, AParticipantWhoComesBackKeepsTheirOwnLimit) {
+    RecordProperty("hazard", "H6");
+    Person rig;
+    rig.rampTo(3);
+    ASSERT_TRUE(rig.gate.reportDiscomfort(Milliamps(2.5)));
+    GateSetup other = personSetup();
+    other.person->participant = "P02";
+    ASSERT_TRUE(rig.gate.configure(other));
+    ASSERT_TRUE(rig.gate.configure(personSetup()));
+    rig.measure(2000);
+    EXPECT_FALSE(rig.may(2.6));
+    EXPECT_TRUE(rig.may(2.5));
+}
+
 TEST(PersonMode, LevelsAreNotAcceptedOnABenchLoad) {
     Rig rig(benchSetup());
     EXPECT_EQ(rig.gate.accept(milliamps(1)).error().code, ErrorCode::NotArmed);
