@@ -5,15 +5,11 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/Profiles.h"
-#include "app/cli/RunFiles.h"
 #include "app/cli/SignalStop.h"
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"
+#include "app/run/ProtocolRun.h"
 #include "app/scripting/ProtocolLibrary.h"
-#include "app/scripting/ScriptRun.h"
-#include "core/bench/Bench.h"
-#include "core/session/Digest.h"
-#include "core/session/SessionWriter.h"
 
 namespace tacto::cli {
 
@@ -30,16 +26,6 @@ void declare(QCommandLineParser& parser) {
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
     parser.addOption({"json", "Prints one JSON value."});
 }
-
-/// All that the command line says, checked.
-struct Order {
-    ProtocolSource script;
-    ProtocolDeclaration declaration;
-    ProtocolSettings settings;
-    std::uint64_t seed = 1;
-    std::vector<DeviceUri> uris;
-    bool realtime = false;
-};
 
 Result<std::map<std::string, std::string>> settingsFrom(const QCommandLineParser& parser) {
     std::map<std::string, std::string> settings;
@@ -64,10 +50,10 @@ Result<std::uint64_t> seedFrom(const QCommandLineParser& parser) {
 }
 
 /// The value is an exit code when something is wrong.
-tl::expected<Order, int> orderFrom(const QCommandLineParser& parser) {
+tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
     const auto name = onlyArgument(parser, "PROTOCOL");
     if (!name) return tl::unexpected(usage("run: " + name.error().message));
-    Order order;
+    RunOrder order;
     const auto settings = settingsFrom(parser);
     if (!settings) return tl::unexpected(usage("run: " + settings.error().message));
     const auto seed = seedFrom(parser);
@@ -91,35 +77,14 @@ tl::expected<Order, int> orderFrom(const QCommandLineParser& parser) {
     auto applied = applySettings(order.declaration, *settings);
     if (!applied) return tl::unexpected(usage("run: " + applied.error().message));
     order.settings = std::move(*applied);
+    auto profile = profileOption(parser);
+    if (!profile) return tl::unexpected(couldNotRun(profile.error()));
+    order.profile = std::move(*profile);
+    auto limits = shippedLimits();
+    if (!limits) return tl::unexpected(couldNotRun(limits.error()));
+    order.limits = std::move(*limits);
+    order.out = parser.value("out").toStdString();
     return order;
-}
-
-/// The load that the protocol's parameters declare: what the simulated bench starts with.
-std::string declaredLoad(const json& parameters) {
-    const auto load = parameters.find("load");
-    if (load == parameters.end()) return kDefaultLoad;
-    return load->is_number() ? fmt::format("{} ohm", load->get<double>()) : load->get<std::string>();
-}
-
-SessionAbout aboutOf(const Order& order, const DeviceSet& devices, const Profile& profile,
-                     const ShippedLimits& limits) {
-    SessionAbout about;
-    about.programVersion = TACTOSCOPE_VERSION;
-    about.protocol = order.script.name;
-    about.protocolSha256 = order.script.sha256;
-    about.parameters = order.settings.parameters;
-    about.seed = order.seed;
-    for (const auto& device : devices.identities()) {
-        about.devices.push_back({device.uri, std::string(nameOf(device.role)), device.name, device.serial,
-                                 device.firmware, device.simulated});
-        about.simulated = about.simulated || device.simulated;
-    }
-    about.profileJson = toJson(profile).dump();
-    for (std::size_t i = 0; i < limits.sets.size(); ++i)
-        about.limitSets.push_back({limits.sets[i].id, limits.sha256[i]});
-    about.mode = nameOf(OutputMode::BenchLoad);
-    about.wallStart = wallTimeUtc();
-    return about;
 }
 
 /// One line on a terminal, rewritten; nothing elsewhere.
@@ -151,54 +116,35 @@ private:
     bool drawn_ = false;
 };
 
-struct Finished {
-    ScriptOutcome outcome;
-    bool stoppedBySafety = false;
-};
-
-Finished runScript(const Order& order, Bench& bench, SessionWriter& session, const RunFiles& files,
-                   SignalStop& interrupts) {
-    PresetOperator desk(order.settings.answers);
+RunResult runScript(ProtocolRun& run, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
+    PresetOperator desk(answers);
     ProgressLine line;
-    RunRequest request;
-    request.script = order.script;
-    request.parameters = order.settings.parameters;
-    request.seed = order.seed;
-    request.bench = &bench;
-    request.session = &session;
-    request.operatorDesk = &desk;
-    request.captureFolder = files.captures;
-    request.onProgress = [&](const ScriptProgress& progress) { line.show(progress); };
-    request.onLog = [&](const std::string& text) {
+    RunRequest hooks;
+    hooks.operatorDesk = &desk;
+    hooks.onProgress = [&](const ScriptProgress& progress) { line.show(progress); };
+    hooks.onLog = [&](const std::string& text) {
         line.clear();
         fmt::print(stderr, "{}\n", text);
     };
-    auto run = ScriptRun::start(std::move(request));
-    if (!run) {
-        Finished failed;
-        failed.outcome.error = run.error();
+    if (const auto started = run.start(std::move(hooks)); !started) {
+        auto failed = run.finish();
+        failed.outcome.error = started.error();
         return failed;
     }
-    interrupts.onStop([&run] { (*run)->stop("operator (signal)"); });
-    if (interrupts.signalled()) (*run)->stop("operator (signal)");
-    Finished finished;
-    finished.outcome = (*run)->wait();
+    interrupts.onStop([&run] { run.script()->stop("operator (signal)"); });
+    if (interrupts.signalled()) run.script()->stop("operator (signal)");
+    static_cast<void>(run.script()->wait());
     interrupts.onStop({});
     line.clear();
-    finished.stoppedBySafety = bench.faults() > 0;
-    return finished;
+    return run.finish();
 }
 
-int exitFor(const Finished& finished) {
-    if (finished.stoppedBySafety) return kStopped;
-    if (!finished.outcome.error) return exitForVerdict(nameOf(finished.outcome.verdict));
-    const auto code = finished.outcome.error->code;
-    const bool safety = code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
-    return safety ? kStopped : kCouldNotRun;
+int exitFor(const RunResult& result) {
+    if (result.stoppedBySafety) return kStopped;
+    return result.outcome.error ? static_cast<int>(kCouldNotRun) : exitForVerdict(result.verdict());
 }
 
-void printSummary(const Finished& finished, const json& value) {
-    const auto& outcome = finished.outcome;
+void printSummary(const ScriptOutcome& outcome, const json& value) {
     if (outcome.results.is_object() && outcome.results.contains("confusion"))
         printSeparability(outcome.results);
     else if (outcome.results.is_object())
@@ -213,80 +159,53 @@ void printSummary(const Finished& finished, const json& value) {
     if (value["report"].is_string()) fmt::print("  report   {}\n", value["report"].get<std::string>());
 }
 
-int run(const QCommandLineParser& parser) {
-    SignalStop interrupts;
-    const auto order = orderFrom(parser);
-    if (!order) return order.error();
-    const auto profile = profileOption(parser);
-    if (!profile) return couldNotRun(profile.error());
-    const auto limits = shippedLimits();
-    if (!limits) return couldNotRun(limits.error());
-
-    auto registry = makeRegistry();
-    const auto allVirtual = registry.allVirtual(order->uris);
-    if (!allVirtual) return failWith(allVirtual.error());
-    std::shared_ptr<Clock> clock;
-    if (*allVirtual && !order->realtime)
-        clock = std::make_shared<VirtualClock>();
-    else
-        clock = std::make_shared<SteadyClock>();
-    auto devices = registry.open(order->uris, order->declaration.needs,
-                                 OpenContext{*clock, order->seed, declaredLoad(order->settings.parameters)});
-    if (!devices) return failWith(devices.error());
-
-    const auto files = prepareRunFiles(parser.value("out").toStdString(), order->script.name);
-    if (!files) return failWith(files.error());
-    const auto about = aboutOf(*order, *devices, *profile, *limits);
-    auto session = SessionWriter::create(files->session, about, *clock);
-    if (!session) return couldNotRun(session.error());
-
-    Finished finished;
-    {
-        BenchConfig config;
-        config.devices = std::move(*devices);
-        config.clock = clock;
-        config.profile = *profile;
-        config.limits = limits->sets;
-        config.session = session->get();
-        auto bench = Bench::create(std::move(config));
-        if (!bench) return couldNotRun(bench.error());
-        finished = runScript(*order, **bench, **session, *files, interrupts);
-        if (finished.outcome.abandoned) {
-            // The script's thread still runs and may never end: what it could touch is left as it is.
-            static_cast<void>(bench->release());
-        }
-    }
-    const auto& outcome = finished.outcome;
-    if (outcome.error) fmt::print(stderr, "tactoscope-cli: {}\n", outcome.error->message);
-    if (const auto closed = (*session)->close(outcome.error ? "ended by an error" : "finished"); !closed) {
-        fmt::print(stderr, "tactoscope-cli: {}\n", closed.error().message);
-    }
-
-    const int exitCode = exitFor(finished);
+/// Beside the session; the path of the PDF, or null when there is none.
+json writeReports(const RunFiles& files) {
     json report = nullptr;
     for (const auto* ending : {".html", ".pdf"}) {
-        const auto path = files->report(ending);
+        const auto path = files.report(ending);
         const auto made =
-            writeSessionReport(QString::fromStdString(files->session.string()), QString::fromStdString(path.string()));
+            writeSessionReport(QString::fromStdString(files.session.string()), QString::fromStdString(path.string()));
         if (made)
             report = path.string();
         else
             fmt::print(stderr, "tactoscope-cli: no report: {}\n", made.error().message);
     }
-    const auto verdict = exitCode == kStopped ? std::string("stopped") : std::string(nameOf(outcome.verdict));
-    const json value{{"protocol", order->script.name},
+    return report;
+}
+
+int run(const QCommandLineParser& parser) {
+    SignalStop interrupts;
+    auto order = orderFrom(parser);
+    if (!order) return order.error();
+    const auto protocol = order->script.name;
+    const auto seed = order->seed;
+    const auto answers = order->settings.answers;
+    auto registry = makeRegistry();
+    auto prepared = ProtocolRun::prepare(std::move(*order), registry);
+    if (!prepared) return failWith(prepared.error());
+    auto& running = **prepared;
+
+    const auto result = runScript(running, answers, interrupts);
+    const auto& outcome = result.outcome;
+    if (outcome.error) fmt::print(stderr, "tactoscope-cli: {}\n", outcome.error->message);
+    for (const auto& trouble : result.troubles) fmt::print(stderr, "tactoscope-cli: {}\n", trouble.message);
+
+    const int exitCode = exitFor(result);
+    const auto verdict = result.verdict();
+    const json value{{"protocol", protocol},
                      {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
-                     {"simulated", about.simulated},
-                     {"seed", order->seed},
-                     {"session", files->session.string()},
-                     {"report", report},
+                     {"simulated", result.simulated},
+                     {"seed", seed},
+                     {"session", result.session.string()},
+                     {"report", writeReports(running.files())},
                      {"results", outcome.results},
                      {"reasons", outcome.reasons},
                      {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
     if (parser.isSet("json"))
         printJson(value);
     else
-        printSummary(finished, value);
+        printSummary(outcome, value);
     if (outcome.abandoned) {
         std::fflush(nullptr);
         std::_Exit(exitCode);

@@ -24,6 +24,7 @@
 #include "app/scripting/Operator.h"
 #include "app/scripting/ProtocolDeclaration.h"
 #include "core/base/Result.h"
+#include "core/measure/Capture.h"
 
 namespace tacto {
 
@@ -47,6 +48,9 @@ struct RunRequest {
     std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
     std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
     std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
+    /// A trial as record.trial() was given it, with `condition` and `trial`. On the script's thread; may be empty.
+    std::function<void(const nlohmann::json&)> onTrial;
+    std::function<void(const Capture&)> onCapture;  ///< every capture; on the script's thread; may be empty
 };
 
 enum class ScriptVerdict { None, Pass, Fail, Indeterminate, Stopped };

@@ -37,6 +37,7 @@ void ScriptSession::progress(const ScriptProgress& progress) {
 nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
     nlohmann::json handles = nlohmann::json::array();
     for (auto& capture : captures) {
+        if (request_.onCapture) request_.onCapture(capture);
         handles.push_back({{"capture", nextCapture_},
                            {"start_s", capture.start_s},
                            {"trigger_s", capture.trigger_s},
@@ -87,6 +88,7 @@ Result<int> ScriptSession::addTrial(const std::string& condition, const nlohmann
     nlohmann::json trial = measured.is_object() ? measured : nlohmann::json::object();
     trial["condition"] = condition;
     trial["trial"] = number;
+    if (request_.onTrial) request_.onTrial(trial);
     trials_.push_back(std::move(trial));
     return number;
 }

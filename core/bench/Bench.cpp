@@ -121,7 +121,8 @@ Result<void> Bench::State::open() {
     auto finger = makeFinger(config.profile);
     if (!finger) return failure(finger);
 
-    ControlLoop::Parts parts{*config.clock, gate, interlock, heartbeat, config.mode, nullptr, nullptr, 0, {}};
+    ControlLoop::Parts parts{*config.clock, gate,    interlock, heartbeat, config.mode,
+                             nullptr,       nullptr, 0,         {},        config.tap};
     if (config.session != nullptr) {
         if (sensor) {
             for (const auto& stream : sensor->device().streams()) {
@@ -400,24 +401,53 @@ Result<void> Bench::wait(Seconds duration) {
     return {};
 }
 
-Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& settings) {
+void Bench::idle(Seconds duration) noexcept {
+    auto& s = *state_;
+    if (!(duration.count() > 0 && duration.count() <= 3600)) return;
+    const Instant until = s.config.clock->now() + toInstant(duration);
+    while (s.config.clock->now() < until) {
+        if (s.virtualClock != nullptr)
+            s.turn(until);
+        else
+            std::this_thread::sleep_for(until - s.config.clock->now());
+    }
+}
+
+Result<void> Bench::requestCaptures(int trains, const ScopeSettings& settings) {
     auto& s = *state_;
     if (!s.scope) return fail(ErrorCode::Unsupported, "no oscilloscope is open to capture with");
     if (trains < 1 || trains > static_cast<int>(ScopeSession::kMaxCaptures)) {
         return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains,
                     ScopeSession::kMaxCaptures);
     }
+    s.scope->request(settings, s.config.clock->now(), static_cast<std::size_t>(trains));
+    return {};
+}
+
+Result<std::vector<Capture>> Bench::takeCaptures() {
+    if (!state_->scope) return std::vector<Capture>{};
+    return state_->scope->take();
+}
+
+void Bench::cancelCaptures() noexcept {
+    auto& s = *state_;
+    if (!s.scope) return;
+    s.scope->cancel();
+    if (s.virtualClock != nullptr) s.scope->serve(s.config.clock->now());
+}
+
+Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& settings) {
+    auto& s = *state_;
+    if (const auto requested = requestCaptures(trains, settings); !requested) return failure(requested);
     const auto wanted = static_cast<std::size_t>(trains);
-    s.scope->request(settings, s.config.clock->now(), wanted);
     const Instant longest = toInstant(s.config.profile.encoding.intervalMax) * (trains + 1) + kCaptureGrace;
     bool refused = false;
     const auto passed = s.advance(s.config.clock->now() + longest, [&] {
         refused = s.refusedByHand();
         return refused || s.scope->failed() || s.scope->ready() >= wanted;
     });
-    auto taken = s.scope->take();
-    s.scope->cancel();
-    if (s.virtualClock != nullptr) s.scope->serve(s.config.clock->now());
+    auto taken = takeCaptures();
+    cancelCaptures();
     if (!passed) return failure(passed);
     if (!taken) return taken;
     if (refused) return failure(s.refusal());

@@ -33,6 +33,7 @@ struct BenchConfig {
     OutputMode mode = OutputMode::BenchLoad;
     std::optional<PersonSetup> person;  ///< required in person mode
     SessionWriter* session = nullptr;   ///< not owned; null records nothing
+    BenchTap* tap = nullptr;            ///< not owned; null shows nothing
 };
 
 /// What the operator states when arming.
@@ -72,9 +73,18 @@ public:
     /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives
     /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
+    /// Lets time pass as wait() does, but also after a stop or a fault: a display goes on when output does not. Never
+    /// fails. For a bench on the virtual clock that nobody else moves.
+    void idle(Seconds duration) noexcept;
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
     /// oscilloscope; Timeout when fewer came; as wait().
     [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
+    /// capture() in two halves, for a caller that goes on meanwhile: the next `trains` triggers, whenever they come.
+    /// A new request replaces one that is under way. Errors: Unsupported; InvalidArgument for the number.
+    [[nodiscard]] Result<void> requestCaptures(int trains, const ScopeSettings& settings);
+    /// What a request has brought so far, or why the oscilloscope failed. Empties it.
+    [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
+    void cancelCaptures() noexcept;
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
 

@@ -212,7 +212,9 @@ void ControlLoop::readFinger(Instant now) noexcept {
             parts_.recorder->samples(parts_.sensorStreams[s], streams[s].channels, blocks[s]);
         }
     }
+    if (parts_.tap != nullptr) tapSamples();
     for (const auto& frame : finger_->frames()) {
+        if (parts_.tap != nullptr) parts_.tap->frames.push(frame);
         if (frame.contact && !std::isnan(frame.h) && frame.sliding) {
             ++shown_.slidingFrames;
             shown_.sumH += frame.h;
@@ -245,6 +247,24 @@ void ControlLoop::readFinger(Instant now) noexcept {
     shown_.gaps = finger_->gaps();
 }
 
+void ControlLoop::tapSamples() noexcept {
+    const auto blocks = finger_->blocks();
+    const auto streams = finger_->session().device().streams();
+    for (std::size_t s = 0; s < blocks.size(); ++s) {
+        TapSample sample;
+        sample.stream = static_cast<std::uint32_t>(s);
+        const auto all = streams[s].channels;
+        const auto shown = std::min(all, TapSample::kMaxChannels);
+        sample.channels = static_cast<std::uint32_t>(shown);
+        for (std::size_t i = 0; i < blocks[s].samples(); ++i) {
+            sample.t_s = blocks[s].t_s[i];
+            for (std::size_t c = 0; c < shown; ++c)
+                sample.values[c] = static_cast<float>(blocks[s].values[i * all + c]);
+            parts_.tap->samples.push(sample);
+        }
+    }
+}
+
 void ControlLoop::judgeReports() noexcept {
     if (parts_.stimulator == nullptr) return;
     while (const auto report = parts_.stimulator->takeReport()) judge(*report);
@@ -264,6 +284,7 @@ void ControlLoop::recordOutcome(const TrainReport& report, const char* name) noe
 
 void ControlLoop::judge(const TrainReport& report) noexcept {
     const Instant now = report.statusAt;
+    if (parts_.tap != nullptr) parts_.tap->trains.push(report);
     if (report.outcome == TrainOutcome::LoopSilent) {
         if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
         return;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/Latest.h"
+#include "core/bench/BenchTap.h"
 #include "core/bench/FingerInput.h"
 #include "core/bench/StimulatorSession.h"
 #include "core/bench/Telemetry.h"
@@ -53,6 +54,7 @@ public:
         SessionRecorder* recorder;      ///< may be null
         int frameStream;                ///< of the recorder, for roughness frames
         std::vector<int> sensorStreams;
+        BenchTap* tap = nullptr;  ///< may be null: nobody looks
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
@@ -87,6 +89,7 @@ private:
     void beginCheck(Instant now) noexcept;
     void finishArming(Result<void> result) noexcept;
     void readFinger(Instant now) noexcept;
+    void tapSamples() noexcept;
     void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
     void judgeImpedance(const TrainReport& report) noexcept;

@@ -6,7 +6,7 @@
 
 #include "core/base/Result.h"
 
-namespace tacto::cli {
+namespace tacto {
 
 struct RunFiles {
     std::filesystem::path session;   ///< *.tacto
@@ -21,4 +21,4 @@ struct RunFiles {
 /// $XDG_DATA_HOME/tactoscope/sessions, or ~/.local/share/tactoscope/sessions.
 [[nodiscard]] std::filesystem::path userSessionsFolder();
 
-}  // namespace tacto::cli
+}  // namespace tacto

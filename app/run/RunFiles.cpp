@@ -1,11 +1,11 @@
-#include "app/cli/RunFiles.h"
+#include "app/run/RunFiles.h"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "core/base/Clock.h"
 
-namespace tacto::cli {
+namespace tacto {
 
 namespace fs = std::filesystem;
 
@@ -64,4 +64,4 @@ Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& prot
     return files;
 }
 
-}  // namespace tacto::cli
+}  // namespace tacto

@@ -1,0 +1,124 @@
+#include "app/run/ProtocolRun.h"
+
+#include <utility>
+
+namespace tacto {
+
+namespace {
+
+/// Whatever ended output: safety's doing or a person's, not a mistake in a script.
+bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
+    if (bench.faults() > 0) return true;
+    if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
+    const auto code = outcome.error->code;
+    return code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
+}
+
+}  // namespace
+
+std::string declaredLoad(const nlohmann::json& parameters) {
+    const auto load = parameters.find("load");
+    if (load == parameters.end()) return kDefaultLoad;
+    return load->is_number() ? fmt::format("{} ohm", load->get<double>()) : load->get<std::string>();
+}
+
+SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, const ShippedLimits& limits,
+                          const RunOrder* protocol) {
+    SessionAbout about;
+    about.programVersion = TACTOSCOPE_VERSION;
+    if (protocol != nullptr) {
+        about.protocol = protocol->script.name;
+        about.protocolSha256 = protocol->script.sha256;
+        about.parameters = protocol->settings.parameters;
+        about.seed = protocol->seed;
+    }
+    for (const auto& device : devices.identities()) {
+        about.devices.push_back({device.uri, std::string(nameOf(device.role)), device.name, device.serial,
+                                 device.firmware, device.simulated});
+        about.simulated = about.simulated || device.simulated;
+    }
+    about.profileJson = toJson(profile).dump();
+    for (std::size_t i = 0; i < limits.sets.size(); ++i)
+        about.limitSets.push_back({limits.sets[i].id, limits.sha256[i]});
+    about.mode = nameOf(OutputMode::BenchLoad);
+    about.wallStart = wallTimeUtc();
+    return about;
+}
+
+std::string RunResult::verdict() const {
+    return stoppedBySafety ? std::string(nameOf(ScriptVerdict::Stopped)) : std::string(nameOf(outcome.verdict));
+}
+
+Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Registry& registry, BenchTap* tap) {
+    std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
+    const RunOrder& order = run->order_;
+    const auto allVirtual = registry.allVirtual(order.uris);
+    if (!allVirtual) return failure(allVirtual);
+    if (*allVirtual && !order.realtime)
+        run->clock_ = std::make_shared<VirtualClock>();
+    else
+        run->clock_ = std::make_shared<SteadyClock>();
+    auto devices = registry.open(order.uris, order.declaration.needs,
+                                 OpenContext{*run->clock_, order.seed, declaredLoad(order.settings.parameters)});
+    if (!devices) return failure(devices);
+    auto files = prepareRunFiles(order.out, order.script.name);
+    if (!files) return failure(files);
+    run->files_ = std::move(*files);
+    run->about_ = aboutSession(*devices, order.profile, order.limits, &order);
+    auto session = SessionWriter::create(run->files_.session, run->about_, *run->clock_);
+    if (!session) return failure(session);
+    run->session_ = std::move(*session);
+    BenchConfig config;
+    config.devices = std::move(*devices);
+    config.clock = run->clock_;
+    config.profile = order.profile;
+    config.limits = order.limits.sets;
+    config.session = run->session_.get();
+    config.tap = tap;
+    auto bench = Bench::create(std::move(config));
+    if (!bench) return failure(bench);
+    run->bench_ = std::move(*bench);
+    return run;
+}
+
+ProtocolRun::~ProtocolRun() {
+    if (script_) static_cast<void>(finish());
+}
+
+Result<void> ProtocolRun::start(RunRequest hooks) {
+    hooks.script = order_.script;
+    hooks.parameters = order_.settings.parameters;
+    hooks.seed = order_.seed;
+    hooks.bench = bench_.get();
+    hooks.session = session_.get();
+    hooks.captureFolder = files_.captures;
+    auto started = ScriptRun::start(std::move(hooks));
+    if (!started) return failure(started);
+    script_ = std::move(*started);
+    return {};
+}
+
+RunResult ProtocolRun::finish() {
+    RunResult result;
+    result.simulated = about_.simulated;
+    result.session = files_.session;
+    if (script_) result.outcome = script_->wait();
+    script_.reset();
+    if (bench_) result.stoppedBySafety = endedBySafety(result.outcome, *bench_);
+    const bool abandoned = result.outcome.abandoned;
+    // The script's thread still runs and may never end: what it could touch is left as it is.
+    if (abandoned) static_cast<void>(bench_.release());
+    bench_.reset();
+    if (session_) {
+        if (auto closed = session_->close(result.outcome.error ? "ended by an error" : "finished"); !closed)
+            result.troubles.push_back(closed.error());
+    }
+    if (abandoned) {
+        static_cast<void>(session_.release());
+        static_cast<void>(new std::shared_ptr<Clock>(clock_));
+    }
+    session_.reset();
+    return result;
+}
+
+}  // namespace tacto
