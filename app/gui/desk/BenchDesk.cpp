@@ -1,0 +1,408 @@
+#include "app/gui/desk/BenchDesk.h"
+
+#include <QMetaObject>
+#include <chrono>
+
+#include "app/report/Report.h"
+#include "app/scripting/ProtocolLibrary.h"
+
+namespace tacto::gui {
+
+namespace {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+constexpr std::size_t kFeedCaptures = 8;
+constexpr Seconds kLongestTurn{0.25};  // of bench time at once: stop and commands come between two
+
+SteadyTime realNow() { return std::chrono::steady_clock::now(); }
+
+}  // namespace
+
+/// A bench that is open for looking and driving by hand. The desk's thread only.
+struct BenchDesk::Live {
+    std::shared_ptr<Clock> clock;
+    std::shared_ptr<BenchTap> tap = std::make_shared<BenchTap>();
+    std::unique_ptr<SessionWriter> session;
+    std::unique_ptr<Bench> bench;
+    bool paced = false;
+    SteadyTime servedAt = realNow();
+    std::optional<ScopeSettings> scope;  // captures are wanted
+    bool single = false;
+    bool recordingFailed = false;
+};
+
+BenchDesk::BenchDesk(MakeRegistry makeRegistry, QObject* parent)
+    : QObject(parent), makeRegistry_(std::move(makeRegistry)), thread_() {
+    qRegisterMetaType<std::shared_ptr<const Capture>>();
+    qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
+    qRegisterMetaType<OperatorQuestion>();
+    if (auto profile = shippedProfile()) profile_ = std::move(*profile);
+    if (auto limits = shippedLimits()) limits_ = std::move(*limits);
+    thread_ = std::thread([this] { work(); });
+}
+
+BenchDesk::~BenchDesk() {
+    stop("the window closes");
+    {
+        const std::scoped_lock lock(taskMutex_);
+        quitting_ = true;
+    }
+    taskCame_.notify_all();
+    thread_.join();
+}
+
+Telemetry BenchDesk::telemetry() const {
+    const std::scoped_lock lock(benchMutex_);
+    return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
+}
+
+std::vector<DeviceIdentity> BenchDesk::devices() const { return makeRegistry_().list(); }
+
+void BenchDesk::stop(const char* by) noexcept {
+    const std::scoped_lock lock(benchMutex_);
+    if (script_ != nullptr)
+        script_->stop(by);
+    else if (bench_ != nullptr)
+        bench_->stop(by);
+}
+
+void BenchDesk::pause() {
+    const std::scoped_lock lock(benchMutex_);
+    if (script_ != nullptr)
+        script_->pause();
+    else if (bench_ != nullptr)
+        bench_->pause();
+}
+
+void BenchDesk::resume() {
+    const std::scoped_lock lock(benchMutex_);
+    if (script_ != nullptr)
+        script_->resume();
+    else if (bench_ != nullptr)
+        bench_->resume();
+}
+
+void BenchDesk::openLive(const LiveOrder& order) {
+    profile_ = order.profile;
+    speed_ = order.speed;
+    post([this, order] { openOnThread(order); });
+}
+
+void BenchDesk::close() {
+    stop("closed by the operator");
+    post([this] { closeOnThread(); });
+}
+
+void BenchDesk::arm(const ArmRequest& request) {
+    post([this, request] {
+        if (!live_) return report(Error{ErrorCode::NotArmed, "Not armed: no bench is open."});
+        live_->bench->clearStop();
+        if (auto armed = live_->bench->arm(request); !armed) return report(armed.error());
+        tell([this] { emit this->armed(); });
+    });
+}
+
+void BenchDesk::disarm() {
+    post([this] {
+        if (live_) live_->bench->disarm();
+    });
+}
+
+void BenchDesk::resetFault() {
+    post([this] {
+        if (!live_) return;
+        if (auto reset = live_->bench->resetFault(); !reset) report(reset.error());
+    });
+}
+
+void BenchDesk::drive(DriveSource source, double roughness, double pressure) {
+    post([this, source, roughness, pressure] {
+        if (!live_) return;
+        if (auto driven = live_->bench->drive(source, roughness, pressure); !driven) report(driven.error());
+    });
+}
+
+void BenchDesk::setProfile(const Profile& profile) {
+    if (activity_ != Activity::Live) {
+        profile_ = profile;
+        emit changed();
+        return;
+    }
+    post([this, profile] {
+        if (!live_) return;
+        if (auto set = live_->bench->setProfile(profile); !set) return report(set.error());
+        tell([this, profile] {
+            profile_ = profile;
+            emit changed();
+        });
+    });
+}
+
+void BenchDesk::setSpeed(double speed) {
+    if (speed > 0) speed_ = speed;
+}
+
+void BenchDesk::present(const std::string& material, double speed_mm_s, double force_n) {
+    post([this, material, speed_mm_s, force_n] {
+        if (!live_ || !live_->bench->devices().surface) return;
+        auto& surface = *live_->bench->devices().surface;
+        if (auto done = surface.present(material, MillimetresPerSecond(speed_mm_s), Newtons(force_n)); !done)
+            report(done.error());
+    });
+}
+
+void BenchDesk::fitLoad(const std::string& load) {
+    post([this, load] {
+        if (!live_ || !live_->bench->devices().load) return;
+        live_->bench->disarm();
+        if (auto done = live_->bench->devices().load->fitLoad(load); !done) report(done.error());
+    });
+}
+
+void BenchDesk::runScope(const ScopeSettings& settings, bool single) {
+    post([this, settings, single] {
+        if (!live_) return;
+        live_->scope = settings;
+        live_->single = single;
+        if (auto requested = live_->bench->requestCaptures(1, settings); !requested) {
+            live_->scope.reset();
+            report(requested.error());
+        }
+    });
+}
+
+void BenchDesk::stopScope() {
+    post([this] {
+        if (!live_) return;
+        live_->scope.reset();
+        live_->bench->cancelCaptures();
+    });
+}
+
+void BenchDesk::run(const RunOrder& order) {
+    profile_ = order.profile;
+    operator_.prepare(order.settings.answers);
+    post([this, order] { runOnThread(order); });
+}
+
+RunFeed BenchDesk::takeRunFeed() {
+    const std::scoped_lock lock(feedMutex_);
+    return std::exchange(feed_, {});
+}
+
+void BenchDesk::post(std::function<void()> task) {
+    {
+        const std::scoped_lock lock(taskMutex_);
+        tasks_.push_back(std::move(task));
+    }
+    taskCame_.notify_all();
+}
+
+void BenchDesk::tell(std::function<void()> onWindow) {
+    QMetaObject::invokeMethod(this, std::move(onWindow), Qt::QueuedConnection);
+}
+
+void BenchDesk::report(const Error& error) {
+    tell([this, what = QString::fromStdString(error.message)] { emit failed(what); });
+}
+
+void BenchDesk::work() {
+    constexpr auto kTurn = std::chrono::milliseconds(4);
+    for (;;) {
+        std::function<void()> task;
+        {
+            std::unique_lock lock(taskMutex_);
+            const auto wanted = [this] { return quitting_ || !tasks_.empty(); };
+            if (live_)
+                taskCame_.wait_for(lock, kTurn, wanted);
+            else
+                taskCame_.wait(lock, wanted);
+            if (quitting_) break;
+            if (!tasks_.empty()) {
+                task = std::move(tasks_.front());
+                tasks_.pop_front();
+            }
+        }
+        if (task) task();
+        serveLive();
+    }
+    closeOnThread();
+}
+
+void BenchDesk::serveLive() {
+    if (!live_) return;
+    if (live_->paced) {
+        const auto now = realNow();
+        const Seconds passed(std::chrono::duration<double>(now - live_->servedAt).count() * speed_);
+        live_->servedAt = now;
+        live_->bench->idle(std::min(passed, kLongestTurn));
+    }
+    serveScope();
+    if (const auto failed = live_->session->failed(); failed && !std::exchange(live_->recordingFailed, true)) {
+        live_->bench->stop("recording failed");
+        report(Error{failed->code, fmt::format("Recording ended: {}. Output is off.", failed->message)});
+    }
+}
+
+void BenchDesk::serveScope() {
+    if (!live_->scope) return;
+    auto taken = live_->bench->takeCaptures();
+    if (!taken) {
+        live_->scope.reset();
+        return report(taken.error());
+    }
+    if (taken->empty()) return;
+    auto capture = std::make_shared<const Capture>(std::move(taken->back()));
+    tell([this, capture] { emit captured(capture); });
+    if (live_->single) {
+        live_->scope.reset();
+    } else if (auto again = live_->bench->requestCaptures(1, *live_->scope); !again) {
+        live_->scope.reset();
+        report(again.error());
+    }
+}
+
+void BenchDesk::publishBench(Bench* bench, ScriptRun* script) {
+    const std::scoped_lock lock(benchMutex_);
+    bench_ = bench;
+    script_ = script;
+}
+
+void BenchDesk::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
+    tell([this, activity, open = std::move(open), tap = std::move(tap)] {
+        activity_ = activity;
+        open_ = open;
+        tap_ = tap;
+        emit changed();
+    });
+}
+
+namespace {
+
+std::shared_ptr<const OpenBench> describe(Bench& bench, const SessionAbout& about,
+                                          const std::filesystem::path& session) {
+    auto open = std::make_shared<OpenBench>();
+    open->about = about;
+    open->session = session;
+    auto& devices = bench.devices();
+    if (devices.sensor) open->streams.assign(devices.sensor->streams().begin(), devices.sensor->streams().end());
+    if (devices.stimulator) open->source = devices.stimulator->traits();
+    if (devices.oscilloscope) open->scope = devices.oscilloscope->traits();
+    open->paced = bench.clock().isVirtual();
+    open->surfaces = devices.surface != nullptr;
+    return open;
+}
+
+}  // namespace
+
+void BenchDesk::openOnThread(const LiveOrder& order) {
+    closeOnThread();
+    become(Activity::Opening, nullptr, nullptr);
+    const auto give_up = [this](const Error& error) {
+        report(error);
+        become(Activity::Closed, nullptr, nullptr);
+    };
+    auto registry = makeRegistry_();
+    const auto allVirtual = registry.allVirtual(order.uris);
+    if (!allVirtual) return give_up(allVirtual.error());
+    auto live = std::make_unique<Live>();
+    live->paced = *allVirtual;
+    if (live->paced)
+        live->clock = std::make_shared<VirtualClock>();
+    else
+        live->clock = std::make_shared<SteadyClock>();
+    const std::set<Role> wanted{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
+    auto devices = registry.open(order.uris, wanted, OpenContext{*live->clock, order.seed, kDefaultLoad});
+    if (!devices) return give_up(devices.error());
+    const auto files = prepareRunFiles("", "live");
+    if (!files) return give_up(files.error());
+    auto about = aboutSession(*devices, order.profile, limits_, nullptr);
+    about.seed = order.seed;
+    auto session = SessionWriter::create(files->session, about, *live->clock);
+    if (!session) return give_up(session.error());
+    live->session = std::move(*session);
+    BenchConfig config;
+    config.devices = std::move(*devices);
+    config.clock = live->clock;
+    config.profile = order.profile;
+    config.limits = limits_.sets;
+    config.session = live->session.get();
+    config.tap = live->tap.get();
+    auto bench = Bench::create(std::move(config));
+    if (!bench) return give_up(bench.error());
+    live->bench = std::move(*bench);
+    live->servedAt = realNow();
+    publishBench(live->bench.get(), nullptr);
+    auto open = describe(*live->bench, about, files->session);
+    auto tap = live->tap;
+    live_ = std::move(live);
+    become(Activity::Live, std::move(open), std::move(tap));
+}
+
+void BenchDesk::closeOnThread() {
+    if (!live_) return;
+    publishBench(nullptr, nullptr);
+    live_->bench.reset();
+    if (auto closed = live_->session->close(); !closed) report(closed.error());
+    live_.reset();
+    become(Activity::Closed, nullptr, nullptr);
+}
+
+void BenchDesk::runOnThread(const RunOrder& order) {
+    closeOnThread();
+    become(Activity::Opening, nullptr, nullptr);
+    static_cast<void>(takeRunFeed());
+    auto finished = std::make_shared<FinishedRun>();
+    finished->order = order;
+    auto tap = std::make_shared<BenchTap>();
+    auto registry = makeRegistry_();
+    const auto end = [&] {
+        become(Activity::Closed, nullptr, nullptr);
+        tell([this, finished] { emit this->finished(finished); });
+    };
+    auto prepared = ProtocolRun::prepare(order, registry, tap.get());
+    if (!prepared) {
+        finished->result.outcome.error = prepared.error();
+        return end();
+    }
+    auto& run = **prepared;
+    RunRequest hooks;
+    hooks.operatorDesk = &operator_;
+    hooks.onProgress = [this](const ScriptProgress& progress) {
+        const std::scoped_lock lock(feedMutex_);
+        feed_.progress = progress;
+    };
+    hooks.onLog = [this](const std::string& text) {
+        const std::scoped_lock lock(feedMutex_);
+        feed_.log.push_back(text);
+    };
+    hooks.onTrial = [this](const nlohmann::json& trial) {
+        const std::scoped_lock lock(feedMutex_);
+        feed_.trials.push_back(trial);
+    };
+    hooks.onCapture = [this](const Capture& capture) {
+        auto shared = std::make_shared<const Capture>(capture);
+        const std::scoped_lock lock(feedMutex_);
+        if (feed_.captures.size() == kFeedCaptures) feed_.captures.erase(feed_.captures.begin());
+        feed_.captures.push_back(std::move(shared));
+    };
+    if (auto started = run.start(std::move(hooks)); !started) {
+        finished->result = run.finish();
+        finished->result.outcome.error = started.error();
+        return end();
+    }
+    publishBench(&run.bench(), run.script());
+    become(Activity::Running, describe(run.bench(), run.about(), run.files().session), tap);
+    static_cast<void>(run.script()->wait());
+    publishBench(nullptr, nullptr);
+    become(Activity::Closing, nullptr, tap);
+    finished->result = run.finish();
+    // An abandoned script's bench may still push into it.
+    if (finished->result.outcome.abandoned) static_cast<void>(new std::shared_ptr<BenchTap>(tap));
+    finished->html = run.files().report(".html");
+    finished->pdf = run.files().report(".pdf");
+    end();
+}
+
+}  // namespace tacto::gui

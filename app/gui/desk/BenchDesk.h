@@ -1,0 +1,166 @@
+// BenchDesk.h - the window's one way to the bench: opens it, drives it, runs protocols on it, and lets displays look.
+//
+// The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
+// thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue.
+//
+// A bench of simulated devices and recordings runs on the virtual clock, moved by that thread at `speed` times real
+// time; one with hardware runs on the steady clock. Every opened bench records to a session file.
+//
+// Thread-safety: the GUI thread, but for stop(), which any thread may call.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "app/gui/desk/OperatorDesk.h"
+#include "app/run/ProtocolRun.h"
+#include "core/bench/BenchTap.h"
+
+namespace tacto::gui {
+
+/// What to open for looking, driving by hand and replaying.
+struct LiveOrder {
+    std::vector<DeviceUri> uris;
+    Profile profile;
+    double speed = 1;  ///< times real time; devices that can live on the virtual clock only
+    std::uint64_t seed = 1;
+};
+
+/// What is open. Constant while it is.
+struct OpenBench {
+    SessionAbout about;
+    std::filesystem::path session;
+    std::vector<StreamInfo> streams;  ///< of the sensor; empty without one
+    std::optional<SourceTraits> source;
+    std::optional<ScopeTraits> scope;
+    bool paced = false;  ///< on the virtual clock: `speed` means something
+    bool surfaces = false;  ///< the rig presents surfaces by itself
+    [[nodiscard]] bool simulated() const { return about.simulated; }
+};
+
+enum class Activity {
+    Closed,   ///< no bench
+    Opening,
+    Live,     ///< a bench is open for looking and driving by hand
+    Running,  ///< a protocol has it
+    Closing,
+};
+
+/// What a running protocol has said since the last look.
+struct RunFeed {
+    std::optional<ScriptProgress> progress;
+    std::vector<std::string> log;
+    std::vector<nlohmann::json> trials;            ///< as record.trial() was given them, with condition and trial
+    std::vector<std::shared_ptr<const Capture>> captures;  ///< the newest few
+};
+
+/// A run's end, with the reports that were written of it.
+struct FinishedRun {
+    RunOrder order;
+    RunResult result;
+    std::filesystem::path html, pdf;  ///< empty when not written
+};
+
+class BenchDesk final : public QObject {
+    Q_OBJECT
+public:
+    using MakeRegistry = std::function<Registry()>;
+    explicit BenchDesk(MakeRegistry makeRegistry, QObject* parent = nullptr);
+    ~BenchDesk() override;  ///< outputs off, bench closed, thread joined
+
+    [[nodiscard]] Activity activity() const noexcept { return activity_; }
+    /// Null while Closed or Opening.
+    [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
+    /// Disconnected without a bench.
+    [[nodiscard]] Telemetry telemetry() const;
+    /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
+    [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
+    /// The profile in force: of the open bench, else the one of the last order or the shipped one.
+    [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
+    [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
+    [[nodiscard]] std::vector<DeviceIdentity> devices() const;
+
+    void openLive(const LiveOrder& order);
+    void close();
+    /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken.
+    void arm(const ArmRequest& request);
+    void disarm();
+    /// Outputs off before this returns; any thread. Ends a running protocol too.
+    void stop(const char* by) noexcept;
+    void pause();
+    void resume();
+    void resetFault();
+    void drive(DriveSource source, double roughness = 0, double pressure = 0);
+    void setProfile(const Profile& profile);
+    void setSpeed(double speed);
+    /// Puts a surface under a simulated finger; an empty material lifts it.
+    void present(const std::string& material, double speed_mm_s, double force_n);
+    void fitLoad(const std::string& load);
+    /// From now on captures come by captured(), one per trigger, until stopScope(). `single`: one, then none.
+    void runScope(const ScopeSettings& settings, bool single);
+    void stopScope();
+
+    /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is.
+    void run(const RunOrder& order);
+    [[nodiscard]] RunFeed takeRunFeed();
+    [[nodiscard]] OperatorDesk& operatorDesk() noexcept { return operator_; }
+
+signals:
+    void changed();                      ///< activity, open bench or profile
+    void failed(const QString& what);    ///< a sentence: what happened; the output is off or unchanged
+    void armed();
+    void captured(std::shared_ptr<const tacto::Capture> capture);
+    void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);
+
+private:
+    struct Live;
+    void work();
+    void post(std::function<void()> task);
+    void tell(std::function<void()> onWindow);
+    void report(const Error& error);
+    void serveLive();
+    void serveScope();
+    void openOnThread(const LiveOrder& order);
+    void closeOnThread();
+    void runOnThread(const RunOrder& order);
+    void publishBench(Bench* bench, ScriptRun* script);
+    void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
+
+    const MakeRegistry makeRegistry_;
+    OperatorDesk operator_;
+
+    // The window's:
+    Activity activity_ = Activity::Closed;
+    std::shared_ptr<const OpenBench> open_;
+    std::shared_ptr<BenchTap> tap_;
+    Profile profile_;
+    ShippedLimits limits_;
+
+    mutable std::mutex benchMutex_;  // held for moments: to swap the pointers, to look, to stop
+    Bench* bench_ = nullptr;         // guarded by benchMutex_
+    ScriptRun* script_ = nullptr;    // guarded by benchMutex_
+
+    std::mutex feedMutex_;
+    RunFeed feed_;  // guarded by feedMutex_
+
+    std::mutex taskMutex_;
+    std::condition_variable taskCame_;
+    std::deque<std::function<void()>> tasks_;  // guarded by taskMutex_
+    bool quitting_ = false;                    // guarded by taskMutex_
+    std::atomic<double> speed_{1};
+
+    std::unique_ptr<Live> live_;  // the thread's
+    std::thread thread_;          // Last: starts when all else is ready
+};
+
+}  // namespace tacto::gui
+
+Q_DECLARE_METATYPE(std::shared_ptr<const tacto::Capture>)
+Q_DECLARE_METATYPE(std::shared_ptr<const tacto::gui::FinishedRun>)

@@ -1,0 +1,43 @@
+// OperatorDesk.h - puts a protocol's questions to the person at the window.
+//
+// Thread-safety: ask() on the script's thread; cancel() any thread; answer(), refuse() and the signals on the GUI
+// thread.
+#pragma once
+
+#include <QObject>
+#include <condition_variable>
+#include <mutex>
+
+#include "app/scripting/Operator.h"
+
+namespace tacto::gui {
+
+class OperatorDesk final : public QObject, public Operator {
+    Q_OBJECT
+public:
+    /// Answers given in advance (by name) are used before anybody is asked.
+    void prepare(std::map<std::string, std::string> answers);
+    [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
+    void cancel() noexcept override;
+
+    /// The answer to the question that is open, checked against it. Errors: InvalidArgument: the question stays open.
+    [[nodiscard]] Result<void> answer(const std::string& text);
+    void refuse();
+
+signals:
+    void asked(const tacto::OperatorQuestion& question);
+    void closed();  ///< answered, refused or cancelled
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::map<std::string, std::string> prepared_;  // guarded
+    std::optional<OperatorQuestion> open_;         // guarded
+    std::optional<nlohmann::json> answer_;         // guarded
+    bool refused_ = false;                         // guarded
+    bool cancelled_ = false;                       // guarded
+};
+
+}  // namespace tacto::gui
+
+Q_DECLARE_METATYPE(tacto::OperatorQuestion)
