@@ -1,6 +1,7 @@
 #include "app/report/FigureDrawing.h"
 
 #include <QBuffer>
+#include <QSvgGenerator>
 
 #include "app/report/NumberText.h"
 

@@ -1,6 +1,7 @@
 #include "app/report/Fonts.h"
 
 #include <QFontDatabase>
+#include <QStringList>
 
 namespace tacto {
 namespace {

@@ -48,7 +48,9 @@ protected:
         painter->setBrush(Qt::NoBrush);
         painter->drawRect(box);
         constexpr double kStep = 7;
-        for (double offset = kStep; offset < box.width() + box.height(); offset += kStep) {
+        const int lines = static_cast<int>((box.width() + box.height()) / kStep);
+        for (int i = 1; i <= lines; ++i) {
+            const double offset = i * kStep;
             // From the left or bottom edge up to the top or right edge, at 45°.
             const double startX = std::max(0.0, offset - box.height());
             const double startY = std::min(offset, box.height());

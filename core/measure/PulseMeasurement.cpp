@@ -37,6 +37,9 @@ FoundPulse pulseOf(const Capture& capture, const FoundPhase& leading, const Foun
     found.approximateOnset_s = std::isfinite(leading.measured.onset_s)
                                    ? leading.measured.onset_s
                                    : capture.start_s + static_cast<double>(leading.begin) / capture.rate_hz;
+    pulse.seenFrom_s = capture.start_s + static_cast<double>(leading.begin) / capture.rate_hz;
+    pulse.seenTo_s =
+        capture.start_s + static_cast<double>((second == nullptr ? leading : *second).end) / capture.rate_hz;
     pulse.flags.truncated = truncated;
     flagPhase(leading, pulse.flags);
     if (second != nullptr) flagPhase(*second, pulse.flags);

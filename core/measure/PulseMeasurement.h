@@ -60,6 +60,9 @@ struct PulseMeasurement {
     double gap_s = kNotMeasured;             ///< 50 % to 50 %, between the phases
     double imbalance = kNotMeasured;         ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
                                              ///< second phase; NaN on a monophasic channel
+    /// Where it lies in the record, to a sample; known of a flagged pulse too, so that it can be shown.
+    double seenFrom_s = kNotMeasured;
+    double seenTo_s = kNotMeasured;
     [[nodiscard]] double onset_s() const noexcept { return leading.onset_s; }
 };
 
