@@ -1,0 +1,91 @@
+#include "app/gui/window/ArmDialog.h"
+
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QKeyEvent>
+#include <QVBoxLayout>
+
+#include "app/gui/look/Look.h"
+#include "core/electrode/Load.h"
+
+namespace tacto::gui {
+
+namespace {
+
+/// A held key repeats; arming takes a press of its own.
+class NoRepeat final : public QObject {
+public:
+    using QObject::QObject;
+
+protected:
+    bool eventFilter(QObject*, QEvent* event) override {
+        return event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->isAutoRepeat();
+    }
+};
+
+}  // namespace
+
+ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QDialog(parent), desk_(desk) {
+    setWindowTitle(tr("Arm the output"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    const auto open = desk.open();
+    readsBack_ = !open || !open->source || open->source->readsBack;
+
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(heading(tr("Arm the output on a bench load"), this));
+    layout->addWidget(explanation(
+        tr("One small pulse measures the load first. From then on trains are delivered as the drive says, each judged "
+           "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
+        this));
+    auto* form = new QFormLayout;
+    load_ = new QLineEdit(load, this);
+    load_->setToolTip(tr("What is connected, as \"1 kohm\" or \"200 ohm + 10 kohm || 50 nF\"."));
+    form->addRow(tr("Declared &load"), load_);
+    layout->addLayout(form);
+    trouble_ = new QLabel(this);
+    trouble_->setWordWrap(true);
+    auto red = trouble_->palette();
+    red.setColor(QPalette::WindowText, colours().fault);
+    trouble_->setPalette(red);
+    layout->addWidget(trouble_);
+    connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
+    connected_->setToolTip(tr("This stimulator cannot measure its load: your word stands in for the reading."));
+    connected_->setVisible(!readsBack_);
+    layout->addWidget(connected_);
+
+    auto* buttons = new QDialogButtonBox(this);
+    arm_ = buttons->addButton(tr("&Arm output"), QDialogButtonBox::ActionRole);
+    arm_->setObjectName("armOutput");
+    arm_->setToolTip(tr("Second step: measures the load and arms."));
+    auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
+    for (auto* button : {arm_, cancel}) {
+        button->setAutoDefault(false);
+        button->setDefault(false);
+    }
+    arm_->installEventFilter(new NoRepeat(this));
+    layout->addWidget(buttons);
+    connect(arm_, &QPushButton::clicked, this, &ArmDialog::arm);
+    connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+    connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
+    connect(connected_, &QCheckBox::toggled, this, &ArmDialog::judge);
+    cancel->setFocus();
+    judge();
+}
+
+void ArmDialog::judge() {
+    const auto parsed = parseLoad(load_->text().toStdString());
+    trouble_->setText(parsed ? QString() : QString::fromStdString(parsed.error().message));
+    trouble_->setVisible(!parsed);
+    arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
+}
+
+void ArmDialog::arm() {
+    ArmRequest request;
+    request.load = load_->text().toStdString();
+    request.operatorConfirmed = true;
+    request.declaredLoadConfirmed = connected_->isChecked();
+    desk_.arm(request);
+    accept();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,154 @@
+#include "app/gui/window/DeviceDock.h"
+
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QVBoxLayout>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/window/SafetyBar.h"
+
+namespace tacto::gui {
+
+namespace {
+
+QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
+
+constexpr int kUriRole = Qt::UserRole;
+
+}  // namespace
+
+DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devices"), parent), desk_(desk) {
+    setObjectName("deviceDock");
+    auto* body = new QWidget(this);
+    auto* layout = new QVBoxLayout(body);
+    tree_ = new QTreeWidget(body);
+    tree_->setAccessibleName(tr("Devices"));
+    tree_->setHeaderLabels({tr("Device"), tr("Role")});
+    tree_->setRootIsDecorated(false);
+    tree_->setUniformRowHeights(true);
+    tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    tree_->setToolTip(tr("What is present. Those in bold are open."));
+    layout->addWidget(tree_, 1);
+    facts_ = new QLabel(body);
+    facts_->setWordWrap(true);
+    facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+    layout->addWidget(facts_);
+
+    open_ = new QPushButton(tr("Open &simulated bench"), body);
+    open_->setToolTip(tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated."));
+    auto* flaws = new QPushButton(tr("With &faults…"), body);
+    flaws->setToolTip(tr("A simulated bench with a source, a load and a fault of your choice."));
+    auto* recording = new QPushButton(tr("Open re&cording…"), body);
+    recording->setToolTip(tr("Replays a recorded fingertip into the simulated stimulator."));
+    check_ = new QPushButton(tr("Check &impedance"), body);
+    check_->setToolTip(tr("One small pulse into the declared load, then disarmed again."));
+    close_ = new QPushButton(tr("C&lose"), body);
+    close_->setToolTip(tr("Output off; the session file is finished and closed."));
+    auto* buttons = new QGridLayout;
+    buttons->addWidget(open_, 0, 0, 1, 2);
+    buttons->addWidget(flaws, 1, 0);
+    buttons->addWidget(recording, 1, 1);
+    buttons->addWidget(check_, 2, 0);
+    buttons->addWidget(close_, 2, 1);
+    layout->addLayout(buttons);
+    setWidget(body);
+
+    connect(open_, &QPushButton::clicked, this, &DeviceDock::openSelected);
+    connect(flaws, &QPushButton::clicked, this, &DeviceDock::simulatedBenchRequested);
+    connect(recording, &QPushButton::clicked, this, &DeviceDock::recordingRequested);
+    connect(check_, &QPushButton::clicked, this, &DeviceDock::checkRequested);
+    connect(close_, &QPushButton::clicked, &desk_, &BenchDesk::close);
+    connect(tree_, &QTreeWidget::currentItemChanged, this, &DeviceDock::describe);
+    connect(&desk_, &BenchDesk::changed, this, [this] {
+        listed_.clear();
+        list();
+    });
+    connect(&hotPlug_, &QTimer::timeout, this, &DeviceDock::list);
+    hotPlug_.start(2000);
+    list();
+    refresh(Telemetry{});
+}
+
+void DeviceDock::list() {
+    std::vector<DeviceIdentity> present = desk_.devices();
+    const auto open = desk_.open();
+    std::vector<std::string> keys;
+    for (const auto& device : present) keys.push_back(device.uri);
+    if (open) {
+        for (const auto& device : open->about.devices) keys.push_back("open " + device.uri);
+    }
+    if (keys == listed_) return;
+    listed_ = keys;
+    tree_->clear();
+    const auto add = [&](const QString& name, const QString& role, const QString& uri, bool isOpen) {
+        auto* item = new QTreeWidgetItem(tree_, {name, role});
+        item->setData(0, kUriRole, uri);
+        item->setData(1, kUriRole, isOpen);
+        item->setToolTip(0, uri);
+        auto font = tree_->font();
+        font.setBold(isOpen);
+        item->setFont(0, font);
+    };
+    if (open) {
+        for (const auto& device : open->about.devices)
+            add(QString::fromStdString(device.name), QString::fromStdString(device.role),
+                QString::fromStdString(device.uri), true);
+    }
+    for (const auto& device : present) {
+        const bool alreadyOpen = open && std::any_of(open->about.devices.begin(), open->about.devices.end(),
+                                                     [&](const auto& one) { return one.name == device.name; });
+        if (!alreadyOpen)
+            add(QString::fromStdString(device.name), words(nameOf(device.role)), QString::fromStdString(device.uri),
+                false);
+    }
+    if (tree_->topLevelItemCount() > 0) tree_->setCurrentItem(tree_->topLevelItem(0));
+    describe();
+}
+
+void DeviceDock::describe() {
+    const auto* item = tree_->currentItem();
+    if (item == nullptr) return facts_->setText(tr("No device is present."));
+    const auto uri = item->data(0, kUriRole).toString();
+    QStringList lines{QString("<b>%1</b>").arg(item->text(0).toHtmlEscaped()), uri.toHtmlEscaped()};
+    if (const auto open = desk_.open(); open && item->data(1, kUriRole).toBool()) {
+        for (const auto& device : open->about.devices) {
+            if (QString::fromStdString(device.uri) != uri) continue;
+            lines << tr("Serial %1, firmware %2")
+                         .arg(device.serial.empty() ? "–" : QString::fromStdString(device.serial).toHtmlEscaped(),
+                              device.firmware.empty() ? "–" : QString::fromStdString(device.firmware).toHtmlEscaped());
+            if (device.simulated) lines << tr("Simulated: no number of it was measured on hardware.");
+            if (device.role == "stimulator" && open->source) {
+                lines << tr("%1 source, at most %2")
+                             .arg(open->source->drive == Drive::Current ? tr("Current") : tr("Voltage"),
+                                  open->source->drive == Drive::Current ? settingText(open->source->amplitudeMax, "mA")
+                                                                        : settingText(open->source->amplitudeMax, "V"));
+                lines << tr("Not calibrated: no calibration is stored for it.");
+            }
+            if (device.role == "oscilloscope" && open->scope) {
+                lines << tr("%1 bits, up to %2")
+                             .arg(open->scope->bits)
+                             .arg(settingText(open->scope->maxRate.value(), "S/s"));
+            }
+        }
+    } else {
+        lines << tr("Not open.");
+    }
+    facts_->setText(lines.join("<br>"));
+}
+
+void DeviceDock::openSelected() {
+    LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = desk_.profile();
+    desk_.openLive(order);
+}
+
+void DeviceDock::refresh(const Telemetry& telemetry) {
+    const bool live = desk_.activity() == Activity::Live;
+    open_->setEnabled(desk_.activity() == Activity::Closed || live);
+    close_->setEnabled(live);
+    check_->setEnabled(live && telemetry.state == InterlockState::Disarmed);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,47 @@
+// LimitBar.h - one quantity against its limit: name, bar, value and limit in words.
+//
+// The bar fills towards the limit, amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
+// that is shown and has no limit.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "core/safety/Exposure.h"
+
+namespace tacto::gui {
+
+class LimitBar final : public QWidget {
+    Q_OBJECT
+public:
+    /// `title` is short: "5 s RMS". `compact` leaves no room for the limit beside the value: it is in the tool tip.
+    LimitBar(const QString& title, QWidget* parent = nullptr);
+    /// Nothing: no row of this quantity yet (no output is configured).
+    void show(const std::optional<ExposureRow>& row);
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+    /// "2.3 of 10 mA", "not evaluated", "–": what is painted, for tests and screen readers.
+    [[nodiscard]] QString text() const { return text_; }
+    /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.
+    [[nodiscard]] double share() const { return share_; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    QString title_;
+    QString text_;
+    double share_;
+    bool known_ = false;
+    bool limited_ = false;
+    bool evaluated_ = false;
+    bool within_ = true;
+};
+
+/// The row of `quantities` that is nearest to its limit; one that should be evaluated and was not comes first.
+[[nodiscard]] std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows,
+                                                  std::initializer_list<Quantity> quantities);
+
+}  // namespace tacto::gui

@@ -1,0 +1,363 @@
+#include "app/gui/window/MainWindow.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSettings>
+#include <QStatusBar>
+#include <QTabWidget>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/runner/ProtocolWorkspace.h"
+#include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/sessions/SessionsWorkspace.h"
+#include "app/gui/window/ArmDialog.h"
+#include "app/gui/window/ComingWorkspace.h"
+#include "app/gui/window/DeviceDock.h"
+#include "app/gui/window/ExposureDock.h"
+#include "app/gui/window/RecordingLine.h"
+#include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/SimulatedBenchDialog.h"
+#include "app/gui/window/StopKeys.h"
+#include "app/gui/window/Tour.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kFrame_ms = 33;
+constexpr int kRecentFiles = 8;
+
+enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
+
+}  // namespace
+
+MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(makeRegistry)) {
+    setWindowTitle(tr("Tactoscope"));
+    setAcceptDrops(true);
+    setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+    baseFontSize_ = QApplication::font().pointSizeF();
+    new StopKeys([this](const char* by) { desk_.stop(by); }, this);
+
+    safety_ = new SafetyBar(desk_, this);
+    auto* top = new QToolBar(tr("Safety"), this);
+    top->setObjectName("safetyToolBar");
+    top->setMovable(false);
+    top->setFloatable(false);
+    top->toggleViewAction()->setEnabled(false);  // always there
+    top->setContextMenuPolicy(Qt::PreventContextMenu);
+    top->addWidget(safety_);
+    addToolBar(Qt::TopToolBarArea, top);
+    setContextMenuPolicy(Qt::NoContextMenu);
+
+    auto* centre = new QWidget(this);
+    auto* layout = new QVBoxLayout(centre);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    banner_ = new QFrame(centre);
+    banner_->setObjectName("banner");
+    banner_->setFrameShape(QFrame::StyledPanel);
+    auto* bannerRow = new QHBoxLayout(banner_);
+    bannerText_ = new QLabel(banner_);
+    bannerText_->setObjectName("bannerText");
+    bannerText_->setWordWrap(true);
+    bannerText_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    bannerRow->addWidget(bannerText_, 1);
+    auto* dismiss = new QPushButton(tr("Dismiss"), banner_);
+    dismiss->setAutoDefault(false);
+    connect(dismiss, &QPushButton::clicked, banner_, &QWidget::hide);
+    bannerRow->addWidget(dismiss);
+    banner_->hide();
+    layout->addWidget(banner_);
+    pages_ = new QStackedWidget(centre);
+    layout->addWidget(pages_, 1);
+    setCentralWidget(centre);
+    line_ = new RecordingLine(desk_, *statusBar());
+
+    buildPages();
+    buildNavigation();
+    buildDocks();
+    buildMenus();
+    buildTour();
+    connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
+    connect(&desk_, &BenchDesk::changed, this, &MainWindow::noteChange);
+    connect(&desk_, &BenchDesk::failed, this, &MainWindow::complain);
+    connect(&desk_, &BenchDesk::armed, this, [this] {
+        if (std::exchange(disarmWhenArmed_, false)) {
+            const auto impedance = desk_.telemetry().impedance_ohm;
+            desk_.disarm();
+            line_->say(tr("Impedance %1. Disarmed again.").arg(quantityText(impedance, "ohm", 4)));
+        } else {
+            line_->say(tr("Armed."));
+        }
+    });
+    restore();
+    connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
+    frame_.start(kFrame_ms);
+    noteChange();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::buildPages() {
+    livePage_ = new QTabWidget(pages_);
+    livePage_->setDocumentMode(true);
+    live_ = new LiveWorkspace(desk_, livePage_);
+    scope_ = new ScopeWorkspace(desk_, livePage_);
+    livePage_->addTab(live_, tr("&Touch"));
+    livePage_->addTab(scope_, tr("&Oscilloscope"));
+    pages_->addWidget(livePage_);
+    pages_->addWidget(new ComingWorkspace(
+        tr("Calibrate"),
+        tr("For technicians: what does the stimulator really deliver for what it is told, with which uncertainty, and "
+           "until when does that hold?"),
+        {tr("Stimulator calibration: amplitude, interval, phase width and gap, with residuals and a verdict"),
+         tr("Sensor calibration: baseline, smooth and rough reference surface, force and taxel scales"),
+         tr("Calibrations stored by serial number, with an expiry date")},
+        tr("Until then the Separability workspace measures a fixed set of commands on the oscilloscope, and reports "
+           "say \"not calibrated\"."),
+        pages_));
+    pages_->addWidget(new ComingWorkspace(
+        tr("Safety check"),
+        tr("For engineers: do the limits hold on resistors that stand for skin, from the weakest command to the "
+           "strongest?"),
+        {tr("Each load of the bench set, verified by measurement before anything else"),
+         tr("Worst-case commands measured and judged against every limit set"),
+         tr("Open, short, intermittent contact and the dead-man switch must trip")},
+        tr("Until then \"With faults…\" in the Devices dock shows how open, short and stuck outputs end a run."),
+        pages_));
+    separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
+    pages_->addWidget(separability_);
+    pages_->addWidget(new ComingWorkspace(
+        tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
+        {tr("Consent, accepted levels and the ramp that approaches them"),
+         tr("Threshold and identification protocols with breaks and stopping rules"),
+         tr("Participants by pseudonym, trials as data")},
+        tr("Nothing in this version can be armed for a person."), pages_));
+    sessions_ = new SessionsWorkspace(desk_, pages_);
+    pages_->addWidget(sessions_);
+    protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
+    pages_->addWidget(protocols_);
+    connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
+        scope_->show(std::move(capture));
+        showScope();
+    });
+    connect(sessions_, &SessionsWorkspace::recordingReady, this, [this](const QString& folder) {
+        if (!live_->openRecording(folder)) return;
+        showWorkspace(kLive);
+        livePage_->setCurrentWidget(live_);
+    });
+}
+
+void MainWindow::buildNavigation() {
+    auto* bar = new QToolBar(tr("Workspaces"), this);
+    bar->setObjectName("workspaces");
+    bar->setMovable(false);
+    bar->setFloatable(false);
+    bar->toggleViewAction()->setEnabled(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    navigation_ = new QActionGroup(this);
+    const std::pair<QString, QString> names[] = {
+        {tr("Live"), tr("Touch, drive by hand, replay, and the oscilloscope")},
+        {tr("Calibrate"), tr("Stimulator and sensor calibration")},
+        {tr("Safety check"), tr("Limits on resistor loads")},
+        {tr("Separability"), tr("Can an oscilloscope tell the four conditions apart?")},
+        {tr("Pilot"), tr("Sessions with volunteers")},
+        {tr("Sessions"), tr("Everything that was recorded")},
+        {tr("Protocols"), tr("Every protocol script, shipped and the lab's own")},
+    };
+    int index = 0;
+    for (const auto& [name, tip] : names) {
+        auto* action = bar->addAction(name);
+        action->setCheckable(true);
+        action->setShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + index)));
+        action->setToolTip(tr("%1 (%2)").arg(tip, action->shortcut().toString(QKeySequence::NativeText)));
+        navigation_->addAction(action);
+        connect(action, &QAction::triggered, this, [this, index] { showWorkspace(index); });
+        auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
+        button->setMinimumHeight(button->fontMetrics().height() * 2);
+        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        button->setFocusPolicy(Qt::TabFocus);
+        button->setAccessibleName(name);
+        ++index;
+    }
+    addToolBar(Qt::LeftToolBarArea, bar);
+}
+
+void MainWindow::buildDocks() {
+    devices_ = new DeviceDock(desk_, this);
+    exposure_ = new ExposureDock(this);
+    addDockWidget(Qt::RightDockWidgetArea, devices_);
+    addDockWidget(Qt::RightDockWidgetArea, exposure_);
+    connect(devices_, &DeviceDock::simulatedBenchRequested, this,
+            [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
+    connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
+    connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
+}
+
+void MainWindow::tick() {
+    const auto telemetry = desk_.telemetry();
+    safety_->refresh(telemetry);
+    devices_->refresh(telemetry);
+    if (exposure_->isVisible()) exposure_->refresh(telemetry);
+    line_->refresh();
+    const auto* shown = pages_->currentWidget();
+    live_->refresh(telemetry, shown == livePage_ && livePage_->currentWidget() == live_);
+    if (shown == livePage_ && livePage_->currentWidget() == scope_) scope_->refresh(telemetry);
+    // One of the two takes what a run says: the one it was started from, told apart by themselves.
+    separability_->refresh(telemetry);
+    protocols_->refresh(telemetry);
+}
+
+void MainWindow::showWorkspace(int index) {
+    if (index < 0 || index >= pages_->count()) return;
+    pages_->setCurrentIndex(index);
+    navigation_->actions().at(index)->setChecked(true);
+}
+
+void MainWindow::showScope() {
+    showWorkspace(kLive);
+    livePage_->setCurrentWidget(scope_);
+}
+
+void MainWindow::noteChange() {
+    const auto open = desk_.open();
+    setWindowTitle(open && open->simulated() ? tr("Tactoscope – simulated") : tr("Tactoscope"));
+    if (desk_.activity() == Activity::Live && open) {
+        line_->say(tr("Open. Recording to %1").arg(QString::fromStdString(open->session.filename().string())));
+        banner_->hide();
+        for (const auto& device : open->about.devices) {
+            const auto uri = DeviceUri::parse(device.uri);
+            if (!uri || device.role != "stimulator") continue;
+            load_ = "1 kohm";
+            for (const auto& [key, value] : uri->parameters) {
+                if (key == "load") load_ = QString::fromStdString(value);
+            }
+        }
+    }
+}
+
+void MainWindow::complain(const QString& what) {
+    disarmWhenArmed_ = false;
+    const auto state = desk_.telemetry().state;
+    const bool off =
+        state == InterlockState::Disconnected || state == InterlockState::Disarmed || state == InterlockState::Faulted;
+    auto text = what;
+    if (!text.isEmpty()) text[0] = text[0].toUpper();
+    if (!text.endsWith('.')) text += '.';
+    if (off && !text.contains(tr("Output is off"))) text += tr(" Output is off.");
+    bannerText_->setText("⚠  " + text);
+    banner_->show();
+    line_->say(text, true);
+}
+
+void MainWindow::askToArm() {
+    if (desk_.activity() != Activity::Live) {
+        return complain(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
+    }
+    auto* dialog = new ArmDialog(desk_, load_, this);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
+    dialog->open();
+}
+
+void MainWindow::checkImpedance() {
+    disarmWhenArmed_ = true;
+    ArmRequest request;
+    request.load = load_.toStdString();
+    request.operatorConfirmed = true;
+    request.declaredLoadConfirmed = true;
+    desk_.drive(DriveSource::Off);
+    desk_.arm(request);
+}
+
+void MainWindow::openSimulatedBench() {
+    LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = desk_.profile();
+    desk_.openLive(order);
+}
+
+void MainWindow::openFile(const QString& path) {
+    const QFileInfo file(path);
+    bool opened = false;
+    if (file.isDir() || file.suffix() == "json") {
+        opened = live_->openRecording(path);
+        if (opened) {
+            showWorkspace(kLive);
+            livePage_->setCurrentWidget(live_);
+        }
+    } else if (file.suffix() == "tacto") {
+        opened = sessions_->openSession(path);
+        if (opened) showWorkspace(kSessions);
+    } else if (file.suffix() == "csv") {
+        opened = scope_->openCaptureFile(path);
+        if (opened) showScope();
+    } else {
+        complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (*.csv)").arg(path));
+    }
+    if (opened) remember(path);
+}
+
+void MainWindow::chooseFile() {
+    auto* dialog = new QFileDialog(this, tr("Open"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilters({tr("Recordings, sessions and captures (*.json *.tacto *.csv)"), tr("All files (*)")});
+    connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openFile);
+    dialog->open();
+}
+
+void MainWindow::chooseRecording() {
+    auto* dialog = new QFileDialog(this, tr("Open a recording: its folder"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::Directory);
+    dialog->setOption(QFileDialog::ShowDirsOnly);
+    connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openFile);
+    dialog->open();
+}
+
+void MainWindow::remember(const QString& path) {
+    QSettings settings;
+    auto files = settings.value("recent").toStringList();
+    const auto absolute = QFileInfo(path).absoluteFilePath();
+    files.removeAll(absolute);
+    files.prepend(absolute);
+    while (files.size() > kRecentFiles) files.removeLast();
+    settings.setValue("recent", files);
+}
+
+void MainWindow::restore() {
+    QSettings settings;
+    setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
+    setTextSize(settings.value("textSize", 100).toInt());
+    if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1440, 900);
+    restoreState(settings.value("state").toByteArray());
+    showWorkspace(settings.value("workspace", 0).toInt());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    desk_.stop("the window closes");
+    QSettings settings;
+    settings.setValue("geometry", saveGeometry());
+    settings.setValue("state", saveState());
+    settings.setValue("workspace", workspace());
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    for (const auto& url : event->mimeData()->urls()) openFile(url.toLocalFile());
+    event->acceptProposedAction();
+}
+
+}  // namespace tacto::gui

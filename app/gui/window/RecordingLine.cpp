@@ -1,0 +1,86 @@
+#include "app/gui/window/RecordingLine.h"
+
+#include <QDateTime>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QFileInfo>
+#include <QPlainTextEdit>
+#include <QVBoxLayout>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kLogLines = 2000;
+}
+
+RecordingLine::RecordingLine(BenchDesk& desk, QStatusBar& bar) : QObject(&bar), desk_(desk), bar_(bar) {
+    recording_ = new QLabel(&bar);
+    recording_->setToolTip(
+        tr("Every open bench records to a session file. Samples are on disk within a second, events "
+           "and trials at once."));
+    bar.addWidget(recording_, 1);
+    message_ = new QToolButton(&bar);
+    message_->setAutoRaise(true);
+    message_->setToolTip(tr("The last message. Click for the log."));
+    message_->setText(tr("No messages"));
+    connect(message_, &QToolButton::clicked, this, &RecordingLine::showLog);
+    bar.addPermanentWidget(message_);
+    refresh();
+}
+
+void RecordingLine::refresh() {
+    const auto open = desk_.open();
+    if (!open) {
+        session_.clear();
+        recording_->setText(tr("Nothing is being recorded"));
+        return;
+    }
+    if (open->session != session_) {
+        session_ = open->session;
+        since_.restart();
+        looked_.invalidate();
+    }
+    if (looked_.isValid() && looked_.elapsed() < 500) return;
+    looked_.restart();
+    const QFileInfo file(QString::fromStdString(session_.string()));
+    const QFileInfo wal(QString::fromStdString(session_.string() + "-wal"));
+    const auto seconds = since_.elapsed() / 1000;
+    const auto savedAt = wal.exists() ? std::max(wal.lastModified(), file.lastModified()) : file.lastModified();
+    const double age = double(savedAt.msecsTo(QDateTime::currentDateTime())) / 1000;
+    recording_->setText(tr("● recording %1:%2:%3 · %4 MB · saved %5 s ago")
+                            .arg(seconds / 3600, 2, 10, QChar('0'))
+                            .arg(seconds / 60 % 60, 2, 10, QChar('0'))
+                            .arg(seconds % 60, 2, 10, QChar('0'))
+                            .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
+                            .arg(std::max(0.0, age), 0, 'f', 1));
+    recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
+}
+
+void RecordingLine::say(const QString& text, bool isError) {
+    log_ << QString("%1  %2").arg(QDateTime::currentDateTime().toString("HH:mm:ss"), text);
+    while (log_.size() > kLogLines) log_.removeFirst();
+    message_->setText(message_->fontMetrics().elidedText(text, Qt::ElideRight, bar_.width() / 2));
+    message_->setToolTip(text + tr("\nClick for the log."));
+    auto colour = message_->palette();
+    colour.setColor(QPalette::ButtonText, isError ? colours().fault : bar_.palette().color(QPalette::WindowText));
+    message_->setPalette(colour);
+}
+
+void RecordingLine::showLog() {
+    auto* dialog = new QDialog(bar_.window());
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(tr("Messages"));
+    auto* layout = new QVBoxLayout(dialog);
+    auto* text = new QPlainTextEdit(log_.isEmpty() ? tr("No messages yet.") : log_.join("\n"), dialog);
+    text->setReadOnly(true);
+    layout->addWidget(text);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
+    connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
+    layout->addWidget(buttons);
+    dialog->resize(text->fontMetrics().averageCharWidth() * 90, text->fontMetrics().height() * 24);
+    dialog->show();
+}
+
+}  // namespace tacto::gui

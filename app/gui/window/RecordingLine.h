@@ -1,0 +1,37 @@
+// RecordingLine.h - the bottom line: what is being recorded, how much, how safe it is; the last message, click for all.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QStatusBar>
+#include <QStringList>
+#include <QToolButton>
+
+#include "app/gui/desk/BenchDesk.h"
+
+namespace tacto::gui {
+
+class RecordingLine final : public QObject {
+    Q_OBJECT
+public:
+    RecordingLine(BenchDesk& desk, QStatusBar& bar);
+    void refresh();
+    /// Shows a message and keeps it in the log.
+    void say(const QString& text, bool isError = false);
+    void showLog();
+    [[nodiscard]] const QStringList& log() const { return log_; }
+
+private:
+    BenchDesk& desk_;
+    QStatusBar& bar_;
+    QLabel* recording_;
+    QToolButton* message_;
+    QStringList log_;
+    QElapsedTimer since_;
+    QElapsedTimer looked_;
+    std::filesystem::path session_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,39 @@
+// SimulatedBenchDialog.h - a simulated bench to taste: source, load, flaws and a fault at a moment, for training and
+// demonstration.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSpinBox>
+
+#include "app/gui/desk/BenchDesk.h"
+
+namespace tacto::gui {
+
+class SimulatedBenchDialog final : public QDialog {
+    Q_OBJECT
+public:
+    explicit SimulatedBenchDialog(BenchDesk& desk, QWidget* parent);
+
+private:
+    [[nodiscard]] std::vector<std::string> uris() const;
+    void judge();
+    void open();
+
+    BenchDesk& desk_;
+    QComboBox* mode_;
+    QLineEdit* load_;
+    QDoubleSpinBox* gain_;
+    QComboBox* fault_;
+    QDoubleSpinBox* faultAt_;
+    QSpinBox* seed_;
+    QLabel* says_;
+    QPushButton* open_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,66 @@
+#include "app/gui/window/StopKeys.h"
+
+#include <QAbstractButton>
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QComboBox>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QTextEdit>
+#include <QWindow>
+
+namespace tacto::gui {
+
+namespace {
+
+bool takesText(const QWidget* widget) {
+    if (const auto* line = qobject_cast<const QLineEdit*>(widget)) return !line->isReadOnly();
+    if (const auto* text = qobject_cast<const QTextEdit*>(widget)) return !text->isReadOnly();
+    if (const auto* text = qobject_cast<const QPlainTextEdit*>(widget)) return !text->isReadOnly();
+    if (const auto* combo = qobject_cast<const QComboBox*>(widget)) return combo->isEditable();
+    return qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
+}
+
+}  // namespace
+
+StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QObject(parent), stop_(std::move(stop)) {
+    qApp->installEventFilter(this);
+}
+
+StopKeys::~StopKeys() { qApp->removeEventFilter(this); }
+
+bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride) return false;
+    return pressed(watched, *static_cast<QKeyEvent*>(event));
+}
+
+/// True when nobody else is to see the key. Called for the window, then for the widget: stopping twice does no harm.
+bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
+    const auto* focus = QApplication::focusWidget();
+    switch (key.key()) {
+        case Qt::Key_Escape:
+            stop_("operator (Esc)");
+            return false;  // it closes dialogs and popups too
+        case Qt::Key_Pause:
+            stop_("operator (Pause)");
+            return true;
+        case Qt::Key_Space:
+            if (takesText(focus) || (watched->isWidgetType() && takesText(static_cast<QWidget*>(watched))))
+                return false;
+            stop_("operator (Space)");
+            return key.type() == QEvent::KeyPress;
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            if (key.type() != QEvent::KeyPress || key.isAutoRepeat() || !watched->isWidgetType()) return false;
+            if (auto* button = qobject_cast<QAbstractButton*>(watched); button != nullptr && button->isEnabled()) {
+                button->click();
+                return true;
+            }
+            return false;
+        default:
+            return false;
+    }
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,31 @@
+// StopKeys.h - Esc, Pause and Space stop the output from wherever the focus is, dialogs included; Space types where
+// text is typed, and Return presses the focused button in its stead (hazard H6).
+//
+// Installed on the application: it sees each key before any widget does.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+#include <functional>
+
+class QKeyEvent;
+
+namespace tacto::gui {
+
+class StopKeys final : public QObject {
+    Q_OBJECT
+public:
+    /// `stop` is called first thing, with "operator (Esc)" and the like.
+    StopKeys(std::function<void(const char*)> stop, QObject* parent);
+    ~StopKeys() override;
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);
+    const std::function<void(const char*)> stop_;
+};
+
+}  // namespace tacto::gui

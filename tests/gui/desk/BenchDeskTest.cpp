@@ -1,0 +1,198 @@
+// The desk with a simulated bench: opening, driving, stopping, capturing, running.
+#include <QSignalSpy>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/gui/desk/BenchDesk.h"
+#include "app/scripting/ProtocolLibrary.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::Activity;
+using gui::BenchDesk;
+using testing::HasSubstr;
+
+class Desk : public testing::Test {
+protected:
+    Desk() {
+        QObject::connect(&desk, &BenchDesk::failed, [this](const QString& what) { complaints << what; });
+    }
+    void open(const char* uri = "sim:", double speed = 1) {
+        gui::LiveOrder order;
+        order.uris.push_back(*DeviceUri::parse(uri));
+        if (std::string_view(uri) != "sim:") order.uris.push_back(*DeviceUri::parse("sim:"));
+        order.profile = desk.profile();
+        order.speed = speed;
+        desk.openLive(order);
+        ASSERT_TRUE(comesTrue([this] { return desk.activity() == Activity::Live || !complaints.isEmpty(); }));
+        ASSERT_TRUE(complaints.isEmpty()) << complaints.first().toStdString();
+    }
+    void arm(const char* load = "1 kohm") {
+        ArmRequest request;
+        request.load = load;
+        request.operatorConfirmed = true;
+        desk.arm(request);
+    }
+    bool comesTo(InterlockState state) {
+        return comesTrue([&] { return desk.telemetry().state == state; });
+    }
+    RunOrder orderOf(const std::string& script, std::map<std::string, std::string> settings = {}) {
+        RunOrder order;
+        order.script.name = "test";
+        order.script.text = script;
+        order.declaration = readDeclaration(order.script).value();
+        order.settings = applySettings(order.declaration, settings).value();
+        order.uris.push_back(*DeviceUri::parse("sim:"));
+        order.profile = desk.profile();
+        order.limits = desk.limits();
+        return order;
+    }
+
+    BenchDesk desk{simulatedRegistry};
+    QStringList complaints;
+};
+
+TEST_F(Desk, IsClosedUntilABenchIsOpened) {
+    EXPECT_EQ(desk.activity(), Activity::Closed);
+    EXPECT_EQ(desk.telemetry().state, InterlockState::Disconnected);
+    EXPECT_FALSE(desk.open());
+    desk.stop("nobody");  // does no harm
+    open();
+    EXPECT_TRUE(desk.open()->simulated());
+    EXPECT_TRUE(desk.open()->paced);
+    EXPECT_EQ(desk.open()->streams.size(), 3U);
+    EXPECT_TRUE(std::filesystem::exists(desk.open()->session));
+    desk.close();
+    EXPECT_TRUE(comesTrue([this] { return desk.activity() == Activity::Closed; }));
+}
+
+TEST_F(Desk, ArmsAndDeliversByHandAndStopsAtOnce) {
+    RecordProperty("hazard", "H5");
+    open();
+    arm();
+    ASSERT_TRUE(comesTo(InterlockState::Armed));
+    desk.drive(DriveSource::Manual, 0.5, 1);
+    ASSERT_TRUE(comesTo(InterlockState::Delivering));
+    EXPECT_TRUE(comesTrue([this] { return desk.telemetry().trainsDelivered >= 3; }));
+    desk.stop("test");
+    EXPECT_EQ(desk.telemetry().state, InterlockState::Disarmed) << "before stop() returned";
+    const auto delivered = desk.telemetry().trainsDelivered;
+    const auto at = desk.telemetry().at;
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().at > at + std::chrono::seconds(1); }))
+        << "the picture goes on after a stop";
+    EXPECT_LE(desk.telemetry().trainsDelivered, delivered);
+    arm();
+    EXPECT_TRUE(comesTo(InterlockState::Armed)) << "a stop is over with the next arming";
+}
+
+TEST_F(Desk, RunsAtTheAskedSpeed) {
+    open("sim:", 10);
+    const auto before = desk.telemetry().at;
+    const auto began = std::chrono::steady_clock::now();
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().at > before + std::chrono::seconds(10); }));
+    const auto took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    EXPECT_GT(took, 0.5);
+}
+
+TEST_F(Desk, TellsWhyItDidNotArm) {
+    RecordProperty("hazard", "H3");
+    open("sim:stimulator?load=300ohm");
+    arm("1 kohm");
+    ASSERT_TRUE(comesTrue([this] { return !complaints.isEmpty(); }));
+    EXPECT_THAT(complaints.first().toStdString(), HasSubstr("measured impedance is 299"));
+    EXPECT_EQ(desk.telemetry().state, InterlockState::Disarmed);
+}
+
+TEST_F(Desk, AnUnpluggedStimulatorFaultsAndTheSessionIsKept) {
+    RecordProperty("hazard", "H3");
+    open("sim:stimulator?fault=unplug@3s", 4);
+    arm();
+    ASSERT_TRUE(comesTo(InterlockState::Armed));
+    desk.drive(DriveSource::Manual, 1, 1);
+    ASSERT_TRUE(comesTo(InterlockState::Faulted));
+    const auto session = desk.open()->session;
+    desk.resetFault();
+    ASSERT_TRUE(comesTrue([this] { return !complaints.isEmpty(); }));
+    EXPECT_THAT(complaints.first().toStdString(), HasSubstr("fault is still there"));
+    desk.close();
+    ASSERT_TRUE(comesTrue([this] { return desk.activity() == Activity::Closed; }));
+    EXPECT_TRUE(std::filesystem::exists(session));
+}
+
+TEST_F(Desk, GivesCapturesUntilToldNotTo) {
+    open();
+    arm();
+    ASSERT_TRUE(comesTo(InterlockState::Armed));
+    desk.drive(DriveSource::Manual, 1, 1);
+    std::vector<std::shared_ptr<const Capture>> captures;
+    QObject::connect(&desk, &BenchDesk::captured, [&](std::shared_ptr<const Capture> c) { captures.push_back(c); });
+    ScopeSettings settings;
+    settings.sampleRate = Hertz(1e6);
+    settings.samples = 1000;
+    settings.triggerLevel = 2;
+    desk.runScope(settings, false);
+    ASSERT_TRUE(comesTrue([&] { return captures.size() >= 2; }));
+    EXPECT_EQ(captures.front()->samples(), 1000U);
+    desk.stopScope();
+    desk.runScope(settings, true);
+    const auto before = captures.size();
+    ASSERT_TRUE(comesTrue([&] { return captures.size() > before; }));
+    const auto trains = desk.telemetry().trainsDelivered;
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().trainsDelivered > trains + 2; }));
+    EXPECT_LE(captures.size(), before + 2) << "single takes one (and one may have been under way)";
+}
+
+TEST_F(Desk, RunsAProtocolAndTellsHowItEnded) {
+    std::shared_ptr<const gui::FinishedRun> ended;
+    QObject::connect(&desk, &BenchDesk::finished, [&](std::shared_ptr<const gui::FinishedRun> run) { ended = run; });
+    desk.run(
+        orderOf("protocol({ title: 'T', needs: ['stimulator', 'oscilloscope'], parameters: {} });\n"
+                "function run(p) { log('hello'); bench.arm(); bench.drive('manual', { roughness: 1, pressure: 1 });"
+                " record.trial('a', measure.train(bench.capture())); }"));
+    ASSERT_TRUE(comesTrue([&] { return ended != nullptr; }));
+    EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
+    EXPECT_EQ(ended->result.verdict(), "");
+    const auto feed = desk.takeRunFeed();
+    EXPECT_THAT(feed.log, testing::ElementsAre("hello"));
+    ASSERT_EQ(feed.trials.size(), 1U);
+    EXPECT_EQ(feed.trials[0]["condition"], "a");
+    EXPECT_EQ(feed.captures.size(), 1U);
+    EXPECT_EQ(desk.activity(), Activity::Closed);
+}
+
+TEST_F(Desk, StopEndsAScriptThatLoopsForEver) {
+    RecordProperty("hazard", "H10");
+    std::shared_ptr<const gui::FinishedRun> ended;
+    QObject::connect(&desk, &BenchDesk::finished, [&](std::shared_ptr<const gui::FinishedRun> run) { ended = run; });
+    desk.run(
+        orderOf("protocol({ title: 'T', needs: ['stimulator'], parameters: {} });\n"
+                "function run(p) { bench.arm(); log('armed'); for (;;) {} }"));
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().state == InterlockState::Armed; }));
+    desk.stop("test");
+    EXPECT_NE(desk.telemetry().state, InterlockState::Armed);
+    ASSERT_TRUE(comesTrue([&] { return ended != nullptr; }));
+    EXPECT_EQ(ended->result.verdict(), "stopped");
+}
+
+TEST_F(Desk, PutsAQuestionAndTakesOnlyAFittingAnswer) {
+    std::shared_ptr<const gui::FinishedRun> ended;
+    std::optional<OperatorQuestion> asked;
+    QObject::connect(&desk, &BenchDesk::finished, [&](std::shared_ptr<const gui::FinishedRun> run) { ended = run; });
+    QObject::connect(&desk.operatorDesk(), &gui::OperatorDesk::asked, &desk,
+                     [&](const OperatorQuestion& question) { asked = question; });
+    desk.run(
+        orderOf("protocol({ title: 'T', needs: [], parameters: {} });\n"
+                "function run(p) { log('got ' + operator.enter('room', 'Room temperature', "
+                "{ unit: 'degC', min: 10, max: 40 })); }"));
+    ASSERT_TRUE(comesTrue([&] { return asked.has_value(); }));
+    EXPECT_EQ(asked->text, "Room temperature");
+    EXPECT_FALSE(desk.operatorDesk().answer("99"));
+    EXPECT_TRUE(desk.operatorDesk().answer("21.5"));
+    ASSERT_TRUE(comesTrue([&] { return ended != nullptr; }));
+    EXPECT_THAT(desk.takeRunFeed().log, testing::ElementsAre("got 21.5"));
+}
+
+}  // namespace
+}  // namespace tacto::test
