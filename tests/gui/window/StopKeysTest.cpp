@@ -1,0 +1,98 @@
+// Esc, Pause and Space stop from wherever the focus is; Space types where text is typed (H6).
+#include <QCheckBox>
+#include <QDialog>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTest>
+#include <QVBoxLayout>
+#include <gtest/gtest.h>
+
+#include "app/gui/window/StopKeys.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+class Keys : public testing::Test {
+protected:
+    Keys() {
+        RecordProperty("hazard", "H6");
+        auto* layout = new QVBoxLayout(&window);
+        for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
+            layout->addWidget(widget);
+        QObject::connect(&button, &QPushButton::clicked, [this] { ++clicks; });
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+    }
+    ~Keys() override {
+        for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
+            widget->setParent(nullptr);
+    }
+    /// As a keyboard does it: to the window, which hands it to the focus.
+    void press(Qt::Key key, QWidget& focus, const QString& text = {}) {
+        focus.setFocus();
+        QTest::sendKeyEvent(QTest::Click, focus.window()->windowHandle(), key, text, Qt::NoModifier);
+        QCoreApplication::processEvents();
+    }
+    int stops = 0, clicks = 0;
+    gui::StopKeys keys{[this](const char*) { ++stops; }, nullptr};
+    QWidget window;
+    QPushButton button{"Run"};
+    QCheckBox check{"Check"};
+    QLineEdit line;
+    QSpinBox spin;
+};
+
+TEST_F(Keys, EscAndPauseStopFromEveryFocus) {
+    for (QWidget* focus : std::initializer_list<QWidget*>{&button, &check, &line, &spin}) {
+        for (const auto key : {Qt::Key_Escape, Qt::Key_Pause}) {
+            const int before = stops;
+            press(key, *focus);
+            EXPECT_GT(stops, before) << focus->metaObject()->className() << " " << key;
+        }
+    }
+}
+
+TEST_F(Keys, SpaceStopsAndPressesNothing) {
+    press(Qt::Key_Space, button, " ");
+    EXPECT_GE(stops, 1);
+    EXPECT_EQ(clicks, 0);
+    press(Qt::Key_Space, check, " ");
+    EXPECT_FALSE(check.isChecked());
+}
+
+TEST_F(Keys, SpaceTypesInATextField) {
+    line.setText("a");
+    press(Qt::Key_Space, line, " ");
+    EXPECT_EQ(line.text(), "a ");
+    EXPECT_EQ(stops, 0);
+}
+
+TEST_F(Keys, SpaceStopsInATextFieldThatTakesNoText) {
+    line.setReadOnly(true);
+    press(Qt::Key_Space, line, " ");
+    EXPECT_GE(stops, 1);
+}
+
+TEST_F(Keys, ReturnPressesTheFocusedButton) {
+    press(Qt::Key_Return, button);
+    EXPECT_EQ(clicks, 1);
+    press(Qt::Key_Return, check);
+    EXPECT_TRUE(check.isChecked());
+    EXPECT_EQ(stops, 0);
+}
+
+TEST_F(Keys, EscStopsFromAModalDialogAndClosesIt) {
+    QDialog dialog(&window);
+    QLineEdit text(&dialog);
+    dialog.setModal(true);
+    dialog.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
+    press(Qt::Key_Escape, text);
+    EXPECT_GE(stops, 1);
+    EXPECT_FALSE(dialog.isVisible());
+}
+
+}  // namespace
+}  // namespace tacto::test
