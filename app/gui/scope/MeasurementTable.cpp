@@ -1,0 +1,220 @@
+#include "app/gui/scope/MeasurementTable.h"
+
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+
+enum Statistic { kLast, kMean, kSd, kMin, kMax, kCount, kStatistics };
+
+QString statisticName(int statistic) {
+    switch (statistic) {
+        case kLast:
+            return QObject::tr("last");
+        case kMean:
+            return QObject::tr("mean");
+        case kSd:
+            return QObject::tr("s.d.");
+        case kMin:
+            return QObject::tr("min");
+        case kMax:
+            return QObject::tr("max");
+        default:
+            return QObject::tr("n");
+    }
+}
+
+double statisticOf(const RunningStatistics& s, int statistic) {
+    switch (statistic) {
+        case kLast:
+            return s.last();
+        case kMean:
+            return s.mean();
+        case kSd:
+            return s.sd();
+        case kMin:
+            return s.min();
+        case kMax:
+            return s.max();
+        default:
+            return static_cast<double>(s.n());
+    }
+}
+
+QString titled(QString name) {
+    if (!name.isEmpty()) name[0] = name[0].toUpper();
+    return name;
+}
+
+}  // namespace
+
+MeasurementTable::MeasurementTable(QWidget* parent)
+    : QWidget(parent),
+      table_(new QTableWidget(this)),
+      seen_(new QLabel(this)),
+      warnings_(new QLabel(this)),
+      reset_(new QPushButton(tr("Reset statistics"), this)) {
+    table_->setObjectName("measurements");
+    table_->setAccessibleName(tr("Measurements"));
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setSelectionMode(QAbstractItemView::ContiguousSelection);
+    table_->setShowGrid(false);
+    table_->setTabKeyNavigation(false);
+    table_->setFrameShape(QFrame::NoFrame);
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->setFont(digits(font()));
+    table_->setColumnCount(2 + static_cast<int>(kReadings));
+    QStringList titles{tr("Channel"), QString()};
+    for (std::size_t r = 0; r < kReadings; ++r) titles << readingName(static_cast<Reading>(r)).title;
+    table_->setHorizontalHeaderLabels(titles);
+    for (std::size_t r = 0; r < kReadings; ++r) {
+        auto* header = table_->horizontalHeaderItem(2 + static_cast<int>(r));
+        header->setToolTip(readingName(static_cast<Reading>(r)).explained);
+        header->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    }
+    table_->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    // Wide enough for "−12.34 mV·s" whatever comes: columns that jump with every capture cannot be read.
+    for (int c = 2; c < table_->columnCount(); ++c) {
+        table_->setColumnWidth(c, std::max(fontMetrics().horizontalAdvance("−000.00 mm"),
+                                           fontMetrics().horizontalAdvance(titles[c]) + 18));
+    }
+    reset_->setToolTip(tr("Forgets the captures seen so far; the next one is the first."));
+    connect(reset_, &QPushButton::clicked, this, &MeasurementTable::clear);
+    warnings_->setWordWrap(true);
+    warnings_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    warnings_->setObjectName("warnings");
+    auto* line = new QHBoxLayout;
+    line->addWidget(seen_, 1);
+    line->addWidget(reset_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+    layout->addLayout(line);
+    layout->addWidget(table_, 1);
+    layout->addWidget(warnings_);
+    refill();
+}
+
+void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings) {
+    const auto rows = statistics_.channels().size();
+    statistics_.add(measured);
+    if (rows != statistics_.channels().size() || statistics_.captures() == 1) layRows();
+    QStringList sentences;
+    for (const auto& warning : warnings) sentences << titled(QString::fromStdString(warning)) + ".";
+    warnings_->setText(sentences.join("\n"));
+    warnings_->setVisible(!sentences.isEmpty());
+    refill();
+}
+
+void MeasurementTable::clear() {
+    statistics_.clear();
+    warnings_->clear();
+    warnings_->hide();
+    table_->setRowCount(0);
+    refill();
+}
+
+void MeasurementTable::layRows() {
+    const auto& channels = statistics_.channels();
+    table_->setRowCount(static_cast<int>(channels.size()) * kStatistics);
+    for (int row = 0; row < table_->rowCount(); ++row) {
+        for (int c = 0; c < table_->columnCount(); ++c) {
+            auto* item = new QTableWidgetItem;
+            item->setTextAlignment((c < 2 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+            table_->setItem(row, c, item);
+        }
+        const auto& channel = channels[static_cast<std::size_t>(row / kStatistics)];
+        if (row % kStatistics == 0) table_->item(row, 0)->setText(titled(channel.name));
+        table_->item(row, 1)->setText(statisticName(row % kStatistics));
+    }
+    table_->resizeColumnToContents(0);
+    table_->resizeColumnToContents(1);
+    changeEvent(nullptr);
+}
+
+void MeasurementTable::fillRow(int row, const CaptureStatistics::Channel& channel, int statistic) {
+    for (std::size_t r = 0; r < kReadings; ++r) {
+        const auto reading = static_cast<Reading>(r);
+        const auto& its = channel.readings[r];
+        const double value = statisticOf(its, statistic);
+        const bool count =
+            statistic == kCount || (reading == Reading::Pulses && statistic != kMean && statistic != kSd);
+        auto* item = table_->item(row, 2 + static_cast<int>(r));
+        item->setText(count ? (std::isnan(value) ? "–" : QString::number(value, 'f', 0))
+                            : quantityText(shownFactor(reading) * value, unitOf(reading, channel.unit)));
+        item->setToolTip(std::isnan(value)
+                             ? (its.n() == 1
+                                    ? tr("One reading has no standard deviation.")
+                                    : tr("Nothing of this kind was measured. %1").arg(readingName(reading).explained))
+                             : QString());
+    }
+}
+
+void MeasurementTable::refill() {
+    const auto& channels = statistics_.channels();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        for (int s = 0; s < kStatistics; ++s) fillRow(static_cast<int>(c) * kStatistics + s, channels[c], s);
+    }
+    const auto n = static_cast<int>(statistics_.captures());
+    seen_->setText(n == 0 ? tr("Measurements appear with the first capture.") : tr("Over %n capture(s)", nullptr, n));
+    if (n > 0) seen_->setText(n == 1 ? tr("Over 1 capture") : tr("Over %1 captures").arg(n));
+    reset_->setEnabled(n > 0);
+    table_->setVisible(n > 0);
+}
+
+QString MeasurementTable::asText() const {
+    QStringList lines;
+    QStringList head;
+    for (int c = 0; c < table_->columnCount(); ++c) head << table_->horizontalHeaderItem(c)->text();
+    lines << head.join('\t');
+    for (int row = 0; row < table_->rowCount(); ++row) {
+        QStringList cells;
+        for (int c = 0; c < table_->columnCount(); ++c) cells << table_->item(row, c)->text();
+        cells[0] = table_->item(row - row % kStatistics, 0)->text();
+        lines << cells.join('\t');
+    }
+    return lines.join('\n');
+}
+
+void MeasurementTable::keyPressEvent(QKeyEvent* event) {
+    if (event->matches(QKeySequence::Copy)) {
+        QGuiApplication::clipboard()->setText(asText());
+        return;
+    }
+    QWidget::keyPressEvent(event);
+}
+
+void MeasurementTable::changeEvent(QEvent* event) {
+    if (event != nullptr) QWidget::changeEvent(event);
+    if (event != nullptr && event->type() != QEvent::PaletteChange) return;
+    // The newest reading stands out by weight, its channel by colour; the rest is quiet.
+    for (int row = 0; row < table_->rowCount(); ++row) {
+        const auto& channel = statistics_.channels()[static_cast<std::size_t>(row / kStatistics)];
+        for (int c = 0; c < table_->columnCount(); ++c) {
+            auto* item = table_->item(row, c);
+            const bool last = row % kStatistics == kLast;
+            auto font = table_->font();
+            font.setBold(last);
+            item->setFont(font);
+            item->setForeground(c == 0   ? (channel.unit == "A" ? colours().current : colours().voltage)
+                                : c == 1 ? colours().quiet
+                                         : colours().text);
+        }
+    }
+}
+
+}  // namespace tacto::gui

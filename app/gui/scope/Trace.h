@@ -1,0 +1,90 @@
+// Trace.h - one curve of the oscilloscope: a channel of a capture, or something calculated from it, with the pyramid
+// that makes it quick to draw and the edges that cursors snap to.
+//
+// A ShownCapture is made once, off the window's thread (10 million samples take a while to measure), and then only
+// looked at: everything here is constant once it is shared.
+//
+// Thread-safety: pure functions; shared objects are const.
+#pragma once
+
+#include <QString>
+#include <memory>
+#include <vector>
+
+#include "core/measure/MinMaxPyramid.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto::gui {
+
+/// One phase of a measured pulse, seconds on the session's time base.
+struct PhaseEdges {
+    double onset_s = 0;
+    double end_s = 0;
+    bool leading = true;  ///< intervals run from leading phase to leading phase
+};
+
+/// A pulse that was found and not measured, and why in a word.
+struct PulseMark {
+    double from_s = 0;
+    double to_s = 0;
+    QString why;
+};
+
+struct Trace {
+    QString key;    ///< "channel/voltage", "math/power", "reference/1": the same curve in every capture
+    QString title;  ///< "Voltage"
+    QString unit;   ///< "V", "A", "W", "C" or "" for logic
+    double rate_hz = 0;
+    double start_s = 0;  ///< of sample 0, on the session's time base
+    double zero_s = 0;   ///< the trigger of its capture: time 0 on the plot
+    std::shared_ptr<const std::vector<float>> samples;
+    MinMaxPyramid pyramid;  ///< over `samples`
+    double low = 0;         ///< the input's range; equal = unknown. At or beyond it a sample is clipped.
+    double high = 0;
+    std::vector<PhaseEdges> edges;  ///< of the measured pulses, in time order
+    std::vector<PulseMark> marks;   ///< of the others
+    std::vector<double> levels;     ///< where it rests, for level cursors
+
+    [[nodiscard]] std::size_t size() const noexcept { return samples ? samples->size() : 0; }
+    [[nodiscard]] double end_s() const noexcept { return start_s + static_cast<double>(size()) / rate_hz; }
+    /// Sample nearest to a time on the session's time base; NaN outside.
+    [[nodiscard]] double valueAt(double t_s) const noexcept;
+};
+using TracePtr = std::shared_ptr<const Trace>;
+
+/// What to calculate beside the channels.
+struct MathWish {
+    bool power = false;   ///< first channel in V times first in A
+    bool charge = false;  ///< of the first channel in A
+    QString minuend;      ///< key of a channel; empty for no difference
+    QString subtrahend;   ///< key of a channel of the same unit, or empty when `reference` is subtracted
+    TracePtr reference;
+};
+
+struct ShownCapture {
+    std::shared_ptr<const Capture> capture;
+    QString source;                               ///< "" for the bench's own, else the file's name
+    double zero_s = 0;                            ///< trigger, or the record's begin where there was none
+    std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
+    std::vector<ChannelMeasurement> measurement;  ///< of the channels
+    std::vector<std::string> warnings;            ///< of the measurement
+
+    [[nodiscard]] TracePtr trace(const QString& key) const;
+    [[nodiscard]] double end_s() const noexcept;
+};
+using ShownPtr = std::shared_ptr<const ShownCapture>;
+
+[[nodiscard]] QString channelKey(const std::string& name);
+
+/// Measures every channel, builds every pyramid. Takes as long as the capture is; call it off the window's thread.
+[[nodiscard]] ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
+                                      const MathWish& wish);
+/// The same measurement with other calculations.
+[[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathWish& wish);
+
+/// A trace of its own: `samples` with a pyramid over them.
+[[nodiscard]] std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const QString& unit,
+                                               std::shared_ptr<const std::vector<float>> samples, double rate_hz,
+                                               double start_s, double zero_s);
+
+}  // namespace tacto::gui

@@ -1,0 +1,81 @@
+#include "app/gui/scope/Viewport.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/scope/Steps.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kShortest_s = 1e-9;  // a division
+constexpr double kLongest_s = 1e4;
+constexpr double kFinest = 1e-12;  // a division, in V, A, W or C
+constexpr double kCoarsest = 1e6;
+constexpr qint64 kOneTurn_ms = 700;
+constexpr std::size_t kRemembered = 100;
+
+double stepWithin(double value, double low, double high) {
+    return std::isfinite(value) ? std::clamp(value, low, high) : low;
+}
+
+}  // namespace
+
+double onGrid(double value, double perDivision) {
+    const double grain = perDivision / 50;
+    return std::round(value / grain) * grain;
+}
+
+Viewport zoomedInTime(Viewport view, int steps, double anchor_s) {
+    const double before = view.perDivision_s;
+    view.perDivision_s = stepWithin(stepAlong(before, steps), kShortest_s, kLongest_s);
+    view.left_s = onGrid(anchor_s - (anchor_s - view.left_s) * view.perDivision_s / before, view.perDivision_s);
+    return view;
+}
+
+Viewport showingTime(Viewport view, double from_s, double to_s) {
+    view.perDivision_s =
+        stepWithin(stepNotBelow(std::max(to_s - from_s, kShortest_s) / kDivisionsAcross), kShortest_s, kLongest_s);
+    view.left_s = onGrid((from_s + to_s) / 2 - view.width_s() / 2, view.perDivision_s);
+    return view;
+}
+
+LaneScale zoomedInLevel(const LaneScale& lane, int steps, double anchor) {
+    LaneScale zoomed;
+    zoomed.perDivision = stepWithin(stepAlong(lane.perDivision, steps), kFinest, kCoarsest);
+    zoomed.position = onGrid(anchor - (anchor - lane.position) * lane.perDivision / zoomed.perDivision, 1);
+    return zoomed;
+}
+
+LaneScale showingHeights(const LaneScale& lane, double bottom, double top) {
+    const double low = (bottom - lane.position) * lane.perDivision;
+    const double high = (top - lane.position) * lane.perDivision;
+    return fittingLevels(low, high, 0, kDivisionsUp);
+}
+
+LaneScale fittingLevels(double low, double high, double middle, double height) {
+    LaneScale lane;
+    lane.perDivision = stepWithin(stepNotBelow(std::max((high - low) / height, kFinest)), kFinest, kCoarsest);
+    lane.position = onGrid(middle - (low + high) / 2 / lane.perDivision, 1);
+    return lane;
+}
+
+void ViewHistory::remember(const Viewport& view, const QString& kind) {
+    const bool sameTurn = kind == lastKind_ && since_.isValid() && since_.elapsed() < kOneTurn_ms;
+    lastKind_ = kind;
+    since_.start();
+    if (sameTurn && !views_.empty()) return;
+    views_.push_back(view);
+    if (views_.size() > kRemembered) views_.erase(views_.begin());
+}
+
+std::optional<Viewport> ViewHistory::undo() {
+    lastKind_.clear();
+    if (views_.empty()) return std::nullopt;
+    auto view = std::move(views_.back());
+    views_.pop_back();
+    return view;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,148 @@
+#include "core/measure/MinMaxPyramid.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tacto {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Extremes of one whole block. Sixteen lanes side by side and no branch, so that a compiler turns them into vectors;
+/// a comparison with NaN is false, so NaN never becomes an extreme.
+Envelope ofBlock(const float* samples) noexcept {
+    constexpr std::size_t kLanes = 16;
+    static_assert(MinMaxPyramid::kBlock % kLanes == 0);
+    std::array<float, kLanes> low;
+    std::array<float, kLanes> high;
+    std::array<std::int32_t, kLanes> missing;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        low[lane] = kInfinity;
+        high[lane] = -kInfinity;
+        missing[lane] = 0;
+    }
+    for (std::size_t row = 0; row < MinMaxPyramid::kBlock; row += kLanes) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const float x = samples[row + lane];
+            low[lane] = x < low[lane] ? x : low[lane];
+            high[lane] = x > high[lane] ? x : high[lane];
+            missing[lane] |= x != x ? 1 : 0;
+        }
+    }
+    for (std::size_t half = kLanes / 2; half > 0; half /= 2) {
+        for (std::size_t lane = 0; lane < half; ++lane) {
+            low[lane] = std::min(low[lane], low[lane + half]);
+            high[lane] = std::max(high[lane], high[lane + half]);
+            missing[lane] |= missing[lane + half];
+        }
+    }
+    return {low[0], high[0], missing[0] != 0};
+}
+
+void mergeSamples(std::span<const float> samples, Envelope& into) noexcept {
+    bool missing = false;
+    for (const float x : samples) {
+        into.low = x < into.low ? x : into.low;
+        into.high = x > into.high ? x : into.high;
+        missing |= x != x;
+    }
+    into.gap |= missing;
+}
+
+constexpr std::size_t ceilDivided(std::size_t value, std::size_t by) noexcept { return (value + by - 1) / by; }
+
+}  // namespace
+
+void MinMaxPyramid::Level::resize(std::size_t blocks) {
+    low.resize(blocks);
+    high.resize(blocks);
+    gap.resize(blocks);
+}
+
+void MinMaxPyramid::clear() noexcept {
+    record_ = {};
+    levels_.clear();
+}
+
+void MinMaxPyramid::extend(std::span<const float> record) {
+    if (record.size() < record_.size()) clear();
+    record_ = record;
+    std::size_t blocks = record.size() / kBlock;
+    if (blocks == 0) return;
+    if (levels_.empty()) levels_.emplace_back();
+    {
+        auto& lowest = levels_.front();
+        const std::size_t known = lowest.size();
+        lowest.resize(blocks);
+        for (std::size_t b = known; b < blocks; ++b) {
+            const auto found = ofBlock(record.data() + b * kBlock);
+            lowest.low[b] = found.low;
+            lowest.high[b] = found.high;
+            lowest.gap[b] = found.gap ? 1 : 0;
+        }
+    }
+    for (std::size_t above = 1; (blocks /= kFan) > 0; ++above) {
+        if (above == levels_.size()) levels_.emplace_back();
+        auto& level = levels_[above];
+        const auto& below = levels_[above - 1];
+        const std::size_t known = level.size();
+        level.resize(blocks);
+        for (std::size_t b = known; b < blocks; ++b) {
+            Envelope merged;
+            mergeBlocks(below, b * kFan, (b + 1) * kFan, merged);
+            level.low[b] = merged.low;
+            level.high[b] = merged.high;
+            level.gap[b] = merged.gap ? 1 : 0;
+        }
+    }
+}
+
+void MinMaxPyramid::mergeBlocks(const Level& level, std::size_t first, std::size_t last,
+                                Envelope& into) const noexcept {
+    for (std::size_t b = first; b < last; ++b) {
+        into.low = std::min(into.low, level.low[b]);
+        into.high = std::max(into.high, level.high[b]);
+        into.gap |= level.gap[b] != 0;
+    }
+}
+
+Envelope MinMaxPyramid::over(std::size_t first, std::size_t last) const noexcept {
+    Envelope result;
+    last = std::min(last, record_.size());
+    if (first >= last) return result;
+    std::size_t from = ceilDivided(first, kBlock);
+    std::size_t to = last / kBlock;
+    if (from >= to) {
+        mergeSamples(record_.subspan(first, last - first), result);
+        return result;
+    }
+    mergeSamples(record_.subspan(first, from * kBlock - first), result);
+    mergeSamples(record_.subspan(to * kBlock, last - to * kBlock), result);
+    for (std::size_t at = 0; at < levels_.size(); ++at) {
+        const std::size_t upFrom = ceilDivided(from, kFan);
+        const std::size_t upTo = to / kFan;
+        if (upFrom >= upTo) {
+            mergeBlocks(levels_[at], from, to, result);
+            break;
+        }
+        mergeBlocks(levels_[at], from, upFrom * kFan, result);
+        mergeBlocks(levels_[at], upTo * kFan, to, result);
+        from = upFrom;
+        to = upTo;
+    }
+    return result;
+}
+
+void MinMaxPyramid::columns(std::size_t first, std::size_t last, std::span<Envelope> out) const noexcept {
+    last = std::min(last, record_.size());
+    const std::size_t wide = last > first ? last - first : 0;
+    const std::size_t n = out.size();
+    // ⌊k·wide/n⌋ without the product, which a long record would overflow on a 32-bit size.
+    const std::size_t whole = n > 0 ? wide / n : 0;
+    const std::size_t rest = n > 0 ? wide % n : 0;
+    const auto edge = [&](std::size_t k) { return first + k * whole + k * rest / n; };
+    for (std::size_t k = 0; k < n; ++k) out[k] = over(edge(k), edge(k + 1));
+}
+
+}  // namespace tacto
