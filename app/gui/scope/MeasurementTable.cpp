@@ -170,8 +170,9 @@ void MeasurementTable::refill() {
         for (int s = 0; s < kStatistics; ++s) fillRow(static_cast<int>(c) * kStatistics + s, channels[c], s);
     }
     const auto n = static_cast<int>(statistics_.captures());
-    seen_->setText(n == 0 ? tr("Measurements appear with the first capture.") : tr("Over %n capture(s)", nullptr, n));
-    if (n > 0) seen_->setText(n == 1 ? tr("Over 1 capture") : tr("Over %1 captures").arg(n));
+    seen_->setText(n == 0   ? tr("Measurements appear with the first capture.")
+                   : n == 1 ? tr("Over 1 capture")
+                            : tr("Over %1 captures").arg(n));
     reset_->setEnabled(n > 0);
     table_->setVisible(n > 0);
 }

@@ -153,7 +153,8 @@ void ScopeView::fitLanes(Viewport& view) const {
             high = middle + least / 2;
         }
         const double middle = l->shown ? kHalf - (place++ + 0.5) * height : 0;
-        view.lanes[l->key] = fittingLevels(low, high, middle, height * 0.92);
+        // Lanes may touch: half a division more would often halve them.
+        view.lanes[l->key] = fittingLevels(low, high, middle, height * (count > 1 ? 1.08 : 0.95));
     }
 }
 

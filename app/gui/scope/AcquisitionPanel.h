@@ -1,0 +1,58 @@
+// AcquisitionPanel.h - what the next capture is to be: on what it triggers, how long it is, how fine, in which ranges.
+//
+// In Auto the level follows the commanded amplitude and is shown, not set.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "core/devices/Oscilloscope.h"
+
+class QComboBox;
+class QLabel;
+class QSpinBox;
+
+namespace tacto::gui {
+
+class QuantitySpin;
+
+class AcquisitionPanel final : public QWidget {
+    Q_OBJECT
+public:
+    explicit AcquisitionPanel(QWidget* parent = nullptr);
+
+    /// Of the oscilloscope that is open; without one the last stay.
+    void setTraits(const ScopeTraits& traits);
+    /// As set here, within what the oscilloscope can do.
+    [[nodiscard]] ScopeSettings settings() const;
+    [[nodiscard]] bool triggersOnCurrent() const;
+    /// V or A.
+    void setLevel(double level);
+    void setPreTrigger(double fraction);
+    /// The level is not the user's now.
+    void setLevelHeld(bool held);
+
+signals:
+    void changed();
+
+private:
+    QComboBox* combo(const QString& name, const QString& tip);
+    void fillRates();
+    void sourceChanged();
+    void say();
+    [[nodiscard]] double rate_hz() const;
+
+    ScopeTraits traits_;
+    QComboBox* source_;
+    QuantitySpin* level_;
+    QSpinBox* preTrigger_;
+    QComboBox* length_;
+    QComboBox* rate_;
+    QComboBox* volts_;
+    QComboBox* amps_;
+    QLabel* said_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,109 @@
+#include "app/gui/scope/CapturePipe.h"
+
+#include <QFileInfo>
+
+#include "app/gui/scope/ScopeExport.h"
+#include "core/measure/CaptureFile.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kMostPending = 8;
+
+}  // namespace
+
+CapturePipe::CapturePipe(QObject* parent) : QObject(parent) { thread_.setMaxThreadCount(1); }
+
+CapturePipe::~CapturePipe() {
+    wantedOpen_ = 0;
+    thread_.clear();
+    thread_.waitForDone();
+}
+
+void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
+    if (!capture || capture->samples() == 0) return;
+    if (pending_ >= kMostPending) {
+        ++skipped_;
+        return;
+    }
+    ++pending_;
+    thread_.start([this, capture = std::move(capture), source, wish = wish_]() mutable {
+        auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, wish));
+        shown->source = source;
+        QMetaObject::invokeMethod(
+            this,
+            [this, shown] {
+                --pending_;
+                emit prepared(shown);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void CapturePipe::open(const QString& path) {
+    const auto number = ++openNumber_;
+    wantedOpen_ = number;
+    opening_ = true;
+    emit openingChanged();
+    thread_.start([this, number, path, wish = wish_] {
+        auto read = readCapture(path.toStdString());
+        ShownPtr shown;
+        if (read && wantedOpen_ == number) {
+            auto its = std::const_pointer_cast<ShownCapture>(
+                prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, wish));
+            its->source = QFileInfo(path).fileName();
+            its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
+            shown = its;
+        }
+        const auto why = read ? QString() : QString::fromStdString(read.error().message);
+        QMetaObject::invokeMethod(
+            this,
+            [this, number, shown, why] {
+                if (wantedOpen_ != number) return;
+                opening_ = false;
+                emit openingChanged();
+                if (shown) {
+                    emit prepared(shown);
+                } else {
+                    emit failed(tr("The capture could not be opened: %1. What is shown stays.").arg(why));
+                }
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void CapturePipe::cancelOpen() {
+    if (!opening_) return;
+    wantedOpen_ = 0;
+    opening_ = false;
+    emit openingChanged();
+}
+
+void CapturePipe::recalculate(const ShownPtr& shown) {
+    if (!shown) return;
+    thread_.start([this, shown, wish = wish_] {
+        const auto again = withMath(*shown, wish);
+        QMetaObject::invokeMethod(
+            this, [this, again] { emit recalculated(again); }, Qt::QueuedConnection);
+    });
+}
+
+void CapturePipe::save(const ShownPtr& shown, double from_s, double to_s, const QString& path) {
+    if (!shown) return;
+    thread_.start([this, shown, from_s, to_s, path] {
+        const auto wrong = saveData(*shown, from_s, to_s, path);
+        QMetaObject::invokeMethod(
+            this,
+            [this, wrong, path] {
+                if (wrong) {
+                    emit failed(*wrong);
+                } else {
+                    emit saved(path);
+                }
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,57 @@
+// CapturePipe.h - from a capture to something that can be looked at, on a thread of its own: reading files, measuring,
+// building pyramids. Nothing here makes the window wait.
+//
+// Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and is told
+// so by skipped(); the session file is not this one's business.
+//
+// Thread-safety: the GUI thread; results arrive there.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QThreadPool>
+#include <atomic>
+#include <cstdint>
+
+#include "app/gui/scope/Trace.h"
+
+namespace tacto::gui {
+
+class CapturePipe final : public QObject {
+    Q_OBJECT
+public:
+    explicit CapturePipe(QObject* parent = nullptr);
+    ~CapturePipe() override;  ///< waits for the work at hand
+
+    void setWish(const MathWish& wish) { wish_ = wish; }
+    void take(std::shared_ptr<const Capture> capture, const QString& source = {});
+    void open(const QString& path);
+    /// A file that is being read is not shown when it comes.
+    void cancelOpen();
+    /// The same capture with the present wish.
+    void recalculate(const ShownPtr& shown);
+
+    /// saveData() in the background; ends with saved() or failed().
+    void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
+
+    [[nodiscard]] bool opening() const noexcept { return opening_; }
+    [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
+
+signals:
+    void prepared(tacto::gui::ShownPtr shown);
+    void recalculated(tacto::gui::ShownPtr shown);
+    void openingChanged();
+    void saved(const QString& path);
+    void failed(const QString& what);
+
+private:
+    QThreadPool thread_;  // one, so that results come in order
+    MathWish wish_;
+    int pending_ = 0;
+    std::uint64_t skipped_ = 0;
+    bool opening_ = false;
+    std::uint64_t openNumber_ = 0;
+    std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
+};
+
+}  // namespace tacto::gui

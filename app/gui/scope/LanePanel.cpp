@@ -1,0 +1,151 @@
+#include "app/gui/scope/LanePanel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/Steps.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+/// Steps from a thousandth to a thousandfold of the present one's decade would be too many to choose from.
+void offerScales(QComboBox& box, double now, const QString& unit) {
+    const QSignalBlocker quiet(&box);
+    if (box.findData(now) < 0) {
+        box.clear();
+        for (const double step : stepsBetween(now / 1200, now * 1200)) {
+            box.addItem(QObject::tr("%1/div").arg(settingText(step, unit)), step);
+        }
+    }
+    int at = 0;
+    for (int i = 0; i < box.count(); ++i) {
+        if (std::abs(box.itemData(i).toDouble() - now) < std::abs(box.itemData(at).toDouble() - now)) at = i;
+    }
+    box.setCurrentIndex(at);
+}
+
+}  // namespace
+
+LanePanel::LanePanel(ScopeView& view, QWidget* parent)
+    : QWidget(parent), view_(view), grid_(new QGridLayout), store_(new QPushButton(tr("Store as reference"), this)) {
+    store_->setToolTip(tr("Keeps the lane that is worked with as it looks now, to compare with what comes."));
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    grid_->setHorizontalSpacing(4);
+    grid_->setVerticalSpacing(3);
+    grid_->setColumnStretch(1, 1);
+    layout->addLayout(grid_);
+    layout->addWidget(store_);
+    connect(store_, &QPushButton::clicked, this, [this] { view_.storeReference(); });
+    connect(&view_, &ScopeView::lanesChanged, this, &LanePanel::build);
+    connect(&view_, &ScopeView::viewChanged, this, &LanePanel::follow);
+    connect(&view_, &ScopeView::activeLaneChanged, this, &LanePanel::follow);
+    build();
+}
+
+void LanePanel::build() {
+    const auto lanes = view_.lanes();
+    // The same lanes in other colours or shown otherwise need no new widgets (and keep the focus).
+    const bool same = lanes.size() == rows_.size() &&
+                      std::all_of(lanes.begin(), lanes.end(), [&](const LaneInfo& l) { return rows_.contains(l.key); });
+    if (!same) {
+        while (auto* item = grid_->takeAt(0)) {
+            if (item->widget() != nullptr) item->widget()->deleteLater();
+            delete item;
+        }
+        rows_.clear();
+        int row = 0;
+        for (const auto& l : lanes) addRow(l, row++);
+    }
+    follow();
+}
+
+void LanePanel::addRow(const LaneInfo& lane, int row) {
+    auto& its = rows_[lane.key];
+    const auto key = lane.key;
+    its.letter = new QToolButton(this);
+    its.letter->setText(lane.letter);
+    its.letter->setCheckable(true);
+    its.letter->setAccessibleName(tr("Work with %1").arg(lane.title));
+    its.letter->setToolTip(
+        tr("Works with this lane: Ctrl+wheel, level cursors, edges to snap to and the right axis are "
+           "its own."));
+    connect(its.letter, &QToolButton::clicked, this, [this, key] {
+        view_.setActiveLane(key);
+        follow();
+    });
+    its.shown = new QCheckBox(lane.title, this);
+    its.shown->setToolTip(tr("Shows or hides this lane."));
+    connect(its.shown, &QCheckBox::clicked, this, [this, key](bool on) { view_.setLaneShown(key, on); });
+    grid_->addWidget(its.letter, 2 * row, 0);
+    if (lane.reference) {
+        its.remove = new QToolButton(this);
+        its.remove->setText(tr("Remove"));
+        its.remove->setAccessibleName(tr("Remove %1").arg(lane.title));
+        its.remove->setToolTip(tr("Forgets this reference."));
+        connect(its.remove, &QToolButton::clicked, this, [this, key] { view_.removeReference(key); });
+        grid_->addWidget(its.shown, 2 * row, 1);
+        grid_->addWidget(its.remove, 2 * row, 2, Qt::AlignRight);
+        return;
+    }
+    grid_->addWidget(its.shown, 2 * row, 1, 1, 2);
+    its.scale = new QComboBox(this);
+    its.scale->setAccessibleName(tr("Scale of %1").arg(lane.title));
+    its.scale->setToolTip(tr("How much one of the eight divisions is. Ctrl+wheel over the screen does the same."));
+    connect(its.scale, &QComboBox::activated, this,
+            [this, key, box = its.scale] { view_.setLaneScale(key, box->currentData().toDouble()); });
+    its.position = new QDoubleSpinBox(this);
+    its.position->setAccessibleName(tr("Offset of %1").arg(lane.title));
+    its.position->setToolTip(tr("Where its zero lies: divisions above the middle. Or drag its letter on the screen."));
+    its.position->setRange(-1000, 1000);
+    its.position->setDecimals(2);
+    its.position->setSingleStep(0.5);
+    its.position->setSuffix(tr(" div"));
+    its.position->setKeyboardTracking(false);
+    its.position->setAlignment(Qt::AlignRight);
+    its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 32);
+    connect(its.position, &QDoubleSpinBox::valueChanged, this,
+            [this, key](double value) { view_.setLanePosition(key, value); });
+    grid_->addWidget(its.scale, 2 * row + 1, 0, 1, 2);
+    grid_->addWidget(its.position, 2 * row + 1, 2);
+}
+
+void LanePanel::follow() {
+    bool canStore = false;
+    for (const auto& lane : view_.lanes()) {
+        const auto found = rows_.find(lane.key);
+        if (found == rows_.end()) continue;
+        auto& its = found->second;
+        const bool active = lane.key == view_.activeLane();
+        canStore = canStore || (active && !lane.reference);
+        its.letter->setText(lane.letter);
+        its.letter->setChecked(active);
+        auto palette = QPalette();
+        palette.setColor(QPalette::ButtonText, active ? colours().base : lane.colour);
+        if (active) palette.setColor(QPalette::Button, lane.colour);
+        its.letter->setPalette(palette);
+        its.shown->setText(lane.title);
+        its.shown->setChecked(lane.shown);
+        if (its.scale == nullptr) continue;
+        offerScales(*its.scale, lane.scale.perDivision, lane.unit);
+        const QSignalBlocker quiet(its.position);
+        if (!its.position->hasFocus() || std::abs(its.position->value() - lane.scale.position) > 5e-3) {
+            its.position->setValue(lane.scale.position);
+        }
+    }
+    store_->setEnabled(canStore && !view_.roll());
+}
+
+}  // namespace tacto::gui

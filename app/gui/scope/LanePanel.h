@@ -1,0 +1,46 @@
+// LanePanel.h - a row per lane: which one is worked with, whether it shows, its scale and offset; and the references.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <map>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QGridLayout;
+class QPushButton;
+class QToolButton;
+
+namespace tacto::gui {
+
+class ScopeView;
+struct LaneInfo;
+
+class LanePanel final : public QWidget {
+    Q_OBJECT
+public:
+    /// `view` outlives this.
+    LanePanel(ScopeView& view, QWidget* parent);
+
+private:
+    struct Row {
+        QToolButton* letter = nullptr;
+        QCheckBox* shown = nullptr;
+        QComboBox* scale = nullptr;          ///< null for a reference
+        QDoubleSpinBox* position = nullptr;  ///< null for a reference
+        QToolButton* remove = nullptr;       ///< of a reference
+    };
+    void build();
+    void addRow(const LaneInfo& lane, int row);
+    void follow();
+
+    ScopeView& view_;
+    QGridLayout* grid_;
+    QPushButton* store_;
+    std::map<QString, Row> rows_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,33 @@
+// QuantitySpin.h - a number with its unit, as people write it: "2 V", "15 mA", "-1.5 ms".
+//
+// The value is in the unit given (V, A, s); any prefix may be typed. Steps follow the size of the number.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <optional>
+
+namespace tacto::gui {
+
+/// "1.5 ms" in s is 0.0015; a number alone is in `unit`. Nothing when it is no quantity of that unit.
+[[nodiscard]] std::optional<double> parseQuantity(const QString& text, const QString& unit);
+
+class QuantitySpin final : public QDoubleSpinBox {
+    Q_OBJECT
+public:
+    QuantitySpin(const QString& unit, double low, double high, QWidget* parent = nullptr);
+    void setUnit(const QString& unit, double low, double high);
+    [[nodiscard]] QString unit() const { return unit_; }
+
+    QString textFromValue(double value) const override;
+    double valueFromText(const QString& text) const override;
+    QValidator::State validate(QString& text, int& at) const override;
+    void stepBy(int steps) override;
+    QSize sizeHint() const override;
+
+private:
+    QString unit_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,115 @@
+#include "app/gui/scope/ViewPanel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QSignalBlocker>
+#include <cmath>
+
+#include "app/gui/scope/QuantitySpin.h"
+#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/Steps.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
+    : QWidget(parent),
+      view_(view),
+      base_(new QComboBox(this)),
+      centre_(new QuantitySpin("s", -1e7, 1e7, this)),
+      persistence_(new QComboBox(this)),
+      power_(new QCheckBox(tr("Power V·I"), this)),
+      charge_(new QCheckBox(tr("Charge ∫I dt"), this)),
+      difference_(new QComboBox(this)),
+      spectrum_(new QCheckBox(tr("Spectrum"), this)) {
+    base_->setAccessibleName(tr("Time base"));
+    base_->setToolTip(tr("How much time one of the ten divisions is. The wheel over the screen does the same."));
+    for (const double s : stepsBetween(10e-9, 100)) base_->addItem(tr("%1/div").arg(settingText(s, "s")), s);
+    centre_->setAccessibleName(tr("Time position"));
+    centre_->setToolTip(tr("The time in the middle of the screen. Dragging the screen does the same."));
+    persistence_->setAccessibleName(tr("Captures that stay"));
+    persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: what jitters shows as a band."));
+    persistence_->addItem(tr("newest only"), 0);
+    for (const int n : {4, 8, 16, ScopeView::kMostBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
+    power_->setToolTip(tr("Voltage times current, sample by sample, in watts."));
+    charge_->setToolTip(
+        tr("The current added up from the record's begin, in coulombs: a balanced pulse returns to "
+           "where it began. After missing samples it begins again at zero."));
+    difference_->setAccessibleName(tr("Difference"));
+    difference_->setToolTip(tr("One channel minus another, or minus a stored reference of the same unit."));
+    spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
+    auto* form = new QFormLayout(this);
+    form->setContentsMargins(0, 0, 0, 0);
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form->addRow(tr("Time base"), base_);
+    form->addRow(tr("Middle"), centre_);
+    form->addRow(tr("Show"), persistence_);
+    form->addRow(power_);
+    form->addRow(charge_);
+    form->addRow(tr("Difference"), difference_);
+    form->addRow(spectrum_);
+    connect(base_, &QComboBox::activated, this, [this] { view_.setTimePerDivision(base_->currentData().toDouble()); });
+    connect(centre_, &QDoubleSpinBox::valueChanged, this, [this](double t) { view_.setTimeCentre(t); });
+    connect(persistence_, &QComboBox::activated, this,
+            [this] { view_.setPersistence(persistence_->currentData().toInt()); });
+    connect(power_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
+    connect(charge_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
+    connect(difference_, &QComboBox::activated, this, &ViewPanel::wishChanged);
+    connect(spectrum_, &QCheckBox::toggled, this, &ViewPanel::spectrumToggled);
+    connect(&view_, &ScopeView::viewChanged, this, &ViewPanel::follow);
+    connect(&view_, &ScopeView::lanesChanged, this, &ViewPanel::offerDifferences);
+    offerDifferences();
+    follow();
+}
+
+void ViewPanel::follow() {
+    const auto& v = view_.viewport();
+    int at = 0;
+    for (int i = 0; i < base_->count(); ++i) {
+        const auto off = [&](int k) { return std::abs(base_->itemData(k).toDouble() - v.perDivision_s); };
+        if (off(i) < off(at)) at = i;
+    }
+    base_->setCurrentIndex(at);
+    const QSignalBlocker quiet(centre_);
+    centre_->setValue(v.left_s + v.width_s() / 2);
+}
+
+void ViewPanel::offerDifferences() {
+    const auto chosen = difference_->currentData();
+    const QSignalBlocker quiet(difference_);
+    difference_->clear();
+    difference_->addItem(tr("none"), QStringList());
+    const auto lanes = view_.lanes();
+    for (const auto& a : lanes) {
+        if (!a.key.startsWith("channel/")) continue;
+        for (const auto& b : lanes) {
+            if (a.key == b.key || a.unit != b.unit || b.key.startsWith("math/")) continue;
+            difference_->addItem(tr("%1 − %2").arg(a.letter, b.letter), QStringList{a.key, b.key});
+        }
+    }
+    const int same = difference_->findData(chosen);
+    difference_->setCurrentIndex(std::max(0, same));
+    difference_->setEnabled(difference_->count() > 1);
+    if (same < 0 && !chosen.toStringList().isEmpty()) emit wishChanged();
+}
+
+MathWish ViewPanel::wish() const {
+    MathWish wish;
+    wish.power = power_->isChecked();
+    wish.charge = charge_->isChecked();
+    const auto difference = difference_->currentData().toStringList();
+    if (difference.size() == 2) {
+        wish.minuend = difference[0];
+        if (difference[1].startsWith("reference/")) {
+            wish.reference = view_.trace(difference[1]);
+        } else {
+            wish.subtrahend = difference[1];
+        }
+    }
+    return wish;
+}
+
+bool ViewPanel::wantsSpectrum() const { return spectrum_->isChecked(); }
+
+}  // namespace tacto::gui

@@ -1,0 +1,44 @@
+// ViewPanel.h - time base and position, how many captures stay on the screen, what is calculated, the spectrum.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+
+#include "app/gui/scope/Trace.h"
+
+class QCheckBox;
+class QComboBox;
+
+namespace tacto::gui {
+
+class QuantitySpin;
+class ScopeView;
+
+class ViewPanel final : public QWidget {
+    Q_OBJECT
+public:
+    /// `view` outlives this.
+    ViewPanel(ScopeView& view, QWidget* parent);
+    [[nodiscard]] MathWish wish() const;
+    [[nodiscard]] bool wantsSpectrum() const;
+
+signals:
+    void wishChanged();
+    void spectrumToggled(bool on);
+
+private:
+    void follow();
+    void offerDifferences();
+
+    ScopeView& view_;
+    QComboBox* base_;
+    QuantitySpin* centre_;
+    QComboBox* persistence_;
+    QCheckBox* power_;
+    QCheckBox* charge_;
+    QComboBox* difference_;
+    QCheckBox* spectrum_;
+};
+
+}  // namespace tacto::gui
