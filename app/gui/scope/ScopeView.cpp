@@ -155,7 +155,7 @@ void ScopeView::takeLanes() {
     }
 }
 
-void ScopeView::removeLane(const QString& key) {
+void ScopeView::removeLane(QString key) {
     const auto found = std::find_if(lanes_.begin(), lanes_.end(), [&](const auto& l) { return l->key == key; });
     if (found == lanes_.end()) return;
     for (auto* graph : (*found)->behind) removePlottable(graph);

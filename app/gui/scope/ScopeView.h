@@ -146,7 +146,7 @@ private:
     [[nodiscard]] Lane* gripLane(int number);
     void fitLanes(Viewport& view) const;
     void fillGraphs();
-    void removeLane(const QString& key);
+    void removeLane(QString key);  // by value: the lane that owns it goes
     /// Becomes the view, after remembering the present one under `kind`.
     void go(const Viewport& next, const QString& kind);
     void apply();

@@ -62,7 +62,7 @@ LaneScale fittingLevels(double low, double high, double middle, double height) {
 }
 
 void ViewHistory::remember(const Viewport& view, const QString& kind) {
-    const bool sameTurn = kind == lastKind_ && since_.isValid() && since_.elapsed() < kOneTurn_ms;
+    const bool sameTurn = !kind.isEmpty() && kind == lastKind_ && since_.isValid() && since_.elapsed() < kOneTurn_ms;
     lastKind_ = kind;
     since_.start();
     if (sameTurn && !views_.empty()) return;

@@ -45,7 +45,7 @@ struct Viewport {
 /// The smallest scale with which low..high fits into `height` divisions around `middle`.
 [[nodiscard]] LaneScale fittingLevels(double low, double high, double middle, double height);
 
-/// Views to go back to. Turns of the same kind that follow within moments are one: a turn of the wheel is undone whole.
+/// Views to go back to. Turns of the same kind that follow within moments are one: a turn of the wheel is undone whole. An empty kind is never joined to another.
 class ViewHistory {
 public:
     void remember(const Viewport& view, const QString& kind);

@@ -1,0 +1,253 @@
+// The oscilloscope as a person uses it: with the simulated bench, with files, by keys and mouse.
+#include <QClipboard>
+#include <QComboBox>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/scope/MeasurementTable.h"
+#include "app/gui/scope/QuantitySpin.h"
+#include "app/gui/scope/ScopeWorkspace.h"
+#include "core/measure/CaptureFile.h"
+#include "tests/gui/Person.h"
+#include "tests/gui/scope/Captures.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::Activity;
+using gui::BenchDesk;
+using gui::ScopeMode;
+using gui::ScopeWorkspace;
+using testing::HasSubstr;
+
+class Scope : public testing::Test {
+protected:
+    Scope() {
+        scope.resize(1280, 760);
+        scope.QWidget::show();
+        QObject::connect(&desk, &BenchDesk::failed, [this](const QString& what) { complaints << what; });
+    }
+    void openBench() {
+        gui::LiveOrder order;
+        order.uris.push_back(*DeviceUri::parse("sim:"));
+        order.profile = desk.profile();
+        desk.openLive(order);
+        ASSERT_TRUE(comesTrue([this] { return desk.activity() == Activity::Live; }));
+    }
+    void deliver() {
+        ArmRequest request;
+        request.load = "1 kohm";
+        request.operatorConfirmed = true;
+        desk.arm(request);
+        ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; }));
+        desk.drive(DriveSource::Manual, 0.5, 0.8);
+    }
+    /// As the window does at 30 Hz.
+    bool comes(const std::function<bool()>& isSo) {
+        return comesTrue([&] {
+            scope.refresh(desk.telemetry());
+            return isSo();
+        });
+    }
+    std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
+    void draw() { scope.view().replot(QCustomPlot::rpImmediateRefresh); }
+
+    BenchDesk desk{simulatedRegistry};
+    ScopeWorkspace scope{desk};
+    QStringList complaints;
+};
+
+TEST_F(Scope, AnEmptyOneSaysWhatItIsForAndOffersTheNextStep) {
+    auto* next = find<QPushButton>(scope, "Open the simulated bench");
+    ASSERT_NE(next, nullptr);
+    QSignalSpy wanted(&scope, &ScopeWorkspace::openBenchWanted);
+    click(*next);
+    EXPECT_EQ(wanted.count(), 1);
+    EXPECT_NE(find<QPushButton>(scope, "Open a capture…"), nullptr);
+    shot(scope, "workspace-empty");
+}
+
+TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
+    openBench();
+    ASSERT_TRUE(comes([&] { return scope.running(); }));
+    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).startsWith("Waiting for a trigger at"); }));
+    EXPECT_THAT(status(), HasSubstr("Output is disarmed."));
+    shot(scope, "workspace-waiting");
+    deliver();
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    EXPECT_TRUE(scope.view().shown()->capture->simulated);
+    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 3; }));
+    // Auto: a fifth of what is commanded.
+    const double commanded = desk.telemetry().amplitude_v;
+    EXPECT_TRUE(comes([&] {
+        const double level = scope.settings().triggerLevel;
+        return level > 0.2 * commanded / 1.4 && level < 0.2 * commanded * 1.4;
+    })) << scope.settings().triggerLevel
+        << " of " << commanded;
+    shot(scope, "workspace-live");
+    EXPECT_TRUE(complaints.isEmpty()) << complaints.first().toStdString();
+}
+
+TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
+    openBench();
+    deliver();
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    QTest::keyClick(&scope.view(), Qt::Key_S);
+    EXPECT_EQ(scope.mode(), ScopeMode::Single);
+    ASSERT_TRUE(comes([&] { return !scope.running(); }));
+    const auto kept = scope.view().shown();
+    EXPECT_THAT(status(), HasSubstr("One capture taken"));
+    const auto at = desk.telemetry().at;
+    ASSERT_TRUE(comes([&] { return desk.telemetry().at > at + std::chrono::milliseconds(700); }));
+    EXPECT_EQ(scope.view().shown(), kept) << "nothing came after it";
+    QTest::keyClick(&scope.view(), Qt::Key_N);
+    EXPECT_EQ(scope.mode(), ScopeMode::Normal);
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != kept; }));
+    click(*find<QPushButton>(scope, "Hold"));
+    EXPECT_FALSE(scope.running());
+    EXPECT_NE(desk.telemetry().state, InterlockState::Disarmed) << "the output is not touched";
+    QTest::keyClick(&scope.view(), Qt::Key_A);
+    EXPECT_EQ(scope.mode(), ScopeMode::Auto);
+    EXPECT_TRUE(scope.running());
+}
+
+TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
+    openBench();
+    deliver();
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    auto& view = scope.view();
+    QTest::keyClick(&view, Qt::Key_N);
+    scope.refresh(desk.telemetry());
+    draw();
+    ASSERT_TRUE(view.overlay().trigger && view.overlay().trigger->height);
+    const double before = scope.settings().triggerLevel;
+    const double height = *view.overlay().trigger->height;
+    const double perDivision = view.viewport().lanes.at("channel/voltage").perDivision;
+    drag(view, at(view, 9.95, height), at(view, 9.95, height + 0.3));
+    EXPECT_NEAR(scope.settings().triggerLevel - before, 0.3 * perDivision, 0.05 * perDivision);
+    // In Auto it follows the command: there is nothing to drag.
+    QTest::keyClick(&view, Qt::Key_A);
+    scope.refresh(desk.telemetry());
+    EXPECT_TRUE(view.overlay().trigger->held);
+}
+
+TEST_F(Scope, DraggingTheTriggersMomentChangesThePreTrigger) {
+    openBench();
+    deliver();
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    scope.refresh(desk.telemetry());
+    draw();
+    auto& view = scope.view();
+    EXPECT_NEAR(scope.settings().preTrigger, 0.1, 1e-9);
+    const auto from = atTime(view, 0, 3.95);
+    drag(view, from, from + QPoint(view.axisRect()->width() / 5, 0));
+    EXPECT_NEAR(scope.settings().preTrigger, 0.3, 0.011);
+    ASSERT_TRUE(comes([&] { return view.shown()->zero_s - view.shown()->capture->start_s > 0.28 * 10e-3; }))
+        << "the next captures begin earlier";
+    EXPECT_NEAR(view.viewport().left_s, -3e-3, 1e-4) << "and are seen whole, as before";
+}
+
+TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
+    const QTemporaryDir folder;
+    const auto good = folder.filePath("good.csv"), bad = folder.filePath("bad.csv");
+    ASSERT_TRUE(writeCapture(good.toStdString(), twoPulses(0)));
+    EXPECT_FALSE(scope.openCaptureFile(folder.filePath("none.csv")));
+    EXPECT_TRUE(scope.openCaptureFile(good));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    EXPECT_THAT(status(), HasSubstr("good.csv · 20000 samples at 2"));
+    EXPECT_EQ(scope.table().statistics().captures(), 1U);
+    shot(scope, "workspace-file");
+    QFile file(bad);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("time_s,voltage_v\n0,1\n0.001,oops\n0.002,1\n");
+    file.close();
+    EXPECT_TRUE(scope.openCaptureFile(bad));
+    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).contains("could not be opened"); }));
+    EXPECT_THAT(status(), HasSubstr("bad.csv"));
+    EXPECT_EQ(scope.view().shown()->source, "good.csv") << "what was shown stays";
+}
+
+TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    click(*find<QCheckBox>(scope, "Power V·I"));
+    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 3; }));
+    click(*find<QCheckBox>(scope, "Charge ∫I dt"));
+    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 4; }));
+    click(*find<QPushButton>(scope, "Store as reference"));
+    ASSERT_EQ(scope.view().lanes().size(), 5U);
+    auto* difference = find<QComboBox>(scope, "Difference");
+    ASSERT_EQ(difference->count(), 2) << "voltage minus its reference; the current has no partner";
+    difference->setFocus();
+    QTest::keyClick(difference, Qt::Key_Down);
+    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 6; }));
+    const auto nothing = scope.view().trace("math/difference");
+    ASSERT_TRUE(nothing);
+    EXPECT_EQ(nothing->pyramid.over(0, nothing->size()).high, 0.0F) << "it has not changed since it was stored";
+    click(*find<QCheckBox>(scope, "Spectrum"));
+    scope.view().fit();
+    EXPECT_TRUE(comes([&] { return find<QWidget>(scope, "Spectrum") != nullptr; }));
+    draw();
+    shot(scope, "workspace-everything");
+}
+
+TEST_F(Scope, SavesAndCopies) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    const QTemporaryDir folder;
+    scope.saveAs(folder.filePath("all.csv"));
+    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).startsWith("Saved"); }));
+    const auto read = readCapture(folder.filePath("all.csv").toStdString());
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->capture.samples(), 20'000U);
+    scope.saveAs(folder.filePath("picture.svg"));
+    EXPECT_TRUE(QFile::exists(folder.filePath("picture.svg")));
+    auto* menu = scope.findChild<QMenu*>();
+    for (auto* action : menu->actions()) {
+        if (action->text() == "Copy visible data") action->trigger();
+    }
+    EXPECT_TRUE(QGuiApplication::clipboard()->text().startsWith("time_s,voltage_v,current_a\n"));
+    for (auto* action : menu->actions()) {
+        if (action->text() == "Copy picture") action->trigger();
+    }
+    EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
+}
+
+TEST_F(Scope, CursorsReadBelowTheTools) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    auto* readout = scope.findChild<QLabel*>("cursorReadout");
+    EXPECT_FALSE(readout->isVisible());
+    click(*find<QToolButton>(scope, "Time cursors"));
+    click(*find<QToolButton>(scope, "Level cursors"));
+    EXPECT_TRUE(readout->isVisible());
+    EXPECT_THAT(readout->text().toStdString(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("Y2")));
+    draw();
+    shot(scope, "workspace-cursors");
+}
+
+TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    gui::applyTheme(gui::Theme::Dark);
+    for (const auto& [name, size] : {std::pair{"small", QSize(860, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
+        scope.resize(size);
+        QCoreApplication::processEvents();
+        draw();
+        shot(scope, QString("workspace-dark-%1").arg(name));
+        EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
+        EXPECT_GT(scope.view().axisRect()->height(), 100);
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test
