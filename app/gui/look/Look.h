@@ -27,18 +27,18 @@ void applyTheme(Theme theme);
 
 /// Data carry the colour; everything else is quiet. Contrast of text ≥ 4.5:1 on `base`.
 struct Colours {
-    QColor base;       ///< of plots and lists
+    QColor base;  ///< of plots and lists
     QColor text;
-    QColor quiet;      ///< secondary text, axes
+    QColor quiet;  ///< secondary text, axes
     QColor grid;
-    QColor voltage;    ///< #0072B2, lightened on dark
-    QColor current;    ///< #009E73
-    QColor math;       ///< #CC79A7
+    QColor voltage;  ///< #0072B2, lightened on dark
+    QColor current;  ///< #009E73
+    QColor math;     ///< #CC79A7
     QColor reference;
-    QColor accent;     ///< selection, the one button that goes on
-    QColor amber;      ///< armed; a limit from 80 %
-    QColor fault;      ///< STOP and faults and nothing else
-    QColor good;       ///< a pass: blue, not green, and never without its word
+    QColor accent;  ///< selection, the one button that goes on
+    QColor amber;   ///< armed; a limit from 80 %
+    QColor fault;   ///< STOP and faults and nothing else
+    QColor good;    ///< a pass: blue, not green, and never without its word
     QColor watermark;
 };
 [[nodiscard]] const Colours& colours();

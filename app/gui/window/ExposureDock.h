@@ -4,8 +4,8 @@
 #pragma once
 
 #include <QDockWidget>
-#include <QTableWidget>
 
+#include "app/gui/look/ExposureTable.h"
 #include "core/bench/Telemetry.h"
 
 namespace tacto::gui {
@@ -17,7 +17,7 @@ public:
     void refresh(const Telemetry& telemetry);
 
 private:
-    QTableWidget* table_;
+    ExposureTable* table_;
     Instant shownAt_{-1};
 };
 

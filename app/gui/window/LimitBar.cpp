@@ -3,13 +3,12 @@
 #include <QPainter>
 #include <span>
 
+#include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
 
 namespace {
-
-QString unitText(const ExposureRow& row) { return QString::fromUtf8(row.unit.data(), qsizetype(row.unit.size())); }
 
 QString whereJudged(const ExposureRow& row) {
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω") : QObject::tr("worst case over the load range");
@@ -52,13 +51,14 @@ void LimitBar::show(const std::optional<ExposureRow>& row) {
         text_ = tr("not evaluated");
     } else if (limited_) {
         text_ =
-            tr("%1 of %2").arg(quantityText(row->value, unitText(*row), 3), settingText(row->limit, unitText(*row)));
+            tr("%1 of %2")
+                .arg(quantityText(row->value, gui::text(row->unit), 3), settingText(row->limit, gui::text(row->unit)));
     } else {
-        text_ = quantityText(row->value, unitText(*row), 3);
+        text_ = quantityText(row->value, gui::text(row->unit), 3);
     }
     if (text_ == before && !(share_ != shareBefore && !std::isnan(share_))) return;
     if (row) {
-        const auto name = QString::fromUtf8(titleOf(row->quantity).data(), qsizetype(titleOf(row->quantity).size()));
+        const auto name = gui::text(titleOf(row->quantity));
         auto tip = tr("%1, %2: %3.").arg(name, whereJudged(*row), text_);
         if (limited_) tip += tr(" Limit of %1.").arg(QString::fromUtf8(row->set.c_str()));
         if (!evaluated_ && !row->reason.empty()) tip += " " + QString::fromUtf8(row->reason.c_str());

@@ -121,19 +121,22 @@ SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(d
     stop_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     row->addWidget(stop_);
     for (auto* button : {action_, pause_, stop_}) button->setAutoDefault(false);
+    colourStop();
     refresh(Telemetry{});
 }
 
+void SafetyBar::colourStop() {
+    const auto& c = colours();
+    // White on the light theme's red is 6:1; black on the dark theme's lighter one 7:1.
+    const QColor ink = currentTheme() == Theme::Dark ? QColor(Qt::black) : QColor(Qt::white);
+    stop_->setStyleSheet(QString("QPushButton#stopButton { background: %1; color: %2; border: 2px solid %1; "
+                                 "border-radius: 6px; padding: 2px 10px; } "
+                                 "QPushButton#stopButton:focus { border-color: %3; }")
+                             .arg(c.fault.name(), ink.name(), c.text.name()));
+}
+
 void SafetyBar::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
-        const auto& c = colours();
-        // White on the light theme's red is 6:1; black on the dark theme's lighter one 7:1.
-        const QColor ink = currentTheme() == Theme::Dark ? QColor(Qt::black) : QColor(Qt::white);
-        stop_->setStyleSheet(QString("QPushButton#stopButton { background: %1; color: %2; border: 2px solid %1; "
-                                     "border-radius: 6px; padding: 2px 10px; } "
-                                     "QPushButton#stopButton:focus { border-color: %3; }")
-                                 .arg(c.fault.name(), ink.name(), c.text.name()));
-    }
+    if (event->type() == QEvent::PaletteChange && stop_ != nullptr) colourStop();
     QFrame::changeEvent(event);
 }
 

@@ -28,6 +28,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    void colourStop();
     void showState(const Telemetry& telemetry);
     void showDevice(const Telemetry& telemetry);
     void showExposure(const Telemetry& telemetry);
@@ -43,7 +44,7 @@ private:
     QLabel* calibration_;
     QPushButton* action_;  ///< Arm…, Disarm, Reset…
     QPushButton* pause_;
-    QPushButton* stop_;
+    QPushButton* stop_ = nullptr;
     struct Shown {
         LimitBar* bar;
         std::vector<Quantity> quantities;

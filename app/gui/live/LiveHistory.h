@@ -1,0 +1,82 @@
+// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, trains. What the live plots
+// draw.
+//
+// Bounded: each series is a ring that forgets its oldest sample. Times are the session's, in seconds.
+//
+// Thread-safety: the GUI thread; the one reader of the bench's tap.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/base/Stream.h"
+#include "core/bench/BenchTap.h"
+#include "core/bench/Telemetry.h"
+
+namespace tacto::gui {
+
+/// Samples of a few channels on one time axis, oldest first.
+class Series {
+public:
+    Series(std::size_t channels, std::size_t capacity);
+    void push(double t_s, std::span<const float> values);
+    void clear() noexcept { count_ = head_ = 0; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    [[nodiscard]] std::size_t channels() const noexcept { return channels_; }
+    [[nodiscard]] std::size_t capacity() const noexcept { return times_.size(); }
+    /// `i` < size(), 0 the oldest; NaN where the sensor sent none.
+    [[nodiscard]] double time(std::size_t i) const noexcept { return times_[at(i)]; }
+    [[nodiscard]] float value(std::size_t i, std::size_t channel) const noexcept {
+        return values_[at(i) * channels_ + channel];
+    }
+    /// The first sample at or after `t_s`; size() when there is none.
+    [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;
+
+private:
+    [[nodiscard]] std::size_t at(std::size_t i) const noexcept {
+        const auto place = head_ + times_.size() - count_ + i;
+        return place >= times_.size() ? place - times_.size() : place;
+    }
+    std::size_t channels_;
+    std::vector<double> times_;
+    std::vector<float> values_;
+    std::size_t head_ = 0;  // where the next goes
+    std::size_t count_ = 0;
+};
+
+class LiveHistory {
+public:
+    static constexpr double kKept_s = 60;
+    /// Columns of frames(): R, P, h, v.
+    enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kColumns };
+
+    LiveHistory();
+    /// Another bench is open: forgets everything. `streams` as its sensor names them.
+    void begin(const std::vector<StreamInfo>& streams);
+    /// Takes what came since the last call.
+    void take(BenchTap& tap, const Telemetry& telemetry);
+
+    [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
+    /// Null when the sensor has no such stream.
+    [[nodiscard]] const Series* samples(StreamKind kind) const noexcept;
+    [[nodiscard]] const StreamInfo* info(StreamKind kind) const noexcept;
+    [[nodiscard]] const Series& frames() const noexcept { return frames_; }
+    /// Newest last; impedance checks included.
+    [[nodiscard]] const std::deque<TrainReport>& trains() const noexcept { return trains_; }
+    /// Of the bench, at the last take().
+    [[nodiscard]] double now_s() const noexcept { return now_s_; }
+    /// How often the display came too late and samples were left out of the picture (not of the recording).
+    [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+
+private:
+    std::vector<StreamInfo> streams_;
+    std::vector<Series> samples_;
+    Series frames_;
+    std::deque<TrainReport> trains_;
+    double now_s_ = 0;
+    std::uint64_t missed_ = 0;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,99 @@
+#include "app/gui/live/RollingGraph.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacto::gui {
+
+RollingGraph::RollingGraph(QCPAxis* keyAxis, QCPAxis* valueAxis) : QCPAbstractPlottable(keyAxis, valueAxis) {
+    setAntialiased(false);
+}
+
+void RollingGraph::show(const Series* series, std::size_t channel) {
+    series_ = series;
+    channel_ = channel;
+}
+
+std::optional<QCPRange> RollingGraph::extent(double from_s) const {
+    if (series_ == nullptr) return std::nullopt;
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (std::size_t i = series_->firstFrom(from_s); i < series_->size(); ++i) {
+        const float value = series_->value(i, channel_);
+        if (value < low) low = value;
+        if (value > high) high = value;
+    }
+    if (!(low <= high)) return std::nullopt;
+    return QCPRange(double(low), double(high));
+}
+
+QCPRange RollingGraph::getKeyRange(bool& found, QCP::SignDomain) const {
+    found = series_ != nullptr && series_->size() > 0;
+    return found ? QCPRange(series_->time(0), series_->time(series_->size() - 1)) : QCPRange();
+}
+
+QCPRange RollingGraph::getValueRange(bool& found, QCP::SignDomain, const QCPRange& keys) const {
+    const auto range = extent(keys == QCPRange() ? -1e300 : keys.lower);
+    found = range.has_value();
+    return range.value_or(QCPRange());
+}
+
+void RollingGraph::draw(QCPPainter* painter) {
+    if (series_ == nullptr || series_->size() == 0 || !mKeyAxis || !mValueAxis) return;
+    const auto keys = mKeyAxis->range();
+    const std::size_t first = series_->firstFrom(keys.lower);
+    const double x0 = mKeyAxis->coordToPixel(keys.lower);
+    const double perSecond = (mKeyAxis->coordToPixel(keys.upper) - x0) / keys.size();
+    const double y0 = mValueAxis->coordToPixel(0);
+    const double perUnit = mValueAxis->coordToPixel(1) - y0;
+    lines_.clear();
+    int column = std::numeric_limits<int>::min();
+    float low = 0, high = 0, last = 0;
+    bool begun = false;
+    const auto flush = [&] {
+        if (!begun) return;
+        const double x = column + 0.5;
+        lines_.append(QLineF(x, y0 + perUnit * double(low), x, y0 + perUnit * double(high)));
+    };
+    for (std::size_t i = first; i < series_->size(); ++i) {
+        const double t = series_->time(i);
+        if (t > keys.upper) break;
+        const float value = series_->value(i, channel_);
+        if (std::isnan(value)) {
+            flush();
+            begun = false;
+            column = std::numeric_limits<int>::min();
+            continue;
+        }
+        const int x = static_cast<int>(std::floor(x0 + (t - keys.lower) * perSecond));
+        if (begun && x == column) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+        } else {
+            flush();
+            if (begun && x > column + 1) {
+                // Few samples: a line across the columns between.
+                lines_.append(QLineF(column + 0.5, y0 + perUnit * double(last), x + 0.5, y0 + perUnit * double(value)));
+                low = high = value;
+            } else {
+                low = begun ? std::min(last, value) : value;
+                high = begun ? std::max(last, value) : value;
+            }
+            column = x;
+            begun = true;
+        }
+        last = value;
+    }
+    flush();
+    painter->setAntialiasing(false);
+    auto pen = mPen;
+    pen.setWidth(1);
+    painter->setPen(pen);
+    painter->drawLines(lines_);
+}
+
+void RollingGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const {
+    painter->setPen(mPen);
+    painter->drawLine(QLineF(rect.left(), rect.center().y(), rect.right(), rect.center().y()));
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,101 @@
+#include "app/gui/live/TactilePlane.h"
+
+#include <cmath>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr double kTrail_s = 3;
+}
+
+TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
+    setAccessibleName(tr("Tactile plane"));
+    setToolTip(tr("Roughness R across, pressure P up. The marks are the four conditions; the dot is now."));
+    setNotAntialiasedElements(QCP::aeNone);
+    xAxis->setRange(-0.12, 1.12);
+    yAxis->setRange(-0.12, 1.12);
+    xAxis->setLabel(tr("roughness R"));
+    yAxis->setLabel(tr("pressure P"));
+    for (auto* axis : {xAxis, yAxis}) {
+        axis->ticker()->setTickCount(3);
+        axis->setNumberFormat("f");
+        axis->setNumberPrecision(1);
+    }
+    watermark_ = addWatermark(*axisRect());
+    trail_ = new QCPCurve(xAxis, yAxis);
+    now_ = addGraph();
+    now_->setLineStyle(QCPGraph::lsNone);
+    setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
+    colour();
+}
+
+QSize TactilePlane::sizeHint() const { return {fontMetrics().height() * 15, fontMetrics().height() * 14}; }
+
+void TactilePlane::setConditions(const std::vector<Condition>& conditions) {
+    if (conditions == conditions_) return;
+    conditions_ = conditions;
+    for (auto* mark : marks_) removePlottable(mark);
+    for (auto* name : names_) removeItem(name);
+    marks_.clear();
+    names_.clear();
+    for (const auto& condition : conditions_) {
+        auto* mark = addGraph();
+        mark->setLineStyle(QCPGraph::lsNone);
+        mark->addData(condition.R, condition.P);
+        marks_.push_back(mark);
+        auto* name = new QCPItemText(this);
+        name->setText(QString::fromStdString(condition.name));
+        name->position->setCoords(condition.R, condition.P);
+        const auto side = condition.R < 0.5 ? Qt::AlignLeft : Qt::AlignRight;
+        name->setPositionAlignment(side | (condition.P < 0.5 ? Qt::AlignBottom : Qt::AlignTop));
+        name->setPadding(QMargins(8, 6, 8, 6));
+        names_.push_back(name);
+    }
+    colour();
+}
+
+void TactilePlane::setSimulated(bool simulated) { watermark_->setVisible(simulated); }
+
+void TactilePlane::colour() {
+    stylePlot(*this);
+    const auto& c = colours();
+    auto small = QApplication::font();
+    small.setPointSizeF(small.pointSizeF() * 0.8);
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+        const auto look = conditionLook(QString::fromStdString(conditions_[i].name), int(i));
+        marks_[i]->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 2), QBrush(look.color), 10));
+        names_[i]->setColor(c.text);
+        names_[i]->setFont(small);
+    }
+    auto font = watermark_->font();
+    font.setPointSizeF(16);
+    watermark_->setFont(font);
+    trail_->setPen(QPen(c.reference, 1.5));
+    now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, c.text, c.text, 11));
+}
+
+void TactilePlane::changeEvent(QEvent* event) {
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && now_ != nullptr) colour();
+    QCustomPlot::changeEvent(event);
+}
+
+void TactilePlane::show(const Series& frames, double now_s, double roughness, double pressure) {
+    QVector<double> t, r, p;
+    for (auto i = frames.firstFrom(now_s - kTrail_s); i < frames.size(); ++i) {
+        const float R = frames.value(i, LiveHistory::kRoughness), P = frames.value(i, LiveHistory::kPressure);
+        if (std::isnan(R) || std::isnan(P)) continue;
+        t << frames.time(i);
+        r << double(R);
+        p << double(P);
+    }
+    trail_->setData(t, r, p, true);
+    if (std::isfinite(roughness) && std::isfinite(pressure))
+        now_->setData({roughness}, {pressure}, true);
+    else
+        now_->data()->clear();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+}  // namespace tacto::gui

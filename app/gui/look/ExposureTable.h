@@ -1,0 +1,27 @@
+// ExposureTable.h - exposure rows against their limits: quantity, value, limit, and a bar of how much of it is used;
+// hatched where a row was not evaluated.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QTableWidget>
+#include <span>
+
+#include "core/safety/Exposure.h"
+
+namespace tacto::gui {
+
+class ExposureTable final : public QTableWidget {
+    Q_OBJECT
+public:
+    explicit ExposureTable(QWidget* parent = nullptr);
+    void show(std::span<const ExposureRow> rows);
+};
+
+/// "RMS current over 5 s into 500 Ω".
+[[nodiscard]] QString rowTitle(const ExposureRow& row);
+/// "< 10 mA", "–" without a limit.
+[[nodiscard]] QString limitText(const ExposureRow& row);
+[[nodiscard]] QString text(std::string_view utf8);
+
+}  // namespace tacto::gui

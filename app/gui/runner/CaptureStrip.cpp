@@ -1,0 +1,73 @@
+#include "app/gui/runner/CaptureStrip.h"
+
+#include "app/gui/look/Look.h"
+#include "app/report/FigureDrawing.h"
+
+namespace tacto::gui {
+
+namespace {
+constexpr std::size_t kPoints = 2000;  // more than there are pixels; extremes kept
+}
+
+CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
+    setAccessibleName(tr("Last capture"));
+    setToolTip(tr("The last train as the oscilloscope recorded it."));
+    voltage_ = addGraph(xAxis, yAxis);
+    current_ = addGraph(xAxis, yAxis2);
+    xAxis->setLabel(tr("time from trigger (µs)"));
+    yAxis->setLabel(tr("voltage (V)"));
+    yAxis2->setLabel(tr("current (mA)"));
+    yAxis2->setVisible(true);
+    yAxis2->grid()->setVisible(false);
+    for (auto* axis : {xAxis, yAxis, yAxis2}) axis->setNumberFormat("gb");
+    watermark_ = addWatermark(*axisRect());
+    empty_ = new QCPItemText(this);
+    empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
+    empty_->position->setCoords(0.5, 0.5);
+    empty_->setText(tr("The last captured train appears here."));
+    setMinimumHeight(fontMetrics().height() * 10);
+    show(nullptr);
+}
+
+void CaptureStrip::show(const std::shared_ptr<const Capture>& capture) {
+    empty_->setVisible(capture == nullptr);
+    watermark_->setVisible(capture && capture->simulated);
+    voltage_->data()->clear();
+    current_->data()->clear();
+    for (std::size_t c = 0; capture && c < capture->channels.size(); ++c) {
+        const auto& channel = capture->channels[c];
+        auto* graph = channel.unit == "V" ? voltage_ : channel.unit == "A" ? current_ : nullptr;
+        if (graph == nullptr) continue;
+        const double scale = channel.unit == "A" ? 1e3 : 1;
+        const double from = std::isfinite(capture->trigger_s) ? capture->trigger_s : capture->start_s;
+        const std::vector<double> samples(channel.samples.begin(), channel.samples.end());
+        QVector<double> x, y;
+        for (const auto i : visiblePoints(samples, kPoints)) {
+            x << (capture->start_s + double(i) / capture->rate_hz - from) * 1e6;
+            y << samples[i] * scale;
+        }
+        graph->setData(x, y, true);
+        graph->rescaleKeyAxis();
+        graph->rescaleValueAxis();
+        graph->valueAxis()->scaleRange(1.15);
+    }
+    colour();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void CaptureStrip::colour() {
+    stylePlot(*this);
+    const auto& c = colours();
+    empty_->setColor(c.quiet);
+    voltage_->setPen(QPen(c.voltage));
+    current_->setPen(QPen(c.current, 1, Qt::DashLine));
+    yAxis->setLabelColor(c.voltage);
+    yAxis2->setLabelColor(c.current);
+}
+
+void CaptureStrip::changeEvent(QEvent* event) {
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) colour();
+    QCustomPlot::changeEvent(event);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,31 @@
+// CaptureStrip.h - the last captured waveform, small: voltage and current over time.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <memory>
+#include <qcustomplot.h>
+
+#include "core/measure/Capture.h"
+
+namespace tacto::gui {
+
+class CaptureStrip final : public QCustomPlot {
+    Q_OBJECT
+public:
+    explicit CaptureStrip(QWidget* parent = nullptr);
+    /// Null empties it.
+    void show(const std::shared_ptr<const Capture>& capture);
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    void colour();
+    QCPGraph* voltage_ = nullptr;
+    QCPGraph* current_ = nullptr;
+    QCPItemText* watermark_ = nullptr;
+    QCPItemText* empty_ = nullptr;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,34 @@
+// CodeEdit.h - a script as text, with line numbers and one line marked.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QPlainTextEdit>
+
+#include "app/gui/runner/ScriptHighlighter.h"
+
+namespace tacto::gui {
+
+class CodeEdit final : public QPlainTextEdit {
+    Q_OBJECT
+public:
+    explicit CodeEdit(QWidget* parent = nullptr);
+    /// Marks a line, from 1, and goes there; 0 takes the mark away.
+    void mark(int line);
+    [[nodiscard]] int marked() const { return marked_; }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void paintNumbers(QPaintEvent* event, QWidget& margin);
+    [[nodiscard]] int marginWidth() const;
+    void showMark();
+    class Margin;
+    QWidget* margin_;
+    ScriptHighlighter* highlighter_;
+    int marked_ = 0;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,41 @@
+// ParameterForm.h - a protocol's parameters as a form: labels, units and ranges as the script declares them.
+//
+// Every field is text checked by the same rules as the command line; a refusal stands below its field.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QWidget>
+#include <functional>
+
+#include "app/scripting/ProtocolDeclaration.h"
+
+namespace tacto::gui {
+
+class ParameterForm final : public QWidget {
+    Q_OBJECT
+public:
+    explicit ParameterForm(QWidget* parent = nullptr);
+    void show(const ProtocolDeclaration& declaration);
+    /// Errors: of the first field that is refused; all refusals are shown.
+    [[nodiscard]] Result<ProtocolSettings> read();
+    /// The text of a parameter as it stands; empty for none of that name.
+    [[nodiscard]] QString text(const std::string& name) const;
+
+signals:
+    void edited();
+
+private:
+    struct Field {
+        ProtocolParameter parameter;
+        std::function<QString()> text;
+        QLabel* trouble;
+    };
+    [[nodiscard]] Field makeField(const ProtocolParameter& parameter, QWidget*& editor);
+    void judge();
+    ProtocolDeclaration declaration_;
+    std::vector<Field> fields_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,49 @@
+#include "app/gui/runner/ReportMaker.h"
+
+#include <QCoreApplication>
+
+namespace tacto::gui {
+
+ReportMaker::ReportMaker(QObject* parent) : QObject(parent) {
+    connect(&process_, &QProcess::finished, this, &ReportMaker::ended);
+    connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
+        if (error != QProcess::FailedToStart) return;
+        emit failed(tr("No report: %1 cannot be started (%2).").arg(process_.program(), process_.errorString()));
+        next();
+    });
+}
+
+void ReportMaker::make(const QString& session, const QString& out) {
+    queue_.append({session, out});
+    if (process_.state() == QProcess::NotRunning) next();
+}
+
+void ReportMaker::cancel() {
+    queue_.clear();
+    if (process_.state() == QProcess::NotRunning) return;
+    cancelled_ = true;
+    process_.kill();
+}
+
+void ReportMaker::next() {
+    if (queue_.isEmpty()) return;
+    const auto [session, out] = queue_.takeFirst();
+    out_ = out;
+    cancelled_ = false;
+    process_.start(QCoreApplication::applicationDirPath() + "/tactoscope-cli", {"report", session, "--out", out});
+}
+
+void ReportMaker::ended(int code, QProcess::ExitStatus status) {
+    const auto said = QString::fromUtf8(process_.readAllStandardError()).trimmed().remove("tactoscope-cli: ");
+    if (cancelled_)
+        emit failed(tr("The report was cancelled; the session is complete."));
+    else if (status == QProcess::CrashExit)
+        emit failed(tr("No report: the program that draws it ended unexpectedly. The session is complete."));
+    else if (code != 0)
+        emit failed(tr("No report: %1").arg(said));
+    else
+        emit done(out_);
+    next();
+}
+
+}  // namespace tacto::gui

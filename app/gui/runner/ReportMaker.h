@@ -1,0 +1,36 @@
+// ReportMaker.h - draws reports in a child process, so that the window never stalls and a crash there takes nothing
+// with it: `tactoscope-cli report SESSION --out FILE`, the program beside this one.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+#include <QProcess>
+#include <QStringList>
+
+namespace tacto::gui {
+
+class ReportMaker final : public QObject {
+    Q_OBJECT
+public:
+    explicit ReportMaker(QObject* parent = nullptr);
+    /// Queued after what is being made. `out` ends in .pdf or .html.
+    void make(const QString& session, const QString& out);
+    /// Ends what is being made, and forgets the queue. Nothing half-written stays.
+    void cancel();
+    [[nodiscard]] bool busy() const { return process_.state() != QProcess::NotRunning || !queue_.isEmpty(); }
+
+signals:
+    void done(const QString& out);
+    void failed(const QString& why);
+
+private:
+    void next();
+    void ended(int code, QProcess::ExitStatus status);
+    QProcess process_;
+    QList<QPair<QString, QString>> queue_;
+    QString out_;
+    bool cancelled_ = false;
+};
+
+}  // namespace tacto::gui

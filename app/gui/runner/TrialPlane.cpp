@@ -1,0 +1,100 @@
+#include "app/gui/runner/TrialPlane.h"
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
+    setAccessibleName(tr("Trials"));
+    setToolTip(tr("One point per trial: amplitude and interval as the oscilloscope saw them."));
+    xAxis->setLabel(tr("interval (s)"));
+    yAxis->setLabel(tr("amplitude (V)"));
+    for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
+    legend->setVisible(true);
+    axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignRight | Qt::AlignTop);
+    watermark_ = addWatermark(*axisRect());
+    empty_ = new QCPItemText(this);
+    empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
+    empty_->position->setCoords(0.5, 0.5);
+    empty_->setText(tr("Trials appear here while the protocol runs."));
+    setMinimumHeight(fontMetrics().height() * 10);
+    begin(false);
+}
+
+void TrialPlane::begin(bool simulated) {
+    for (const auto& [name, graph] : conditions_) removePlottable(graph);
+    conditions_.clear();
+    trials_ = drawn_ = 0;
+    watermark_->setVisible(simulated);
+    empty_->setVisible(true);
+    legend->setVisible(false);
+    xAxis->setRange(0, 2.2);
+    yAxis->setRange(0, 44);
+    colour();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void TrialPlane::add(const nlohmann::json& trial) {
+    ++trials_;
+    const auto number = [&](const char* key) {
+        const auto at = trial.find(key);
+        return at != trial.end() && at->is_number() ? at->get<double>() : std::nan("");
+    };
+    const double amplitude = number("amplitude_v"), interval = number("interval_s");
+    if (!std::isfinite(amplitude) || !std::isfinite(interval)) return;
+    ++drawn_;
+    const auto name = QString::fromStdString(trial.value("condition", std::string()));
+    auto found = std::find_if(conditions_.begin(), conditions_.end(), [&](const auto& c) { return c.first == name; });
+    if (found == conditions_.end()) {
+        auto* graph = addGraph();
+        graph->setName(name);
+        graph->setLineStyle(QCPGraph::lsNone);
+        conditions_.emplace_back(name, graph);
+        found = std::prev(conditions_.end());
+        empty_->setVisible(false);
+        legend->setVisible(true);
+        colour();
+    }
+    found->second->addData(interval, amplitude);
+    fit();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void TrialPlane::fit() {
+    QCPRange x(0, 2.2), y(0, 44);
+    for (const auto& [name, graph] : conditions_) {
+        bool found = false;
+        const auto keys = graph->getKeyRange(found);
+        if (found) x.expand(QCPRange(0, keys.upper * 1.1));
+        const auto values = graph->getValueRange(found);
+        if (found) y.expand(QCPRange(0, values.upper * 1.1));
+    }
+    xAxis->setRange(x);
+    yAxis->setRange(y);
+}
+
+void TrialPlane::colour() {
+    stylePlot(*this);
+    const auto& c = colours();
+    empty_->setColor(c.quiet);
+    legend->setTextColor(c.text);
+    legend->setBrush(QBrush(c.base));
+    legend->setBorderPen(QPen(c.grid));
+    legend->setFont(QApplication::font());
+    int index = 0;
+    for (const auto& [name, graph] : conditions_) {
+        const auto look = conditionLook(name, index++);
+        graph->setPen(QPen(look.color));
+        graph->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 1.5), QBrush(Qt::NoBrush), 8));
+    }
+}
+
+void TrialPlane::changeEvent(QEvent* event) {
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) {
+        colour();
+        replot(QCustomPlot::rpQueuedReplot);
+    }
+    QCustomPlot::changeEvent(event);
+}
+
+}  // namespace tacto::gui
