@@ -9,11 +9,12 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Extremes of one whole block. Sixteen lanes side by side and no branch, so that a compiler turns them into vectors;
-/// a comparison with NaN is false, so NaN never becomes an extreme.
-Envelope ofBlock(const float* samples) noexcept {
-    constexpr std::size_t kLanes = 16;
-    static_assert(MinMaxPyramid::kBlock % kLanes == 0);
+constexpr std::size_t kLanes = 16;
+static_assert(MinMaxPyramid::kBlock % kLanes == 0);
+
+/// Extremes of `count` samples, a multiple of the lanes. Sixteen lanes side by side and no branch, so that a compiler
+/// turns them into vectors; a comparison with NaN is false, so NaN never becomes an extreme.
+Envelope ofLanes(const float* samples, std::size_t count) noexcept {
     std::array<float, kLanes> low;
     std::array<float, kLanes> high;
     std::array<std::int32_t, kLanes> missing;
@@ -22,7 +23,7 @@ Envelope ofBlock(const float* samples) noexcept {
         high[lane] = -kInfinity;
         missing[lane] = 0;
     }
-    for (std::size_t row = 0; row < MinMaxPyramid::kBlock; row += kLanes) {
+    for (std::size_t row = 0; row < count; row += kLanes) {
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const float x = samples[row + lane];
             low[lane] = x < low[lane] ? x : low[lane];
@@ -41,8 +42,15 @@ Envelope ofBlock(const float* samples) noexcept {
 }
 
 void mergeSamples(std::span<const float> samples, Envelope& into) noexcept {
+    const std::size_t whole = samples.size() / kLanes * kLanes;
+    if (whole > 0) {
+        const auto most = ofLanes(samples.data(), whole);
+        into.low = std::min(into.low, most.low);
+        into.high = std::max(into.high, most.high);
+        into.gap |= most.gap;
+    }
     bool missing = false;
-    for (const float x : samples) {
+    for (const float x : samples.subspan(whole)) {
         into.low = x < into.low ? x : into.low;
         into.high = x > into.high ? x : into.high;
         missing |= x != x;
@@ -76,7 +84,7 @@ void MinMaxPyramid::extend(std::span<const float> record) {
         const std::size_t known = lowest.size();
         lowest.resize(blocks);
         for (std::size_t b = known; b < blocks; ++b) {
-            const auto found = ofBlock(record.data() + b * kBlock);
+            const auto found = ofLanes(record.data() + b * kBlock, kBlock);
             lowest.low[b] = found.low;
             lowest.high[b] = found.high;
             lowest.gap[b] = found.gap ? 1 : 0;

@@ -89,11 +89,14 @@ ReadingName readingName(Reading reading) {
 
 QString unitOf(Reading reading, const QString& channelUnit) {
     if (reading == Reading::Amplitude) return channelUnit;
-    if (reading == Reading::Charge) return channelUnit == "A" ? "C" : channelUnit == "V" ? "V·s" : "s";
+    if (reading == Reading::Charge) return channelUnit == "A" ? "C" : channelUnit == "V" ? "µV·s" : "s";
     return readingName(reading).unit;
 }
 
-double shownFactor(Reading reading) { return readingName(reading).unit == "%" ? 100 : 1; }
+double shownFactor(Reading reading, const QString& channelUnit) {
+    if (reading == Reading::Charge && channelUnit == "V") return 1e6;
+    return readingName(reading).unit == "%" ? 100 : 1;
+}
 
 void RunningStatistics::add(double value) noexcept {
     min_ = n_ == 0 ? value : std::min(min_, value);

@@ -37,10 +37,10 @@ struct ReadingName {
     QString unit;       ///< "s", "%"; empty: the channel's own, or a plain number
 };
 [[nodiscard]] ReadingName readingName(Reading reading);
-/// Unit of a reading on a channel of this unit: amplitude V, charge C or V·s.
+/// Unit in which a reading on a channel of this unit is shown: amplitude V, charge C or µV·s.
 [[nodiscard]] QString unitOf(Reading reading, const QString& channelUnit);
-/// What a value of core/measure is shown times: 100 for fractions.
-[[nodiscard]] double shownFactor(Reading reading);
+/// What a value of core/measure is shown times: 100 for fractions, a million for µV·s.
+[[nodiscard]] double shownFactor(Reading reading, const QString& channelUnit);
 
 /// NaN where there is nothing: all but n without a reading, the deviation with one.
 class RunningStatistics {

@@ -1,14 +1,17 @@
 #include "app/gui/scope/EnvelopeGraph.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr double kFewestPerPixel = 2;  ///< samples; below it the samples themselves are drawn
-constexpr double kDotsFrom = 4;        ///< pixels between samples
+constexpr double kFewestPerPixel = 2;   ///< samples; below it the samples themselves are drawn
+constexpr double kDotsFrom = 4;         ///< pixels between samples
+constexpr int kBlock = 16;              ///< columns
+constexpr double kManyPixels = 60'000;  ///< of verticals: from here on filling rows is quicker
 
 std::size_t indexAt(double at, std::size_t size) {
     return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, static_cast<double>(size)));
@@ -105,6 +108,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
     if (!mKeyAxis || !mValueAxis) return;
     const auto screen = screenOf(*painter);
     lines_.clear();
+    tallPixels_ = 0;
     gaps_.clear();
     clips_.clear();
     painter->setAntialiasing(false);
@@ -122,6 +126,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
             drawSamples(*painter, span, screen, pixelsPerSample);
         }
     }
+    if (tallPixels_ > kManyPixels && !painter->modes().testFlag(QCPPainter::pmVectorized)) fillTall(*painter, screen);
     painter->setPen(pen);
     painter->drawLines(lines_);
     if (marked_) drawMarks(*painter, screen);
@@ -142,6 +147,51 @@ void EnvelopeGraph::addVertical(double x, double top, double bottom, const Scree
         }
     }
     lines_.append(QLineF(x, y1, x, y2));
+    tallPixels_ += (y2 - y1) / screen.pixel;
+}
+
+void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
+    const auto device = [&](double length) { return static_cast<int>(std::lround(length / screen.pixel)); };
+    const int width = device(screen.area.width()) + 1, height = device(screen.area.height()) + 1;
+    // Whole blocks, so that the compiler can fill them as vectors.
+    const int blocks = (width + kBlock - 1) / kBlock;
+    if (canvas_.width() != blocks * kBlock || canvas_.height() != height) {
+        canvas_ = QImage(blocks * kBlock, height, QImage::Format_ARGB32_Premultiplied);
+    }
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+    tops_.assign(static_cast<std::size_t>(blocks * kBlock), kNone);
+    bottoms_.assign(static_cast<std::size_t>(blocks * kBlock), -1);
+    int top = height, bottom = -1;
+    // One vertical a column goes into the image; flat lines and what shares a column with another stay lines.
+    lines_.removeIf([&](const QLineF& line) {
+        const int x = device(line.x1() - screen.area.left());
+        if (line.x1() != line.x2() || x < 0 || x >= width) return false;
+        auto& its = tops_[static_cast<std::size_t>(x)];
+        if (its != kNone) return false;
+        its = std::max(0, device(line.y1() - screen.area.top()));
+        const int end = std::min(height - 1, device(line.y2() - screen.area.top()));
+        bottoms_[static_cast<std::size_t>(x)] = end;
+        top = std::min(top, its);
+        bottom = std::max(bottom, end);
+        return true;
+    });
+    if (top > bottom) return;
+    const auto colour = qPremultiply(mPen.color().rgba());
+    for (int y = top; y <= bottom; ++y) {
+        auto* row = reinterpret_cast<QRgb*>(canvas_.scanLine(y));
+        const auto* from = tops_.data();
+        const auto* to = bottoms_.data();
+        for (int block = 0; block < blocks; ++block, row += kBlock, from += kBlock, to += kBlock) {
+            std::array<QRgb, kBlock> pixels;  // of its own: nothing it could overlap with
+            for (std::size_t x = 0; x < kBlock; ++x) {
+                pixels[x] = (0U - static_cast<QRgb>((from[x] <= y) & (y <= to[x]))) & colour;
+            }
+            std::copy(pixels.begin(), pixels.end(), row);
+        }
+    }
+    const QRectF target(screen.area.left(), screen.area.top() + top * screen.pixel, width * screen.pixel,
+                        (bottom - top + 1) * screen.pixel);
+    painter.drawImage(target, canvas_, QRectF(0, top, width, bottom - top + 1));
 }
 
 void EnvelopeGraph::noteGap(double fromX, double toX) {
@@ -169,9 +219,10 @@ void EnvelopeGraph::drawColumns(const TraceSpan& span, const Screen& screen) {
         }
         // From the column before's last sample, so that an edge between two columns is drawn.
         const auto seen = trace.pyramid.over(from > 0 ? from - 1 : 0, to);
+        const bool missing = seen.gap && trace.pyramid.over(from, to).gap;
         from = to;
         const double x = screen.area.left() + column * screen.pixel;
-        if (seen.gap) {
+        if (missing) {
             ++gapColumns_;
             noteGap(x, x + screen.pixel);
         }

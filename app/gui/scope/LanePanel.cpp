@@ -87,6 +87,7 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
         follow();
     });
     its.shown = new QCheckBox(lane.title, this);
+    its.shown->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     its.shown->setToolTip(tr("Shows or hides this lane."));
     connect(its.shown, &QCheckBox::clicked, this, [this, key](bool on) { view_.setLaneShown(key, on); });
     grid_->addWidget(its.letter, 2 * row, 0);
@@ -106,6 +107,8 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
     its.scale->setToolTip(tr("How much one of the eight divisions is. Ctrl+wheel over the screen does the same."));
     connect(its.scale, &QComboBox::activated, this,
             [this, key, box = its.scale] { view_.setLaneScale(key, box->currentData().toDouble()); });
+    its.scale->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    its.scale->setMinimumContentsLength(9);
     its.position = new QDoubleSpinBox(this);
     its.position->setAccessibleName(tr("Offset of %1").arg(lane.title));
     its.position->setToolTip(tr("Where its zero lies: divisions above the middle. Or drag its letter on the screen."));

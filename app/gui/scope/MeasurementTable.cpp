@@ -53,6 +53,20 @@ double statisticOf(const RunningStatistics& s, int statistic) {
     }
 }
 
+/// A share to a thousandth of a per cent: what is below that is noise.
+QString percentText(double value) {
+    if (!std::isfinite(value)) return "–";
+    const double size = std::abs(value);
+    const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
+    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + QChar(0x202f) + "%";
+}
+
+QString readingText(Reading reading, double value, const QString& channelUnit) {
+    const auto unit = unitOf(reading, channelUnit);
+    const double shown = shownFactor(reading, channelUnit) * value;
+    return unit == "%" ? percentText(shown) : quantityText(shown, unit);
+}
+
 QString titled(QString name) {
     if (!name.isEmpty()) name[0] = name[0].toUpper();
     return name;
@@ -87,10 +101,14 @@ MeasurementTable::MeasurementTable(QWidget* parent)
         header->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     }
     table_->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    // Wide enough for "−12.34 mV·s" whatever comes: columns that jump with every capture cannot be read.
-    for (int c = 2; c < table_->columnCount(); ++c) {
-        table_->setColumnWidth(c, std::max(fontMetrics().horizontalAdvance("−000.00 mm"),
-                                           fontMetrics().horizontalAdvance(titles[c]) + 18));
+    // Wide enough for what may come: columns that jump with every capture cannot be read.
+    for (std::size_t r = 0; r < kReadings; ++r) {
+        const int c = 2 + static_cast<int>(r);
+        const auto widest = static_cast<Reading>(r) == Reading::Charge ? "00000 µV·s m" : "−000.0 mm";
+        auto bold = table_->font();
+        bold.setBold(true);
+        table_->setColumnWidth(
+            c, std::max(QFontMetrics(bold).horizontalAdvance(widest), fontMetrics().horizontalAdvance(titles[c]) + 16));
     }
     reset_->setToolTip(tr("Forgets the captures seen so far; the next one is the first."));
     connect(reset_, &QPushButton::clicked, this, &MeasurementTable::clear);
@@ -155,7 +173,7 @@ void MeasurementTable::fillRow(int row, const CaptureStatistics::Channel& channe
             statistic == kCount || (reading == Reading::Pulses && statistic != kMean && statistic != kSd);
         auto* item = table_->item(row, 2 + static_cast<int>(r));
         item->setText(count ? (std::isnan(value) ? "–" : QString::number(value, 'f', 0))
-                            : quantityText(shownFactor(reading) * value, unitOf(reading, channel.unit)));
+                            : readingText(reading, value, channel.unit));
         item->setToolTip(std::isnan(value)
                              ? (its.n() == 1
                                     ? tr("One reading has no standard deviation.")

@@ -19,12 +19,11 @@ namespace {
 
 constexpr int kPixelsPerInch = 96;
 
-void paint(QCustomPlot& plot, QPaintDevice& device, double scale) {
+void paint(QCustomPlot& plot, QPaintDevice& device) {
     QCPPainter painter;
     painter.begin(&device);
     painter.setMode(QCPPainter::pmVectorized);
     painter.setMode(QCPPainter::pmNoCaching);
-    painter.scale(scale, scale);
     painter.fillRect(QRect(QPoint(0, 0), plot.size()), plot.palette().base());
     plot.toPainter(&painter, plot.width(), plot.height());
     painter.end();
@@ -40,7 +39,7 @@ QByteArray svgOf(QCustomPlot& plot) {
     svg.setViewBox(QRect(QPoint(0, 0), plot.size()));
     svg.setResolution(kPixelsPerInch);
     svg.setTitle(QObject::tr("Oscilloscope"));
-    paint(plot, svg, 1);
+    paint(plot, svg);
     return bytes;
 }
 
@@ -49,12 +48,12 @@ QByteArray pdfOf(QCustomPlot& plot) {
     QBuffer buffer(&bytes);
     buffer.open(QIODevice::WriteOnly);
     QPdfWriter pdf(&buffer);
-    pdf.setResolution(1200);
+    pdf.setResolution(kPixelsPerInch);  // of the layout: what is drawn stays vectors
     const QSizeF inches = QSizeF(plot.size()) / kPixelsPerInch;
     pdf.setPageSize(QPageSize(inches, QPageSize::Inch, {}, QPageSize::ExactMatch));
     pdf.setPageMargins({});
     pdf.setTitle(QObject::tr("Oscilloscope"));
-    paint(plot, pdf, 1200.0 / kPixelsPerInch);
+    paint(plot, pdf);
     return bytes;
 }
 

@@ -206,6 +206,9 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
         double left = std::clamp((from + to - width) / 2, a.left(), std::max(a.left(), a.right() - width));
         if (left < written) continue;
         written = left + width + 4;
+        auto ground = colours().base;
+        ground.setAlpha(225);
+        painter.fillRect(QRectF(left, top + 4, width, line), ground);
         painter.setPen(colours().text);
         painter.setBrush(Qt::NoBrush);
         painter.drawText(QRectF(left, top + 4, width, line), Qt::AlignCenter, mark.why);

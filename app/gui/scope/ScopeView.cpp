@@ -77,9 +77,11 @@ void ScopeView::show(ShownPtr shown) {
         history_ = {};
         if (!roll_) fitTime();
         fitLanes(view_);
+        untouched_ = true;
     } else if (whole && !roll_) {
         fitTime();
     }
+    if (untouched_ && outgrown()) fitLanes(view_);
     if (roll_) view_.left_s = onGrid(shown_->end_s() - view_.width_s(), view_.perDivision_s);
     fillGraphs();
     apply();

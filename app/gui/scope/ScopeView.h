@@ -145,6 +145,7 @@ private:
     void dropOldest();
     [[nodiscard]] Lane* gripLane(int number);
     void fitLanes(Viewport& view) const;
+    [[nodiscard]] bool outgrown() const;
     void fillGraphs();
     void removeLane(QString key);  // by value: the lane that owns it goes
     /// Becomes the view, after remembering the present one under `kind`.
@@ -179,6 +180,7 @@ private:
 
     Viewport view_;
     ViewHistory history_;
+    bool untouched_ = true;  ///< the view is a fit and nobody has changed it: it grows with the signal
     bool boxZoom_ = false;
     Drag drag_ = Drag::None;
     GripAt grip_;

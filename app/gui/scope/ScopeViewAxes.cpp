@@ -25,7 +25,12 @@ ScopeView::ScopeView(QWidget* parent)
       leftTicker_(new GraticuleTicker(kDivisionsUp)),
       rightTicker_(new GraticuleTicker(kDivisionsUp)) {
     setAccessibleName(tr("Oscilloscope screen"));
-    setToolTip({});
+    // Not a tool tip: it would lie over the traces wherever the mouse rests.
+    setWhatsThis(
+        tr("Wheel: time. Ctrl+wheel: level of the active lane. Drag: pan. Shift+drag: zoom into a box. Double "
+           "click or Home: fit. Ctrl+Z: back. Arrows: nudge the focused cursor, or pan. 1 to 4: choose a cursor. "
+           "+ and -: zoom. Between two edges the mouse shows width and interval."));
+    setAccessibleDescription(whatsThis());
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setNoAntialiasingOnDrag(true);
@@ -85,7 +90,7 @@ void ScopeView::restyle() {
     const QFontMetrics small(xAxis->tickLabelFont());
     // Room for the widest numbers, so that the screen does not jump while they change.
     const int side = small.horizontalAdvance("−000.00") + small.height() + 12;
-    axisRect()->setMinimumMargins(QMargins(side, small.height() / 2, side, small.height() * 2 + 12));
+    axisRect()->setMinimumMargins(QMargins(side, small.height() / 2 + 5, side, small.height() * 2 + 12));
     for (const auto& l : lanes_) {
         const auto colour = colourOf(*l);
         l->graph->setPen(QPen(colour, 1));
@@ -154,8 +159,23 @@ void ScopeView::fitLanes(Viewport& view) const {
         }
         const double middle = l->shown ? kHalf - (place++ + 0.5) * height : 0;
         // Lanes may touch: half a division more would often halve them.
-        view.lanes[l->key] = fittingLevels(low, high, middle, height * (count > 1 ? 1.08 : 0.95));
+        view.lanes[l->key] = restingLevels(low, high, middle, height * (count > 1 ? 1.08 : 0.95));
     }
+}
+
+bool ScopeView::outgrown() const {
+    for (const auto& l : lanes_) {
+        const auto newest = l->stored || !l->shown ? nullptr : shown_->trace(l->key);
+        if (!newest) continue;
+        const auto scale = scaleOf(*l);
+        const auto all = newest->pyramid.over(0, newest->size());
+        if (all.empty()) continue;
+        if (static_cast<double>(all.high) / scale.perDivision + scale.position > kHalf ||
+            static_cast<double>(all.low) / scale.perDivision + scale.position < -kHalf) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void ScopeView::fitTime() {
@@ -173,6 +193,7 @@ void ScopeView::fit() {
     view_ = before;
     fitLanes(next);
     go(next, {});
+    untouched_ = true;
 }
 
 void ScopeView::setTimePerDivision(double perDivision_s) {
@@ -195,6 +216,7 @@ void ScopeView::setTimeCentre(double centre_s) {
 void ScopeView::go(const Viewport& next, const QString& kind) {
     if (next == view_) return;
     history_.remember(view_, kind);
+    if (next.lanes != view_.lanes) untouched_ = false;
     view_ = next;
     apply();
 }
@@ -203,6 +225,7 @@ bool ScopeView::undoZoom() {
     const auto before = history_.undo();
     if (!before) return false;
     // Lanes that came since keep their scale.
+    untouched_ = false;
     const auto now = view_.lanes;
     view_ = *before;
     view_.lanes.insert(now.begin(), now.end());

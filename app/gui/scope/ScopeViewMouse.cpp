@@ -100,7 +100,8 @@ void ScopeView::panBy(double time_s, double height) {
     for (const auto& l : lanes_) {
         if (l->stored || !l->shown) continue;
         auto& scale = view_.lanes[l->key];
-        scale.position = onGrid(scale.position + height, 1);
+        const double before = std::exchange(scale.position, onGrid(scale.position + height, 1));
+        if (scale.position != before) untouched_ = false;
     }
 }
 
@@ -158,6 +159,7 @@ void ScopeView::dragGrip(const QPointF& pixel) {
             auto next = view_;
             next.lanes[its->key].position = onGrid(std::clamp(height, -kDivisionsUp / 2.0, kDivisionsUp / 2.0), 1);
             if (view_ == pressedView_ && next != view_) history_.remember(view_, {});
+            untouched_ = false;
             view_ = next;
             return apply();
         }

@@ -128,6 +128,7 @@ private:
     QToolButton* timeCursors_ = nullptr;
     QToolButton* levelCursors_ = nullptr;
     QToolButton* cancelOpen_ = nullptr;
+    QToolButton* controlsShown_ = nullptr;
     QLabel* status_ = nullptr;
     QLabel* readout_ = nullptr;
     QMenu* menu_ = nullptr;

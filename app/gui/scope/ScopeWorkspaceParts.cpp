@@ -17,6 +17,7 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTemporaryDir>
+#include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -35,6 +36,28 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kMostCopied = 200'000;  ///< samples a channel, as text on the clipboard
+
+/// A column of controls that scrolls up and down and is always as wide as they are.
+class ControlColumn final : public QScrollArea {
+public:
+    explicit ControlColumn(QWidget* parent) : QScrollArea(parent) {
+        setWidgetResizable(true);
+        setFrameShape(QFrame::NoFrame);
+        setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+        setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+    }
+    QSize sizeHint() const override {
+        const int width = widget() == nullptr ? 0 : widget()->minimumSizeHint().width();
+        return {width + verticalScrollBar()->sizeHint().width(), QScrollArea::sizeHint().height()};
+    }
+    QSize minimumSizeHint() const override { return {sizeHint().width(), fontMetrics().height() * 6}; }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override {
+        if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+        return QScrollArea::eventFilter(watched, event);
+    }
+};
 
 }  // namespace
 
@@ -63,6 +86,7 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     plots->setStretchFactor(0, 5);
     plots->setStretchFactor(1, 2);
     plots->setStretchFactor(2, 2);
+    plots->setSizes({600, 200, 190});
     spectrum_->hide();
 
     auto* left = new QWidget(this);
@@ -81,7 +105,9 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     auto* row = new QHBoxLayout(whole);
     row->setContentsMargins(8, 8, 8, 8);
     row->addWidget(left, 1);
-    row->addWidget(buildControls());
+    auto* controls = buildControls();
+    row->addWidget(controls);
+    connect(controlsShown_, &QToolButton::toggled, controls, &QWidget::setVisible);
 
     stack_ = new QStackedWidget(this);
     stack_->addWidget(buildEmpty());
@@ -165,21 +191,22 @@ QToolButton* ScopeWorkspace::tool(const QString& text, const QString& tip, bool 
 }
 
 QWidget* ScopeWorkspace::buildTools() {
-    auto* bar = new QWidget(this);
-    auto* row = new QHBoxLayout(bar);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(3);
+    // A tool bar folds what does not fit behind an arrow.
+    auto* bar = new QToolBar(this);
+    bar->setMovable(false);
+    bar->layout()->setSpacing(3);
+    bar->layout()->setContentsMargins(0, 0, 0, 0);
     run_ = new QPushButton(tr("Run"), this);
     run_->setToolTip(tr("Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
     connect(run_, &QPushButton::clicked, this, [this] { running_ ? hold() : run(); });
-    row->addWidget(run_);
+    bar->addWidget(run_);
     modes_ = new QButtonGroup(this);
     const auto mode = [&](ScopeMode which, const QString& text, const QString& tip) {
         auto* button = tool(text, tip, true);
         modes_->addButton(button, static_cast<int>(which));
         button->setChecked(which == mode_);
         connect(button, &QToolButton::clicked, this, [this, which] { setMode(which); });
-        row->addWidget(button);
+        bar->addWidget(button);
     };
     mode(ScopeMode::Auto, tr("Auto"), tr("A: the trigger level follows a fifth of the commanded amplitude."));
     mode(ScopeMode::Normal, tr("Normal"), tr("N: captures whenever the signal rises through the level set here."));
@@ -187,7 +214,7 @@ QWidget* ScopeWorkspace::buildTools() {
     mode(ScopeMode::Roll, tr("Roll"),
          tr("Captures one after the other on the session's time. A capture is a record "
             "around a trigger: what lies between them was not recorded and is hatched."));
-    row->addSpacing(8);
+    bar->addSeparator();
     auto* fit =
         tool(tr("Fit"), tr("Home or a double click: the whole record, every lane as large as it can be."), false);
     connect(fit, &QToolButton::clicked, this, [this] { view_->fit(); });
@@ -206,12 +233,16 @@ QWidget* ScopeWorkspace::buildTools() {
                             "signal rests; up and down nudge, 3 and 4 choose."),
                          true);
     connect(levelCursors_, &QToolButton::toggled, this, [this](bool on) { view_->setLevelCursors(on); });
-    for (auto* button : {fit, undo_, box_, timeCursors_, levelCursors_}) row->addWidget(button);
-    row->addStretch();
+    for (auto* button : {fit, undo_, box_, timeCursors_, levelCursors_}) bar->addWidget(button);
+    bar->addSeparator();
     auto* save = tool(tr("Save"), tr("Copies and saves the picture and its data, opens captures."), false);
     save->setPopupMode(QToolButton::InstantPopup);
     save->setMenu(menu_);
-    row->addWidget(save);
+    bar->addWidget(save);
+    controlsShown_ =
+        tool(tr("Controls"), tr("Shows or hides the column at the right, to give the screen its room."), true);
+    controlsShown_->setChecked(true);
+    bar->addWidget(controlsShown_);
     cancelOpen_ = tool(tr("Cancel"), tr("Gives up reading. What is shown stays."), false);
     connect(cancelOpen_, &QToolButton::clicked, &pipe_, &CapturePipe::cancelOpen);
     return bar;
@@ -237,12 +268,8 @@ QWidget* ScopeWorkspace::buildControls() {
     section(tr("View"), viewPanel_);
     section(tr("Trigger and record"), acquisition_);
     column->addStretch();
-    auto* scroll = new QScrollArea(this);
+    auto* scroll = new ControlColumn(this);
     scroll->setWidget(inside);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    scroll->setFixedWidth(fontMetrics().averageCharWidth() * 36 + scroll->verticalScrollBar()->sizeHint().width());
     return scroll;
 }
 

@@ -36,9 +36,15 @@ ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
     charge_->setToolTip(
         tr("The current added up from the record's begin, in coulombs: a balanced pulse returns to "
            "where it began. After missing samples it begins again at zero."));
+    for (auto* box : {base_, persistence_, difference_}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(10);
+    }
     difference_->setAccessibleName(tr("Difference"));
     difference_->setToolTip(tr("One channel minus another, or minus a stored reference of the same unit."));
     spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
+    // No wider than its words: a click beside them is not meant for it.
+    for (auto* box : {power_, charge_, spectrum_}) box->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     auto* form = new QFormLayout(this);
     form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);

@@ -61,6 +61,24 @@ LaneScale fittingLevels(double low, double high, double middle, double height) {
     return lane;
 }
 
+LaneScale restingLevels(double low, double high, double middle, double height) {
+    constexpr double kInside = kDivisionsUp / 2.0 - 0.1;
+    constexpr double kHalfDivision = 0.5;
+    LaneScale lane = fittingLevels(low, high, middle, height);
+    for (int tries = 0; tries < 3; ++tries) {
+        lane.position = std::round(lane.position / kHalfDivision) * kHalfDivision;
+        const double top = high / lane.perDivision, bottom = low / lane.perDivision;
+        const double most = std::floor((kInside - top) / kHalfDivision) * kHalfDivision;
+        const double least = std::ceil((-kInside - bottom) / kHalfDivision) * kHalfDivision;
+        if (least <= most) {
+            lane.position = std::clamp(lane.position, least, most);
+            break;
+        }
+        lane = fittingLevels(low, high, middle, (high - low) / stepAlong(lane.perDivision, 1));
+    }
+    return lane;
+}
+
 void ViewHistory::remember(const Viewport& view, const QString& kind) {
     const bool sameTurn = !kind.isEmpty() && kind == lastKind_ && since_.isValid() && since_.elapsed() < kOneTurn_ms;
     lastKind_ = kind;

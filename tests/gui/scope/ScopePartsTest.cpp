@@ -158,6 +158,7 @@ TEST(SpectrumPanel, ASineStandsAtItsFrequencyWithItsRms) {
     const auto top = static_cast<std::size_t>(std::max_element(s.rms.begin(), s.rms.end()) - s.rms.begin());
     EXPECT_NEAR(s.hz[top], 1000, 100e3 / 8192);
     EXPECT_NEAR(s.rms[top], 2, 0.3) << "scalloping of a Hann window is at most 15 %";
+    QCoreApplication::processEvents();
     shot(panel, "spectrum");
     auto holed = std::make_shared<std::vector<float>>(*samples);
     (*holed)[5000] = NAN;

@@ -83,7 +83,8 @@ TEST_F(Screen, DraggingPansAndADoubleClickFits) {
 TEST_F(Screen, ABoxBecomesTheScreen) {
     const Viewport before = view.viewport();
     const auto lane = laneOf(volts).scale;
-    drag(view, atTime(view, -0.1e-3, lane.position + 0.98), atTime(view, 0.6e-3, lane.position - 0.98), Qt::ShiftModifier);
+    drag(view, atTime(view, -0.1e-3, lane.position + 0.98), atTime(view, 0.6e-3, lane.position - 0.98),
+         Qt::ShiftModifier);
     EXPECT_DOUBLE_EQ(view.viewport().perDivision_s, 0.1e-3);
     EXPECT_LE(view.viewport().left_s, -0.1e-3 + 2e-5);
     EXPECT_GE(view.viewport().right_s(), 0.6e-3 - 2e-5);
@@ -182,7 +183,7 @@ TEST_F(Screen, GapsAreHatchedAndClippedSamplesMarked) {
     capture.channels[0].high = 30;
     view.show(prepared(std::move(capture)));
     draw();
-    const double perColumn = 20'000.0 / view.axisRect()->width();
+    const double perColumn = 20'000.0 / view.axisRect()->width() / view.devicePixelRatioF();
     EXPECT_NEAR(view.graph(volts)->gapColumns(), 1000 / perColumn, 2);
     EXPECT_GT(view.graph(volts)->clippedColumns(), 2 * 400 / perColumn - 3);
     EXPECT_EQ(view.graph(amps)->gapColumns(), 0);

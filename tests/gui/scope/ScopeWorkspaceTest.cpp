@@ -122,9 +122,12 @@ TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
 TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    // Once the amplitude has settled, the level lies on the screen.
+    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 5; }));
     auto& view = scope.view();
     QTest::keyClick(&view, Qt::Key_N);
+    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 6; }));
+    view.fit();
     scope.refresh(desk.telemetry());
     draw();
     ASSERT_TRUE(view.overlay().trigger && view.overlay().trigger->height);
@@ -195,7 +198,8 @@ TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
     click(*find<QCheckBox>(scope, "Spectrum"));
     scope.view().fit();
     EXPECT_TRUE(comes([&] { return find<QWidget>(scope, "Spectrum") != nullptr; }));
-    draw();
+    QCoreApplication::processEvents();  // layouts settle
+    QCoreApplication::processEvents();
     shot(scope, "workspace-everything");
 }
 
@@ -230,7 +234,8 @@ TEST_F(Scope, CursorsReadBelowTheTools) {
     click(*find<QToolButton>(scope, "Level cursors"));
     EXPECT_TRUE(readout->isVisible());
     EXPECT_THAT(readout->text().toStdString(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("Y2")));
-    draw();
+    QCoreApplication::processEvents();  // layouts settle
+    QCoreApplication::processEvents();
     shot(scope, "workspace-cursors");
 }
 
@@ -238,7 +243,7 @@ TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
     ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
     gui::applyTheme(gui::Theme::Dark);
-    for (const auto& [name, size] : {std::pair{"small", QSize(860, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
+    for (const auto& [name, size] : {std::pair{"small", QSize(680, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
         scope.resize(size);
         QCoreApplication::processEvents();
         draw();
