@@ -155,7 +155,7 @@ QWidget* ProfileEditor::buildButtons() {
         row->addWidget(made);
         return made;
     };
-    button(tr("&Open…"), tr("A profile file (JSON)."), &ProfileEditor::open);
+    button(tr("&Open…"), tr("A profile file (JSON)."), &ProfileEditor::load);
     save_ = button(tr("&Save…"), tr("Writes this profile to a file (JSON)."), &ProfileEditor::save);
     button(tr("S&hipped values"), tr("The paper's: 10 to 40 V, 2 s to 0.5 s."), [this] {
         if (const auto shipped = shippedProfile()) fill(*shipped);
@@ -215,7 +215,7 @@ void ProfileEditor::apply() {
     if (const auto profile = read()) desk_.setProfile(*profile);
 }
 
-void ProfileEditor::open() {
+void ProfileEditor::load() {
     auto* dialog = new QFileDialog(this, tr("Open a profile"), QString(), tr("Profiles (*.json)"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {

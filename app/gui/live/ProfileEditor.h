@@ -31,7 +31,7 @@ private:
     [[nodiscard]] Result<Profile> read() const;
     void judge();
     void apply();
-    void open();
+    void load();
     void save();
 
     BenchDesk& desk_;

@@ -82,7 +82,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchDesk& desk, QWidget* parent) : Q
     open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::open);
+    connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::openBench);
     connect(load_, &QLineEdit::textChanged, this, &SimulatedBenchDialog::judge);
     connect(mode_, &QComboBox::currentIndexChanged, this, &SimulatedBenchDialog::judge);
     connect(fault_, &QComboBox::currentIndexChanged, this, &SimulatedBenchDialog::judge);
@@ -119,7 +119,7 @@ void SimulatedBenchDialog::judge() {
     says_->setText(load ? shown.join("\n") : QString::fromStdString(load.error().message));
 }
 
-void SimulatedBenchDialog::open() {
+void SimulatedBenchDialog::openBench() {
     LiveOrder order;
     for (const auto& text : uris()) {
         auto uri = DeviceUri::parse(text);

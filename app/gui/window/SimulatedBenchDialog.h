@@ -23,7 +23,7 @@ public:
 private:
     [[nodiscard]] std::vector<std::string> uris() const;
     void judge();
-    void open();
+    void openBench();
 
     BenchDesk& desk_;
     QComboBox* mode_;

@@ -1,0 +1,46 @@
+// Background.h - one long piece of work beside the window: progress, cancel, and its end told on the GUI thread.
+//
+// Thread-safety: the GUI thread; the work itself runs on a thread of its own and must not touch widgets.
+#pragma once
+
+#include <QObject>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "core/base/Result.h"
+
+namespace tacto::gui {
+
+/// What the work may ask and tell while it runs.
+struct WorkPort {
+    std::shared_ptr<std::atomic<bool>> cancelled;
+    std::function<void(int done, int total)> progress;
+    [[nodiscard]] bool stopped() const noexcept { return cancelled->load(std::memory_order_relaxed); }
+};
+
+class Background final : public QObject {
+    Q_OBJECT
+public:
+    using Work = std::function<Result<void>(const WorkPort&)>;
+    explicit Background(QObject* parent = nullptr) : QObject(parent) {}
+    ~Background() override;  ///< cancels and waits
+    /// Cancels and waits for earlier work first. `then` gets the result, unless other work was started meanwhile.
+    void start(Work work, std::function<void(Result<void>)> then);
+    void cancel();
+    [[nodiscard]] bool busy() const { return busy_; }
+
+signals:
+    void progressed(int done, int total);
+    void busyChanged(bool busy);
+
+private:
+    void join();
+    std::shared_ptr<std::atomic<bool>> cancelled_;
+    std::thread thread_;
+    int number_ = 0;
+    bool busy_ = false;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,229 @@
+#include "app/gui/sessions/SessionDetails.h"
+
+#include <QHeaderView>
+#include <QSplitter>
+
+#include "app/gui/look/Look.h"
+#include "app/report/FigureDrawing.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto::gui {
+
+namespace {
+
+QString q(const std::string& text) { return QString::fromStdString(text); }
+
+constexpr std::size_t kDrawnPoints = 4000;
+
+QTableWidget* makeTable(QWidget* parent, const QString& name) {
+    auto* table = new QTableWidget(parent);
+    table->setAccessibleName(name);
+    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table->setSelectionMode(QAbstractItemView::SingleSelection);
+    table->verticalHeader()->hide();
+    table->setAlternatingRowColors(true);
+    table->setWordWrap(false);
+    return table;
+}
+
+}  // namespace
+
+Result<ReadSession> readSession(const std::filesystem::path& path) {
+    const auto reader = SessionReader::open(path);
+    if (!reader) return failure(reader);
+    ReadSession session;
+    session.path = path;
+    session.about = reader->about();
+    session.closed = reader->closed();
+    session.head = reader->chainHead();
+    const auto take = [](auto&& from, auto& into) -> Result<void> {
+        if (!from) return failure(from);
+        into = std::move(*from);
+        return {};
+    };
+    if (auto done = take(reader->verdicts(), session.verdicts); !done) return failure(done);
+    if (auto done = take(reader->trials(), session.trials); !done) return failure(done);
+    if (auto done = take(reader->events(), session.events); !done) return failure(done);
+    if (auto done = take(reader->log(), session.log); !done) return failure(done);
+    if (auto done = take(reader->streams(), session.streams); !done) return failure(done);
+    if (auto done = take(reader->captures(), session.captures); !done) return failure(done);
+    return session;
+}
+
+SessionDetails::SessionDetails(QWidget* parent) : QTabWidget(parent) {
+    setDocumentMode(true);
+    about_ = new QTextBrowser(this);
+    about_->setAccessibleName(tr("About the session"));
+    trials_ = makeTable(this, tr("Trials"));
+    events_ = makeTable(this, tr("Events and log"));
+    auto* split = new QSplitter(Qt::Vertical, this);
+    streams_ = makeTable(split, tr("Streams"));
+    plot_ = new QCustomPlot(split);
+    plot_->setAccessibleName(tr("The chosen stream"));
+    plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+    plot_->axisRect()->setRangeZoom(Qt::Horizontal);
+    plot_->axisRect()->setRangeDrag(Qt::Horizontal);
+    plot_->xAxis->setLabel(tr("time (s)"));
+    stylePlot(*plot_);
+    split->addWidget(streams_);
+    split->addWidget(plot_);
+    captures_ = makeTable(this, tr("Captures"));
+    captures_->setToolTip(tr("Double click or Return opens a capture in the oscilloscope."));
+    addTab(about_, tr("About"));
+    addTab(trials_, tr("Trials"));
+    addTab(events_, tr("Events"));
+    addTab(split, tr("Streams"));
+    addTab(captures_, tr("Captures"));
+    connect(captures_, &QTableWidget::cellActivated, this, [this] {
+        if (const auto seq = chosenCapture()) emit captureActivated(*seq);
+    });
+    connect(streams_, &QTableWidget::currentCellChanged, this, [this](int row) {
+        if (session_ && row >= 0 && row < int(session_->streams.size()))
+            emit streamChosen(session_->streams[std::size_t(row)].id);
+    });
+    say(tr("Choose a session at the left."));
+}
+
+void SessionDetails::say(const QString& why) {
+    session_.reset();
+    about_->setHtml("<p>" + why.toHtmlEscaped() + "</p>");
+    for (auto* table : {trials_, events_, streams_, captures_}) table->setRowCount(0);
+    plot_->clearGraphs();
+    plot_->replot();
+    setCurrentIndex(0);
+}
+
+QString SessionDetails::aboutHtml() const {
+    const auto& about = session_->about;
+    QString html = QString("<h3>%1</h3>").arg(q(session_->path.filename().string()).toHtmlEscaped());
+    if (about.simulated) html += "<p><b>" + tr("SIMULATED") + "</b></p>";
+    for (const auto& verdict : session_->verdicts) {
+        html += QString("<p><b>%1: %2</b>").arg(q(verdict.subject).toHtmlEscaped(), q(verdict.verdict).toHtmlEscaped());
+        for (const auto& reason : verdict.reasons) html += "<br>" + q(reason).toHtmlEscaped();
+        html += "</p>";
+    }
+    html += "<table cellpadding=\"3\">";
+    const auto row = [&](const QString& name, const QString& value) {
+        html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
+    };
+    row(tr("Protocol"), about.protocol.empty() ? tr("live") : q(about.protocol));
+    row(tr("Began"), q(about.wallStart));
+    row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
+    if (!about.parameters.empty()) row(tr("Parameters"), q(about.parameters.dump()));
+    row(tr("Seed"), QString::number(about.seed));
+    row(tr("Output mode"), q(about.mode));
+    for (const auto& device : about.devices) {
+        row(q(device.role), QString("%1 · %2%3")
+                                .arg(q(device.name), q(device.uri),
+                                     device.serial.empty() ? QString() : tr(" · serial %1").arg(q(device.serial))));
+    }
+    for (const auto& set : about.limitSets) row(tr("Limit set"), q(set.id + " · " + set.sha256.substr(0, 16) + "…"));
+    row(tr("Profile"), q(about.profileSha256.substr(0, 16) + "…"));
+    row(tr("Program"), q(about.programVersion));
+    row(tr("Chain head"), q(session_->head));
+    return html + "</table>";
+}
+
+void SessionDetails::fill(QTableWidget& table, const QStringList& header, const QList<QStringList>& rows) {
+    table.clear();
+    table.setColumnCount(int(header.size()));
+    table.setHorizontalHeaderLabels(header);
+    table.setRowCount(int(rows.size()));
+    for (int r = 0; r < int(rows.size()); ++r) {
+        for (int c = 0; c < int(rows[r].size()); ++c) {
+            auto* item = new QTableWidgetItem(rows[r][c]);
+            item->setToolTip(rows[r][c]);
+            table.setItem(r, c, item);
+        }
+    }
+    table.resizeColumnsToContents();
+    table.horizontalHeader()->setStretchLastSection(true);
+}
+
+void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
+    session_ = std::move(session);
+    about_->setHtml(aboutHtml());
+    QList<QStringList> rows;
+    for (const auto& trial : session_->trials) {
+        const auto number = [&](const char* key, const char* unit) {
+            const auto at = trial.measured.find(key);
+            return quantityText(at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan(""), unit,
+                                4);
+        };
+        rows << QStringList{QString::number(trial.number),
+                            quantityText(toSeconds(trial.at), "s", 4),
+                            q(trial.condition),
+                            number("amplitude_v", "V"),
+                            number("interval_s", "s"),
+                            number("width_s", "s")};
+    }
+    fill(*trials_, {tr("Trial"), tr("At"), tr("Condition"), tr("Amplitude"), tr("Interval"), tr("Width")}, rows);
+    rows.clear();
+    for (const auto& event : session_->events)
+        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), q(event.name), q(event.body.dump())};
+    for (const auto& line : session_->log)
+        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), q(line.name), q(line.body.value("text", ""))};
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const auto& a, const auto& b) { return a[0].toDouble() < b[0].toDouble(); });
+    fill(*events_, {tr("At (s)"), tr("Event"), tr("Details")}, rows);
+    rows.clear();
+    for (const auto& stream : session_->streams) {
+        rows << QStringList{q(stream.stream.name), q(stream.stream.unit), quantityText(stream.stream.rate_hz, "Hz", 4),
+                            QString::number(stream.samples), QString::number(stream.stream.columns.size())};
+    }
+    fill(*streams_, {tr("Stream"), tr("Unit"), tr("Rate"), tr("Samples"), tr("Channels")}, rows);
+    plot_->clearGraphs();
+    plot_->replot();
+    rows.clear();
+    for (const auto& capture : session_->captures) {
+        rows << QStringList{QString::number(capture.seq), capture.trial ? QString::number(*capture.trial) : "–",
+                            quantityText(toSeconds(capture.at), "s", 4), QString::number(capture.samples),
+                            quantityText(capture.rate_hz, "S/s", 3)};
+    }
+    fill(*captures_, {tr("Row"), tr("Trial"), tr("At"), tr("Samples"), tr("Rate")}, rows);
+    if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
+}
+
+std::optional<std::int64_t> SessionDetails::chosenCapture() const {
+    const int row = captures_->currentRow();
+    if (!session_ || row < 0 || row >= int(session_->captures.size())) return std::nullopt;
+    return session_->captures[std::size_t(row)].seq;
+}
+
+int SessionDetails::chosenStream() const {
+    const int row = streams_->currentRow();
+    return session_ && row >= 0 && row < int(session_->streams.size()) ? session_->streams[std::size_t(row)].id : 0;
+}
+
+void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock& samples) {
+    plot_->clearGraphs();
+    const auto columns = info.stream.columns.size();
+    for (std::size_t c = 0; c < columns; ++c) {
+        std::vector<double> values(samples.samples());
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = samples.values[i * columns + c];
+        QVector<double> x, y;
+        for (const auto i : visiblePoints(values, kDrawnPoints)) {
+            x << samples.t_s[i];
+            y << values[i];
+        }
+        auto* graph = plot_->addGraph();
+        graph->setData(x, y, true);
+        const QColor of[] = {colours().voltage, colours().current, colours().math, colours().amber};
+        graph->setPen(QPen(of[c % 4]));
+    }
+    plot_->yAxis->setLabel(info.stream.unit.empty() ? q(info.stream.name)
+                                                    : QString("%1 (%2)").arg(q(info.stream.name), q(info.stream.unit)));
+    plot_->rescaleAxes();
+    plot_->replot();
+}
+
+void SessionDetails::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange && plot_ != nullptr) {
+        stylePlot(*plot_);
+        plot_->replot(QCustomPlot::rpQueuedReplot);
+    }
+    QTabWidget::changeEvent(event);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,212 @@
+#include "app/gui/sessions/SessionExport.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/measure/CaptureFile.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto::gui {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A folder that goes away unless it was kept.
+class Draft {
+public:
+    explicit Draft(fs::path target) : target_(std::move(target)), path_(target_.string() + ".part") {}
+    ~Draft() {
+        std::error_code ignored;
+        if (!kept_) fs::remove_all(path_, ignored);
+    }
+    Draft(const Draft&) = delete;
+    Draft& operator=(const Draft&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+    [[nodiscard]] Result<void> begin() const {
+        std::error_code error;
+        if (fs::exists(target_, error))
+            return fail(ErrorCode::InvalidArgument, "{} is there already; a new folder is expected", target_.string());
+        fs::remove_all(path_, error);
+        fs::create_directories(path_, error);
+        if (error) return fail(ErrorCode::Io, "cannot make the folder {}: {}", path_.string(), error.message());
+        return {};
+    }
+    [[nodiscard]] Result<void> keep() {
+        std::error_code error;
+        fs::rename(path_, target_, error);
+        if (error) return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
+        kept_ = true;
+        return {};
+    }
+
+private:
+    fs::path target_, path_;
+    bool kept_ = false;
+};
+
+class TextFile {
+public:
+    explicit TextFile(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {}
+    template <class... Parts>
+    void write(fmt::format_string<Parts...> format, Parts&&... parts) {
+        if (!file_) return;
+        const auto text = fmt::format(format, std::forward<Parts>(parts)...);
+        good_ = good_ && std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
+    }
+    [[nodiscard]] Result<void> close() {
+        good_ = good_ && file_ && std::fflush(file_.get()) == 0;
+        file_.reset();
+        if (!good_) return fail(ErrorCode::Io, "cannot write {}: is the disk full?", path_.string());
+        return {};
+    }
+
+private:
+    fs::path path_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    bool good_ = true;
+};
+
+/// Empty where absent; all digits that a double has.
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string(); }
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"') out += '"';
+        out += c;
+    }
+    return out + '"';
+}
+
+std::string fileName(std::string name) {
+    for (auto& c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (!plain) c = '-';
+    }
+    return name;
+}
+
+Result<void> writeStream(const SessionReader& reader, const SessionStreamInfo& info, const fs::path& path,
+                         const WorkPort& port) {
+    TextFile file(path);
+    std::string header = "time_s";
+    for (const auto& column : info.stream.columns) header += "," + column;
+    file.write("{}\n", header);
+    const auto columns = info.stream.columns.size();
+    auto read = reader.forEachChunk(info.id, [&](const SampleBlock& block) {
+        for (std::size_t i = 0; i < block.samples(); ++i) {
+            std::string line = cell(block.t_s[i]);
+            for (std::size_t c = 0; c < columns; ++c) line += "," + cell(block.values[i * columns + c]);
+            file.write("{}\n", line);
+        }
+        return !port.stopped();
+    });
+    if (!read) return read;
+    if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled; nothing was written");
+    return file.close();
+}
+
+Result<void> writeTrials(const SessionReader& reader, const fs::path& path) {
+    const auto trials = reader.trials();
+    if (!trials) return failure(trials);
+    TextFile file(path);
+    file.write("trial,time_s,condition,amplitude_v,interval_s,width_s,charge_uc,imbalance\n");
+    for (const auto& trial : *trials) {
+        const auto value = [&](const char* key) {
+            const auto at = trial.measured.find(key);
+            return at != trial.measured.end() && at->is_number() ? cell(at->get<double>()) : std::string();
+        };
+        file.write("{},{},{},{},{},{},{},{}\n", trial.number, cell(toSeconds(trial.at)), quoted(trial.condition),
+                   value("amplitude_v"), value("interval_s"), value("width_s"), value("charge_uc"), value("imbalance"));
+    }
+    return file.close();
+}
+
+Result<void> writeRows(const Result<std::vector<SessionRow>>& rows, const char* what, const fs::path& path) {
+    if (!rows) return failure(rows);
+    TextFile file(path);
+    file.write("time_s,{},details\n", what);
+    for (const auto& row : *rows)
+        file.write("{},{},{}\n", cell(toSeconds(row.at)), quoted(row.name), quoted(row.body.dump()));
+    return file.close();
+}
+
+}  // namespace
+
+Result<void> exportCsv(const fs::path& session, const fs::path& folder, const WorkPort& port) {
+    const auto reader = SessionReader::open(session);
+    if (!reader) return failure(reader);
+    Draft draft(folder);
+    if (auto begun = draft.begin(); !begun) return begun;
+    const auto streams = reader->streams();
+    if (!streams) return failure(streams);
+    const auto captures = reader->captures();
+    if (!captures) return failure(captures);
+    const int total = int(streams->size() + captures->size()) + 3;
+    int done = 0;
+    for (const auto& stream : *streams) {
+        const auto name = fmt::format("stream-{}-{}.csv", stream.id, fileName(stream.stream.name));
+        if (auto written = writeStream(*reader, stream, draft.path() / name, port); !written) return written;
+        port.progress(++done, total);
+    }
+    if (auto written = writeTrials(*reader, draft.path() / "trials.csv"); !written) return written;
+    port.progress(++done, total);
+    if (auto written = writeRows(reader->events(), "event", draft.path() / "events.csv"); !written) return written;
+    port.progress(++done, total);
+    if (auto written = writeRows(reader->commands(), "command", draft.path() / "commands.csv"); !written)
+        return written;
+    port.progress(++done, total);
+    std::error_code error;
+    if (!captures->empty()) fs::create_directories(draft.path() / "captures", error);
+    for (const auto& info : *captures) {
+        if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled; nothing was written");
+        const auto capture = reader->capture(info.seq);
+        if (!capture) return failure(capture);
+        const auto name = fmt::format("trial-{:04}-{:05}.csv", info.trial.value_or(0), info.seq);
+        if (auto written = writeCapture(draft.path() / "captures" / name, *capture); !written) return written;
+        port.progress(++done, total);
+    }
+    return draft.keep();
+}
+
+Result<void> exportRecording(const fs::path& session, const fs::path& folder, const WorkPort& port) {
+    const auto reader = SessionReader::open(session);
+    if (!reader) return failure(reader);
+    const auto streams = reader->streams();
+    if (!streams) return failure(streams);
+    Draft draft(folder);
+    if (auto begun = draft.begin(); !begun) return begun;
+    Json described = Json::array();
+    int done = 0;
+    for (const auto& stream : *streams) {
+        const auto& kind = stream.stream.kind;
+        if ((kind != "acceleration" && kind != "force" && kind != "taxels") || stream.samples == 0) continue;
+        const auto file = kind + ".csv";
+        if (auto written = writeStream(*reader, stream, draft.path() / file, port); !written) return written;
+        described.push_back({{"kind", kind},
+                             {"file", file},
+                             {"time_column", "time_s"},
+                             {"time_unit", "s"},
+                             {"columns", stream.stream.columns},
+                             {"unit", stream.stream.unit}});
+        port.progress(++done, int(streams->size()));
+    }
+    if (described.empty())
+        return fail(ErrorCode::NotFound, "{} holds no sensor stream to replay", session.filename().string());
+    const Json recording{
+        {"title", session.stem().string()},
+        {"source", fmt::format("session {}, chain head {}", session.filename().string(), reader->chainHead())},
+        {"licence", "the lab's own"},
+        {"streams", described}};
+    TextFile file(draft.path() / "recording.json");
+    file.write("{}\n", recording.dump(2));
+    if (auto closed = file.close(); !closed) return closed;
+    return draft.keep();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,87 @@
+// One day at the bench, in a real X server: open, arm in two steps, drive, stop from inside a dialog, run a protocol.
+//
+// Needs a display of its own (see in-xvfb); skipped elsewhere.
+#include <QApplication>
+#include <QFileInfo>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QScreen>
+#include <QTest>
+#include <gtest/gtest.h>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/window/MainWindow.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+/// A key as the X server sends it, to whatever has the focus there.
+void type(const QString& keys) {
+    ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0);
+}
+
+void picture(const QString& name) {
+    QTest::qWait(150);
+    const auto file = QString("%1/%2%3.png").arg(qEnvironmentVariable("TACTO_SHOTS"), name, qEnvironmentVariable("TACTO_SHOT_SUFFIX"));
+    ASSERT_TRUE(QGuiApplication::primaryScreen()->grabWindow(0).save(file));
+    EXPECT_GT(QFileInfo(file).size(), 10'000) << "a blank picture";
+}
+
+TEST(EndToEnd, DISABLED_AWholeDay) {
+    RecordProperty("hazard", "H5");
+    ASSERT_EQ(QGuiApplication::platformName(), "xcb");
+    gui::MainWindow window(simulatedRegistry);
+    window.resize(QGuiApplication::primaryScreen()->size());
+    window.move(0, 0);
+    window.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+    window.activateWindow();
+    auto& desk = window.desk();
+    const auto state = [&] { return desk.telemetry().state; };
+    picture("1-empty");
+
+    type("ctrl+b");
+    ASSERT_TRUE(comesTrue([&] { return desk.activity() == gui::Activity::Live; }));
+    desk.present("P120", 50, 1);
+    QTest::qWait(3000);
+    picture("2-live");
+
+    click(*window.findChild<QPushButton*>("armButton"));
+    auto* arm = window.findChild<QPushButton*>("armOutput");
+    ASSERT_NE(arm, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return arm->isVisible(); }));
+    picture("3-arming");
+    EXPECT_EQ(state(), InterlockState::Disarmed) << "the first step arms nothing";
+    click(*arm);
+    ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Armed; }));
+    desk.drive(DriveSource::Sensor);
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().trainsDelivered >= 3; }));
+    picture("4-delivering");
+
+    auto* menuDialog = new QDialog(&window);
+    menuDialog->setModal(true);
+    auto* field = new QLineEdit(menuDialog);
+    menuDialog->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(menuDialog));
+    menuDialog->activateWindow();
+    field->setFocus();
+    type("Escape");
+    EXPECT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; })) << "Esc stops from inside a dialog";
+
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        picture(QString("5-workspace-%1").arg(page + 1));
+    }
+    gui::applyTheme(gui::Theme::Dark);
+    for (const int page : {0, 3, 5}) {
+        window.showWorkspace(page);
+        picture(QString("6-dark-%1").arg(page + 1));
+    }
+    gui::applyTheme(gui::Theme::Light);
+    window.close();
+}
+
+}  // namespace
+}  // namespace tacto::test
