@@ -1,0 +1,60 @@
+// Lab.h - a laboratory for tests: a folder for protocols of its own, a desk on the simulated bench, a workspace that
+// is refreshed as the window does it.
+#pragma once
+
+#include <QTimer>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "app/gui/runner/ProtocolWorkspace.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+
+class Lab : public testing::Test {
+protected:
+    Lab() {
+        std::filesystem::remove_all(userProtocolsFolder());
+        QObject::connect(&desk, &gui::BenchDesk::finished,
+                         [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
+        QObject::connect(&frame, &QTimer::timeout, [this] {
+            if (workspace) workspace->refresh(desk.telemetry());
+        });
+        frame.start(33);
+    }
+
+    /// A protocol of the lab's own.
+    static void write(const std::string& name, const std::string& script) {
+        std::filesystem::create_directories(userProtocolsFolder());
+        std::ofstream(userProtocolsFolder() / (name + ".js")) << script;
+    }
+
+    /// Shows the workspace; waits until it can run.
+    void open(const QString& protocol, QSize size = {1300, 820}) {
+        workspace = std::make_unique<gui::ProtocolWorkspace>(desk, protocol);
+        workspace->resize(size);
+        workspace->show();
+        ASSERT_TRUE(comesTrue([this] { return find<QPushButton>(*workspace, "runButton") != nullptr; }));
+    }
+    template <class T>
+    T& the(const QString& name) {
+        auto* found = find<T>(*workspace, name);
+        if (found == nullptr) throw std::runtime_error("nothing visible is called " + name.toStdString());
+        return *found;
+    }
+    bool ready() {
+        return comesTrue([this] { return the<QPushButton>("runButton").isEnabled(); });
+    }
+    QString says(const QString& name) {
+        const auto* label = find<QLabel>(*workspace, name);
+        return label != nullptr ? label->text() : QString();
+    }
+
+    gui::BenchDesk desk{simulatedRegistry};
+    std::unique_ptr<gui::ProtocolWorkspace> workspace;
+    std::shared_ptr<const gui::FinishedRun> ended;
+    QTimer frame;
+};
+
+}  // namespace tacto::test
