@@ -244,6 +244,7 @@ void ControlLoop::readFinger(Instant now) noexcept {
     shown_.sliding = newest.sliding;
     shown_.sensorAge_s = finger_->age_s(toSeconds(now));
     shown_.samplesLost = finger_->session().samplesLost();
+    shown_.sensorFinished = finger_->session().finished();
     shown_.gaps = finger_->gaps();
 }
 
@@ -462,6 +463,7 @@ void ControlLoop::publish(Instant now) noexcept {
     shown_.at = now;
     shown_.state = parts_.interlock.state();
     shown_.paused = paused_.load(std::memory_order_relaxed);
+    shown_.driving = drive_.source;
     const auto& command = planner_->command();
     shown_.amplitude_v = command ? command->amplitude.value() : NAN;
     shown_.interval_s = command ? command->interval.count() : NAN;

@@ -24,9 +24,6 @@
 
 namespace tacto {
 
-/// Where R and P come from.
-enum class DriveSource { Off, Manual, Sensor };
-
 struct DriveCommand {
     DriveSource source = DriveSource::Off;
     double roughness = 0;  ///< 0..1, Manual only

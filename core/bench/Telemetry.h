@@ -15,6 +15,9 @@
 
 namespace tacto {
 
+/// Where R and P come from.
+enum class DriveSource { Off, Manual, Sensor };
+
 /// Trivially copyable; NaN means absent.
 struct Telemetry {
     static constexpr std::size_t kMaxExposureRows = 40;
@@ -23,6 +26,7 @@ struct Telemetry {
     InterlockState state = InterlockState::Disconnected;
     FixedText<200> reason;  ///< of a fault or the last stop; else empty
     bool paused = false;
+    DriveSource driving = DriveSource::Off;  ///< every stop, disarm and fault turns it off
 
     double roughness = NAN;  ///< R, 0..1
     double pressure = NAN;   ///< P, 0..1
@@ -32,6 +36,7 @@ struct Telemetry {
     bool contact = false;
     bool sliding = false;
     double sensorAge_s = NAN;         ///< of the newest sample
+    bool sensorFinished = false;      ///< a replayed sensor has no more samples
     std::uint64_t slidingFrames = 0;  ///< frames with a spectral feature so far, and the sum of it:
     double sumH = 0;                  ///< the difference of two readings gives the mean between them
     std::uint64_t contactFrames = 0;  ///< the same for the spatial feature
