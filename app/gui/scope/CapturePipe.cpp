@@ -22,7 +22,7 @@ CapturePipe::~CapturePipe() {
 }
 
 void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
-    if (!capture || capture->samples() == 0) return;
+    if (!capture || capture->samples() == 0 || !(capture->rate_hz > 0)) return;
     if (pending_ >= kMostPending) {
         ++skipped_;
         return;

@@ -68,6 +68,17 @@ void LanePanel::build() {
         rows_.clear();
         int row = 0;
         for (const auto& l : lanes) addRow(l, row++);
+        // They come late, but the tab key is to find them between the screen and the button below them.
+        QWidget* before = &view_;
+        for (const auto& l : lanes) {
+            const auto& its = rows_[l.key];
+            for (QWidget* next :
+                 std::initializer_list<QWidget*>{its.letter, its.shown, its.scale, its.position, its.remove}) {
+                if (next == nullptr) continue;
+                setTabOrder(before, next);
+                before = next;
+            }
+        }
     }
     follow();
 }

@@ -161,7 +161,7 @@ void MeasurementTable::layRows() {
     }
     table_->resizeColumnToContents(0);
     table_->resizeColumnToContents(1);
-    changeEvent(nullptr);
+    restyle();
 }
 
 void MeasurementTable::fillRow(int row, const CaptureStatistics::Channel& channel, int statistic) {
@@ -218,8 +218,11 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
 }
 
 void MeasurementTable::changeEvent(QEvent* event) {
-    if (event != nullptr) QWidget::changeEvent(event);
-    if (event != nullptr && event->type() != QEvent::PaletteChange) return;
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) restyle();
+}
+
+void MeasurementTable::restyle() {
     // The newest reading stands out by weight, its channel by colour; the rest is quiet.
     for (int row = 0; row < table_->rowCount(); ++row) {
         const auto& channel = statistics_.channels()[static_cast<std::size_t>(row / kStatistics)];

@@ -32,6 +32,7 @@ protected:
 
 private:
     void layRows();
+    void restyle();
     void refill();
     void fillRow(int row, const CaptureStatistics::Channel& channel, int statistic);
 

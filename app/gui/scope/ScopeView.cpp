@@ -82,7 +82,7 @@ void ScopeView::show(ShownPtr shown) {
         fitTime();
     }
     if (untouched_ && outgrown()) fitLanes(view_);
-    if (roll_) view_.left_s = onGrid(shown_->end_s() - view_.width_s(), view_.perDivision_s);
+    if (roll_) view_.left_s = rollLeft(view_.perDivision_s);
     fillGraphs();
     apply();
 }
@@ -271,7 +271,7 @@ void ScopeView::setRoll(bool roll) {
     history_ = {};
     if (roll_ && shown_) {
         view_.perDivision_s = std::max(view_.perDivision_s, 1.0);
-        view_.left_s = onGrid(shown_->end_s() - view_.width_s(), view_.perDivision_s);
+        view_.left_s = rollLeft(view_.perDivision_s);
     } else {
         dropOldest();
         fitTime();

@@ -146,6 +146,8 @@ private:
     [[nodiscard]] Lane* gripLane(int number);
     void fitLanes(Viewport& view) const;
     [[nodiscard]] bool outgrown() const;
+    /// Where the screen begins in roll mode: the newest capture ends it.
+    [[nodiscard]] double rollLeft(double perDivision_s) const;
     void fillGraphs();
     void removeLane(QString key);  // by value: the lane that owns it goes
     /// Becomes the view, after remembering the present one under `kind`.

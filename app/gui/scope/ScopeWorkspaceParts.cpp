@@ -1,22 +1,14 @@
-// How the oscilloscope's workspace is laid out, its tools and menus, saving and copying.
-#include <QAction>
+// How the oscilloscope's workspace is laid out, its tools, and what is connected to what.
 #include <QButtonGroup>
-#include <QClipboard>
-#include <QDragEnterEvent>
-#include <QFile>
-#include <QFileDialog>
-#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
-#include <QMimeData>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSplitter>
 #include <QStackedWidget>
-#include <QTemporaryDir>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -25,7 +17,6 @@
 #include "app/gui/scope/AcquisitionPanel.h"
 #include "app/gui/scope/LanePanel.h"
 #include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/ScopeView.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/scope/SpectrumPanel.h"
@@ -34,8 +25,6 @@
 namespace tacto::gui {
 
 namespace {
-
-constexpr std::size_t kMostCopied = 200'000;  ///< samples a channel, as text on the clipboard
 
 /// A column of controls that scrolls up and down and is always as wide as they are.
 class ControlColumn final : public QScrollArea {
@@ -63,7 +52,11 @@ protected:
 
 ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
     setAcceptDrops(true);
+    // The tab key follows the order of creation: tools, screen, controls, measurements.
+    buildMenu();
+    auto* tools = buildTools();
     view_ = new ScopeView(this);
+    auto* controls = buildControls();
     spectrum_ = new SpectrumPanel(this);
     table_ = new MeasurementTable(this);
     status_ = new QLabel(this);
@@ -75,8 +68,6 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     readout_->setWordWrap(true);
     readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     readout_->hide();
-    buildMenu();
-    auto* tools = buildTools();
 
     auto* plots = new QSplitter(Qt::Vertical, this);
     plots->setChildrenCollapsible(false);
@@ -105,7 +96,6 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     auto* row = new QHBoxLayout(whole);
     row->setContentsMargins(8, 8, 8, 8);
     row->addWidget(left, 1);
-    auto* controls = buildControls();
     row->addWidget(controls);
     connect(controlsShown_, &QToolButton::toggled, controls, &QWidget::setVisible);
 
@@ -249,8 +239,9 @@ QWidget* ScopeWorkspace::buildTools() {
 }
 
 QWidget* ScopeWorkspace::buildControls() {
-    acquisition_ = new AcquisitionPanel(this);
+    auto* lanes = new LanePanel(*view_, this);
     viewPanel_ = new ViewPanel(*view_, this);
+    acquisition_ = new AcquisitionPanel(this);
     auto* inside = new QWidget(this);
     auto* column = new QVBoxLayout(inside);
     column->setContentsMargins(4, 0, 8, 0);
@@ -264,7 +255,7 @@ QWidget* ScopeWorkspace::buildControls() {
         column->addWidget(panel);
         column->addSpacing(6);
     };
-    section(tr("Lanes"), new LanePanel(*view_, this));
+    section(tr("Lanes"), lanes);
     section(tr("View"), viewPanel_);
     section(tr("Trigger and record"), acquisition_);
     column->addStretch();
@@ -286,90 +277,9 @@ QWidget* ScopeWorkspace::buildEmpty() {
     return empty;
 }
 
-void ScopeWorkspace::buildMenu() {
-    menu_ = new QMenu(this);
-    menu_->setToolTipsVisible(true);
-    menu_->addAction(tr("Open a capture…"), this, &ScopeWorkspace::askOpen);
-    menu_->addSeparator();
-    menu_->addAction(tr("Copy picture"), this, &ScopeWorkspace::copyPicture);
-    menu_->addAction(tr("Copy visible data"), this, &ScopeWorkspace::copyData);
-    menu_->addAction(tr("Copy measurements"), this,
-                     [this] { QGuiApplication::clipboard()->setText(table_->asText()); });
-    menu_->addSeparator();
-    menu_->addAction(tr("Save picture as PNG…"), this, [this] { askSave(tr("PNG picture (*.png)"), "png"); });
-    menu_->addAction(tr("Save picture as SVG…"), this, [this] { askSave(tr("SVG drawing (*.svg)"), "svg"); });
-    menu_->addAction(tr("Save picture as PDF…"), this, [this] { askSave(tr("PDF document (*.pdf)"), "pdf"); });
-    menu_->addAction(tr("Save visible data as CSV…"), this, [this] { askSave(tr("Capture (*.csv)"), "csv"); });
-}
-
-void ScopeWorkspace::askOpen() {
-    const auto path =
-        QFileDialog::getOpenFileName(this, tr("Open a capture"), {}, tr("Captures (*.csv);;All files (*)"));
-    if (!path.isEmpty()) openCaptureFile(path);
-}
-
-void ScopeWorkspace::askSave(const QString& filter, const QString& ending) {
-    auto path = QFileDialog::getSaveFileName(this, tr("Save"), "scope." + ending, filter);
-    if (path.isEmpty()) return;
-    if (!path.endsWith("." + ending, Qt::CaseInsensitive)) path += "." + ending;
-    saveAs(path);
-}
-
-void ScopeWorkspace::saveAs(const QString& path) {
-    problem_.clear();
-    done_.clear();
-    if (path.endsWith(".csv", Qt::CaseInsensitive)) {
-        const double zero = view_->zero_s();
-        pipe_.save(view_->shown(), view_->viewport().left_s + zero, view_->viewport().right_s() + zero, path);
-        return;
-    }
-    if (const auto wrong = savePicture(*view_, path)) {
-        problem_ = *wrong;
-    } else {
-        done_ = tr("Saved %1.").arg(path);
-    }
-    showState();
-}
-
-void ScopeWorkspace::copyPicture() {
-    QGuiApplication::clipboard()->setImage(pictureOf(*view_, 2));
-    done_ = tr("The picture is on the clipboard.");
-    showState();
-}
-
-void ScopeWorkspace::copyData() {
-    const auto& shown = view_->shown();
-    if (!shown) return;
-    const double from = view_->viewport().left_s + view_->zero_s(), to = view_->viewport().right_s() + view_->zero_s();
-    done_.clear();
-    problem_.clear();
-    const QTemporaryDir folder;
-    const auto path = folder.filePath("copied.csv");
-    if ((std::min(to, shown->end_s()) - std::max(from, shown->capture->start_s)) * shown->capture->rate_hz >
-        static_cast<double>(kMostCopied)) {
-        problem_ = tr("More than %1 samples are on the screen, too many to copy: zoom in, or save them as CSV.")
-                       .arg(kMostCopied);
-    } else if (const auto wrong = saveData(*shown, from, to, path)) {
-        problem_ = *wrong;
-    } else if (QFile file(path); file.open(QIODevice::ReadOnly)) {
-        QGuiApplication::clipboard()->setText(QString::fromUtf8(file.readAll()));
-        done_ = tr("The visible data are on the clipboard.");
-    }
-    showState();
-}
-
 void ScopeWorkspace::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
     benchChanged();
 }
-
-void ScopeWorkspace::dragEnterEvent(QDragEnterEvent* event) {
-    const auto urls = event->mimeData()->urls();
-    if (!urls.isEmpty() && urls.first().toLocalFile().endsWith(".csv", Qt::CaseInsensitive)) {
-        event->acceptProposedAction();
-    }
-}
-
-void ScopeWorkspace::dropEvent(QDropEvent* event) { openCaptureFile(event->mimeData()->urls().first().toLocalFile()); }
 
 }  // namespace tacto::gui

@@ -239,6 +239,66 @@ TEST_F(Scope, CursorsReadBelowTheTools) {
     shot(scope, "workspace-cursors");
 }
 
+TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    find<QToolButton>(scope, "Auto")->setFocus();
+    QStringList met;
+    for (int i = 0; i < 40; ++i) {
+        auto* at = scope.focusWidget();
+        const auto* button = qobject_cast<QAbstractButton*>(at);
+        met << (at->accessibleName().isEmpty() && button != nullptr ? button->text() : at->accessibleName());
+        QTest::keyClick(at, Qt::Key_Tab);
+    }
+    const auto place = [&](const char* name) { return met.indexOf(name); };
+    EXPECT_GE(place("Fit"), 0);
+    EXPECT_GT(place("Oscilloscope screen"), place("Fit"));
+    EXPECT_GT(place("Scale of Voltage"), place("Oscilloscope screen"));
+    EXPECT_GT(place("Store as reference"), place("Scale of Voltage"));
+    EXPECT_GT(place("Time base"), place("Store as reference"));
+    EXPECT_GT(place("Trigger source"), place("Time base"));
+    EXPECT_GT(place("Measurements"), place("Trigger source"));
+}
+
+TEST_F(Scope, EverythingThatIsUsedHasANameAndTeaches) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    for (const auto* widget : scope.findChildren<QWidget*>()) {
+        if (!widget->isVisible() || widget->focusPolicy() == Qt::NoFocus) continue;
+        const auto* button = qobject_cast<const QAbstractButton*>(widget);
+        const bool control = button != nullptr || qobject_cast<const QComboBox*>(widget) != nullptr ||
+                             qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
+        if (!control) continue;
+        EXPECT_FALSE(widget->accessibleName().isEmpty() && (button == nullptr || button->text().isEmpty()))
+            << widget->metaObject()->className();
+        EXPECT_FALSE(widget->toolTip().isEmpty())
+            << widget->metaObject()->className() << " " << (button ? button->text().toStdString() : "");
+    }
+}
+
+TEST_F(Scope, ACaptureWithoutPulsesSaysWhyInWords) {
+    Capture flat = twoPulses();
+    for (auto& channel : flat.channels) std::fill(channel.samples.begin(), channel.samples.end(), NAN);
+    scope.show(std::make_shared<const Capture>(flat));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    draw();
+    EXPECT_GT(scope.view().graph("channel/voltage")->gapColumns(), 100);
+    EXPECT_THAT(scope.findChild<QLabel*>("warnings")->text().toStdString(), HasSubstr("no pulses"));
+    shot(scope, "workspace-nan");
+}
+
+TEST_F(Scope, RollFromTheBenchShowsSessionTime) {
+    openBench();
+    deliver();
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    click(*find<QToolButton>(scope, "Roll"));
+    EXPECT_EQ(scope.mode(), ScopeMode::Roll);
+    ASSERT_TRUE(comes([&] { return scope.view().graph("channel/voltage")->spans().size() >= 6; }));
+    EXPECT_GE(scope.view().viewport().left_s, 0) << "before the session there is no time";
+    EXPECT_GE(scope.view().viewport().right_s(), scope.view().shown()->end_s() - 0.05);
+    shot(scope, "workspace-roll");
+}
+
 TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
     ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
