@@ -37,6 +37,9 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
     const auto m = measureChannel(capture, 0);
     expectOnlyMiddleFlagged(m);
     EXPECT_TRUE(m.pulses[1].flags.clipped);
+    // What is not measured can still be shown where it lies: both phases of it.
+    EXPECT_NEAR(m.pulses[1].seenFrom_s, 4e-3, 2e-6);
+    EXPECT_NEAR(m.pulses[1].seenTo_s, 4.5e-3, 2e-6);
 }
 
 TEST(PulseFlags, ClippingIsSeenWithoutADeclaredRange) {
