@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "core/safety/GateRules.h"
@@ -23,16 +24,20 @@ ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool c
     return row;
 }
 
-ExposureRow inTrainRow(double value) noexcept {
+ExposureRow shownRow(Quantity quantity, double value) noexcept {
     ExposureRow row;
-    row.quantity = Quantity::RmsCurrentTrain;
+    row.quantity = quantity;
     row.value = value;
     row.limit = std::numeric_limits<double>::quiet_NaN();
-    row.unit = unitOf(row.quantity);
+    row.unit = unitOf(quantity);
+    row.window_s = windowOf(quantity);
     row.action = LimitAction::Disclose;
     row.evaluated = true;
     row.within = true;
     return row;
+}
+bool hasRow(std::span<const ExposureRow> rows, Quantity quantity) noexcept {
+    return std::any_of(rows.begin(), rows.end(), [quantity](const auto& row) { return row.quantity == quantity; });
 }
 }  // namespace gate
 
@@ -48,7 +53,9 @@ std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain&
         rows.push_back(gate::rowOf(limit, judged.at(limit.row.quantity), setup.electrodeArea.has_value(),
                                    isCurrent(train.amplitude)));
     }
-    rows.push_back(gate::inTrainRow(overRange.at(Quantity::RmsCurrentTrain)));
+    for (const auto quantity : gate::kShown) {
+        if (!gate::hasRow(rows, quantity)) rows.push_back(gate::shownRow(quantity, overRange.at(quantity)));
+    }
     return rows;
 }
 

@@ -3,6 +3,8 @@
 // Nothing here allocates when it permits; a refusal allocates its message.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,7 +47,9 @@ struct ActiveLimit {
 
 /// ExposureTable.cpp: one line of a table; not evaluated when the row needs an area and there is none.
 [[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool currentSource) noexcept;
-/// The in-train RMS, shown without a limit.
-[[nodiscard]] ExposureRow inTrainRow(double value) noexcept;
+/// Shown in every table, without a limit where no set or ceiling has one.
+inline constexpr std::array kShown{Quantity::NetCharge, Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s};
+[[nodiscard]] ExposureRow shownRow(Quantity quantity, double value) noexcept;
+[[nodiscard]] bool hasRow(std::span<const ExposureRow> rows, Quantity quantity) noexcept;
 
 }  // namespace tacto::gate

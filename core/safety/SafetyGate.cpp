@@ -252,7 +252,12 @@ void SafetyGate::exposure(std::vector<ExposureRow>& rows) const {
         }
         rows.push_back(rowOf(limit, value, !std::isnan(s.area), false));
     }
-    rows.push_back(inTrainRow(s.meter.largest(Quantity::RmsCurrentTrain, JudgedAt::LoadRange, now)));
+    for (const auto quantity : kShown) {
+        if (hasRow(rows, quantity)) continue;
+        rows.push_back(shownRow(quantity, windowOf(quantity) == 1
+                                              ? windowedValue(quantity, second.overRange, s.area)
+                                              : s.meter.largest(quantity, JudgedAt::LoadRange, now)));
+    }
 }
 
 }  // namespace tacto

@@ -205,8 +205,17 @@ TEST(ExposureTable, ListsEveryLimitAndSaysWhatWasNotEvaluated) {
         }
     }
     EXPECT_EQ(densities, 2);
-    EXPECT_EQ(rows.back().quantity, Quantity::RmsCurrentTrain);
-    EXPECT_TRUE(std::isnan(rows.back().limit)) << "the in-train figure has no limit";
+    for (const auto shown : {Quantity::NetCharge, Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s}) {
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.quantity == shown; });
+        ASSERT_NE(row, rows.end()) << keyOf(shown);
+        EXPECT_TRUE(std::isnan(row->limit)) << keyOf(shown) << " is shown without a limit";
+    }
+    setup.ceilings.push_back({Quantity::NetCharge, 1});
+    rows = exposureTable(setup, volts(40), Seconds(0.5));
+    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.quantity == Quantity::NetCharge; }),
+              1)
+        << "with a limit of its own it stands there once";
+    setup.ceilings.clear();
 
     setup.electrodeArea = SquareCentimetres(0.5);
     rows = exposureTable(setup, volts(40), Seconds(0.5));

@@ -133,7 +133,7 @@ void DrivePanel::begin() {
     pace_->setVisible(open && open->paced);
     off_->setChecked(true);
     const QSignalBlocker quiet(material_);
-    material_->setCurrentIndex(0);
+    material_->setCurrentIndex(material_->findData("P120"));  // the twin's finger begins there
     paceBox_->setCurrentIndex(3);
 }
 

@@ -31,6 +31,7 @@ LiveWorkspace::LiveWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(parent)
                                    "with it or by hand."),
                                 tr("Open the simulated bench"), empty);
     connect(what, &EmptyState::nextStep, this, &LiveWorkspace::openSimulated);
+    what->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     column->addWidget(what);
     auto* recording = new QPushButton(tr("Open a &recording…"), empty);
     recording->setToolTip(tr("A folder with recording.json: it is replayed into the simulated stimulator."));

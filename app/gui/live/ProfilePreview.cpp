@@ -13,7 +13,7 @@ constexpr std::size_t kWavePoints = 2000;
 
 QCPAxisRect* cell(QCustomPlot& plot, int row, const QString& y) {
     auto* axes = new QCPAxisRect(&plot);
-    plot.plotLayout()->addElement(row, 0, axes);
+    plot.plotLayout()->addElement(row + 1, 0, axes);
     axes->axis(QCPAxis::atLeft)->setLabel(y);
     for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft}) {
         axes->axis(side)->ticker()->setTickCount(4);
@@ -28,11 +28,13 @@ QCPAxisRect* cell(QCustomPlot& plot, int row, const QString& y) {
 ProfilePreview::ProfilePreview(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Preview of the encoding"));
     setToolTip(tr("What the profile makes of R and P, and the shape of one pulse at the largest amplitude."));
-    plotLayout()->clear();
+    auto* unused = axisRect();
     amplitude_ = cell(*this, 0, tr("amplitude (V)"));
     interval_ = cell(*this, 1, tr("interval (s)"));
     pulse_ = cell(*this, 2, tr("pulse (V)"));
     pulse_->axis(QCPAxis::atBottom)->setLabel(tr("time (µs)"));
+    plotLayout()->remove(unused);
+    plotLayout()->simplify();
     const auto graphIn = [this](QCPAxisRect* axes) {
         return addGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
     };

@@ -23,7 +23,7 @@ std::optional<QCPRange> RollingGraph::extent(double from_s) const {
         if (value > high) high = value;
     }
     if (!(low <= high)) return std::nullopt;
-    return QCPRange(double(low), double(high));
+    return QCPRange(double(low) * scale_, double(high) * scale_);
 }
 
 QCPRange RollingGraph::getKeyRange(bool& found, QCP::SignDomain) const {
@@ -44,7 +44,7 @@ void RollingGraph::draw(QCPPainter* painter) {
     const double x0 = mKeyAxis->coordToPixel(keys.lower);
     const double perSecond = (mKeyAxis->coordToPixel(keys.upper) - x0) / keys.size();
     const double y0 = mValueAxis->coordToPixel(0);
-    const double perUnit = mValueAxis->coordToPixel(1) - y0;
+    const double perUnit = (mValueAxis->coordToPixel(1) - y0) * scale_;
     lines_.clear();
     int column = std::numeric_limits<int>::min();
     float low = 0, high = 0, last = 0;

@@ -15,6 +15,8 @@ class RollingGraph final : public QCPAbstractPlottable {
 public:
     RollingGraph(QCPAxis* keyAxis, QCPAxis* valueAxis);
     void show(const Series* series, std::size_t channel);
+    /// Values are drawn times this: an axis in kPa of samples in Pa.
+    void setScale(double scale) { scale_ = scale; }
     /// Smallest and largest value from `from_s` on; nothing when there is none.
     [[nodiscard]] std::optional<QCPRange> extent(double from_s) const;
 
@@ -29,6 +31,7 @@ protected:
 private:
     const Series* series_ = nullptr;
     std::size_t channel_ = 0;
+    double scale_ = 1;
     QVector<QLineF> lines_;
 };
 

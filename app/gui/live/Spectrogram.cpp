@@ -90,9 +90,15 @@ void Spectrogram::update(const Series& series, const QCPRange& window) {
                                     double(bins_.last) * transform_->binWidth_hz()));
     data->fill(std::nan(""));
     for (auto it = spectra_.rbegin(); it != spectra_.rend() && it->t_s >= window.lower; ++it) {
-        const int column = static_cast<int>(std::floor((it->t_s - window.lower) / window.size() * columns));
-        if (column < 0 || column >= columns) continue;
-        for (int row = 0; row < int(it->db.size()); ++row) data->setCell(column, row, double(it->db[std::size_t(row)]));
+        // Each covers its hop, so that rounding leaves no column between two.
+        const auto columnOf = [&](double t) {
+            return static_cast<int>(std::floor((t - window.lower) / window.size() * columns));
+        };
+        const int last = std::min(columns - 1, columnOf(it->t_s + kHop_s / 2));
+        for (int column = std::max(0, columnOf(it->t_s - kHop_s / 2)); column <= last; ++column) {
+            for (int row = 0; row < int(it->db.size()); ++row)
+                data->setCell(column, row, double(it->db[std::size_t(row)]));
+        }
     }
 }
 

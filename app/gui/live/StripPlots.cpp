@@ -34,19 +34,18 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     setToolTip(tr("Everything on one time axis, newest at the right. The window's length is chosen below."));
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
-    plotLayout()->clear();
     plotLayout()->setRowSpacing(2);
+    auto* unused = axisRect();
     auto* group = new QCPMarginGroup(this);
     strips_ = {
         makeStrip(tr("Acceleration"), "m/s²", 0.5), makeStrip(tr("Force"), "N", 0.5), makeStrip(tr("Taxels"), "Pa", 0),
         makeStrip(tr("Spectrum"), "Hz", 0),         makeStrip(tr("R, P"), "", 1),     makeStrip(tr("Trains"), "V", 10)};
-    int row = 0;
-    for (auto& strip : strips_) {
-        strip.axes->setMarginGroup(QCP::msLeft | QCP::msRight, group);
-        plotLayout()->addElement(row, 0, strip.axes);
-        plotLayout()->setRowStretchFactor(row, strip.title == tr("Force") ? 0.7 : 1);
-        ++row;
-    }
+    plotLayout()->remove(unused);
+    plotLayout()->simplify();
+    for (auto& strip : strips_) strip.axes->setMarginGroup(QCP::msLeft | QCP::msRight, group);
+    plotLayout()->setRowStretchFactor(int(kForce), 0.7);
+    strips_[kSpectrum].axes->axis(QCPAxis::atLeft)->setNumberFormat("f");
+    strips_[kSpectrum].axes->axis(QCPAxis::atLeft)->setNumberPrecision(0);
     strips_.back().axes->axis(QCPAxis::atBottom)->setTickLabels(true);
     strips_.back().axes->axis(QCPAxis::atBottom)->setLabel(tr("time (s)"));
     const auto graphIn = [&](std::size_t strip) {
@@ -74,6 +73,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
 
 StripPlots::Strip StripPlots::makeStrip(const QString& title, const QString& unit, double least) {
     auto* axes = new QCPAxisRect(this);
+    plotLayout()->addElement(axes);  // before its items: they look for it there
     axes->setMinimumMargins(QMargins(4, 2, 8, 2));
     for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
         axes->axis(side)->setVisible(false);
@@ -100,6 +100,9 @@ void StripPlots::begin(bool simulated) {
         if (series == nullptr) return;
         strip.unit = QString::fromUtf8(symbolOf(info->unit).data(), qsizetype(symbolOf(info->unit).size()));
         strip.unit.replace("m/s2", "m/s²");
+        const double scale = strip.unit == "Pa" ? 1e-3 : 1;
+        if (strip.unit == "Pa") strip.unit = "kPa";
+        for (auto* graph : graphs) graph->setScale(scale);
         for (std::size_t c = 0; c < std::min(series->channels(), graphs.size()); ++c) graphs[c]->show(series, c);
     };
     attach(StreamKind::Acceleration, acceleration_, strips_[kAcceleration]);

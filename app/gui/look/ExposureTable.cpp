@@ -72,7 +72,9 @@ ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     auto* header = horizontalHeader();
     header->setSectionResizeMode(0, QHeaderView::Stretch);
     for (const int column : {1, 2}) header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
-    header->resizeSection(3, fontMetrics().horizontalAdvance("not evaluated"));
+    header->resizeSection(3, fontMetrics().horizontalAdvance("not eval"));
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
 }
 
 void ExposureTable::show(std::span<const ExposureRow> rows) {

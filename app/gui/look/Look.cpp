@@ -75,7 +75,18 @@ QPalette paletteOf(const Colours& c, bool dark) {
 void applyTheme(Theme wanted) {
     theme = wanted;
     QApplication::setStyle(QStyleFactory::create("Fusion"));
-    QApplication::setPalette(paletteOf(colours(), wanted == Theme::Dark));
+    const auto palette = paletteOf(colours(), wanted == Theme::Dark);
+    QApplication::setPalette(palette);
+    // Quiet: no icons in dialog buttons, flat bars, the workspaces as a list.
+    qApp->setStyleSheet(QString("QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }"
+                                "QToolBar { background: %1; border: none; spacing: 2px; }"
+                                "QToolButton#workspaceButton { text-align: left; padding: 7px 12px; border: none; }"
+                                "QToolButton#workspaceButton:hover { background: %2; }"
+                                "QToolButton#workspaceButton:checked { background: %3; color: %4; }"
+                                "QToolButton#workspaceButton:focus { border: 1px solid %3; }")
+                            .arg(palette.color(QPalette::Window).name(), palette.color(QPalette::Midlight).name(),
+                                 palette.color(QPalette::Highlight).name(),
+                                 palette.color(QPalette::HighlightedText).name()));
 }
 
 Theme currentTheme() { return theme; }

@@ -14,6 +14,7 @@ namespace {
 QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
 
 constexpr int kUriRole = Qt::UserRole;
+constexpr int kOpenRole = Qt::UserRole + 1;
 
 }  // namespace
 
@@ -23,11 +24,11 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     auto* layout = new QVBoxLayout(body);
     tree_ = new QTreeWidget(body);
     tree_->setAccessibleName(tr("Devices"));
-    tree_->setHeaderLabels({tr("Device"), tr("Role")});
+    tree_->setHeaderLabels({tr("Device")});
     tree_->setRootIsDecorated(false);
-    tree_->setUniformRowHeights(true);
-    tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-    tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    tree_->setHeaderHidden(true);
+    tree_->setWordWrap(true);
+    tree_->setTextElideMode(Qt::ElideRight);
     tree_->setToolTip(tr("What is present. Those in bold are open."));
     layout->addWidget(tree_, 1);
     facts_ = new QLabel(body);
@@ -82,10 +83,10 @@ void DeviceDock::list() {
     listed_ = keys;
     tree_->clear();
     const auto add = [&](const QString& name, const QString& role, const QString& uri, bool isOpen) {
-        auto* item = new QTreeWidgetItem(tree_, {name, role});
+        auto* item = new QTreeWidgetItem(tree_, {name});
         item->setData(0, kUriRole, uri);
-        item->setData(1, kUriRole, isOpen);
-        item->setToolTip(0, uri);
+        item->setData(0, kOpenRole, isOpen);
+        item->setToolTip(0, QString("%1: %2").arg(role, uri));
         auto font = tree_->font();
         font.setBold(isOpen);
         item->setFont(0, font);
@@ -111,7 +112,7 @@ void DeviceDock::describe() {
     if (item == nullptr) return facts_->setText(tr("No device is present."));
     const auto uri = item->data(0, kUriRole).toString();
     QStringList lines{QString("<b>%1</b>").arg(item->text(0).toHtmlEscaped()), uri.toHtmlEscaped()};
-    if (const auto open = desk_.open(); open && item->data(1, kUriRole).toBool()) {
+    if (const auto open = desk_.open(); open && item->data(0, kOpenRole).toBool()) {
         for (const auto& device : open->about.devices) {
             if (QString::fromStdString(device.uri) != uri) continue;
             lines << tr("Serial %1, firmware %2")

@@ -183,7 +183,7 @@ void MainWindow::buildNavigation() {
         navigation_->addAction(action);
         connect(action, &QAction::triggered, this, [this, index] { showWorkspace(index); });
         auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
-        button->setMinimumHeight(button->fontMetrics().height() * 2);
+        button->setObjectName("workspaceButton");
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         button->setFocusPolicy(Qt::TabFocus);
         button->setAccessibleName(name);
@@ -197,6 +197,8 @@ void MainWindow::buildDocks() {
     exposure_ = new ExposureDock(this);
     addDockWidget(Qt::RightDockWidgetArea, devices_);
     addDockWidget(Qt::RightDockWidgetArea, exposure_);
+    resizeDocks({devices_, exposure_}, {fontMetrics().averageCharWidth() * 46, fontMetrics().averageCharWidth() * 46},
+                Qt::Horizontal);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
