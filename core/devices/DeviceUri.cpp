@@ -31,7 +31,8 @@ std::string DeviceUri::text() const {
     std::string out = scheme + ":" + path;
     char separator = '?';
     for (const auto& [key, value] : parameters) {
-        out += separator + key + "=" + value;
+        out += separator;
+        out.append(key).append("=").append(value);
         separator = '&';
     }
     return out;

@@ -1,6 +1,7 @@
 #include "core/measure/PulseMeasurement.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -211,6 +212,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
                         "are not reported",
                         result.name, disordered, captures.size()));
     }
+    assert(described != nullptr);  // there is at least one capture
     summarise(std::move(pulses), *described, options, result);
     return result;
 }

@@ -119,7 +119,7 @@ void summarise(std::vector<FoundPulse> pulses, const CaptureChannel& channel, co
                ChannelMeasurement& result) {
     groupTrains(pulses, groupingGap(options), result.trains);
     result.pulses.reserve(pulses.size());
-    for (auto& found : pulses) result.pulses.push_back(std::move(found.pulse));
+    for (const auto& found : pulses) result.pulses.push_back(found.pulse);
     result.measuredPulses = static_cast<std::size_t>(
         std::count_if(result.pulses.begin(), result.pulses.end(), [](const auto& p) { return p.flags.measured(); }));
 

@@ -41,7 +41,7 @@ public:
         const std::uint64_t word = bits();
         const std::uint64_t pairs = (word & 0x0000FFFF0000FFFFU) + ((word >> 16U) & 0x0000FFFF0000FFFFU);
         const auto sum = static_cast<std::int64_t>((pairs & 0xFFFFFFFFU) + (pairs >> 32U));
-        return static_cast<double>(sum - 2 * 65535) * kScale;
+        return static_cast<double>(sum - std::int64_t{2} * 65535) * kScale;
     }
 
 private:

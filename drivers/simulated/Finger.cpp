@@ -209,7 +209,8 @@ void Finger::pressures(std::array<double, kTaxels>& into) const noexcept {
     constexpr double kMeanSquare = (1.25e-3 * 1.25e-3 + 3.75e-3 * 3.75e-3) / 2 + 1.25e-3 * 1.25e-3;
     for (std::size_t i = 0; i < kTaxels; ++i) {
         const double along = (static_cast<double>(i % 4) - 1.5) * kPitch;
-        const double across = (static_cast<double>(i / 4) - 0.5) * kPitch;
+        const std::size_t row = i / 4;
+        const double across = (static_cast<double>(row) - 0.5) * kPitch;
         const double square = along * along + across * across - kMeanSquare;
         const double shape = 1 - kDome * square * (1 / (radius * radius) - 1 / (kRadius1N * kRadius1N));
         const double uneven = surface_->bearing(i, position_ + along + 0.01);

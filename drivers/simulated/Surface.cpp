@@ -127,7 +127,8 @@ Millimetres Surface::length() const noexcept { return Millimetres(static_cast<do
 
 double Surface::bearing(std::size_t track, double x_m) const noexcept {
     // Tracks lie side by side: far apart in the one table, so that they are unrelated.
-    const double lateral = static_cast<double>(track * (kBearingCells / 8) + track * track * 37);
+    constexpr auto kApart = kBearingCells / 8;
+    const auto lateral = static_cast<double>(track * kApart + track * track * 37);
     return lookUp(bearing_, x_m / kBearingCell_m + lateral);
 }
 

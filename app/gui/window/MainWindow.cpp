@@ -145,6 +145,7 @@ void MainWindow::buildPages() {
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
     pages_->addWidget(protocols_);
     connect(live_, &LiveWorkspace::refusedRecording, this, &MainWindow::complain);
+    connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
     connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
         scope_->show(std::move(capture));
         showScope();

@@ -1,0 +1,216 @@
+// The whole window, driven by keys and mouse.
+#include <QAbstractButton>
+#include <QDialog>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTabWidget>
+#include <QTest>
+#include <QToolBar>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/window/MainWindow.h"
+#include "app/run/RunFiles.h"
+#include "tests/gui/Person.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::Activity;
+using testing::HasSubstr;
+
+class Window : public testing::Test {
+protected:
+    Window() {
+        window.resize(1440, 900);
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        window.activateWindow();
+    }
+    ~Window() override { window.close(); }
+    void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+        auto* focus = QApplication::activeWindow() != nullptr ? QApplication::activeWindow() : &window;
+        QTest::keyClick(focus->windowHandle(), key, modifiers);
+        QCoreApplication::processEvents();
+    }
+    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] QString banner() {
+        const auto* label = window.findChild<QLabel*>("bannerText");
+        return label->isVisible() ? label->text() : QString();
+    }
+    void open() {
+        key(Qt::Key_B, Qt::ControlModifier);
+        ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+        QTest::qWait(80);  // the next frame enables the buttons
+    }
+    /// Both steps, as a person takes them.
+    void arm() {
+        click(*window.findChild<QPushButton*>("armButton"));
+        auto* second = window.findChild<QPushButton*>("armOutput");
+        ASSERT_NE(second, nullptr);
+        ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+        click(*second);
+        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; }));
+    }
+    void deliver() {
+        window.desk().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Delivering; }));
+    }
+    gui::MainWindow window{simulatedRegistry};
+};
+
+TEST_F(Window, ArmingTakesTwoSteps) {
+    RecordProperty("hazard", "H6");
+    open();
+    click(*window.findChild<QPushButton*>("armButton"));
+    auto* second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_NE(second, nullptr);
+    key(Qt::Key_Return);  // the default of the dialog is not to arm
+    QTest::qWait(200);
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    arm();
+    EXPECT_EQ(state(), InterlockState::Armed);
+}
+
+TEST_F(Window, AHeldReturnDoesNotArm) {
+    RecordProperty("hazard", "H6");
+    open();
+    click(*window.findChild<QPushButton*>("armButton"));
+    auto* second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    second->setFocus();
+    QKeyEvent repeat(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r", true);
+    QCoreApplication::sendEvent(second, &repeat);
+    QTest::qWait(200);
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+TEST_F(Window, EscStopsFromInsideAModalDialog) {
+    RecordProperty("hazard", "H5");
+    open();
+    arm();
+    deliver();
+    QDialog dialog(&window);
+    dialog.setModal(true);
+    QLineEdit field(&dialog);
+    dialog.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&dialog));
+    field.setFocus();
+    QTest::keyClick(dialog.windowHandle(), Qt::Key_Escape);
+    EXPECT_EQ(state(), InterlockState::Disarmed) << "before the key event returned";
+}
+
+TEST_F(Window, SpaceStopsInEveryWorkspace) {
+    RecordProperty("hazard", "H5");
+    open();
+    for (int page = 0; page < 7; ++page) {
+        arm();
+        window.showWorkspace(page);
+        window.setFocus();
+        key(Qt::Key_Space);
+        EXPECT_EQ(state(), InterlockState::Disarmed) << page;
+    }
+}
+
+TEST_F(Window, KeysReachEveryWorkspace) {
+    for (int page = 6; page >= 0; --page) {
+        key(static_cast<Qt::Key>(Qt::Key_1 + page), Qt::ControlModifier);
+        EXPECT_EQ(window.workspace(), page);
+        EXPECT_TRUE(window.findChild<QPushButton*>("stopButton")->isVisible());
+    }
+}
+
+TEST_F(Window, AnUnplugDuringDeliveryIsSaidWithWhatItMeans) {
+    RecordProperty("hazard", "H3");
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:stimulator?fault=unplug@2s"));
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = window.desk().profile();
+    window.desk().openLive(order);
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    QTest::qWait(80);
+    arm();
+    window.desk().drive(DriveSource::Manual, 1, 1);
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    auto* word = window.findChild<QLabel*>("interlockState");
+    EXPECT_TRUE(comesTrue([&] { return word->text() == "FAULTED"; }));
+    click(*window.findChild<QPushButton*>("armButton"));  // Reset fault
+    ASSERT_TRUE(comesTrue([this] { return !banner().isEmpty(); }));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("fault is still there"));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("Output is off"));
+}
+
+TEST_F(Window, ASessionThatCannotBeWrittenIsSaidAndTheWindowLives) {
+    RecordProperty("hazard", "H8");
+    const auto folder = userSessionsFolder();
+    std::filesystem::create_directories(folder.parent_path());
+    std::filesystem::remove_all(folder);
+    { std::ofstream file(folder); }  // a file where the folder should be
+    key(Qt::Key_B, Qt::ControlModifier);
+    EXPECT_TRUE(comesTrue([this] { return !banner().isEmpty(); }));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("sessions"));
+    EXPECT_EQ(window.desk().activity(), Activity::Closed);
+    std::filesystem::remove(folder);
+    key(Qt::Key_B, Qt::ControlModifier);
+    EXPECT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+}
+
+TEST_F(Window, AFileThatIsNothingOfOursIsRefusedInOneSentence) {
+    const ScratchDir folder;
+    window.openFile(QString::fromStdString(folder.write("notes.txt", "hello").string()));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("notes.txt"));
+    window.openFile(QString::fromStdString(folder.path().string()));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("recording.json"));
+}
+
+TEST_F(Window, TheExampleRecordingReplays) {
+    window.openFile(QString::fromStdString((sourceDir() / "resources" / "examples" / "linen-slide").string()));
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    ASSERT_TRUE(comesTrue([this] { return window.desk().telemetry().contact; }));
+    EXPECT_EQ(window.workspace(), 0);
+}
+
+TEST_F(Window, EveryControlHasAToolTipOrALabelOfItsOwn) {
+    open();
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        QCoreApplication::processEvents();
+        for (const auto* button : window.findChildren<QAbstractButton*>()) {
+            if (!button->isVisible() || button->objectName().startsWith("qt_")) continue;
+            EXPECT_FALSE(button->text().isEmpty() && button->accessibleName().isEmpty() && button->toolTip().isEmpty())
+                << page << ": " << button->metaObject()->className() << " in "
+                << button->parent()->metaObject()->className();
+        }
+    }
+}
+
+TEST_F(Window, LooksRightInBothThemesAndSizes) {
+    open();
+    window.desk().present("P120", 50, 1);
+    QTest::qWait(1500);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto size : {QSize(1440, 900), QSize(1024, 640)}) {
+            window.resize(size);
+            for (int page = 0; page < 7; ++page) {
+                window.showWorkspace(page);
+                QTest::qWait(120);
+                shot(window, QString("window-%1-%2-%3")
+                                 .arg(theme == gui::Theme::Dark ? "dark" : "light")
+                                 .arg(size.width())
+                                 .arg(page));
+            }
+            EXPECT_LE(window.width(), size.width()) << "everything fits a small screen";
+        }
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test
