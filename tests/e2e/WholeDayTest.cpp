@@ -18,13 +18,12 @@ namespace tacto::test {
 namespace {
 
 /// A key as the X server sends it, to whatever has the focus there.
-void type(const QString& keys) {
-    ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0);
-}
+void type(const QString& keys) { ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0); }
 
 void picture(const QString& name) {
     QTest::qWait(150);
-    const auto file = QString("%1/%2%3.png").arg(qEnvironmentVariable("TACTO_SHOTS"), name, qEnvironmentVariable("TACTO_SHOT_SUFFIX"));
+    const auto file = QString("%1/%2%3.png")
+                          .arg(qEnvironmentVariable("TACTO_SHOTS"), name, qEnvironmentVariable("TACTO_SHOT_SUFFIX"));
     ASSERT_TRUE(QGuiApplication::primaryScreen()->grabWindow(0).save(file));
     EXPECT_GT(QFileInfo(file).size(), 10'000) << "a blank picture";
 }
