@@ -48,9 +48,10 @@ QString rowTitle(const ExposureRow& row) {
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("%1 into 500 Ω").arg(title) : title;
 }
 
-QString limitText(const ExposureRow& row) {
+QString limitText(const ExposureRow& row, bool compact) {
     if (std::isnan(row.limit)) return "–";
     const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, text(row.unit));
+    if (compact) return limit;
     switch (row.action) {
         case LimitAction::Warn:
             return QObject::tr("%1 (warning)").arg(limit);
@@ -97,7 +98,7 @@ void ExposureTable::show(std::span<const ExposureRow> rows) {
         auto* value = cell(1, row.evaluated ? quantityText(row.value, text(row.unit), 3) : tr("not evaluated"));
         value->setToolTip(row.evaluated ? QString() : text(row.reason.view()));
         value->setForeground(broken ? colours().fault : palette().color(QPalette::Text));
-        cell(2, limitText(row));
+        cell(2, limitText(row, compact_))->setToolTip(limitText(row));
         auto* bar = cell(3, QString());
         bar->setData(kShare, row.evaluated && !std::isnan(row.limit) ? row.value / row.limit : std::nan(""));
         bar->setData(kEvaluated, row.evaluated);

@@ -112,7 +112,7 @@ StateLook stateLook(InterlockState state) {
         case InterlockState::Armed:
             return {QObject::tr("ARMED"), "▲", c.amber};
         case InterlockState::Delivering:
-            return {QObject::tr("DELIVERING"), "●", c.accent};
+            return {QObject::tr("DELIVERING"), "●", c.voltage};
         case InterlockState::Paused:
             return {QObject::tr("PAUSED"), "‖", c.text};
         case InterlockState::Faulted:

@@ -24,7 +24,8 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, std::init
     };
     for (const auto& row : rows) {
         if (std::find(quantities.begin(), quantities.end(), row.quantity) == quantities.end()) continue;
-        if (row.action == LimitAction::Disclose) continue;  // says what to print on a label; nothing is held to it
+        // Says what to print on a label; nothing is held to it.
+        if (row.action == LimitAction::Disclose && !std::isnan(row.limit)) continue;
         if (!found || share(row) > share(*found)) found = row;
     }
     return found;
@@ -73,9 +74,7 @@ QSize LimitBar::sizeHint() const {
     return {metrics.horizontalAdvance("88.88 of 188 mA/cm²"), metrics.height() * 5 / 2 + 4};
 }
 
-QSize LimitBar::minimumSizeHint() const {
-    return {fontMetrics().horizontalAdvance("88.8 of 40 V "), sizeHint().height()};
-}
+QSize LimitBar::minimumSizeHint() const { return {fontMetrics().horizontalAdvance("5 s RMS "), sizeHint().height()}; }
 
 void LimitBar::paintEvent(QPaintEvent*) {
     QPainter painter(this);
