@@ -37,8 +37,8 @@ SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(d
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(10, 6, 10, 6);
-    row->setSpacing(12);
+    row->setContentsMargins(6, 6, 6, 6);
+    row->setSpacing(8);
 
     shape_ = new QLabel(this);
     word_ = new QLabel(this);

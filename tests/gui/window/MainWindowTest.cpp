@@ -51,7 +51,9 @@ protected:
     }
     /// Both steps, as a person takes them.
     void arm() {
-        click(*window.findChild<QPushButton*>("armButton"));
+        auto* first = window.findChild<QPushButton*>("armButton");
+        ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+        click(*first);
         auto* second = window.findChild<QPushButton*>("armOutput");
         ASSERT_NE(second, nullptr);
         ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
