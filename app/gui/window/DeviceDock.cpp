@@ -38,11 +38,11 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
 
     open_ = new QPushButton(tr("Open &simulated bench"), body);
     open_->setToolTip(tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated."));
-    auto* flaws = new QPushButton(tr("With &faults…"), body);
+    auto* flaws = new QPushButton(tr("&Faults…"), body);
     flaws->setToolTip(tr("A simulated bench with a source, a load and a fault of your choice."));
-    auto* recording = new QPushButton(tr("Open re&cording…"), body);
+    auto* recording = new QPushButton(tr("Re&cording…"), body);
     recording->setToolTip(tr("Replays a recorded fingertip into the simulated stimulator."));
-    check_ = new QPushButton(tr("Check &impedance"), body);
+    check_ = new QPushButton(tr("&Impedance"), body);
     check_->setToolTip(tr("One small pulse into the declared load, then disarmed again."));
     close_ = new QPushButton(tr("C&lose"), body);
     close_->setToolTip(tr("Output off; the session file is finished and closed."));

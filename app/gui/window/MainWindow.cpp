@@ -130,7 +130,7 @@ void MainWindow::buildPages() {
         {tr("Each load of the bench set, verified by measurement before anything else"),
          tr("Worst-case commands measured and judged against every limit set"),
          tr("Open, short, intermittent contact and the dead-man switch must trip")},
-        tr("Until then \"With faults…\" in the Devices dock shows how open, short and stuck outputs end a run."),
+        tr("Until then \"Faults…\" in the Devices dock shows how open, short and stuck outputs end a run."),
         pages_));
     separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
     pages_->addWidget(separability_);
