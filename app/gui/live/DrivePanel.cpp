@@ -1,29 +1,29 @@
 #include "app/gui/live/DrivePanel.h"
 
-#include <QFormLayout>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
 
 namespace {
-constexpr int kSteps = 100;  // of a slider from 0 to 1
-}
 
-DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+constexpr int kSteps = 100;            // of a slider from 0 to 1
+constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next step; slowed time stretches that
+
+}  // namespace
+
+DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QGroupBox(tr("Drive"), parent), desk_(desk) {
     auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    auto* group = new QGroupBox(tr("Drive"), this);
-    auto* inner = new QVBoxLayout(group);
     sources_ = new QButtonGroup(this);
-    off_ = new QRadioButton(tr("O&ff"), group);
-    off_->setToolTip(tr("No train is sent."));
-    byHand_ = new QRadioButton(tr("By &hand"), group);
+    off_ = new QRadioButton(tr("O&ff"), this);
+    off_->setToolTip(tr("No train is sent. Every stop, disarm and fault comes back to this."));
+    byHand_ = new QRadioButton(tr("By &hand"), this);
     byHand_->setToolTip(tr("R and P come from the two sliders."));
-    finger_ = new QRadioButton(tr("From the fin&gertip"), group);
+    finger_ = new QRadioButton(tr("From the fin&gertip"), this);
     finger_->setToolTip(tr("R and P come from what the fingertip feels; without contact no train is sent."));
     auto* row = new QHBoxLayout;
     for (auto* button : {off_, byHand_, finger_}) {
@@ -33,38 +33,38 @@ DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk
     }
     row->addStretch();
     off_->setChecked(true);
-    inner->addLayout(row);
+    layout->addLayout(row);
     auto* grid = new QGridLayout;
-    roughness_ = addIndex(*grid, 0, tr("&R"), tr("Roughness, 0 smooth to 1 rough: sets the amplitude."));
-    pressure_ = addIndex(*grid, 1, tr("&P"), tr("Pressure, 0 light to 1 firm: sets the interval."));
-    inner->addLayout(grid);
-    says_ = new QLabel(group);
+    roughness_ = addIndex(*grid, 0, tr("&R"), tr("Roughness R"),
+                          tr("Roughness, 0 smooth to 1 rough. Arrows step by 0.01, Page up and down by 0.1."));
+    pressure_ = addIndex(*grid, 1, tr("&P"), tr("Pressure P"),
+                         tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
+    layout->addLayout(grid);
+    says_ = new QLabel(this);
+    says_->setObjectName("driveSays");
     says_->setWordWrap(true);
     says_->setForegroundRole(QPalette::PlaceholderText);
-    inner->addWidget(says_);
-    layout->addWidget(group);
-    surfaces_ = buildSurfaces();
-    layout->addWidget(surfaces_);
-    pace_ = buildSpeed();
-    layout->addWidget(pace_);
+    layout->addWidget(says_);
     begin();
 }
 
-DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString& name, const QString& tip) {
+DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString& label, const QString& name,
+                                       const QString& tip) {
     Index index{new QSlider(Qt::Horizontal, this), new QDoubleSpinBox(this)};
     index.slider->setRange(0, kSteps);
     index.slider->setSingleStep(1);
     index.slider->setPageStep(10);
     index.slider->setToolTip(tip);
-    index.slider->setAccessibleName(QString(name).remove('&'));
+    index.slider->setAccessibleName(name);
     index.box->setRange(0, 1);
     index.box->setDecimals(2);
     index.box->setSingleStep(0.01);
     index.box->setToolTip(tip);
-    index.box->setAccessibleName(QString(name).remove('&'));
-    auto* label = new QLabel(name, this);
-    label->setBuddy(index.box);
-    grid.addWidget(label, row, 0);
+    index.box->setAccessibleName(name);
+    index.box->setKeyboardTracking(false);  // a number is a number once it is written
+    auto* text = new QLabel(label, this);
+    text->setBuddy(index.box);
+    grid.addWidget(text, row, 0);
     grid.addWidget(index.slider, row, 1);
     grid.addWidget(index.box, row, 2);
     connect(index.slider, &QSlider::valueChanged, index.box,
@@ -77,95 +77,60 @@ DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString
     return index;
 }
 
-QWidget* DrivePanel::buildSurfaces() {
-    auto* group = new QGroupBox(tr("Under the simulated finger"), this);
-    auto* form = new QFormLayout(group);
-    material_ = new QComboBox(group);
-    for (const auto* name : {"glass", "plastic", "paper", "denim", "P400", "P120", "P60"})
-        material_->addItem(name, name);
-    material_->insertItem(0, tr("nothing (lifted)"), "");
-    material_->setCurrentIndex(0);
-    material_->setToolTip(tr("The surface the finger slides over, from smooth to rough."));
-    form->addRow(tr("S&urface"), material_);
-    speed_ = new QDoubleSpinBox(group);
-    speed_->setRange(0, 200);
-    speed_->setValue(50);
-    speed_->setSuffix(" mm/s");
-    speed_->setToolTip(tr("Sliding speed. At 0 the finger rests and R is absent."));
-    form->addRow(tr("Sp&eed"), speed_);
-    force_ = new QDoubleSpinBox(group);
-    force_->setRange(0.05, 10);
-    force_->setSingleStep(0.1);
-    force_->setValue(1);
-    force_->setSuffix(" N");
-    force_->setToolTip(tr("Normal force: more is firmer."));
-    form->addRow(tr("F&orce"), force_);
-    connect(material_, &QComboBox::currentIndexChanged, this, &DrivePanel::slide);
-    connect(speed_, &QDoubleSpinBox::valueChanged, this, &DrivePanel::slide);
-    connect(force_, &QDoubleSpinBox::valueChanged, this, &DrivePanel::slide);
-    return group;
-}
-
-QWidget* DrivePanel::buildSpeed() {
-    auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    auto* label = new QLabel(tr("Time runs at"), holder);
-    paceBox_ = new QComboBox(holder);
-    for (const double pace : {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) paceBox_->addItem(tr("%1 ×").arg(pace), pace);
-    paceBox_->setCurrentIndex(3);
-    paceBox_->setToolTip(
-        tr("Speed of simulated time against real time. Trains keep their interval in simulated time."));
-    paceBox_->setAccessibleName(label->text());
-    label->setBuddy(paceBox_);
-    row->addWidget(label);
-    row->addWidget(paceBox_);
-    row->addStretch();
-    connect(paceBox_, &QComboBox::currentIndexChanged, this,
-            [this] { desk_.setSpeed(paceBox_->currentData().toDouble()); });
-    return holder;
-}
-
 void DrivePanel::begin() {
     const auto open = desk_.open();
-    finger_->setEnabled(open && !open->streams.empty());
-    surfaces_->setVisible(open && open->surfaces);
-    pace_->setVisible(open && open->paced);
+    const bool live = desk_.activity() == Activity::Live;
+    setEnabled(live);
+    finger_->setEnabled(live && open && !open->streams.empty());
+    finger_->setToolTip(open && open->streams.empty()
+                            ? tr("No fingertip is open.")
+                            : tr("R and P come from what the fingertip feels; without contact no train is sent."));
+    asked_.reset();
     off_->setChecked(true);
-    const QSignalBlocker quiet(material_);
-    material_->setCurrentIndex(material_->findData("P120"));  // the twin's finger begins there
-    paceBox_->setCurrentIndex(3);
+}
+
+DriveSource DrivePanel::chosen() const {
+    return byHand_->isChecked() ? DriveSource::Manual : finger_->isChecked() ? DriveSource::Sensor : DriveSource::Off;
 }
 
 void DrivePanel::drive() {
-    const auto source = byHand_->isChecked()   ? DriveSource::Manual
-                        : finger_->isChecked() ? DriveSource::Sensor
-                                               : DriveSource::Off;
-    desk_.drive(source, roughness_.box->value(), pressure_.box->value());
+    asked_ = chosen();
+    askedAt_.start();
+    desk_.drive(*asked_, roughness_.box->value(), pressure_.box->value());
 }
 
-void DrivePanel::slide() {
-    desk_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
+void DrivePanel::follow(DriveSource driving) {
+    if (asked_) {
+        if (*asked_ != driving && askedAt_.elapsed() < kAnswerWithin_ms) return;
+        asked_.reset();
+    }
+    if (driving == chosen()) return;
+    // setChecked() clicks nothing: the bench is not asked again.
+    (driving == DriveSource::Manual ? byHand_ : driving == DriveSource::Sensor ? finger_ : off_)->setChecked(true);
+}
+
+QString DrivePanel::words(const Telemetry& telemetry) const {
+    const auto state = telemetry.state;
+    if (desk_.activity() == Activity::Running) return tr("A protocol has the bench and drives the output itself.");
+    if (off_->isChecked()) return tr("Nothing drives the output.");
+    if (state == InterlockState::Faulted) return tr("Nothing is delivered: there is a fault.");
+    if (state == InterlockState::Paused || telemetry.paused) return tr("Paused: nothing is delivered until resumed.");
+    if (state != InterlockState::Armed && state != InterlockState::Delivering)
+        return tr("Nothing is delivered until the output is armed.");
+    if (std::isfinite(telemetry.amplitude_v)) {
+        return tr("Asked for: %1 every %2.")
+            .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3));
+    }
+    if (finger_->isChecked() && telemetry.sensorFinished) return tr("The recording has ended: no train is sent.");
+    if (finger_->isChecked() && !telemetry.contact) return tr("The fingertip touches nothing: no train is sent.");
+    if (finger_->isChecked()) return tr("The fingertip gives no roughness: no train is sent.");
+    return tr("No train is due.");
 }
 
 void DrivePanel::refresh(const Telemetry& telemetry) {
-    // The bench turns driving off with every stop, disarm and fault.
-    const auto state = telemetry.state;
-    const auto wasOn = seen_ != InterlockState::Disarmed && seen_ != InterlockState::Faulted &&
-                       seen_ != InterlockState::Disconnected && seen_ != InterlockState::Checking;
-    if (wasOn && (state == InterlockState::Disarmed || state == InterlockState::Faulted)) off_->setChecked(true);
-    seen_ = state;
-    const bool on = state == InterlockState::Armed || state == InterlockState::Delivering;
-    if (off_->isChecked())
-        says_->setText(tr("Nothing drives the output."));
-    else if (!on)
-        says_->setText(tr("Nothing is delivered until the output is armed."));
-    else if (std::isfinite(telemetry.amplitude_v))
-        says_->setText(
-            tr("Commanded: %1 every %2")
-                .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3)));
-    else
-        says_->setText(tr("Armed, and no train is due: nothing is felt."));
+    if (desk_.activity() == Activity::Live) follow(telemetry.driving);
+    const auto text = words(telemetry);
+    if (says_->text() != text) says_->setText(text);
 }
 
 }  // namespace tacto::gui

@@ -1,39 +1,43 @@
-// DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip; and what the fingertip does, where the
-// bench can do that by itself.
+// DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip.
+//
+// What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
+// panel follows it. Nothing is ever asked of the bench but by a person's hand on a control.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QButtonGroup>
-#include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QGroupBox>
 #include <QLabel>
 #include <QRadioButton>
 #include <QSlider>
+#include <optional>
 
 #include "app/gui/desk/BenchDesk.h"
 
 namespace tacto::gui {
 
-class DrivePanel final : public QWidget {
+class DrivePanel final : public QGroupBox {
     Q_OBJECT
 public:
     explicit DrivePanel(BenchDesk& desk, QWidget* parent = nullptr);
     /// Another bench, or none.
     void begin();
     void refresh(const Telemetry& telemetry);
+    [[nodiscard]] DriveSource chosen() const;
 
 private:
     struct Index {
         QSlider* slider;
         QDoubleSpinBox* box;
     };
-    [[nodiscard]] Index addIndex(class QGridLayout& grid, int row, const QString& name, const QString& tip);
+    [[nodiscard]] Index addIndex(class QGridLayout& grid, int row, const QString& label, const QString& name,
+                                 const QString& tip);
     void drive();
-    void slide();
-    [[nodiscard]] QWidget* buildSurfaces();
-    [[nodiscard]] QWidget* buildSpeed();
+    void follow(DriveSource driving);
+    [[nodiscard]] QString words(const Telemetry& telemetry) const;
 
     BenchDesk& desk_;
     QButtonGroup* sources_;
@@ -42,13 +46,8 @@ private:
     QRadioButton* finger_;
     Index roughness_{}, pressure_{};
     QLabel* says_;
-    QWidget* surfaces_;
-    QComboBox* material_;
-    QDoubleSpinBox* speed_;
-    QDoubleSpinBox* force_;
-    QWidget* pace_;
-    QComboBox* paceBox_;
-    InterlockState seen_ = InterlockState::Disconnected;
+    std::optional<DriveSource> asked_;  // of the bench, which has not answered yet
+    QElapsedTimer askedAt_;
 };
 
 }  // namespace tacto::gui

@@ -6,8 +6,12 @@
 namespace tacto::gui {
 
 namespace {
-constexpr std::size_t kFrames = 8192;  // a minute at 62.5 Hz, and room for faster settings
-constexpr std::size_t kTrains = 512;
+
+constexpr std::size_t kFrames = 8192;           // a minute at 62.5 Hz, and room for faster settings
+constexpr std::size_t kCommands = 4096;         // a minute at 60 looks a second
+constexpr double kCommandStep_s = 60.0 / 4096;  // slowed time is looked at oftener
+constexpr double kOtherClock_s = 1;
+
 }  // namespace
 
 Series::Series(std::size_t channels, std::size_t capacity)
@@ -16,6 +20,11 @@ Series::Series(std::size_t channels, std::size_t capacity)
       values_(times_.size() * channels_) {}
 
 void Series::push(double t_s, std::span<const float> values) {
+    if (!std::isfinite(t_s)) return;
+    if (count_ > 0 && t_s <= newest()) {
+        if (t_s > newest() - kOtherClock_s) return;
+        clear();
+    }
     times_[head_] = t_s;
     for (std::size_t c = 0; c < channels_; ++c)
         values_[head_ * channels_ + c] = c < values.size() ? values[c] : std::nanf("");
@@ -35,7 +44,13 @@ std::size_t Series::firstFrom(double t_s) const noexcept {
     return low;
 }
 
-LiveHistory::LiveHistory() : frames_(kColumns, kFrames) {}
+void TrainRing::push(const TrainReport& train) noexcept {
+    trains_[head_] = train;
+    head_ = (head_ + 1) % kCapacity;
+    count_ = std::min(count_ + 1, kCapacity);
+}
+
+LiveHistory::LiveHistory() : frames_(kColumns, kFrames), commands_(kCommandColumns, kCommands) {}
 
 void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
     streams_ = streams;
@@ -46,6 +61,7 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
                               static_cast<std::size_t>(rate * kKept_s));
     }
     frames_.clear();
+    commands_.clear();
     trains_.clear();
     now_s_ = 0;
     missed_ = 0;
@@ -59,12 +75,16 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     }
     while (const auto frame = tap.frames.pop()) {
         const float columns[kColumns] = {static_cast<float>(frame->R), static_cast<float>(frame->P),
-                                         static_cast<float>(frame->h), static_cast<float>(frame->v)};
+                                         static_cast<float>(frame->h), static_cast<float>(frame->v),
+                                         frame->contact ? 1.F : 0.F,   frame->sliding ? 1.F : 0.F};
         frames_.push(frame->t_s, columns);
     }
-    while (const auto train = tap.trains.pop()) {
-        trains_.push_back(*train);
-        if (trains_.size() > kTrains) trains_.pop_front();
+    while (const auto train = tap.trains.pop()) trains_.push(*train);
+    if (commands_.empty() || now_s_ >= commands_.newest() + kCommandStep_s) {
+        const float columns[kCommandColumns] = {static_cast<float>(telemetry.amplitude_v),
+                                                static_cast<float>(telemetry.interval_s),
+                                                static_cast<float>(telemetry.impedance_ohm)};
+        commands_.push(now_s_, columns);
     }
     missed_ = tap.samples.dropped();
 }

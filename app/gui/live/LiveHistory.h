@@ -1,13 +1,13 @@
-// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, trains. What the live plots
-// draw.
+// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, the encoder's command, trains.
+// What the live plots draw.
 //
-// Bounded: each series is a ring that forgets its oldest sample. Times are the session's, in seconds.
+// Bounded: each series is a ring of fixed size that forgets its oldest; nothing is allocated after begin().
+// Times are the session's, in seconds.
 //
 // Thread-safety: the GUI thread; the one reader of the bench's tap.
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -21,8 +21,11 @@ namespace tacto::gui {
 class Series {
 public:
     Series(std::size_t channels, std::size_t capacity);
+    /// A stamp that is not later than the newest is left out (two values cannot stand at one time); one more than a
+    /// second before it is another clock, and begins anew.
     void push(double t_s, std::span<const float> values);
     void clear() noexcept { count_ = head_ = 0; }
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] std::size_t channels() const noexcept { return channels_; }
     [[nodiscard]] std::size_t capacity() const noexcept { return times_.size(); }
@@ -31,6 +34,8 @@ public:
     [[nodiscard]] float value(std::size_t i, std::size_t channel) const noexcept {
         return values_[at(i) * channels_ + channel];
     }
+    /// Of the newest; not to be asked of an empty one.
+    [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
     /// The first sample at or after `t_s`; size() when there is none.
     [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;
 
@@ -46,11 +51,33 @@ private:
     std::size_t count_ = 0;
 };
 
+/// The newest trains, oldest first.
+class TrainRing {
+public:
+    static constexpr std::size_t kCapacity = 512;
+    TrainRing() : trains_(kCapacity) {}
+    void push(const TrainReport& train) noexcept;
+    void clear() noexcept { count_ = head_ = 0; }
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    [[nodiscard]] const TrainReport& operator[](std::size_t i) const noexcept {
+        return trains_[(head_ + kCapacity - count_ + i) % kCapacity];
+    }
+    [[nodiscard]] const TrainReport& back() const noexcept { return (*this)[count_ - 1]; }
+
+private:
+    std::vector<TrainReport> trains_;
+    std::size_t head_ = 0;
+    std::size_t count_ = 0;
+};
+
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
-    /// Columns of frames(): R, P, h, v.
-    enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kColumns };
+    /// Columns of frames(): R, P, h, v; contact and sliding are 0 or 1.
+    enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kContact, kSliding, kColumns };
+    /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN while it asked for nothing.
+    enum Command : std::size_t { kAmplitude_v, kInterval_s, kImpedance_ohm, kCommandColumns };
 
     LiveHistory();
     /// Another bench is open: forgets everything. `streams` as its sensor names them.
@@ -63,18 +90,20 @@ public:
     [[nodiscard]] const Series* samples(StreamKind kind) const noexcept;
     [[nodiscard]] const StreamInfo* info(StreamKind kind) const noexcept;
     [[nodiscard]] const Series& frames() const noexcept { return frames_; }
-    /// Newest last; impedance checks included.
-    [[nodiscard]] const std::deque<TrainReport>& trains() const noexcept { return trains_; }
+    [[nodiscard]] const Series& commands() const noexcept { return commands_; }
+    /// Impedance checks included.
+    [[nodiscard]] const TrainRing& trains() const noexcept { return trains_; }
     /// Of the bench, at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
-    /// How often the display came too late and samples were left out of the picture (not of the recording).
+    /// Samples left out of the picture because the window looked too rarely; the recording has them.
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
 private:
     std::vector<StreamInfo> streams_;
     std::vector<Series> samples_;
     Series frames_;
-    std::deque<TrainReport> trains_;
+    Series commands_;
+    TrainRing trains_;
     double now_s_ = 0;
     std::uint64_t missed_ = 0;
 };

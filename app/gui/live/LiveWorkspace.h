@@ -3,7 +3,10 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QComboBox>
+#include <QElapsedTimer>
 #include <QLabel>
+#include <QPushButton>
 #include <QStackedWidget>
 #include <QWidget>
 
@@ -12,7 +15,9 @@
 
 namespace tacto::gui {
 
+class CommandPanel;
 class DrivePanel;
+class RigPanel;
 class StripPlots;
 class TactilePlane;
 class TaxelMap;
@@ -23,35 +28,48 @@ public:
     explicit LiveWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
     /// Thirty times a second. Takes what came either way; draws when `visible`.
     void refresh(const Telemetry& telemetry, bool visible);
-    /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and the desk's
-    /// window was told why, when it is no recording.
+    /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
+    /// refusedRecording() tells why, when it is no recording.
     bool openRecording(const QString& path);
+    /// Opens the encoding profile's editor; it is its own owner.
+    void editProfile();
     [[nodiscard]] const LiveHistory& history() const { return history_; }
+    [[nodiscard]] const StripPlots& plots() const { return *strips_; }
 
 signals:
     void refusedRecording(const QString& why);
 
 private:
+    enum Page { kEmpty, kOpening, kBench };
+    [[nodiscard]] QWidget* buildEmpty();
     [[nodiscard]] QWidget* buildBench();
     [[nodiscard]] QWidget* buildSide();
     [[nodiscard]] QWidget* buildFoot();
     void begin();
-    void showHealth(const Telemetry& telemetry);
-    void showCommand(const Telemetry& telemetry);
+    void showSide(const Telemetry& telemetry);
+    void showTaxels(bool stale);
+    void readCapture(const Capture& capture);
+    void openOrder(LiveOrder order);
     void openSimulated();
     void chooseRecording();
-    void editProfile();
+    void replayExample();
 
     BenchDesk& desk_;
     LiveHistory history_;
     std::shared_ptr<BenchTap> tap_;
+    std::optional<LiveOrder> order_;  // the last that was given here; a replay can be had again
+    bool orderPending_ = false;       // given, and its bench is not open yet
     QStackedWidget* stack_;
     StripPlots* strips_ = nullptr;
     TaxelMap* taxels_ = nullptr;
     TactilePlane* plane_ = nullptr;
+    CommandPanel* command_ = nullptr;
     DrivePanel* drive_ = nullptr;
-    QLabel* command_ = nullptr;
+    RigPanel* rig_ = nullptr;
+    QPushButton* freeze_ = nullptr;
     QLabel* health_ = nullptr;
+    QElapsedTimer sinceReading_;
+    std::vector<float> newest_;  // reused
     int frame_ = 0;
 };
 

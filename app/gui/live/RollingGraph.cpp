@@ -5,19 +5,25 @@
 
 namespace tacto::gui {
 
+namespace {
+constexpr double kDash_px = 5;
+}
+
 RollingGraph::RollingGraph(QCPAxis* keyAxis, QCPAxis* valueAxis) : QCPAbstractPlottable(keyAxis, valueAxis) {
     setAntialiased(false);
 }
 
-void RollingGraph::show(const Series* series, std::size_t channel) {
+void RollingGraph::show(const Series* series, std::size_t channel, double gap_s) {
     series_ = series;
     channel_ = channel;
+    gap_s_ = gap_s;
 }
 
-std::optional<QCPRange> RollingGraph::extent(double from_s) const {
+std::optional<QCPRange> RollingGraph::extent(const QCPRange& time) const {
     if (series_ == nullptr) return std::nullopt;
     float low = std::numeric_limits<float>::infinity(), high = -low;
-    for (std::size_t i = series_->firstFrom(from_s); i < series_->size(); ++i) {
+    const auto end = series_->firstFrom(time.upper);
+    for (std::size_t i = series_->firstFrom(time.lower); i < end; ++i) {
         const float value = series_->value(i, channel_);
         if (value < low) low = value;
         if (value > high) high = value;
@@ -32,15 +38,16 @@ QCPRange RollingGraph::getKeyRange(bool& found, QCP::SignDomain) const {
 }
 
 QCPRange RollingGraph::getValueRange(bool& found, QCP::SignDomain, const QCPRange& keys) const {
-    const auto range = extent(keys == QCPRange() ? -1e300 : keys.lower);
+    const auto range = extent(keys == QCPRange() ? QCPRange(-1e250, 1e250) : keys);
     found = range.has_value();
     return range.value_or(QCPRange());
 }
 
 void RollingGraph::draw(QCPPainter* painter) {
-    if (series_ == nullptr || series_->size() == 0 || !mKeyAxis || !mValueAxis) return;
+    if (series_ == nullptr || series_->empty() || !mKeyAxis || !mValueAxis) return;
     const auto keys = mKeyAxis->range();
-    const std::size_t first = series_->firstFrom(keys.lower);
+    std::size_t first = series_->firstFrom(keys.lower);
+    if (first > 0) --first;  // the line to the first sample begins outside
     const double x0 = mKeyAxis->coordToPixel(keys.lower);
     const double perSecond = (mKeyAxis->coordToPixel(keys.upper) - x0) / keys.size();
     const double y0 = mValueAxis->coordToPixel(0);
@@ -48,9 +55,11 @@ void RollingGraph::draw(QCPPainter* painter) {
     lines_.clear();
     int column = std::numeric_limits<int>::min();
     float low = 0, high = 0, last = 0;
+    double lastTime = 0;
     bool begun = false;
+    const auto isDash = [&](double t) { return !dashed_ || static_cast<long long>(t * perSecond / kDash_px) % 2 == 0; };
     const auto flush = [&] {
-        if (!begun) return;
+        if (!begun || !isDash(lastTime)) return;
         const double x = column + 0.5;
         lines_.append(QLineF(x, y0 + perUnit * double(low), x, y0 + perUnit * double(high)));
     };
@@ -58,11 +67,11 @@ void RollingGraph::draw(QCPPainter* painter) {
         const double t = series_->time(i);
         if (t > keys.upper) break;
         const float value = series_->value(i, channel_);
-        if (std::isnan(value)) {
+        if (std::isnan(value) || (begun && t - lastTime > gap_s_)) {
             flush();
             begun = false;
             column = std::numeric_limits<int>::min();
-            continue;
+            if (std::isnan(value)) continue;
         }
         const int x = static_cast<int>(std::floor(x0 + (t - keys.lower) * perSecond));
         if (begun && x == column) {
@@ -72,7 +81,9 @@ void RollingGraph::draw(QCPPainter* painter) {
             flush();
             if (begun && x > column + 1) {
                 // Few samples: a line across the columns between.
-                lines_.append(QLineF(column + 0.5, y0 + perUnit * double(last), x + 0.5, y0 + perUnit * double(value)));
+                if (isDash(t))
+                    lines_.append(
+                        QLineF(column + 0.5, y0 + perUnit * double(last), x + 0.5, y0 + perUnit * double(value)));
                 low = high = value;
             } else {
                 low = begun ? std::min(last, value) : value;
@@ -82,6 +93,7 @@ void RollingGraph::draw(QCPPainter* painter) {
             begun = true;
         }
         last = value;
+        lastTime = t;
     }
     flush();
     painter->setAntialiasing(false);

@@ -1,5 +1,6 @@
 // RollingGraph.h - one channel of a Series as a trace: per pixel column the smallest and largest value, drawn as
-// one-pixel verticals in one call, without antialiasing; a line where samples are few. NaN leaves a gap.
+// one-pixel verticals in one call, without antialiasing; a line where samples are few. NaN and missing samples leave a
+// gap: what was not measured is not drawn.
 //
 // Thread-safety: the GUI thread; the series outlives the graph or is taken away with show(nullptr, 0).
 #pragma once
@@ -14,11 +15,14 @@ class RollingGraph final : public QCPAbstractPlottable {
     Q_OBJECT
 public:
     RollingGraph(QCPAxis* keyAxis, QCPAxis* valueAxis);
-    void show(const Series* series, std::size_t channel);
+    /// Samples further apart than `gap_s` are not joined.
+    void show(const Series* series, std::size_t channel, double gap_s = 1e9);
     /// Values are drawn times this: an axis in kPa of samples in Pa.
     void setScale(double scale) { scale_ = scale; }
-    /// Smallest and largest value from `from_s` on; nothing when there is none.
-    [[nodiscard]] std::optional<QCPRange> extent(double from_s) const;
+    /// A dashed trace, for one that shares its strip with a solid one. The dashes move with the data.
+    void setDashed(bool dashed) { dashed_ = dashed; }
+    /// Smallest and largest value in the time; nothing when there is none.
+    [[nodiscard]] std::optional<QCPRange> extent(const QCPRange& time) const;
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
     QCPRange getKeyRange(bool& found, QCP::SignDomain = QCP::sdBoth) const override;
@@ -31,7 +35,9 @@ protected:
 private:
     const Series* series_ = nullptr;
     std::size_t channel_ = 0;
+    double gap_s_ = 1e9;
     double scale_ = 1;
+    bool dashed_ = false;
     QVector<QLineF> lines_;
 };
 

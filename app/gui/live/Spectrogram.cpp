@@ -10,9 +10,11 @@ namespace {
 constexpr double kWindow_s = 0.064;
 constexpr double kHop_s = 0.032;
 constexpr double kLow_hz = 5, kHigh_hz = 1000;
-constexpr double kFloor_db = -80, kRoof_db = 20;  // of (m/s²)²/Hz: below is sensor noise, above a tap
+constexpr double kFloor_db = -70, kRoof_db = 10;  // of (m/s²)²/Hz: below is sensor noise, above a tap
+constexpr std::int64_t kColumns = static_cast<std::int64_t>(LiveHistory::kKept_s / kHop_s);
 
-/// Perceptually even and readable in grey: dark blue to yellow (points of the viridis family, as figures).
+/// Perceptually even, the same to every kind of colour vision, readable in grey: dark blue to yellow (points of the
+/// viridis family, as figures have them).
 QCPColorGradient gradient() {
     QCPColorGradient g;
     g.clearColorStops();
@@ -33,73 +35,115 @@ Spectrogram::Spectrogram(QCPAxisRect& axes)
     map_->setGradient(gradient());
     map_->setDataRange(QCPRange(kFloor_db, kRoof_db));
     map_->setInterpolate(false);
-    map_->setTightBoundary(true);
+    map_->setTightBoundary(false);  // a cell stands around its time and frequency
 }
 
 void Spectrogram::begin(const StreamInfo* stream) {
-    spectra_.clear();
     transform_.reset();
     map_->data()->clear();
-    nextStart_s_ = -1;
+    next_ = 0;
+    base_s_ = std::nan("");
+    transformed_ = 0;
+    top_hz_ = 0;
     if (stream == nullptr || !(stream->rate_hz >= 100)) return;
+    absolute_ = stream->unit == StreamUnit::MetrePerSecondSquared;
+    map_->setDataRange(QCPRange(kFloor_db, kRoof_db));
     rate_hz_ = stream->rate_hz;
     axes_ = std::min(stream->channels, TapSample::kMaxChannels);
     length_ = static_cast<std::size_t>(std::lround(kWindow_s * rate_hz_));
     transform_ = std::make_unique<PowerSpectrum>(length_, axes_, rate_hz_);
-    bins_ = transform_->bins(kLow_hz, std::min(kHigh_hz, rate_hz_ / 2));
-    input_.assign(axes_, std::vector<double>(length_));
+    top_hz_ = std::min(kHigh_hz, rate_hz_ / 2);
+    bins_ = transform_->bins(kLow_hz, top_hz_);
+    rows_ = bins_.empty() ? 0 : bins_.last - bins_.first + 1;
+    db_.assign(static_cast<std::size_t>(kColumns) * rows_, 0.F);
+    holds_.assign(static_cast<std::size_t>(kColumns), -1);
+    input_.assign(axes_ * length_, 0.0);
+    axisInput_.clear();
+    for (std::size_t a = 0; a < axes_; ++a) axisInput_.push_back(input_.data() + a * length_);
 }
 
 void Spectrogram::transformNew(const Series& series) {
     if (series.size() < length_) return;
-    if (nextStart_s_ < series.time(0)) nextStart_s_ = series.time(0);
+    const double half = 0.5 / rate_hz_;  // stamps are rounded: the nearest sample, not the next
+    const auto columnAtOrAfter = [&](double t) {
+        return static_cast<Index>(std::ceil((t - half - base_s_) / kHop_s - 1e-9));
+    };
+    if (std::isnan(base_s_)) base_s_ = series.time(0);
+    next_ = std::max(next_, columnAtOrAfter(series.time(0)));
     for (;;) {
-        const auto first = series.firstFrom(nextStart_s_);
+        const double start = base_s_ + double(next_) * kHop_s;
+        const auto first = series.firstFrom(start - half);
         if (first + length_ > series.size()) return;
-        Spectrum spectrum{series.time(first) + kWindow_s / 2, {}};
-        bool whole = series.time(first + length_ - 1) - series.time(first) < 1.5 * kWindow_s;  // no gap inside
+        if (series.time(first) > start + kHop_s) {  // samples are missing: on behind the gap
+            next_ = columnAtOrAfter(series.time(first));
+            continue;
+        }
+        bool whole = series.time(first + length_ - 1) - series.time(first) < kWindow_s + 2 / rate_hz_;
         for (std::size_t a = 0; a < axes_; ++a) {
-            for (std::size_t i = 0; i < length_; ++i) {
-                input_[a][i] = double(series.value(first + i, a));
-                whole = whole && std::isfinite(input_[a][i]);
-            }
+            auto* into = input_.data() + a * length_;
+            double sum = 0;
+            for (std::size_t i = 0; i < length_; ++i) sum += into[i] = double(series.value(first + i, a));
+            const double mean = sum / double(length_);
+            for (std::size_t i = 0; i < length_; ++i) into[i] -= mean;
+            whole = whole && std::isfinite(sum);
         }
-        if (whole) {
-            std::vector<const double*> pointers;
-            pointers.reserve(axes_);
-            for (const auto& axis : input_) pointers.push_back(axis.data());
-            transform_->transform(pointers);
-            for (std::size_t bin = bins_.first; bin <= bins_.last; ++bin)
-                spectrum.db.push_back(static_cast<float>(10 * std::log10(transform_->density(bin) + 1e-12)));
-        }
-        spectra_.push_back(std::move(spectrum));
-        while (!spectra_.empty() && spectra_.front().t_s < spectra_.back().t_s - LiveHistory::kKept_s)
-            spectra_.pop_front();
-        nextStart_s_ += kHop_s;
+        keep(next_, whole);
+        ++next_;
     }
 }
 
-void Spectrogram::update(const Series& series, const QCPRange& window) {
-    if (!transform_ || bins_.empty()) return;
+void Spectrogram::keep(Index column, bool whole) {
+    const auto slot = static_cast<std::size_t>(column % kColumns);
+    holds_[slot] = whole ? column : -1;
+    if (!whole) return;
+    transform_->transform(axisInput_);
+    ++transformed_;
+    for (std::size_t row = 0; row < rows_; ++row)
+        db_[slot * rows_ + row] = static_cast<float>(10 * std::log10(transform_->density(bins_.first + row) + 1e-12));
+}
+
+const float* Spectrogram::kept(Index column) const noexcept {
+    if (column < 0) return nullptr;
+    const auto slot = static_cast<std::size_t>(column % kColumns);
+    return holds_[slot] == column ? db_.data() + slot * rows_ : nullptr;
+}
+
+double Spectrogram::densityAt_db(double t_s, double hz) const noexcept {
+    if (!transform_ || rows_ == 0 || std::isnan(base_s_)) return std::nan("");
+    const auto* column = kept(static_cast<Index>(std::lround((t_s - kWindow_s / 2 - base_s_) / kHop_s)));
+    const auto bin = std::lround(hz / transform_->binWidth_hz());
+    if (column == nullptr || bin < long(bins_.first) || bin > long(bins_.last)) return std::nan("");
+    return double(column[std::size_t(bin) - bins_.first]);
+}
+
+void Spectrogram::update(const Series& series, const QCPRange& window, int columns) {
+    if (!transform_ || rows_ == 0) return;
     transformNew(series);
-    const int rows = static_cast<int>(bins_.last - bins_.first + 1);
-    const int columns = std::max(2, static_cast<int>(std::lround(window.size() / kHop_s)));
+    if (std::isnan(base_s_)) return;
+    // Columns stand on the transform's own grid, so that none flickers while the window moves over it.
+    const double centre0 = base_s_ + kWindow_s / 2;
+    const auto wanted = static_cast<Index>(window.size() / kHop_s) + 2;
+    const Index stride = std::max<Index>(1, (wanted + columns - 1) / std::max(1, columns));
+    const Index first = static_cast<Index>(std::floor((window.lower - centre0) / kHop_s / double(stride))) * stride;
+    const int shown = static_cast<int>(wanted / stride + 1);
     auto* data = map_->data();
-    data->setSize(columns, rows);
-    data->setRange(window, QCPRange(double(bins_.first) * transform_->binWidth_hz(),
-                                    double(bins_.last) * transform_->binWidth_hz()));
-    data->fill(std::nan(""));
-    for (auto it = spectra_.rbegin(); it != spectra_.rend() && it->t_s >= window.lower; ++it) {
-        // Each covers its hop, so that rounding leaves no column between two.
-        const auto columnOf = [&](double t) {
-            return static_cast<int>(std::floor((t - window.lower) / window.size() * columns));
-        };
-        const int last = std::min(columns - 1, columnOf(it->t_s + kHop_s / 2));
-        for (int column = std::max(0, columnOf(it->t_s - kHop_s / 2)); column <= last; ++column) {
-            for (int row = 0; row < int(it->db.size()); ++row)
-                data->setCell(column, row, double(it->db[std::size_t(row)]));
+    data->setSize(shown, static_cast<int>(rows_));
+    data->setRange(
+        QCPRange(centre0 + double(first) * kHop_s, centre0 + double(first + (shown - 1) * stride) * kHop_s),
+        QCPRange(double(bins_.first) * transform_->binWidth_hz(), double(bins_.last) * transform_->binWidth_hz()));
+    float most = -300;
+    for (int c = 0; c < shown; ++c) {
+        const auto* column = kept(first + c * stride);
+        for (int row = 0; row < int(rows_); ++row) {
+            const float db = column != nullptr ? column[row] : std::nanf("");
+            if (db > most) most = db;
+            data->setCell(c, row, double(db));
         }
     }
+    if (absolute_ || most < -200) return;
+    // Counts have no scale of their own: the loudest of the window is the roof.
+    const double roof = 10 * std::ceil(double(most) / 10);
+    map_->setDataRange(QCPRange(roof - (kRoof_db - kFloor_db), roof));
 }
 
 }  // namespace tacto::gui

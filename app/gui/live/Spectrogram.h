@@ -1,11 +1,15 @@
-// Spectrogram.h - the acceleration's short-time Fourier transform over time: 64 ms Hann windows, axes summed, 5 Hz to
-// 1 kHz, power density in dB.
+// Spectrogram.h - the acceleration's short-time Fourier transform over time: 64 ms Hann windows every 32 ms, their mean
+// taken out (gravity), axes summed, 5 Hz to 1 kHz, power density in dB.
+//
+// Bounded: a ring of the columns of a minute; nothing is allocated after begin() but for a longer window.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <qcustomplot.h>
+#include <vector>
 
 #include "app/gui/live/LiveHistory.h"
 #include "core/dsp/PowerSpectrum.h"
@@ -17,26 +21,37 @@ public:
     explicit Spectrogram(QCPAxisRect& axes);
     /// Another stream, or none (null): forgets everything.
     void begin(const StreamInfo* stream);
-    /// Transforms what is new, and lays the picture over `window`.
-    void update(const Series& series, const QCPRange& window);
-    [[nodiscard]] std::size_t columns() const noexcept { return spectra_.size(); }
+    /// Transforms what is new, and lays the picture over `window`, at most `columns` wide.
+    void update(const Series& series, const QCPRange& window, int columns);
+    /// Upper end of the picture, Hz; 0 without a stream.
+    [[nodiscard]] double top_hz() const noexcept { return top_hz_; }
+    /// Windows transformed since begin().
+    [[nodiscard]] std::int64_t transformed() const noexcept { return transformed_; }
+    /// Power density at a place of the picture, dB; NaN where there is none.
+    [[nodiscard]] double densityAt_db(double t_s, double hz) const noexcept;
 
 private:
-    struct Spectrum {
-        double t_s;
-        std::vector<float> db;
-    };
+    using Index = std::int64_t;  // of a column: its window begins at base_s_ + index · hop
     void transformNew(const Series& series);
+    void keep(Index column, bool whole);
+    [[nodiscard]] const float* kept(Index column) const noexcept;
 
     QCPColorMap* map_;
     std::unique_ptr<PowerSpectrum> transform_;
+    bool absolute_ = false;  // in m/s²: the colours stand for the same numbers always
     double rate_hz_ = 0;
+    double top_hz_ = 0;
     std::size_t axes_ = 0;
     std::size_t length_ = 0;
     BinRange bins_;
-    double nextStart_s_ = 0;
-    std::deque<Spectrum> spectra_;
-    std::vector<std::vector<double>> input_;
+    std::size_t rows_ = 0;
+    double base_s_ = 0;
+    Index next_ = 0;
+    std::int64_t transformed_ = 0;
+    std::vector<float> db_;      // the ring: kColumns × rows_
+    std::vector<Index> holds_;   // which column stands in a slot; -1 none
+    std::vector<double> input_;  // axes_ × length_
+    std::vector<const double*> axisInput_;
 };
 
 }  // namespace tacto::gui

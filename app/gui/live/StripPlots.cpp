@@ -2,14 +2,19 @@
 
 #include <algorithm>
 
+#include "app/gui/live/StripIndex.h"
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
 
 namespace {
 
-enum StripIndex : std::size_t { kAcceleration, kForce, kTaxels, kSpectrum, kIndices, kTrains };
 constexpr std::size_t kMostTaxels = TapSample::kMaxChannels;
+constexpr double kGapSteps = 2.5;  // of a stream's own step: beyond, a sample is missing
+constexpr double kFrameGap_s = 0.1;
+constexpr std::size_t kReadings = 256;
+// How much of the height each strip gets.
+constexpr double kHeights[] = {1.3, 0.8, 0.9, 1.2, 1, 1.1};
 
 QColor axisColour(std::size_t axis) {
     const auto& c = colours();
@@ -17,37 +22,41 @@ QColor axisColour(std::size_t axis) {
     return all[axis % 3];
 }
 
-/// The next of 1, 2, 5 times a power of ten at or above `value`: an axis that steps instead of breathing.
-double stepAbove(double value) {
-    if (!(value > 0)) return 1;
-    const double decade = std::pow(10, std::floor(std::log10(value)));
-    for (const double step : {1.0, 2.0, 5.0, 10.0}) {
-        if (step * decade >= value * 0.999) return step * decade;
-    }
-    return 10 * decade;
+QColor withAlpha(QColor colour, int alpha) {
+    colour.setAlpha(alpha);
+    return colour;
 }
 
 }  // namespace
 
 StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlot(parent), history_(history) {
     setAccessibleName(tr("Live plots"));
-    setToolTip(tr("Everything on one time axis, newest at the right. The window's length is chosen below."));
+    setToolTip(
+        tr("Everything on one time axis, newest at the right. Hatched: no sample has come since. A frozen picture "
+           "can be dragged, and zoomed with the wheel."));
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
-    plotLayout()->setRowSpacing(2);
     auto* unused = axisRect();
-    auto* group = new QCPMarginGroup(this);
-    strips_ = {
-        makeStrip(tr("Acceleration"), "m/s²", 0.5), makeStrip(tr("Force"), "N", 0.5), makeStrip(tr("Taxels"), "Pa", 0),
-        makeStrip(tr("Spectrum"), "Hz", 0),         makeStrip(tr("R, P"), "", 1),     makeStrip(tr("Trains"), "V", 10)};
+    strips_.resize(kStripCount);
+    makeStrip(kAcceleration, tr("Acceleration"), 1, false);
+    makeStrip(kForce, tr("Force"), 0.5, true);
+    makeStrip(kTaxels, tr("Taxels"), 0, false);
+    makeStrip(kSpectrum, tr("Spectrum of the acceleration"), 0, true);
+    makeStrip(kIndices, tr("Indices"), 1, true);
+    makeStrip(kTrains, tr("Trains"), 0, true);
     plotLayout()->remove(unused);
     plotLayout()->simplify();
-    for (auto& strip : strips_) strip.axes->setMarginGroup(QCP::msLeft | QCP::msRight, group);
-    plotLayout()->setRowStretchFactor(int(kForce), 0.7);
-    strips_[kSpectrum].axes->axis(QCPAxis::atLeft)->setNumberFormat("f");
-    strips_[kSpectrum].axes->axis(QCPAxis::atLeft)->setNumberPrecision(0);
-    strips_.back().axes->axis(QCPAxis::atBottom)->setTickLabels(true);
-    strips_.back().axes->axis(QCPAxis::atBottom)->setLabel(tr("time (s)"));
+    plotLayout()->setRowSpacing(1);
+    auto* group = new QCPMarginGroup(this);
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+        strips_[i].axes->setMarginGroup(QCP::msLeft | QCP::msRight, group);
+        plotLayout()->setRowStretchFactor(int(i), kHeights[i]);
+        connect(strips_[i].axes->axis(QCPAxis::atBottom), qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this,
+                &StripPlots::shareTime);
+    }
+    auto* time = strips_.back().axes->axis(QCPAxis::atBottom);
+    time->setTickLabels(true);
+    time->setLabel(tr("time (s)"));
     const auto graphIn = [&](std::size_t strip) {
         auto* axes = strips_[strip].axes;
         return new RollingGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
@@ -58,158 +67,189 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     spectrogram_ = std::make_unique<Spectrogram>(*strips_[kSpectrum].axes);
     roughness_ = graphIn(kIndices);
     pressure_ = graphIn(kIndices);
-    roughness_->show(&history_.frames(), LiveHistory::kRoughness);
-    pressure_->show(&history_.frames(), LiveHistory::kPressure);
+    pressure_->setDashed(true);
     auto* trains = strips_[kTrains].axes;
-    commanded_ = new QCPBars(trains->axis(QCPAxis::atBottom), trains->axis(QCPAxis::atLeft));
-    commanded_->setWidthType(QCPBars::wtAbsolute);
-    commanded_->setWidth(2);
-    measured_ = addGraph(trains->axis(QCPAxis::atBottom), trains->axis(QCPAxis::atLeft));
-    measured_->setLineStyle(QCPGraph::lsNone);
-    refused_ = addGraph(trains->axis(QCPAxis::atBottom), trains->axis(QCPAxis::atLeft));
-    refused_->setLineStyle(QCPGraph::lsNone);
-    begin(false);
-}
-
-StripPlots::Strip StripPlots::makeStrip(const QString& title, const QString& unit, double least) {
-    auto* axes = new QCPAxisRect(this);
-    plotLayout()->addElement(axes);  // before its items: they look for it there
-    axes->setMinimumMargins(QMargins(4, 2, 8, 2));
-    for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
-        axes->axis(side)->setVisible(false);
-        axes->axis(side)->grid()->setVisible(false);
+    auto *across = trains->axis(QCPAxis::atBottom), *up = trains->axis(QCPAxis::atLeft);
+    command_ = addGraph(across, up);
+    command_->setLineStyle(QCPGraph::lsStepLeft);
+    delivered_ = new QCPBars(across, up);
+    delivered_->setWidthType(QCPBars::wtAbsolute);
+    delivered_->setWidth(3);
+    for (auto** graph : {&measured_, &scoped_, &failed_}) {
+        *graph = addGraph(across, up);
+        (*graph)->setLineStyle(QCPGraph::lsNone);
     }
-    auto* bottom = axes->axis(QCPAxis::atBottom);
+    readings_.reserve(kReadings);
+    addKeys(strips_[kAcceleration], 3);
+    addKeys(strips_[kForce], 1);
+    addKeys(strips_[kTaxels], 1);
+    addKeys(strips_[kIndices], 2);
+    addKeys(strips_[kTrains], 5);
+    begin(false, "V");
+}
+
+void StripPlots::makeStrip(std::size_t index, const QString& title, double least, bool fromZero) {
+    auto& strip = strips_[index];
+    strip.axes = new QCPAxisRect(this);
+    plotLayout()->addElement(int(index) + 1, 0, strip.axes);  // before its items: they look for it there
+    strip.title = title;
+    strip.least = least;
+    strip.fromZero = fromZero;
+    strip.axes->setMinimumMargins(QMargins(4, 2, 8, 2));
+    strip.axes->setMinimumSize(50, 24);
+    strip.axes->setRangeDrag(Qt::Horizontal);
+    strip.axes->setRangeZoom(Qt::Horizontal);
+    for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
+        strip.axes->axis(side)->setVisible(false);
+        strip.axes->axis(side)->grid()->setVisible(false);
+    }
+    auto *bottom = strip.axes->axis(QCPAxis::atBottom), *left = strip.axes->axis(QCPAxis::atLeft);
     bottom->setTickLabels(false);
-    auto* left = axes->axis(QCPAxis::atLeft);
-    left->ticker()->setTickCount(3);
+    bottom->ticker()->setTickCount(8);
+    left->ticker()->setTickCount(index == kIndices ? 2 : 3);
     left->setNumberFormat("gb");
-    left->setNumberPrecision(3);
+    left->setNumberPrecision(4);
     for (auto* axis : {bottom, left}) axis->setLayer("axes");
-    return {axes, title, unit, addWatermark(*axes), least};
+    strip.watermark = addWatermark(*strip.axes);
+    strip.watermark->setRotation(0);
+    strip.hatch = new QCPItemRect(this);
+    for (auto* corner : {strip.hatch->topLeft, strip.hatch->bottomRight}) {
+        corner->setAxisRect(strip.axes);
+        corner->setAxes(bottom, left);
+        corner->setTypeX(QCPItemPosition::ptPlotCoords);
+        corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    }
+    strip.hatch->setClipAxisRect(strip.axes);
+    strip.hatch->setPen(Qt::NoPen);
+    strip.hatch->setVisible(false);
+    strip.caption = new QCPItemText(this);
+    strip.caption->setLayer("legend");
+    strip.caption->setClipToAxisRect(false);
+    strip.caption->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+    strip.caption->setPadding(QMargins(5, 1, 3, 1));
+    strip.caption->position->setAxisRect(strip.axes);
+    strip.caption->position->setType(QCPItemPosition::ptAxisRectRatio);
+    strip.caption->position->setCoords(0, 0);
 }
 
-void StripPlots::begin(bool simulated) {
+void StripPlots::addKeys(Strip& strip, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        auto* key = new QCPItemText(this);
+        key->setLayer("legend");
+        key->setClipToAxisRect(false);
+        key->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+        key->setPadding(QMargins(3, 1, 5, 1));
+        key->position->setParentAnchor(i == 0 ? strip.caption->topRight : strip.keys.back()->topRight);
+        key->position->setCoords(0, 0);
+        strip.keys.push_back(key);
+    }
+}
+
+void StripPlots::begin(bool simulated, const QString& commandUnit) {
     simulated_ = simulated;
-    for (auto* graph : acceleration_) graph->show(nullptr, 0);
-    for (auto* graph : force_) graph->show(nullptr, 0);
-    for (auto* graph : taxels_) graph->show(nullptr, 0);
-    const auto attach = [&](StreamKind kind, std::vector<RollingGraph*>& graphs, Strip& strip) {
-        const auto* series = history_.samples(kind);
-        const auto* info = history_.info(kind);
-        if (series == nullptr) return;
-        strip.unit = QString::fromUtf8(symbolOf(info->unit).data(), qsizetype(symbolOf(info->unit).size()));
-        strip.unit.replace("m/s2", "m/s²");
-        const double scale = strip.unit == "Pa" ? 1e-3 : 1;
-        if (strip.unit == "Pa") strip.unit = "kPa";
-        for (auto* graph : graphs) graph->setScale(scale);
-        for (std::size_t c = 0; c < std::min(series->channels(), graphs.size()); ++c) graphs[c]->show(series, c);
-    };
-    attach(StreamKind::Acceleration, acceleration_, strips_[kAcceleration]);
-    attach(StreamKind::Force, force_, strips_[kForce]);
-    attach(StreamKind::Taxels, taxels_, strips_[kTaxels]);
+    setFrozen(false);
+    readings_.clear();
+    nextReading_ = 0;
+    for (const auto index : {kAcceleration, kForce, kTaxels}) {
+        auto& strip = strips_[index];
+        const auto* info = history_.info(streamOf(index));
+        strip.present = info != nullptr;
+        if (info == nullptr) continue;
+        const auto symbol = symbolOf(info->unit);
+        strip.unit = QString::fromUtf8(symbol.data(), qsizetype(symbol.size())).replace("m/s2", "m/s²");
+        strip.scale = info->unit == StreamUnit::Pascal ? 1e-3 : 1;
+        if (info->unit == StreamUnit::Pascal) strip.unit = "kPa";
+    }
     spectrogram_->begin(history_.info(StreamKind::Acceleration));
+    strips_[kSpectrum].present = spectrogram_->top_hz() > 0;
+    strips_[kSpectrum].unit = "Hz";
+    strips_[kIndices].present = !history_.streams().empty();
+    strips_[kTrains].unit = commandUnit;
+    attach();
+    layOut();
     colour();
 }
 
-void StripPlots::setWindow(double seconds) { window_s_ = seconds; }
+void StripPlots::attach() {
+    const auto give = [&](StreamKind kind, std::vector<RollingGraph*>& graphs, const Strip& strip) {
+        const auto* series = shown().samples(kind);
+        const auto* info = shown().info(kind);
+        for (std::size_t c = 0; c < graphs.size(); ++c) {
+            const bool has = series != nullptr && c < series->channels();
+            graphs[c]->setScale(strip.scale);
+            graphs[c]->show(has ? series : nullptr, c, has ? kGapSteps / info->rate_hz : 1);
+            graphs[c]->setVisible(has);
+        }
+    };
+    give(StreamKind::Acceleration, acceleration_, strips_[kAcceleration]);
+    give(StreamKind::Force, force_, strips_[kForce]);
+    give(StreamKind::Taxels, taxels_, strips_[kTaxels]);
+    roughness_->show(&shown().frames(), LiveHistory::kRoughness, kFrameGap_s);
+    pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
+}
 
-void StripPlots::setCommandUnit(const QString& unit) {
-    strips_[kTrains].unit = unit;
-    colour();
+void StripPlots::layOut() {
+    for (auto& strip : strips_) {
+        strip.axes->setVisible(strip.present);
+        strip.axes->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
+        strip.axes->setMinimumSize(strip.present ? 50 : 0, strip.present ? fontMetrics().height() * 2 : 0);
+        strip.axes->setMaximumSize(QWIDGETSIZE_MAX, strip.present ? QWIDGETSIZE_MAX : 1);
+        strip.caption->setVisible(strip.present);
+        for (auto* key : strip.keys) key->setVisible(strip.present);
+        strip.watermark->setVisible(strip.present && simulated_);
+        strip.hatch->setVisible(false);
+    }
 }
 
 void StripPlots::colour() {
     const auto& c = colours();
     stylePlot(*this);
-    for (auto& strip : strips_) {
-        auto* left = strip.axes->axis(QCPAxis::atLeft);
-        left->setLabel(strip.unit.isEmpty() ? strip.title : QString("%1\n(%2)").arg(strip.title, strip.unit));
-        strip.watermark->setVisible(simulated_);
-        auto font = strip.watermark->font();
-        font.setPointSizeF(15);
-        strip.watermark->setFont(font);
-        strip.watermark->setRotation(0);
+    auto small = QApplication::font();
+    if (small.pointSizeF() > 0) small.setPointSizeF(small.pointSizeF() * 0.9);
+    auto faint = QApplication::font();
+    if (faint.pointSizeF() > 0) faint.setPointSizeF(faint.pointSizeF() * 1.5);
+    faint.setBold(true);
+    const std::vector<QColor> keys[kStripCount] = {
+        {axisColour(0), axisColour(1), axisColour(2)},
+        {c.text},
+        {c.voltage},
+        {},
+        {conditionLook("rough-high").color, conditionLook("smooth-high").color},
+        {c.quiet, c.voltage, c.text, c.math, c.amber}};
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+        auto& strip = strips_[i];
+        strip.watermark->setFont(faint);
+        strip.caption->setText(strip.unit.isEmpty() ? strip.title : QString("%1 (%2)").arg(strip.title, strip.unit));
+        strip.caption->setColor(c.text);
+        strip.hatch->setBrush(QBrush(withAlpha(c.quiet, 90), Qt::BDiagPattern));
+        for (std::size_t k = 0; k < strip.keys.size(); ++k) strip.keys[k]->setColor(keys[i][k]);
+        auto texts = strip.keys;
+        texts.push_back(strip.caption);
+        for (auto* text : texts) {
+            text->setFont(small);
+            text->setBrush(withAlpha(c.base, 205));
+        }
     }
     for (std::size_t i = 0; i < acceleration_.size(); ++i) acceleration_[i]->setPen(QPen(axisColour(i)));
     force_.front()->setPen(QPen(c.text));
-    for (std::size_t i = 0; i < taxels_.size(); ++i) {
-        auto colour = axisColour(i);
-        colour.setHsvF(float(std::fmod(double(i) * 0.13 + 0.5, 1.0)), 0.55F,
-                       currentTheme() == Theme::Dark ? 0.9F : 0.65F);
-        taxels_[i]->setPen(QPen(colour));
-    }
-    roughness_->setPen(QPen(conditionLook("rough-high").color));
-    pressure_->setPen(QPen(conditionLook("smooth-high").color));
-    commanded_->setPen(QPen(c.voltage));
-    commanded_->setBrush(c.voltage);
-    measured_->setPen(QPen(c.text));
-    measured_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, c.text, Qt::NoBrush, 6));
-    refused_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, c.fault, 7));
+    for (auto* taxel : taxels_) taxel->setPen(QPen(withAlpha(c.voltage, 110)));
+    roughness_->setPen(QPen(keys[kIndices][0]));
+    pressure_->setPen(QPen(keys[kIndices][1]));
+    command_->setPen(QPen(c.quiet, 1));
+    delivered_->setPen(Qt::NoPen);
+    delivered_->setBrush(c.voltage);
+    measured_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(c.text), Qt::NoBrush, 7));
+    scoped_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(c.math, 1.5), Qt::NoBrush, 9));
+    failed_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, QPen(c.amber, 1.5), Qt::NoBrush, 8));
+    write();
 }
 
 void StripPlots::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
-        if (commanded_ != nullptr) colour();
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && spectrogram_) {
+        colour();
+        layOut();
     }
     QCustomPlot::changeEvent(event);
-}
-
-void StripPlots::fit(Strip& strip, std::span<RollingGraph* const> graphs, bool fromZero) {
-    QCPRange all;
-    bool any = false;
-    for (const auto* graph : graphs) {
-        const auto range = graph->extent(history_.now_s() - window_s_);
-        if (!range) continue;
-        if (any)
-            all.expand(*range);
-        else
-            all = *range;
-        any = true;
-    }
-    double reach = std::max(strip.least, any ? std::max(std::abs(all.lower), std::abs(all.upper)) : 1.0);
-    reach = stepAbove(reach);
-    const double bottom = fromZero && !(any && all.lower < -0.02 * reach) ? -0.05 * reach : -reach;
-    strip.axes->axis(QCPAxis::atLeft)->setRange(bottom, reach * 1.05);
-}
-
-void StripPlots::drawTrains(double from_s) {
-    QVector<double> at, amplitude, measuredAt, measured, refusedAt, refused;
-    double most = strips_[kTrains].least;
-    for (const auto& train : history_.trains()) {
-        const double t = toSeconds(train.onset);
-        if (t < from_s || train.isCheck) continue;
-        if (train.outcome == TrainOutcome::Delivered) {
-            at << t;
-            amplitude << train.amplitude;
-            if (std::isfinite(train.measured)) {
-                measuredAt << t;
-                measured << train.measured;
-            }
-            most = std::max({most, train.amplitude, std::isfinite(train.measured) ? train.measured : 0});
-        } else {
-            refusedAt << t;
-            refused << train.amplitude;
-        }
-    }
-    commanded_->setData(at, amplitude, true);
-    measured_->setData(measuredAt, measured, true);
-    refused_->setData(refusedAt, refused, true);
-    strips_[kTrains].axes->axis(QCPAxis::atLeft)->setRange(0, stepAbove(most) * 1.1);
-}
-
-void StripPlots::redraw() {
-    if (frozen_) return;
-    const QCPRange window(history_.now_s() - window_s_, history_.now_s());
-    for (auto& strip : strips_) strip.axes->axis(QCPAxis::atBottom)->setRange(window);
-    fit(strips_[kAcceleration], acceleration_, false);
-    fit(strips_[kForce], force_, true);
-    fit(strips_[kTaxels], taxels_, true);
-    strips_[kIndices].axes->axis(QCPAxis::atLeft)->setRange(-0.05, 1.05);
-    strips_[kSpectrum].axes->axis(QCPAxis::atLeft)->setRange(0, 1000);
-    if (const auto* series = history_.samples(StreamKind::Acceleration)) spectrogram_->update(*series, window);
-    drawTrains(window.lower);
-    replot(QCustomPlot::rpQueuedReplot);
 }
 
 }  // namespace tacto::gui

@@ -16,7 +16,6 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setNotAntialiasedElements(QCP::aeNone);
     xAxis->setRange(-0.12, 1.12);
     yAxis->setRange(-0.12, 1.12);
-    xAxis->setLabel(tr("roughness R"));
     yAxis->setLabel(tr("pressure P"));
     for (auto* axis : {xAxis, yAxis}) {
         axis->ticker()->setTickCount(3);
@@ -28,6 +27,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     now_ = addGraph();
     now_->setLineStyle(QCPGraph::lsNone);
     setMinimumSize(fontMetrics().height() * 10, fontMetrics().height() * 9);
+    setOrigin(false, true);
     colour();
 }
 
@@ -56,7 +56,16 @@ void TactilePlane::setConditions(const std::vector<Condition>& conditions) {
     colour();
 }
 
-void TactilePlane::setSimulated(bool simulated) { watermark_->setVisible(simulated); }
+void TactilePlane::setOrigin(bool simulated, bool calibrated) {
+    watermark_->setVisible(simulated);
+    xAxis->setLabel(calibrated ? tr("roughness R") : tr("roughness R, uncalibrated"));
+}
+
+std::optional<QPointF> TactilePlane::point() const {
+    if (now_->data()->isEmpty()) return std::nullopt;
+    const auto& point = *now_->data()->constBegin();
+    return QPointF(point.key, point.value);
+}
 
 void TactilePlane::colour() {
     stylePlot(*this);
@@ -81,20 +90,19 @@ void TactilePlane::changeEvent(QEvent* event) {
     QCustomPlot::changeEvent(event);
 }
 
-void TactilePlane::show(const Series& frames, double now_s, double roughness, double pressure) {
-    QVector<double> t, r, p;
-    for (auto i = frames.firstFrom(now_s - kTrail_s); i < frames.size(); ++i) {
+void TactilePlane::show(const Series& frames, double now_s, double roughness, double pressure, bool byHand) {
+    for (auto* list : {&t_, &r_, &p_}) list->clear();
+    for (auto i = byHand ? frames.size() : frames.firstFrom(now_s - kTrail_s); i < frames.size(); ++i) {
         const float R = frames.value(i, LiveHistory::kRoughness), P = frames.value(i, LiveHistory::kPressure);
-        if (std::isnan(R) || std::isnan(P)) continue;
-        t << frames.time(i);
-        r << double(R);
-        p << double(P);
+        if (std::isnan(R) && r_.isEmpty()) continue;
+        // NaN breaks the line where nothing was felt.
+        t_ << frames.time(i);
+        r_ << double(std::isnan(P) ? P : R);
+        p_ << double(std::isnan(R) ? R : P);
     }
-    trail_->setData(t, r, p, true);
-    if (std::isfinite(roughness) && std::isfinite(pressure))
-        now_->setData({roughness}, {pressure}, true);
-    else
-        now_->data()->clear();
+    trail_->setData(t_, r_, p_, true);
+    now_->data()->clear();
+    if (std::isfinite(roughness) && std::isfinite(pressure)) now_->addData(roughness, pressure);
     replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -15,9 +15,13 @@ class TactilePlane final : public QCustomPlot {
 public:
     explicit TactilePlane(QWidget* parent = nullptr);
     void setConditions(const std::vector<Condition>& conditions);
-    void setSimulated(bool simulated);
-    /// The trail of the last three seconds, and the point of now; NaN: nothing is felt.
-    void show(const Series& frames, double now_s, double roughness, double pressure);
+    /// `calibrated`: R's scale was measured on this rig.
+    void setOrigin(bool simulated, bool calibrated);
+    /// The point of now, and the fingertip's trail of the last three seconds; NaN: nothing is felt. By hand there is
+    /// no trail: the point is not the fingertip's.
+    void show(const Series& frames, double now_s, double roughness, double pressure, bool byHand);
+    /// Where the point is; nothing when it is not drawn.
+    [[nodiscard]] std::optional<QPointF> point() const;
     [[nodiscard]] QSize sizeHint() const override;
 
 protected:
@@ -31,6 +35,7 @@ private:
     QCPCurve* trail_ = nullptr;
     QCPGraph* now_ = nullptr;
     QCPItemText* watermark_ = nullptr;
+    QVector<double> t_, r_, p_;  // reused
 };
 
 }  // namespace tacto::gui

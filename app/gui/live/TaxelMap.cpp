@@ -7,20 +7,17 @@
 
 namespace tacto::gui {
 
-namespace {
-
-/// Two rows for eight, as on the fingertip; else about square.
-int columnsFor(std::size_t n) {
-    if (n <= 3) return int(std::max<std::size_t>(1, n));
-    if (n == 8) return 4;
-    return int(std::ceil(std::sqrt(double(n))));
+QSize TaxelMap::gridFor(std::size_t n) {
+    const int count = int(std::max<std::size_t>(1, n));
+    const int across = count <= 3 ? count : count == 8 ? 4 : int(std::ceil(std::sqrt(double(count))));
+    return {across, (count + across - 1) / across};
 }
-
-}  // namespace
 
 TaxelMap::TaxelMap(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Taxels"));
-    setToolTip(tr("Pressure on each taxel above its rest; darker is more. The scale grows to the largest value seen."));
+    setToolTip(
+        tr("Pressure on each taxel above the least it has shown; more is bluer, up to the largest value seen. "
+           "Hatched: the values are old."));
     setMinimumHeight(fontMetrics().height() * 5);
 }
 
@@ -43,10 +40,22 @@ void TaxelMap::show(std::span<const float> values, const QString& unit) {
     update();
 }
 
+void TaxelMap::setStale(bool stale) {
+    if (stale == stale_) return;
+    stale_ = stale;
+    update();
+}
+
+void TaxelMap::setSimulated(bool simulated) {
+    simulated_ = simulated;
+    update();
+}
+
 void TaxelMap::clear() {
     values_.clear();
     rest_.clear();
     most_ = 0;
+    stale_ = false;
     update();
 }
 
@@ -58,8 +67,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, tr("No taxels"));
         return;
     }
-    const int columns = columnsFor(values_.size());
-    const int rows = int((values_.size() + std::size_t(columns) - 1) / std::size_t(columns));
+    const int columns = gridFor(values_.size()).width(), rows = gridFor(values_.size()).height();
     const double w = double(width()) / columns, h = double(height()) / rows;
     auto small = font();
     small.setPointSizeF(small.pointSizeF() * 0.85);
@@ -75,10 +83,25 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         painter.setBrush(QColor(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())));
         painter.drawRect(cell);
         painter.setPen(share > 0.55 ? c.base : c.text);
-        const auto text = std::isfinite(value) ? quantityText(double(value), unit_, 2) : QString("–");
-        if (painter.fontMetrics().horizontalAdvance(text) <= int(cell.width()))
-            painter.drawText(cell, Qt::AlignCenter, text);
+        // With its unit, or where that does not fit the number alone; the tool tip has the unit.
+        const bool counts = unit_ == "count" && std::isfinite(value);
+        const auto number = counts ? QString::number(std::lround(value)) : quantityText(double(value), unit_, 2);
+        const auto width = painter.fontMetrics().horizontalAdvance(number);
+        painter.drawText(cell, Qt::AlignCenter,
+                         width <= int(cell.width()) ? number : number.section(QChar(0x202f), 0, 0));
     }
+    if (simulated_) {
+        auto large = font();
+        large.setPointSizeF(large.pointSizeF() * 1.6);
+        large.setBold(true);
+        painter.setFont(large);
+        painter.setPen(c.watermark);
+        painter.drawText(rect(), Qt::AlignCenter, tr("SIMULATED"));
+    }
+    if (!stale_) return;
+    auto veil = c.quiet;
+    veil.setAlpha(150);
+    painter.fillRect(rect(), QBrush(veil, Qt::BDiagPattern));
 }
 
 }  // namespace tacto::gui

@@ -1,4 +1,4 @@
-// TaxelMap.h - the taxels as a small pressure map: a cell each, darker is more, the value written in.
+// TaxelMap.h - the taxels as a small pressure map: a cell each, bluer is more, the value written in.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -15,7 +15,13 @@ public:
     explicit TaxelMap(QWidget* parent = nullptr);
     /// Newest values above rest, in `unit`; NaN is drawn as absent. The scale grows to the largest ever seen.
     void show(std::span<const float> values, const QString& unit);
+    /// The values are old: hatched over.
+    void setStale(bool stale);
+    [[nodiscard]] bool stale() const { return stale_; }
+    void setSimulated(bool simulated);
     void clear();
+    /// Cells across and down for `n` taxels: two rows for eight, as on the fingertip; else about square.
+    [[nodiscard]] static QSize gridFor(std::size_t n);
     [[nodiscard]] const std::vector<float>& values() const { return values_; }
     [[nodiscard]] QSize sizeHint() const override;
 
@@ -27,6 +33,8 @@ private:
     std::vector<float> rest_;  ///< the least seen of each: what it reads with nothing on it
     QString unit_;
     float most_ = 0;
+    bool stale_ = false;
+    bool simulated_ = false;
 };
 
 }  // namespace tacto::gui

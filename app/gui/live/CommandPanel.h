@@ -1,0 +1,38 @@
+// CommandPanel.h - what the encoder asks for now, in words and numbers: feel, amplitude, interval, current.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QWidget>
+
+#include "core/bench/Telemetry.h"
+
+namespace tacto::gui {
+
+class CommandPanel final : public QWidget {
+    Q_OBJECT
+public:
+    explicit CommandPanel(QWidget* parent = nullptr);
+    void setSimulated(bool simulated);
+    void show(const Telemetry& telemetry);
+
+private:
+    QLabel* words_;
+    QLabel* amplitude_;
+    QLabel* interval_;
+    QLabel* current_;
+    QLabel* trains_;
+    QLabel* refusal_;
+    bool simulated_ = false;
+};
+
+/// Is what the fingertip shows fresh, and what was lost, in words; `stale` marks what is not to be trusted.
+struct HealthWords {
+    QString text;
+    bool stale = false;
+};
+[[nodiscard]] HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, bool calibrated,
+                                      std::uint64_t missedByPicture);
+
+}  // namespace tacto::gui

@@ -1,0 +1,100 @@
+#include "app/gui/live/RigPanel.h"
+
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+
+namespace tacto::gui {
+
+namespace {
+constexpr const char* kMaterials[] = {"glass", "plastic", "paper", "denim", "P400", "P120", "P60"};  // smooth to rough
+constexpr double kPaces[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0};
+}  // namespace
+
+RigPanel::RigPanel(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    surfaces_ = buildSurfaces();
+    layout->addWidget(surfaces_);
+    pace_ = buildPace();
+    layout->addWidget(pace_);
+    begin(1, false);
+}
+
+QWidget* RigPanel::buildSurfaces() {
+    auto* group = new QGroupBox(tr("Under the simulated finger"), this);
+    auto* form = new QFormLayout(group);
+    material_ = new QComboBox(group);
+    material_->setObjectName("surface");
+    material_->addItem(tr("nothing (lifted)"), "");
+    for (const auto* name : kMaterials) material_->addItem(name, name);
+    material_->setToolTip(tr("The surface that the finger slides over, from smooth to rough."));
+    form->addRow(tr("S&urface"), material_);
+    const auto spin = [&](double low, double high, double step, int decimals, double value, const QString& unit) {
+        auto* box = new QDoubleSpinBox(group);
+        box->setRange(low, high);
+        box->setSingleStep(step);
+        box->setDecimals(decimals);
+        box->setValue(value);
+        box->setSuffix(unit);
+        box->setKeyboardTracking(false);
+        connect(box, &QDoubleSpinBox::valueChanged, this, &RigPanel::present);
+        return box;
+    };
+    speed_ = spin(0, 200, 5, 0, 50, QStringLiteral("\u202fmm/s"));
+    speed_->setToolTip(
+        tr("Sliding speed. At 0 the finger rests on the surface, and nothing of its vibration is felt."));
+    form->addRow(tr("Sp&eed"), speed_);
+    force_ = spin(0.05, 10, 0.1, 2, 1, QStringLiteral("\u202fN"));
+    force_->setToolTip(tr("How hard the finger presses."));
+    form->addRow(tr("F&orce"), force_);
+    connect(material_, &QComboBox::currentIndexChanged, this, &RigPanel::present);
+    return group;
+}
+
+QWidget* RigPanel::buildPace() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    paceLabel_ = new QLabel(holder);
+    paceBox_ = new QComboBox(holder);
+    paceBox_->setObjectName("pace");
+    for (const double pace : kPaces) paceBox_->addItem(tr("%1 ×").arg(pace), pace);
+    paceBox_->setAccessibleName(tr("Speed of time"));
+    paceBox_->setToolTip(
+        tr("How fast the bench's time runs against the clock on the wall. Intervals and rates are in "
+           "the bench's time."));
+    paceLabel_->setBuddy(paceBox_);
+    again_ = new QPushButton(tr("Replay a&gain"), holder);
+    again_->setToolTip(tr("Plays the recording from its beginning, into a session file of its own."));
+    row->addWidget(paceLabel_);
+    row->addWidget(paceBox_);
+    row->addStretch();
+    row->addWidget(again_);
+    connect(paceBox_, &QComboBox::currentIndexChanged, this, [this] { desk_.setSpeed(speed()); });
+    connect(again_, &QPushButton::clicked, this, &RigPanel::replayAgain);
+    return holder;
+}
+
+void RigPanel::begin(double speed, bool recording) {
+    const auto open = desk_.open();
+    const bool live = desk_.activity() == Activity::Live;
+    recording_ = recording;
+    surfaces_->setVisible(live && open && open->surfaces);
+    pace_->setVisible(live && open && open->paced);
+    paceLabel_->setText(recording ? tr("Replay spee&d") : tr("&Time runs at"));
+    again_->setVisible(false);
+    const QSignalBlocker quietMaterial(material_), quietPace(paceBox_), quietSpeed(speed_), quietForce(force_);
+    material_->setCurrentIndex(material_->findData("P120"));  // the twin's finger begins there
+    speed_->setValue(50);
+    force_->setValue(1);
+    paceBox_->setCurrentIndex(paceBox_->findData(speed));
+}
+
+void RigPanel::refresh(const Telemetry& telemetry) { again_->setVisible(recording_ && telemetry.sensorFinished); }
+
+void RigPanel::present() {
+    desk_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,45 @@
+// RigPanel.h - what the simulated finger touches, where the bench can do that by itself, and how fast its time runs.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGroupBox>
+#include <QLabel>
+#include <QPushButton>
+
+#include "app/gui/desk/BenchDesk.h"
+
+namespace tacto::gui {
+
+class RigPanel final : public QWidget {
+    Q_OBJECT
+public:
+    explicit RigPanel(BenchDesk& desk, QWidget* parent = nullptr);
+    /// Another bench, or none. `speed` is what its time runs at; `recording` whether one is replayed.
+    void begin(double speed, bool recording);
+    void refresh(const Telemetry& telemetry);
+    [[nodiscard]] double speed() const { return paceBox_->currentData().toDouble(); }
+
+signals:
+    void replayAgain();
+
+private:
+    [[nodiscard]] QWidget* buildSurfaces();
+    [[nodiscard]] QWidget* buildPace();
+    void present();
+
+    BenchDesk& desk_;
+    QWidget* surfaces_;
+    QComboBox* material_;
+    QDoubleSpinBox* speed_;
+    QDoubleSpinBox* force_;
+    QWidget* pace_;
+    QLabel* paceLabel_;
+    QComboBox* paceBox_;
+    QPushButton* again_;
+    bool recording_ = false;
+};
+
+}  // namespace tacto::gui
