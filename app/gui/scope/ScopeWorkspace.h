@@ -43,6 +43,7 @@ class ScopeWorkspace final : public QWidget {
 public:
     /// `desk` outlives this.
     explicit ScopeWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
+    ~ScopeWorkspace() override;
 
     /// At 30 Hz while this is visible.
     void refresh(const Telemetry& telemetry);

@@ -138,6 +138,9 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     benchChanged();
 }
 
+/// The view loses the focus while it is taken down, and says so: by then nobody is here to listen.
+ScopeWorkspace::~ScopeWorkspace() { disconnect(view_, nullptr, this, nullptr); }
+
 void ScopeWorkspace::connectView() {
     connect(view_, &ScopeView::cursorsChanged, this, &ScopeWorkspace::sayCursors);
     connect(view_, &ScopeView::viewChanged, this, [this] {
