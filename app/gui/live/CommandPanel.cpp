@@ -10,8 +10,8 @@ namespace tacto::gui {
 
 namespace {
 
-QString part(double value, const QString& low, const QString& middle, const QString& high) {
-    if (!std::isfinite(value)) return QObject::tr("absent");
+QString part(double value, const QString& low, const QString& middle, const QString& high, const QString& absent) {
+    if (!std::isfinite(value)) return absent;
     return value < 1.0 / 3 ? low : value > 2.0 / 3 ? high : middle;
 }
 
@@ -62,16 +62,20 @@ CommandPanel::CommandPanel(QWidget* parent) : QWidget(parent) {
 
 void CommandPanel::setSimulated(bool simulated) { simulated_ = simulated; }
 
-void CommandPanel::show(const Telemetry& t) {
+void CommandPanel::show(const Telemetry& t, bool stale) {
     const auto feel = tr("%1 (R %2), %3 (P %4)")
-                          .arg(part(t.roughness, tr("Smooth"), tr("Half rough"), tr("Rough")), number(t.roughness),
-                               part(t.pressure, tr("light"), tr("half firm"), tr("firm")), number(t.pressure));
-    words_->setText(std::isfinite(t.roughness) || std::isfinite(t.pressure) ? feel : tr("Nothing is felt"));
+                          .arg(part(t.roughness, tr("Smooth"), tr("Half rough"), tr("Rough"), tr("Roughness unknown")),
+                               number(t.roughness),
+                               part(t.pressure, tr("light"), tr("half firm"), tr("firm"), tr("pressure unknown")),
+                               number(t.pressure));
+    const bool byHand = t.driving == DriveSource::Manual;
+    const bool felt = std::isfinite(t.roughness) || std::isfinite(t.pressure);
+    words_->setText(stale && !byHand ? tr("Not known: the samples are old") : felt ? feel : tr("Nothing is felt"));
     const auto origin = simulated_ ? tr(" · simulated") : QString();
     const bool asks = std::isfinite(t.amplitude_v);
     amplitude_->setText(quantityText(t.amplitude_v, "V", 3) + (asks ? origin : QString()));
     interval_->setText(quantityText(t.interval_s, "s", 3) +
-                       (asks ? tr(" (%1)").arg(quantityText(1 / t.interval_s, "Hz", 3)) : QString()));
+                       (asks ? tr(" (%1 a minute)").arg(QString::number(60 / t.interval_s, 'f', 0)) : QString()));
     const double amps = t.amplitude_v / t.impedance_ohm;
     current_->setText(
         std::isfinite(amps)
@@ -91,17 +95,20 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, bool calibra
         return {QObject::tr("No fingertip is open: drive by hand."), false};
     }
     if (telemetry.sensorFinished) {
-        words << QObject::tr("The recording has ended.");
+        words << QObject::tr("The recording has ended");
         health.stale = true;
     } else if (!std::isfinite(age)) {
         words << QObject::tr("No sample has come yet.");
     } else if (age > StreamHealth::kStale_s) {
-        words << QObject::tr("⚠ Old: the newest sample is %1 old. It drives no train.").arg(quantityText(age, "s", 2));
+        words << QObject::tr("⚠ Old: the newest sample is %1 old and drives no train").arg(quantityText(age, "s", 2));
         health.stale = true;
     } else {
-        words << QObject::tr("Newest sample %1 ago").arg(quantityText(std::max(0.0, age), "s", 2));
+        words << (age < 1e-3 ? QObject::tr("Samples are fresh")
+                             : QObject::tr("Samples are fresh: %1 old").arg(quantityText(age, "s", 2)));
     }
-    words << (telemetry.gaps > 0 ? QObject::tr("%n gap(s)", nullptr, int(telemetry.gaps)) : QObject::tr("no gaps"));
+    words << (telemetry.gaps == 0   ? QObject::tr("no gaps")
+              : telemetry.gaps == 1 ? QObject::tr("⚠ 1 gap")
+                                    : QObject::tr("⚠ %1 gaps").arg(telemetry.gaps));
     words << (telemetry.samplesLost > 0 ? QObject::tr("⚠ %1 samples lost").arg(telemetry.samplesLost)
                                         : QObject::tr("none lost"));
     if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(missedByPicture);

@@ -15,7 +15,8 @@ class CommandPanel final : public QWidget {
 public:
     explicit CommandPanel(QWidget* parent = nullptr);
     void setSimulated(bool simulated);
-    void show(const Telemetry& telemetry);
+    /// `stale`: the fingertip's samples are old, and what it felt last is not what it feels.
+    void show(const Telemetry& telemetry, bool stale);
 
 private:
     QLabel* words_;

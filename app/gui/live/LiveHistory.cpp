@@ -64,11 +64,13 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
     commands_.clear();
     trains_.clear();
     now_s_ = 0;
+    began_s_ = std::nan("");
     missed_ = 0;
 }
 
 void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     now_s_ = toSeconds(telemetry.at);
+    if (std::isnan(began_s_)) began_s_ = now_s_;
     while (const auto sample = tap.samples.pop()) {
         if (sample->stream >= samples_.size()) continue;  // of a bench that was opened since
         samples_[sample->stream].push(sample->t_s, {sample->values.data(), sample->channels});

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -95,6 +96,8 @@ public:
     [[nodiscard]] const TrainRing& trains() const noexcept { return trains_; }
     /// Of the bench, at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
+    /// Of the bench, at the first take().
+    [[nodiscard]] double began_s() const noexcept { return began_s_; }
     /// Samples left out of the picture because the window looked too rarely; the recording has them.
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
@@ -105,6 +108,7 @@ private:
     Series commands_;
     TrainRing trains_;
     double now_s_ = 0;
+    double began_s_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t missed_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "app/gui/live/LiveWorkspace.h"
 
 #include <QFileDialog>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/live/CommandPanel.h"
@@ -23,6 +24,11 @@ constexpr int kSideEvery = 3;                     // pictures: numbers ten times
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
+bool isSimulated(const OpenBench& bench, std::string_view role) {
+    return std::any_of(bench.about.devices.begin(), bench.about.devices.end(),
+                       [&](const auto& device) { return device.role == role && device.simulated; });
+}
+
 bool isRecording(const LiveOrder& order) { return !order.uris.empty() && order.uris.front().scheme == "recording"; }
 
 }  // namespace
@@ -30,22 +36,22 @@ bool isRecording(const LiveOrder& order) { return !order.uris.empty() && order.u
 void LiveWorkspace::begin() {
     const auto open = desk_.open();
     stack_->setCurrentIndex(open ? kBench : desk_.activity() == Activity::Opening ? kOpening : kEmpty);
-    const bool simulated = open && open->simulated();
+    const bool touch = open && isSimulated(*open, "sensor"), source = open && isSimulated(*open, "stimulator");
     if (desk_.tap() != tap_) {
         tap_ = desk_.tap();
         history_.begin(open ? open->streams : std::vector<StreamInfo>{});
         freeze_->setChecked(false);
-        strips_->begin(simulated, open && open->source && open->source->drive == Drive::Current ? "mA" : "V");
+        strips_->begin(touch, source, open && open->source && open->source->drive == Drive::Current ? "mA" : "V");
         taxels_->clear();
         taxels_->setVisible(history_.info(StreamKind::Taxels) != nullptr);
-        taxels_->setSimulated(simulated);
-        command_->setSimulated(simulated);
+        taxels_->setSimulated(touch);
+        command_->setSimulated(source);
         const bool mine = tap_ && orderPending_;
         if (tap_) orderPending_ = false;
         rig_->begin(mine ? order_->speed : 1, mine && isRecording(*order_));
     }
     drive_->begin();
-    plane_->setOrigin(simulated, desk_.profile().roughness.calibrated);
+    plane_->setOrigin(touch, desk_.profile().roughness.calibrated);
     plane_->setConditions(desk_.profile().encoding.conditions);
 }
 
@@ -65,13 +71,13 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
 }
 
 void LiveWorkspace::showSide(const Telemetry& telemetry) {
-    command_->show(telemetry);
     const auto health =
         healthWords(telemetry, !history_.streams().empty(), desk_.profile().roughness.calibrated, history_.missed());
     if (health_->text() != health.text) health_->setText(health.text);
     auto colour = palette();
     if (health.stale) colour.setColor(QPalette::WindowText, colours().amber);
     health_->setPalette(colour);
+    command_->show(telemetry, health.stale);
     showTaxels(health.stale);
 }
 

@@ -1,6 +1,6 @@
-// ProfileEditor.h - the encoding profile as a form with its mapping drawn: edit, check, apply, open, save.
+// ProfileEditor.h - the profile as a form with its mapping drawn: edit, check, apply, open, save.
 //
-// A wrong value is said in the validation's own sentence and is never applied; nothing is clamped.
+// A wrong value is refused in the core's own sentence, beside its field, and is never applied; nothing is clamped.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,9 +10,13 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QTabWidget>
+#include <QTimer>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/gui/desk/BenchDesk.h"
+#include "app/gui/live/ProfileFields.h"
 #include "app/gui/live/ProfilePreview.h"
 
 namespace tacto::gui {
@@ -20,29 +24,54 @@ namespace tacto::gui {
 class ProfileEditor final : public QDialog {
     Q_OBJECT
 public:
-    ProfileEditor(BenchDesk& desk, QWidget* parent = nullptr);
+    /// Deletes itself when closed.
+    explicit ProfileEditor(BenchDesk& desk, QWidget* parent = nullptr);
     /// The sentence that refuses what the form holds; empty when it is sound.
-    [[nodiscard]] QString trouble() const { return trouble_->text(); }
+    [[nodiscard]] QString trouble() const { return trouble_; }
+    /// A profile file into the form; what is wrong with it is said, and the form stays.
+    void openFile(const QString& path);
+    void saveFile(const QString& path);
 
 private:
-    [[nodiscard]] QWidget* buildForm();
+    struct Row {
+        const ProfileField* field = nullptr;
+        QLineEdit* line = nullptr;  ///< of a number
+        QComboBox* box = nullptr;   ///< of a choice
+        QLabel* label = nullptr;
+        QLabel* refusal = nullptr;
+    };
+    struct Read {
+        std::optional<Profile> profile;
+        QString refusal;
+        const ProfileField* where = nullptr;
+    };
+    [[nodiscard]] QWidget* buildTab(ProfileTab tab);
+    [[nodiscard]] Row buildRow(const ProfileField& field, QWidget* page);
     [[nodiscard]] QWidget* buildButtons();
     void fill(const Profile& profile);
-    [[nodiscard]] Result<Profile> read() const;
+    [[nodiscard]] Read read() const;
     void judge();
+    void mark(const Read& read);
+    void enableWhatMatters();
+    void say(const QString& text, bool wrong);
     void apply();
-    void load();
-    void save();
+    void chooseFile();
+    void chooseTarget();
 
     BenchDesk& desk_;
-    Profile profile_;  ///< what the form began with; keeps what the form does not show
-    std::vector<std::pair<std::string, QLineEdit*>> numbers_;
-    std::vector<std::pair<std::string, QComboBox*>> choices_;
-    QLabel* trouble_;
+    nlohmann::json document_;  ///< what the form began with; keeps what the form does not show
+    QLineEdit* name_;
+    QTabWidget* tabs_;
+    std::vector<Row> rows_;
+    QLabel* says_;
     QLabel* facts_;
-    QPushButton* apply_;
-    QPushButton* save_;
+    QPushButton* apply_ = nullptr;
+    QPushButton* save_ = nullptr;
     ProfilePreview* preview_;
+    QTimer look_;
+    QString trouble_;
+    bool filling_ = false;
+    bool applying_ = false;
 };
 
 }  // namespace tacto::gui

@@ -1,8 +1,10 @@
-// ProfilePreview.h - an encoding profile as pictures: roughness to amplitude, pressure to interval, and one pulse.
+// ProfilePreview.h - an encoding profile as pictures: roughness to amplitude, pressure to interval, where touch stands
+// on both now, and one pulse.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <optional>
 #include <qcustomplot.h>
 
 #include "core/encoding/EncodingProfile.h"
@@ -13,23 +15,39 @@ class ProfilePreview final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit ProfilePreview(QWidget* parent = nullptr);
-    /// A profile that passed validate().
-    void show(const EncodingProfile& profile);
-    /// What the pulse says in numbers: charge per phase into 1 kΩ at the largest amplitude, imbalance, duration.
-    [[nodiscard]] const QString& facts() const { return facts_; }
+    /// A profile that passed validate(); `smallestLoad` is what charge is told for until an impedance is measured.
+    void show(const EncodingProfile& profile, Ohms smallestLoad);
+    /// Where touch stands; NaN where it is absent.
+    void setPoint(double roughness, double pressure);
+    /// As measured; NaN: not.
+    void setImpedance(double ohm);
+    /// The pulse in numbers at the largest amplitude: charge per phase, imbalance, duration.
+    [[nodiscard]] QString facts() const;
+    /// The command that is marked on the curves.
+    [[nodiscard]] std::optional<QPointF> marked() const;
 
 protected:
     void changeEvent(QEvent* event) override;
 
 private:
     void colour();
+    void showCurves();
+    void showPulse();
+    void showPoint();
+
+    std::optional<EncodingProfile> profile_;
+    double smallestLoad_ohm_ = 0;
+    double impedance_ohm_;
+    double roughness_, pressure_;
+    double fluxFirst_Vs_ = 0, fluxSecond_Vs_ = 0;  // of the phases, signed; over a resistance they are charges
     QCPAxisRect* amplitude_;
     QCPAxisRect* interval_;
     QCPAxisRect* pulse_;
     QCPGraph* amplitudeCurve_ = nullptr;
     QCPGraph* intervalCurve_ = nullptr;
+    QCPGraph* amplitudePoint_ = nullptr;
+    QCPGraph* intervalPoint_ = nullptr;
     QCPGraph* wave_ = nullptr;
-    QString facts_;
 };
 
 }  // namespace tacto::gui

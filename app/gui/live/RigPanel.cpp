@@ -26,7 +26,7 @@ QWidget* RigPanel::buildSurfaces() {
     auto* form = new QFormLayout(group);
     material_ = new QComboBox(group);
     material_->setObjectName("surface");
-    material_->addItem(tr("nothing (lifted)"), "");
+    material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
     for (const auto* name : kMaterials) material_->addItem(name, name);
     material_->setToolTip(tr("The surface that the finger slides over, from smooth to rough."));
     form->addRow(tr("S&urface"), material_);
@@ -85,15 +85,30 @@ void RigPanel::begin(double speed, bool recording) {
     paceLabel_->setText(recording ? tr("Replay spee&d") : tr("&Time runs at"));
     again_->setVisible(false);
     const QSignalBlocker quietMaterial(material_), quietPace(paceBox_), quietSpeed(speed_), quietForce(force_);
-    material_->setCurrentIndex(material_->findData("P120"));  // the twin's finger begins there
+    // Until somebody chooses, the finger does what its device was opened with; there is no way back to that.
+    if (material_->itemData(0).isValid()) material_->insertItem(0, tr("its own strokes"));
+    material_->setCurrentIndex(0);
     speed_->setValue(50);
     force_->setValue(1);
+    enableRest();
     paceBox_->setCurrentIndex(paceBox_->findData(speed));
 }
 
 void RigPanel::refresh(const Telemetry& telemetry) { again_->setVisible(recording_ && telemetry.sensorFinished); }
 
+void RigPanel::enableRest() {
+    const bool ours = material_->currentData().isValid();
+    const bool touches = ours && !material_->currentData().toString().isEmpty();
+    for (auto* box : {speed_, force_}) box->setEnabled(touches);
+}
+
 void RigPanel::present() {
+    if (!material_->currentData().isValid()) return;
+    if (!material_->itemData(0).isValid()) {
+        const QSignalBlocker quiet(material_);
+        material_->removeItem(0);
+    }
+    enableRest();
     desk_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
 }
 

@@ -29,6 +29,7 @@ private:
     [[nodiscard]] QWidget* buildSurfaces();
     [[nodiscard]] QWidget* buildPace();
     void present();
+    void enableRest();
 
     BenchDesk& desk_;
     QWidget* surfaces_;

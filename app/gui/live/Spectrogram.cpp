@@ -116,6 +116,14 @@ double Spectrogram::densityAt_db(double t_s, double hz) const noexcept {
     return double(column[std::size_t(bin) - bins_.first]);
 }
 
+QString Spectrogram::scaleText() const {
+    const auto range = map_->dataRange();
+    return QObject::tr("dark %1 to bright %2 dB of 1 %3")
+        .arg(QString::number(range.lower, 'f', 0).replace('-', QChar(0x2212)))
+        .arg(QString::number(range.upper, 'f', 0).replace('-', QChar(0x2212)))
+        .arg(absolute_ ? "(m/s²)²/Hz" : "count²/Hz");
+}
+
 void Spectrogram::update(const Series& series, const QCPRange& window, int columns) {
     if (!transform_ || rows_ == 0) return;
     transformNew(series);

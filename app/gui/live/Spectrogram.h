@@ -27,6 +27,8 @@ public:
     [[nodiscard]] double top_hz() const noexcept { return top_hz_; }
     /// Windows transformed since begin().
     [[nodiscard]] std::int64_t transformed() const noexcept { return transformed_; }
+    /// What the darkest and the brightest colour stand for.
+    [[nodiscard]] QString scaleText() const;
     /// Power density at a place of the picture, dB; NaN where there is none.
     [[nodiscard]] double densityAt_db(double t_s, double hz) const noexcept;
 

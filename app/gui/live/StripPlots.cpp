@@ -41,7 +41,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     makeStrip(kAcceleration, tr("Acceleration"), 1, false);
     makeStrip(kForce, tr("Force"), 0.5, true);
     makeStrip(kTaxels, tr("Taxels"), 0, false);
-    makeStrip(kSpectrum, tr("Spectrum of the acceleration"), 0, true);
+    makeStrip(kSpectrum, tr("Spectrum"), 0, true);
     makeStrip(kIndices, tr("Indices"), 1, true);
     makeStrip(kTrains, tr("Trains"), 0, true);
     plotLayout()->remove(unused);
@@ -83,9 +83,10 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     addKeys(strips_[kAcceleration], 3);
     addKeys(strips_[kForce], 1);
     addKeys(strips_[kTaxels], 1);
+    addKeys(strips_[kSpectrum], 1);
     addKeys(strips_[kIndices], 2);
     addKeys(strips_[kTrains], 5);
-    begin(false, "V");
+    begin(false, false, "V");
 }
 
 void StripPlots::makeStrip(std::size_t index, const QString& title, double least, bool fromZero) {
@@ -95,7 +96,6 @@ void StripPlots::makeStrip(std::size_t index, const QString& title, double least
     strip.title = title;
     strip.least = least;
     strip.fromZero = fromZero;
-    strip.axes->setMinimumMargins(QMargins(4, 2, 8, 2));
     strip.axes->setMinimumSize(50, 24);
     strip.axes->setRangeDrag(Qt::Horizontal);
     strip.axes->setRangeZoom(Qt::Horizontal);
@@ -106,7 +106,7 @@ void StripPlots::makeStrip(std::size_t index, const QString& title, double least
     auto *bottom = strip.axes->axis(QCPAxis::atBottom), *left = strip.axes->axis(QCPAxis::atLeft);
     bottom->setTickLabels(false);
     bottom->ticker()->setTickCount(8);
-    left->ticker()->setTickCount(index == kIndices ? 2 : 3);
+    left->ticker()->setTickCount(index == kIndices || index == kForce ? 2 : 3);
     left->setNumberFormat("gb");
     left->setNumberPrecision(4);
     for (auto* axis : {bottom, left}) axis->setLayer("axes");
@@ -124,9 +124,10 @@ void StripPlots::makeStrip(std::size_t index, const QString& title, double least
     strip.hatch->setVisible(false);
     strip.caption = new QCPItemText(this);
     strip.caption->setLayer("legend");
+    strip.caption->setClipAxisRect(strip.axes);  // whose visibility it shares
     strip.caption->setClipToAxisRect(false);
-    strip.caption->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
-    strip.caption->setPadding(QMargins(5, 1, 3, 1));
+    strip.caption->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);  // above the strip, clear of its trace
+    strip.caption->setPadding(QMargins(2, 0, 3, 1));
     strip.caption->position->setAxisRect(strip.axes);
     strip.caption->position->setType(QCPItemPosition::ptAxisRectRatio);
     strip.caption->position->setCoords(0, 0);
@@ -136,17 +137,19 @@ void StripPlots::addKeys(Strip& strip, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         auto* key = new QCPItemText(this);
         key->setLayer("legend");
+        key->setClipAxisRect(strip.axes);
         key->setClipToAxisRect(false);
         key->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
-        key->setPadding(QMargins(3, 1, 5, 1));
+        key->setPadding(QMargins(3, 0, 5, 1));
         key->position->setParentAnchor(i == 0 ? strip.caption->topRight : strip.keys.back()->topRight);
         key->position->setCoords(0, 0);
         strip.keys.push_back(key);
     }
 }
 
-void StripPlots::begin(bool simulated, const QString& commandUnit) {
-    simulated_ = simulated;
+void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit) {
+    for (std::size_t i = 0; i < strips_.size(); ++i)
+        strips_[i].simulated = i == kTrains ? simulatedSource : simulatedTouch;
     setFrozen(false);
     readings_.clear();
     nextReading_ = 0;
@@ -165,9 +168,10 @@ void StripPlots::begin(bool simulated, const QString& commandUnit) {
     strips_[kSpectrum].unit = "Hz";
     strips_[kIndices].present = !history_.streams().empty();
     strips_[kTrains].unit = commandUnit;
+    strips_[kTaxels].fromZero = strips_[kTaxels].unit == "kPa";  // counts stand anywhere
     attach();
-    layOut();
     colour();
+    layOut();
 }
 
 void StripPlots::attach() {
@@ -192,11 +196,13 @@ void StripPlots::layOut() {
     for (auto& strip : strips_) {
         strip.axes->setVisible(strip.present);
         strip.axes->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-        strip.axes->setMinimumSize(strip.present ? 50 : 0, strip.present ? fontMetrics().height() * 2 : 0);
+        const int line = QFontMetrics(strip.caption->font()).height();
+        strip.axes->setMinimumMargins(strip.present ? QMargins(4, line + 2, 8, 2) : QMargins());
+        strip.axes->setMinimumSize(strip.present ? 50 : 0, strip.present ? line * 3 : 0);
         strip.axes->setMaximumSize(QWIDGETSIZE_MAX, strip.present ? QWIDGETSIZE_MAX : 1);
         strip.caption->setVisible(strip.present);
         for (auto* key : strip.keys) key->setVisible(strip.present);
-        strip.watermark->setVisible(strip.present && simulated_);
+        strip.watermark->setVisible(strip.present && strip.simulated);
         strip.hatch->setVisible(false);
     }
 }
@@ -213,7 +219,7 @@ void StripPlots::colour() {
         {axisColour(0), axisColour(1), axisColour(2)},
         {c.text},
         {c.voltage},
-        {},
+        {c.quiet},
         {conditionLook("rough-high").color, conditionLook("smooth-high").color},
         {c.quiet, c.voltage, c.text, c.math, c.amber}};
     for (std::size_t i = 0; i < strips_.size(); ++i) {
@@ -227,7 +233,6 @@ void StripPlots::colour() {
         texts.push_back(strip.caption);
         for (auto* text : texts) {
             text->setFont(small);
-            text->setBrush(withAlpha(c.base, 205));
         }
     }
     for (std::size_t i = 0; i < acceleration_.size(); ++i) acceleration_[i]->setPen(QPen(axisColour(i)));

@@ -20,8 +20,9 @@ class StripPlots final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit StripPlots(const LiveHistory& history, QWidget* parent = nullptr);
-    /// Another bench. `simulated` puts the watermark on every strip; `commandUnit` is the source's own, V or mA.
-    void begin(bool simulated, const QString& commandUnit);
+    /// Another bench. What is simulated has the watermark: a recording's touch is not, the trains it makes may be.
+    /// `commandUnit` is the source's own, V or mA.
+    void begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit);
     void setWindow(double seconds);
     [[nodiscard]] double window() const { return window_s_; }
     /// The picture stands still and can be dragged and zoomed in time; the bench goes on.
@@ -38,6 +39,9 @@ public:
     [[nodiscard]] const Spectrogram& spectrogram() const { return *spectrogram_; }
     /// Amplitudes of the trains that are drawn, as delivered.
     [[nodiscard]] std::vector<double> shownTrains() const;
+    /// Corners of the command's line, and the oscilloscope's readings within the window; in the source's unit.
+    [[nodiscard]] std::vector<double> shownCommand() const;
+    [[nodiscard]] std::vector<double> scopeReadings() const;
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -55,6 +59,7 @@ private:
         double least = 0;  ///< the value axis never shows a smaller span
         bool fromZero = false;
         bool present = true;
+        bool simulated = false;
     };
     void makeStrip(std::size_t index, const QString& title, double least, bool fromZero);
     void addKeys(Strip& strip, std::size_t count);
@@ -72,7 +77,6 @@ private:
     const LiveHistory& history_;
     std::unique_ptr<LiveHistory> frozen_;  // while the picture stands still
     double window_s_ = 10;
-    bool simulated_ = false;
     bool sharing_ = false;
     int frame_ = 0;
     std::vector<Strip> strips_;  // acceleration, force, taxels, spectrum, R and P, trains

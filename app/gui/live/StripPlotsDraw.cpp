@@ -12,7 +12,8 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kReadings = 256;
-constexpr int kTextEvery = 4;  // pictures: as fast as one reads
+constexpr double kUnderZero = 0.06;  // of the height, so that a trace at zero is seen
+constexpr int kTextEvery = 4;        // pictures: as fast as one reads
 
 /// The next of 1, 2, 5 times a power of ten at or above `value`: an axis that steps instead of breathing.
 double stepAbove(double value) {
@@ -70,13 +71,25 @@ bool StripPlots::stale(StreamKind kind) const {
     return strips_[index].present && strips_[index].hatch->visible();
 }
 
-std::vector<double> StripPlots::shownTrains() const { return {value_.begin(), value_.end()}; }
+namespace {
+template <class Container>
+std::vector<double> valuesOf(const Container& data) {
+    std::vector<double> values;
+    for (auto point = data.constBegin(); point != data.constEnd(); ++point) values.push_back(point->value);
+    return values;
+}
+}  // namespace
+
+std::vector<double> StripPlots::shownTrains() const { return valuesOf(*delivered_->data()); }
+std::vector<double> StripPlots::shownCommand() const { return valuesOf(*command_->data()); }
+std::vector<double> StripPlots::scopeReadings() const { return valuesOf(*scoped_->data()); }
 
 void StripPlots::redraw() {
     if (frozen_) return;
     // In whole pixels: a column keeps its samples while it moves, and the trace does not shimmer.
     const double pixel = window_s_ / std::max(1, strips_.back().axes->width());
-    const double now = std::floor(history_.now_s() / pixel) * pixel;
+    // A picture that is not full yet fills from the left.
+    const double now = std::max(std::floor(history_.now_s() / pixel) * pixel, history_.began_s() + window_s_);
     shareTime(QCPRange(now - window_s_, now));
     if (frame_++ % kTextEvery == 0) write();
     replot(QCustomPlot::rpQueuedReplot);
@@ -117,10 +130,12 @@ void StripPlots::fit(Strip& strip, std::span<RollingGraph* const> graphs, const 
     }
     if (!any) return;
     if (strip.fromZero) all.expand(0);
-    const double room = std::max({0.08 * all.size(), (strip.least - all.size()) / 2, 1e-9});
-    all = QCPRange(all.lower - room, all.upper + room);
+    const double room = std::max({0.06 * all.size(), (strip.least - all.size()) / 2, 1e-9});
+    const bool up = strip.fromZero && all.lower > -0.05 * all.upper;  // noise about zero is no sign
+    all = up ? QCPRange(0, all.upper + room) : QCPRange(all.lower - room, all.upper + room);
     auto* axis = strip.axes->axis(QCPAxis::atLeft);
-    const auto range = steady(axis->range(), all);
+    auto range = steady(up ? QCPRange(0, axis->range().upper) : axis->range(), all);
+    if (up) range.lower = -kUnderZero * range.upper;
     if (range != axis->range()) axis->setRange(range);
 }
 
@@ -200,9 +215,11 @@ void StripPlots::write() {
         strips_[kAcceleration].keys[i]->setText(acceleration_[i]->visible() ? axes[int(i)] : QString());
     }
     const auto* force = shown().samples(StreamKind::Force);
-    strips_[kForce].keys[0]->setText(quantityText(double(newest(force, 0)), strips_[kForce].unit, 3));
+    // One form for all values: digits that do not jump.
+    strips_[kForce].keys[0]->setText(quantityText(double(newest(force, 0)), strips_[kForce].unit, ColumnFormat{0, 2}));
     const auto* taxels = shown().samples(StreamKind::Taxels);
-    strips_[kTaxels].keys[0]->setText(taxels == nullptr ? QString() : tr("%n taxel(s)", "", int(taxels->channels())));
+    strips_[kTaxels].keys[0]->setText(taxels == nullptr ? QString() : tr("%1 of them").arg(taxels->channels()));
+    strips_[kSpectrum].keys[0]->setText(spectrogram_->scaleText());
     const auto& frames = shown().frames();
     strips_[kIndices].keys[0]->setText(indexText(tr("— roughness R"), newest(&frames, LiveHistory::kRoughness)));
     strips_[kIndices].keys[1]->setText(indexText(tr("┄ pressure P"), newest(&frames, LiveHistory::kPressure)));

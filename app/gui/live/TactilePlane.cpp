@@ -14,8 +14,9 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Tactile plane"));
     setToolTip(tr("Roughness R across, pressure P up. The marks are the four conditions; the dot is now."));
     setNotAntialiasedElements(QCP::aeNone);
-    xAxis->setRange(-0.12, 1.12);
-    yAxis->setRange(-0.12, 1.12);
+    // Room for the names outside the square: the point moves inside it.
+    xAxis->setRange(-0.28, 1.28);
+    yAxis->setRange(-0.24, 1.24);
     yAxis->setLabel(tr("pressure P"));
     for (auto* axis : {xAxis, yAxis}) {
         axis->ticker()->setTickCount(3);
@@ -48,8 +49,7 @@ void TactilePlane::setConditions(const std::vector<Condition>& conditions) {
         auto* name = new QCPItemText(this);
         name->setText(QString::fromStdString(condition.name));
         name->position->setCoords(condition.R, condition.P);
-        const auto side = condition.R < 0.5 ? Qt::AlignLeft : Qt::AlignRight;
-        name->setPositionAlignment(side | (condition.P < 0.5 ? Qt::AlignBottom : Qt::AlignTop));
+        name->setPositionAlignment(Qt::AlignHCenter | (condition.P < 0.5 ? Qt::AlignTop : Qt::AlignBottom));
         name->setPadding(QMargins(8, 6, 8, 6));
         names_.push_back(name);
     }

@@ -1,11 +1,27 @@
 #include "app/gui/live/TaxelMap.h"
 
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
+
+namespace {
+
+/// WCAG's relative luminance and contrast.
+double luminance(const QColor& colour) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
+}
+
+double contrast(const QColor& a, const QColor& b) {
+    const auto [low, high] = std::minmax(luminance(a), luminance(b));
+    return (high + 0.05) / (low + 0.05);
+}
+
+}  // namespace
 
 QSize TaxelMap::gridFor(std::size_t n) {
     const int count = int(std::max<std::size_t>(1, n));
@@ -80,9 +96,10 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         const QColor from = palette().color(QPalette::Midlight), to = c.voltage;
         const auto mix = [&](int a, int b) { return int(a + (b - a) * share); };
         painter.setPen(Qt::NoPen);
-        painter.setBrush(QColor(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())));
+        const QColor ground(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue()));
+        painter.setBrush(ground);
         painter.drawRect(cell);
-        painter.setPen(share > 0.55 ? c.base : c.text);
+        painter.setPen(contrast(ground, c.base) > contrast(ground, c.text) ? c.base : c.text);
         // With its unit, or where that does not fit the number alone; the tool tip has the unit.
         const bool counts = unit_ == "count" && std::isfinite(value);
         const auto number = counts ? QString::number(std::lround(value)) : quantityText(double(value), unit_, 2);

@@ -25,6 +25,7 @@ protected:
     [[nodiscard]] bool openSimulated(const char* uri = "sim:", double speed = 1) {
         gui::LiveOrder order;
         order.uris.push_back(*DeviceUri::parse(uri));
+        if (std::string_view(uri) != "sim:") order.uris.push_back(*DeviceUri::parse("sim:"));
         order.profile = desk.profile();
         order.speed = speed;
         desk.openLive(order);
@@ -34,7 +35,11 @@ protected:
         ArmRequest request;
         request.operatorConfirmed = true;
         desk.arm(request);
-        return comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; });
+        // Where something drives already, the first train follows at once.
+        return comesTrue([this] {
+            const auto state = desk.telemetry().state;
+            return state == InterlockState::Armed || state == InterlockState::Delivering;
+        });
     }
     /// Lets `seconds` of the bench pass.
     [[nodiscard]] bool passes(double seconds) {

@@ -1,0 +1,238 @@
+// The pictures themselves, from samples that the test knows: columns, gaps, old data, frequencies, cost.
+#include <QTest>
+#include <cmath>
+#include <ctime>
+#include <gtest/gtest.h>
+
+#include "app/gui/live/StripPlots.h"
+#include "app/gui/live/TaxelMap.h"
+#include "app/gui/look/Look.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::LiveHistory;
+using gui::RollingGraph;
+using gui::Series;
+using gui::StripPlots;
+
+const std::vector<StreamInfo> kStreams{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "a"},
+                                       {StreamKind::Force, StreamUnit::Newton, 1, 200, "f"},
+                                       {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "t"}};
+
+class Plots : public testing::Test {
+protected:
+    Plots() {
+        history.begin(kStreams);
+        plots.begin(true, true, "V");
+        plots.resize(900, 700);
+        plots.show();
+    }
+    /// Samples up to `until_s`: a tone of `hz` on the x axis.
+    void feel(double until_s, double hz = 250) {
+        Telemetry telemetry;
+        for (; t_s < until_s; t_s += 0.02) {
+            for (int i = 0; i < 80; ++i) {
+                TapSample sample;
+                sample.t_s = t_s + i / 4000.0;
+                sample.channels = 3;
+                sample.values[0] = static_cast<float>(std::sin(2 * M_PI * hz * sample.t_s));
+                sample.values[2] = 9.8F;
+                tap.samples.push(sample);
+            }
+            for (int i = 0; i < 4; ++i) {
+                TapSample sample;
+                sample.t_s = t_s + i / 200.0;
+                sample.stream = 1;
+                sample.channels = 1;
+                sample.values[0] = 1;
+                tap.samples.push(sample);
+                sample.stream = 2;
+                sample.channels = 8;
+                sample.values.fill(5000);
+                tap.samples.push(sample);
+            }
+            telemetry.at = toInstant(t_s + 0.02);
+            history.take(tap, telemetry);
+        }
+    }
+    void idle(double until_s) {
+        Telemetry telemetry;
+        telemetry.at = toInstant(until_s);
+        history.take(tap, telemetry);
+        t_s = until_s;
+    }
+    void draw() {
+        plots.redraw();
+        plots.replot(QCustomPlot::rpImmediateRefresh);
+    }
+    /// Pixels of a strip's trace in a column of time, in any colour that is not the ground.
+    int inked(const QImage& image, double at_s) {
+        auto* axes = plots.axisRects().first();
+        const int x = int(axes->axis(QCPAxis::atBottom)->coordToPixel(at_s));
+        int count = 0;
+        for (int y = axes->top() + 1; y < axes->bottom(); ++y) {
+            const QColor c = image.pixelColor(x, y);
+            if (std::abs(c.red() - c.green()) + std::abs(c.green() - c.blue()) > 60) ++count;
+        }
+        return count;
+    }
+
+    BenchTap tap;
+    LiveHistory history;
+    StripPlots plots{history};
+    double t_s = 0;
+};
+
+TEST_F(Plots, FillFromTheLeftThenFollowTheNewest) {
+    plots.setWindow(5);
+    feel(2);
+    draw();
+    EXPECT_NEAR(plots.shownTime().lower, 0, 0.05) << "no time before the bench began";
+    EXPECT_NEAR(plots.shownTime().upper, 5, 0.05);
+    feel(8);
+    draw();
+    EXPECT_NEAR(plots.shownTime().upper, 8, 0.05);
+    EXPECT_NEAR(plots.shownTime().size(), 5, 1e-9);
+    feel(9);
+    draw();
+    EXPECT_NEAR(plots.shownTime().upper, 9, 0.05);
+}
+
+TEST_F(Plots, DrawTheWholeSwingOfAToneInEachColumn) {
+    feel(6);
+    draw();
+    const auto image = plots.toPixmap().toImage();
+    // ±1 of an axis that reaches from about -2 to 12.
+    auto* axis = plots.axisRects().first()->axis(QCPAxis::atLeft);
+    const double swing = std::abs(axis->coordToPixel(1) - axis->coordToPixel(-1));
+    for (const double t : {2.0, 3.0, 4.5, 5.5}) EXPECT_GE(inked(image, t), int(0.8 * swing)) << t;
+}
+
+TEST_F(Plots, LeaveAGapWhereSamplesAreMissing) {
+    feel(4);
+    idle(5);
+    feel(7);
+    draw();
+    const auto image = plots.toPixmap().toImage();
+    EXPECT_GT(inked(image, 3.5), 0);
+    EXPECT_EQ(inked(image, 4.5), 0) << "nothing was measured there";
+    EXPECT_GT(inked(image, 5.5), 0);
+}
+
+TEST_F(Plots, HatchWhatHasStoppedComing) {
+    feel(4);
+    draw();
+    EXPECT_FALSE(plots.stale(StreamKind::Acceleration));
+    idle(5);
+    draw();
+    EXPECT_TRUE(plots.stale(StreamKind::Acceleration));
+    EXPECT_TRUE(plots.stale(StreamKind::Force));
+    EXPECT_TRUE(plots.stale(StreamKind::Taxels));
+    feel(6);
+    draw();
+    EXPECT_FALSE(plots.stale(StreamKind::Force));
+}
+
+TEST_F(Plots, TheSpectrumIsBrightAtTheTone) {
+    feel(6, 250);
+    draw();
+    const auto& spectrum = plots.spectrogram();
+    for (const double t : {1.0, 3.0, 5.5}) {
+        const double tone = spectrum.densityAt_db(t, 250);
+        EXPECT_GT(tone, -30) << t;
+        EXPECT_LT(spectrum.densityAt_db(t, 600), tone - 40) << t;
+        EXPECT_LT(spectrum.densityAt_db(t, 16), tone - 40) << "gravity is no vibration";
+    }
+    EXPECT_TRUE(std::isnan(spectrum.densityAt_db(9, 250)));
+}
+
+TEST_F(Plots, TheSpectrumSaysNothingOfAGap) {
+    feel(2);
+    idle(4);
+    feel(6);
+    draw();
+    const auto& spectrum = plots.spectrogram();
+    EXPECT_FALSE(std::isnan(spectrum.densityAt_db(1.5, 250)));
+    EXPECT_TRUE(std::isnan(spectrum.densityAt_db(3, 250)));
+    EXPECT_FALSE(std::isnan(spectrum.densityAt_db(5, 250)));
+    EXPECT_LE(spectrum.transformed(), std::int64_t(4 / 0.032) + 1) << "each window once, none over the gap";
+}
+
+TEST_F(Plots, AFrozenPictureStandsStillWhileTheHistoryGoesOn) {
+    feel(6);
+    draw();
+    const auto before = plots.shownTime();
+    plots.setFrozen(true);
+    plots.replot(QCustomPlot::rpImmediateRefresh);
+    const auto picture = plots.toPixmap().toImage();
+    feel(80);  // longer than anything is kept
+    draw();
+    plots.replot(QCustomPlot::rpImmediateRefresh);
+    EXPECT_EQ(plots.shownTime(), before);
+    EXPECT_EQ(plots.toPixmap().toImage(), picture);
+    plots.setFrozen(false);
+    draw();
+    EXPECT_NEAR(plots.shownTime().upper, 80, 0.05);
+}
+
+TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
+    history.begin({kStreams[2]});
+    plots.begin(false, true, "mA");
+    EXPECT_FALSE(plots.has(StreamKind::Acceleration));
+    EXPECT_FALSE(plots.has(StreamKind::Force));
+    EXPECT_TRUE(plots.has(StreamKind::Taxels));
+    draw();
+    EXPECT_LE(plots.axisRects().first()->outerRect().height(), 8);
+    EXPECT_GT(plots.axisRects().at(2)->height(), 150) << "the others have its place";
+}
+
+TEST_F(Plots, CostLessThanAQuarterOfACore) {
+    feel(35);
+    for (const double window : {10.0, 30.0}) {
+        plots.setWindow(window);
+        draw();
+        constexpr int kPictures = 30;
+        const auto begin = std::clock();
+        for (int i = 0; i < kPictures; ++i) {
+            feel(t_s + 0.02);
+            draw();
+        }
+        const double each_ms = 1000.0 * double(std::clock() - begin) / CLOCKS_PER_SEC / kPictures;
+        RecordProperty("ms_per_picture_" + std::to_string(int(window)) + "s", std::to_string(each_ms));
+        std::printf("a picture of %g s: %.2f ms, %.1f %% of a core at 30 Hz\n", window, each_ms, each_ms * 3);
+        EXPECT_LT(each_ms, 33) << "not even drawn in time";  // the target is 8.3; this only catches a disaster
+    }
+}
+
+TEST(TaxelMap, ChoosesASensibleGrid) {
+    using gui::TaxelMap;
+    EXPECT_EQ(TaxelMap::gridFor(8), QSize(4, 2));
+    EXPECT_EQ(TaxelMap::gridFor(1), QSize(1, 1));
+    EXPECT_EQ(TaxelMap::gridFor(3), QSize(3, 1));
+    EXPECT_EQ(TaxelMap::gridFor(16), QSize(4, 4));
+    EXPECT_EQ(TaxelMap::gridFor(5), QSize(3, 2));
+}
+
+TEST(TaxelMap, IsBluerWhereItIsPressed) {
+    gui::TaxelMap map;
+    map.resize(400, 200);
+    const float rest[] = {100, 100, 100, 100, 100, 100, 100, 100};
+    map.show(rest, "Pa");
+    const float pressed[] = {100, 100, 5100, 100, 100, 100, 100, std::nanf("")};
+    map.show(pressed, "Pa");
+    EXPECT_FLOAT_EQ(map.values()[2], 5000);
+    EXPECT_FLOAT_EQ(map.values()[1], 0);
+    EXPECT_TRUE(std::isnan(map.values()[7]));
+    const auto image = map.grab().toImage();
+    const QColor there = image.pixelColor(210, 10), elsewhere = image.pixelColor(110, 10);
+    EXPECT_LT(there.lightness(), elsewhere.lightness() - 40);
+    EXPECT_GT(there.blue() - there.red(), 80);
+    const auto fresh = map.grab().toImage();
+    map.setStale(true);
+    EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,235 @@
+// The profile editor: refuses in the core's words, applies what is right, keeps files.
+#include <QComboBox>
+#include <QFile>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "app/gui/live/ProfileEditor.h"
+#include "app/gui/look/Look.h"
+#include "tests/gui/live/LiveBench.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::ProfileEditor;
+using gui::ProfileField;
+using testing::HasSubstr;
+
+class Editor : public LiveBench {
+protected:
+    Editor() {
+        editor.setAttribute(Qt::WA_DeleteOnClose, false);
+        editor.show();
+    }
+    /// Types over a field as a person does.
+    void type(const char* key, const QString& text) {
+        auto* line = editor.findChild<QLineEdit*>(key);
+        ASSERT_NE(line, nullptr) << key;
+        line->selectAll();
+        QTest::keyClick(line, Qt::Key_Delete);
+        QTest::keyClicks(line, text);
+    }
+    QPushButton& button(const QString& text) {
+        auto* found = find<QPushButton>(editor, text);
+        EXPECT_NE(found, nullptr) << text.toStdString();
+        return *found;
+    }
+    QString says() { return editor.findChild<QLabel*>("profileTrouble")->text(); }
+    QString refusal(const char* key) { return editor.findChild<QLabel*>(QString("%1.refusal").arg(key))->text(); }
+    void showTab(int index) { editor.findChild<QTabWidget*>()->setCurrentIndex(index); }
+
+    ProfileEditor editor{desk};
+};
+
+TEST_F(Editor, RefusesAWrongValueInTheSentenceOfTheCore) {
+    type("amplitude_min_v", "45");
+    auto wrong = desk.profile().encoding;
+    wrong.amplitudeMin = Volts(45);
+    const auto sentence = validate(wrong).error().message;
+    EXPECT_THAT(editor.trouble().toStdString(), HasSubstr(sentence));
+    EXPECT_THAT(refusal("amplitude_min_v").toStdString(), HasSubstr(sentence)) << "beside the field";
+    EXPECT_TRUE(editor.findChild<QLabel*>("amplitude_min_v.refusal")->isVisible());
+    EXPECT_FALSE(button("Apply").isEnabled());
+    EXPECT_FALSE(button("Save…").isEnabled());
+    EXPECT_EQ(editor.findChild<QLineEdit*>("amplitude_min_v")->text(), "45") << "never clamped";
+    click(button("Apply"));
+    EXPECT_EQ(desk.profile().encoding.amplitudeMin.value(), 10);
+    type("amplitude_min_v", "12.5");
+    EXPECT_TRUE(editor.trouble().isEmpty());
+    EXPECT_FALSE(editor.findChild<QLabel*>("amplitude_min_v.refusal")->isVisible());
+    EXPECT_TRUE(button("Apply").isEnabled());
+}
+
+TEST_F(Editor, RefusesWhatIsNoNumber) {
+    for (const auto* text : {"", "abc", "1,5", "nan", "inf", "10 V"}) {
+        type("amplitude_min_v", text);
+        EXPECT_THAT(refusal("amplitude_min_v").toStdString(), HasSubstr("is not a number")) << text;
+        EXPECT_FALSE(button("Apply").isEnabled()) << text;
+    }
+    showTab(1);
+    type("pulses", "1.5");
+    type("amplitude_min_v", "10");
+    EXPECT_THAT(refusal("pulses").toStdString(), HasSubstr("not a whole number"));
+}
+
+TEST_F(Editor, AppliesARightValueToAnOpenBench) {
+    ASSERT_TRUE(openSimulated());
+    EXPECT_THAT(says().toStdString(), HasSubstr("In force."));
+    EXPECT_FALSE(button("Apply").isEnabled()) << "nothing has changed";
+    type("amplitude_max_v", "30");
+    EXPECT_THAT(says().toStdString(), HasSubstr("not applied yet"));
+    click(button("Apply"));
+    ASSERT_TRUE(comesTrue([this] { return desk.profile().encoding.amplitudeMax.value() == 30; }));
+    EXPECT_TRUE(comesTrue([this] { return says().contains("In force."); }));
+    ASSERT_TRUE(armed());
+    desk.drive(DriveSource::Manual, 1, 1);
+    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().amplitude_v == 30; })) << desk.telemetry().amplitude_v;
+    shot(editor, "profile_light");
+}
+
+TEST_F(Editor, SaysWhyItWasNotAppliedWhileArmed) {
+    ASSERT_TRUE(openSimulated());
+    ASSERT_TRUE(armed());
+    type("amplitude_max_v", "30");
+    click(button("Apply"));
+    ASSERT_TRUE(comesTrue([this] { return says().contains("Not applied"); }));
+    EXPECT_THAT(says().toStdString(), HasSubstr("disarm first"));
+    EXPECT_EQ(desk.profile().encoding.amplitudeMax.value(), 40);
+    EXPECT_TRUE(button("Apply").isEnabled()) << "it can be tried again";
+}
+
+TEST_F(Editor, EveryFieldIsAcceptedAsShippedAndRefusedOutsideItsRange) {
+    for (const auto& field : gui::profileFields()) {
+        showTab(static_cast<int>(field.tab));
+        if (field.isChoice()) {
+            EXPECT_GE(editor.findChild<QComboBox*>(field.key)->currentIndex(), 0) << field.key;
+            EXPECT_EQ(editor.findChild<QComboBox*>(field.key)->count(), int(field.choices.size())) << field.key;
+            continue;
+        }
+        auto* line = editor.findChild<QLineEdit*>(field.key);
+        ASSERT_NE(line, nullptr) << field.key;
+        EXPECT_FALSE(field.range().isEmpty()) << field.key;
+        const auto shipped = line->text();
+        std::vector<double> outside{field.low - 1};
+        if (field.openLow && field.low != 1) outside.push_back(field.low);
+        if (field.high < 1e12) outside.push_back(field.openHigh ? field.high : field.high * 1.01);
+        for (const double value : outside) {
+            line->setText(QString::number(value, 'g', 17));
+            EXPECT_FALSE(editor.trouble().isEmpty()) << field.key << " took " << value;
+        }
+        line->setText(shipped);
+        ASSERT_TRUE(editor.trouble().isEmpty()) << field.key << ": " << editor.trouble().toStdString();
+    }
+}
+
+TEST_F(Editor, ARefusalStandsBesideTheFieldThatItNames) {
+    const std::pair<const char*, const char*> wrong[] = {
+        {"interval_min_s", "3"},      {"phase_width_us", "0"},      {"rate_hz", "0"},
+        {"inter_phase_gap_us", "-1"}, {"smoothing_s", "0"},         {"band_low_hz", "2"},
+        {"load_low_ohm", "20000"},    {"electrode_area_cm2", "-3"}, {"interval_ratio_per_train", "0.5"}};
+    for (const auto& [key, value] : wrong) {
+        auto* line = editor.findChild<QLineEdit*>(key);
+        const auto shipped = line->text();
+        line->setText(value);
+        EXPECT_FALSE(refusal(key).isEmpty()) << key << ": " << editor.trouble().toStdString();
+        line->setText(shipped);
+    }
+}
+
+TEST_F(Editor, OnlyWhatMattersCanBeEdited) {
+    auto* beta = editor.findChild<QLineEdit*>("amplitude_beta");
+    EXPECT_FALSE(beta->isEnabled());
+    auto* curve = editor.findChild<QComboBox*>("amplitude_curve");
+    curve->setFocus();
+    QTest::keyClick(curve, Qt::Key_End);  // power
+    EXPECT_TRUE(beta->isEnabled());
+    showTab(1);
+    auto* shape = editor.findChild<QComboBox*>("shape");
+    QTest::keyClick(shape, Qt::Key_End);  // monophasic
+    EXPECT_FALSE(editor.findChild<QLineEdit*>("inter_phase_gap_us")->isEnabled());
+}
+
+TEST_F(Editor, TellsChargeAndImbalanceOfThePulse) {
+    const auto facts = [this] { return editor.findChild<QLabel*>("profileFacts")->text().toStdString(); };
+    EXPECT_THAT(facts(), HasSubstr("500"));
+    EXPECT_THAT(facts(), HasSubstr("16.0")) << "40 V × 200 µs into 500 Ω, in µC";
+    EXPECT_THAT(facts(), HasSubstr("imbalance 0"));
+    showTab(1);
+    type("phase_width_us", "100");
+    EXPECT_THAT(facts(), HasSubstr("8.00"));
+    QTest::keyClick(editor.findChild<QComboBox*>("shape"), Qt::Key_End);
+    EXPECT_THAT(facts(), HasSubstr("imbalance 100"));
+}
+
+TEST_F(Editor, MarksWhereTouchStandsOnTheCurves) {
+    ASSERT_TRUE(openSimulated());
+    ASSERT_TRUE(armed());
+    desk.drive(DriveSource::Manual, 0.5, 1);
+    auto* preview = editor.findChild<gui::ProfilePreview*>();
+    ASSERT_TRUE(comesTrue([&] {
+        return preview->marked() && std::abs(preview->marked()->x() - 25) < 0.01 &&
+               std::abs(preview->marked()->y() - 0.5) < 0.01;
+    }));
+}
+
+TEST_F(Editor, KeepsAProfileInAFile) {
+    const QTemporaryDir folder;
+    const auto path = folder.filePath("mine.json");
+    auto* name = editor.findChild<QLineEdit*>();
+    for (auto* line : editor.findChildren<QLineEdit*>()) {
+        if (line->text() == "default") name = line;
+    }
+    name->setText("my profile");
+    type("interval_max_s", "1.3333333333333333");
+    editor.saveFile(path);
+    EXPECT_THAT(says().toStdString(), HasSubstr("Saved to"));
+    const auto kept = loadProfile(path.toStdString());
+    ASSERT_TRUE(kept) << kept.error().message;
+    EXPECT_EQ(kept->name, "my profile");
+    EXPECT_EQ(kept->encoding.intervalMax.count(), 1.3333333333333333) << "to the last digit";
+    click(button("Shipped values"));
+    EXPECT_EQ(editor.findChild<QLineEdit*>("interval_max_s")->text(), "2");
+    editor.openFile(path);
+    EXPECT_EQ(editor.findChild<QLineEdit*>("interval_max_s")->text(), "1.3333333333333333");
+    EXPECT_EQ(desk.profile().encoding.intervalMax.count(), 2) << "only Apply applies";
+}
+
+TEST_F(Editor, AFileThatIsWrongIsRefusedAndTheFormStays) {
+    const QTemporaryDir folder;
+    const auto path = folder.filePath("wrong.json");
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(R"({"encoding": {"amplitude_max_v": 4000}})");
+    file.close();
+    type("interval_max_s", "1.5");
+    editor.openFile(path);
+    EXPECT_THAT(says().toStdString(), HasSubstr("amplitude_max_v 4000 V is outside"));
+    EXPECT_EQ(editor.findChild<QLineEdit*>("interval_max_s")->text(), "1.5");
+    editor.openFile(folder.filePath("nothing.json"));
+    EXPECT_THAT(says().toStdString(), HasSubstr("Not opened"));
+    editor.saveFile(folder.filePath("no/such/folder.json"));
+    EXPECT_THAT(says().toStdString(), HasSubstr("was not written"));
+}
+
+TEST_F(Editor, LooksRightInBothThemes) {
+    if (qEnvironmentVariableIsEmpty("TACTO_SHOTS")) GTEST_SKIP() << "pictures are wanted by TACTO_SHOTS only";
+    ASSERT_TRUE(openSimulated());
+    ASSERT_TRUE(passes(1));
+    type("amplitude_min_v", "45");
+    ASSERT_TRUE(passes(0.2));
+    shot(editor, "profile_wrong");
+    type("amplitude_min_v", "10");
+    gui::applyTheme(gui::Theme::Dark);
+    showTab(1);
+    ASSERT_TRUE(passes(0.2));
+    shot(editor, "profile_dark");
+    showTab(2);
+    ASSERT_TRUE(passes(0.2));
+    shot(editor, "profile_touch");
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test
