@@ -7,6 +7,7 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QScreen>
+#include <QTabWidget>
 #include <QTest>
 #include <gtest/gtest.h>
 
@@ -58,6 +59,13 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     desk.drive(DriveSource::Sensor);
     ASSERT_TRUE(comesTrue([&] { return desk.telemetry().trainsDelivered >= 3; }));
     picture("4-delivering");
+
+    auto* tabs = window.findChild<QTabWidget*>("livePage");
+    ASSERT_NE(tabs, nullptr);
+    tabs->setCurrentIndex(1);
+    QTest::qWait(4500);
+    picture("4-oscilloscope");
+    tabs->setCurrentIndex(0);
 
     auto* menuDialog = new QDialog(&window);
     menuDialog->setModal(true);

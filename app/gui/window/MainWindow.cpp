@@ -107,6 +107,7 @@ MainWindow::~MainWindow() = default;
 
 void MainWindow::buildPages() {
     livePage_ = new QTabWidget(pages_);
+    livePage_->setObjectName("livePage");
     livePage_->setDocumentMode(true);
     live_ = new LiveWorkspace(desk_, livePage_);
     scope_ = new ScopeWorkspace(desk_, livePage_);
@@ -130,8 +131,7 @@ void MainWindow::buildPages() {
         {tr("Each load of the bench set, verified by measurement before anything else"),
          tr("Worst-case commands measured and judged against every limit set"),
          tr("Open, short, intermittent contact and the dead-man switch must trip")},
-        tr("Until then \"Faults…\" in the Devices dock shows how open, short and stuck outputs end a run."),
-        pages_));
+        tr("Until then \"Faults…\" in the Devices dock shows how open, short and stuck outputs end a run."), pages_));
     separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
     pages_->addWidget(separability_);
     pages_->addWidget(new ComingWorkspace(
@@ -198,8 +198,6 @@ void MainWindow::buildDocks() {
     exposure_ = new ExposureDock(this);
     addDockWidget(Qt::RightDockWidgetArea, devices_);
     addDockWidget(Qt::RightDockWidgetArea, exposure_);
-    resizeDocks({devices_, exposure_}, {fontMetrics().averageCharWidth() * 46, fontMetrics().averageCharWidth() * 46},
-                Qt::Horizontal);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
@@ -342,7 +340,12 @@ void MainWindow::restore() {
     setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     setTextSize(settings.value("textSize", 100).toInt());
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1440, 900);
-    restoreState(settings.value("state").toByteArray());
+    if (!restoreState(settings.value("state").toByteArray())) {
+        // Once the window is laid out: room for the exposure table's four columns.
+        QTimer::singleShot(0, this, [this] {
+            resizeDocks({devices_, exposure_}, {width() / 4, width() / 4}, Qt::Horizontal);
+        });
+    }
     showWorkspace(settings.value("workspace", 0).toInt());
 }
 
