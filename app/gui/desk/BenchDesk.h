@@ -40,13 +40,13 @@ struct OpenBench {
     std::vector<StreamInfo> streams;  ///< of the sensor; empty without one
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;
-    bool paced = false;  ///< on the virtual clock: `speed` means something
+    bool paced = false;     ///< on the virtual clock: `speed` means something
     bool surfaces = false;  ///< the rig presents surfaces by itself
     [[nodiscard]] bool simulated() const { return about.simulated; }
 };
 
 enum class Activity {
-    Closed,   ///< no bench
+    Closed,  ///< no bench
     Opening,
     Live,     ///< a bench is open for looking and driving by hand
     Running,  ///< a protocol has it
@@ -57,7 +57,7 @@ enum class Activity {
 struct RunFeed {
     std::optional<ScriptProgress> progress;
     std::vector<std::string> log;
-    std::vector<nlohmann::json> trials;            ///< as record.trial() was given them, with condition and trial
+    std::vector<nlohmann::json> trials;  ///< as record.trial() was given them, with condition and trial
     std::vector<std::shared_ptr<const Capture>> captures;  ///< the newest few
 };
 
@@ -86,6 +86,9 @@ public:
     [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
     [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
     [[nodiscard]] std::vector<DeviceIdentity> devices() const;
+    /// Whether these are simulated devices and recordings only: nothing that can put out a current.
+    /// Errors: as Registry::allVirtual().
+    [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
 
     void openLive(const LiveOrder& order);
     void close();
@@ -113,8 +116,8 @@ public:
     [[nodiscard]] OperatorDesk& operatorDesk() noexcept { return operator_; }
 
 signals:
-    void changed();                      ///< activity, open bench or profile
-    void failed(const QString& what);    ///< a sentence: what happened; the output is off or unchanged
+    void changed();                    ///< activity, open bench or profile
+    void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
     void captured(std::shared_ptr<const tacto::Capture> capture);
     void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);

@@ -1,6 +1,7 @@
 #include "app/gui/runner/CaptureStrip.h"
 
 #include "app/gui/look/Look.h"
+#include "app/gui/runner/PlotMenu.h"
 #include "app/report/FigureDrawing.h"
 
 namespace tacto::gui {
@@ -25,6 +26,7 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
     empty_->setText(tr("The last captured train appears here."));
+    addPlotMenu(*this, "train");
     setMinimumHeight(fontMetrics().height() * 10);
     show(nullptr);
 }
@@ -66,7 +68,10 @@ void CaptureStrip::colour() {
 }
 
 void CaptureStrip::changeEvent(QEvent* event) {
-    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) colour();
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && empty_ != nullptr) {
+        colour();
+        replot(QCustomPlot::rpQueuedReplot);
+    }
     QCustomPlot::changeEvent(event);
 }
 

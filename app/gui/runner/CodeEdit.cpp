@@ -63,7 +63,7 @@ void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
         const auto box = blockBoundingGeometry(block).translated(contentOffset());
         if (box.top() > event->rect().bottom()) break;
         const int number = block.blockNumber() + 1;
-        painter.setPen(number == marked_ ? colours().fault : colours().quiet);
+        painter.setPen(number == marked_ ? colours().amber : colours().quiet);
         const QRectF cell(0, box.top(), margin.width() - 6, fontMetrics().height());
         painter.drawText(cell, Qt::AlignRight, (number == marked_ ? "▶" : "") + QString::number(number));
     }
@@ -85,7 +85,7 @@ void CodeEdit::showMark() {
     const auto block = document()->findBlockByNumber(marked_ - 1);
     if (marked_ > 0 && block.isValid()) {
         QTextEdit::ExtraSelection selection;
-        auto tint = colours().fault;
+        auto tint = colours().amber;
         tint.setAlpha(50);
         selection.format.setBackground(tint);
         selection.format.setProperty(QTextFormat::FullWidthSelection, true);

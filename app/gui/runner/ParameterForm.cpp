@@ -36,33 +36,38 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
 }
 
-ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter, QWidget*& editor) {
-    Field field{parameter, {}, nullptr};
+ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
+    Field field{parameter, {}, nullptr, nullptr};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
             box->addItem(QString::fromStdString(text.empty() ? key : text), QString::fromStdString(key));
         box->setCurrentIndex(box->findData(plain(parameter.value)));
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(8);  // characters; grows with the column
+        box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         connect(box, &QComboBox::currentIndexChanged, this, &ParameterForm::judge);
         field.text = [box] { return box->currentData().toString(); };
-        editor = box;
+        field.editor = box;
     } else if (parameter.type == ParameterType::Boolean) {
         auto* box = new QCheckBox(tr("yes"), this);
         box->setChecked(parameter.value.is_boolean() && parameter.value.get<bool>());
         connect(box, &QCheckBox::toggled, this, &ParameterForm::judge);
         field.text = [box] { return box->isChecked() ? QString("true") : QString("false"); };
-        editor = box;
+        field.editor = box;
     } else {
         auto* line = new QLineEdit(plain(parameter.value), this);
         connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
         field.text = [line] { return line->text(); };
-        editor = line;
+        field.editor = line;
     }
-    editor->setObjectName(QString::fromStdString(parameter.name));
+    field.editor->setObjectName(QString::fromStdString(parameter.name));
     const auto range = rangeText(parameter);
-    editor->setToolTip(range.isEmpty() ? QString::fromStdString(parameter.label)
-                                       : QString("%1: %2").arg(QString::fromStdString(parameter.label), range));
+    const auto label = QString::fromStdString(parameter.label);
+    field.editor->setAccessibleName(label);
+    field.editor->setToolTip(tr("%1. The script calls it \"%2\"%3.")
+                                 .arg(label, QString::fromStdString(parameter.name),
+                                      range.isEmpty() ? QString() : tr(" and takes %1").arg(range)));
     return field;
 }
 
@@ -72,13 +77,19 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
     fields_.clear();
     declaration_ = declaration;
     for (const auto& parameter : declaration.parameters) {
-        QWidget* editor = nullptr;
-        auto field = makeField(parameter, editor);
+        auto field = makeField(parameter);
         auto* column = new QWidget(this);
         auto* stack = new QVBoxLayout(column);
         stack->setContentsMargins(0, 0, 0, 0);
         stack->setSpacing(1);
-        stack->addWidget(editor);
+        auto* line = new QHBoxLayout;
+        line->addWidget(field.editor, 1);
+        if (const auto range = rangeText(parameter); !range.isEmpty()) {
+            auto* quiet = new QLabel(range, column);
+            quiet->setForegroundRole(QPalette::PlaceholderText);
+            line->addWidget(quiet);
+        }
+        stack->addLayout(line);
         field.trouble = new QLabel(column);
         field.trouble->setObjectName("trouble-" + QString::fromStdString(parameter.name));
         field.trouble->setWordWrap(true);
@@ -86,9 +97,9 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         stack->addWidget(field.trouble);
         auto label = QString::fromStdString(parameter.label);
         if (!parameter.unit.empty())
-            label += QString(" (%1)").arg(settingText(1, QString::fromStdString(parameter.unit)).mid(2));
+            label += QString(" (%1)").arg(axisUnit(0, QString::fromStdString(parameter.unit)).unit);
         form->addRow(label, column);
-        if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) written->setBuddy(editor);
+        if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) written->setBuddy(field.editor);
         fields_.push_back(std::move(field));
     }
     judge();
@@ -107,14 +118,19 @@ QString ParameterForm::text(const std::string& name) const {
     return {};
 }
 
+void ParameterForm::goToRefused() {
+    for (const auto& field : fields_) {
+        if (!field.trouble->isHidden()) return field.editor->setFocus();
+    }
+}
+
 void ParameterForm::judge() {
+    refused_ = 0;
     for (const auto& field : fields_) {
         const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
-        field.trouble->setText(value ? QString() : QString::fromStdString(value.error().message));
+        field.trouble->setText(value ? QString() : "⚠ " + QString::fromStdString(value.error().message));
         field.trouble->setVisible(!value);
-        auto red = field.trouble->palette();
-        red.setColor(QPalette::WindowText, colours().fault);
-        field.trouble->setPalette(red);
+        if (!value) ++refused_;
     }
     emit edited();
 }

@@ -22,6 +22,10 @@ public:
     [[nodiscard]] Result<ProtocolSettings> read();
     /// The text of a parameter as it stands; empty for none of that name.
     [[nodiscard]] QString text(const std::string& name) const;
+    /// How many fields are refused as they stand.
+    [[nodiscard]] int refused() const { return refused_; }
+    /// The first refused field gets the focus.
+    void goToRefused();
 
 signals:
     void edited();
@@ -30,12 +34,14 @@ private:
     struct Field {
         ProtocolParameter parameter;
         std::function<QString()> text;
-        QLabel* trouble;
+        QWidget* editor = nullptr;
+        QLabel* trouble = nullptr;
     };
-    [[nodiscard]] Field makeField(const ProtocolParameter& parameter, QWidget*& editor);
+    [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
     void judge();
     ProtocolDeclaration declaration_;
     std::vector<Field> fields_;
+    int refused_ = 0;
 };
 
 }  // namespace tacto::gui

@@ -2,81 +2,136 @@
 
 #include <QHBoxLayout>
 #include <QLineEdit>
+#include <QPainter>
 #include <QPushButton>
 
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
 
+namespace {
+
+constexpr int kStripe = 5;  // pixels of amber at the left: the run waits for a person
+
+QString accepted(const OperatorQuestion& question) {
+    const auto unit = QString::fromStdString(question.unit);
+    if (question.min && question.max)
+        return QObject::tr("%1 to %2").arg(settingText(*question.min, unit), settingText(*question.max, unit));
+    if (question.min) return QObject::tr("at least %1").arg(settingText(*question.min, unit));
+    if (question.max) return QObject::tr("at most %1").arg(settingText(*question.max, unit));
+    return question.number && unit.isEmpty() ? QObject::tr("a number") : QString();
+}
+
+}  // namespace
+
 PromptPanel::PromptPanel(OperatorDesk& desk, QWidget* parent) : QFrame(parent), desk_(desk) {
     setObjectName("prompt");
     setAccessibleName(tr("Question"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Base);
     layout_ = new QVBoxLayout(this);
-    connect(&desk_, &OperatorDesk::asked, this, &PromptPanel::ask);
-    connect(&desk_, &OperatorDesk::closed, this, &QWidget::hide);
+    layout_->setContentsMargins(kStripe * 3, kStripe, kStripe, kStripe);
     hide();
 }
 
+void PromptPanel::paintEvent(QPaintEvent* event) {
+    QFrame::paintEvent(event);
+    QPainter(this).fillRect(0, 0, kStripe, height(), colours().amber);
+}
+
 void PromptPanel::ask(const OperatorQuestion& question) {
-    delete body_;
+    close();
     body_ = new QWidget(this);
+    first_ = nullptr;
     auto* column = new QVBoxLayout(body_);
     column->setContentsMargins(0, 0, 0, 0);
     auto* says = new QLabel(QString::fromStdString(question.text), body_);
+    says->setObjectName("question");
     says->setWordWrap(true);
     auto font = says->font();
     font.setPointSizeF(font.pointSizeF() * 1.15);
+    font.setBold(true);
     says->setFont(font);
     column->addWidget(says);
     auto* row = new QHBoxLayout;
-    QWidget* first = nullptr;
-    const auto add = [&](const QString& text, auto act) {
-        auto* button = new QPushButton(text, body_);
-        button->setAutoDefault(false);
-        connect(button, &QPushButton::clicked, this, act);
-        row->addWidget(button);
-        if (first == nullptr) first = button;
-        return button;
-    };
-    if (question.kind == OperatorQuestion::Kind::Confirm) {
-        add(tr("&Done"), [this] { answer("yes"); });
-    } else if (question.kind == OperatorQuestion::Kind::Choose) {
-        for (const auto& [key, text] : question.choices) {
-            add(QString::fromStdString(text.empty() ? key : text),
-                [this, chosen = QString::fromStdString(key)] { answer(chosen); });
-        }
-    } else {
-        auto* line = new QLineEdit(body_);
-        line->setAccessibleName(QString::fromStdString(question.text));
-        row->addWidget(line, 1);
-        if (!question.unit.empty()) row->addWidget(new QLabel(QString::fromStdString(question.unit), body_));
-        first = line;
-        connect(line, &QLineEdit::returnPressed, this, [this, line] { answer(line->text()); });
-        add(tr("&Enter"), [this, line] { answer(line->text()); });
-    }
+    row->addWidget(question.kind == OperatorQuestion::Kind::Enter ? buildEntry(question) : buildChoices(question));
     row->addStretch();
-    add(tr("&Refuse: end the run"), [this] { desk_.refuse(); });
+    auto* refuse = new QPushButton(tr("&Refuse and end the run"), body_);
+    refuse->setAutoDefault(false);
+    refuse->setToolTip(tr("The output goes off; what was recorded so far is kept."));
+    connect(refuse, &QPushButton::clicked, this, [this] { desk_.refuse(); });
+    row->addWidget(refuse);
     column->addLayout(row);
     trouble_ = new QLabel(body_);
     trouble_->setObjectName("promptTrouble");
     trouble_->setWordWrap(true);
-    auto red = trouble_->palette();
-    red.setColor(QPalette::WindowText, colours().fault);
-    trouble_->setPalette(red);
     trouble_->hide();
     column->addWidget(trouble_);
     layout_->addWidget(body_);
     show();
-    if (first != nullptr) first->setFocus();
+    if (first_ != nullptr) first_->setFocus();
+}
+
+void PromptPanel::close() {
+    hide();
+    if (body_ == nullptr) return;
+    body_->deleteLater();  // perhaps from its own button's click
+    body_->hide();
+    body_ = nullptr;
+    trouble_ = nullptr;
+}
+
+QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
+    auto* holder = new QWidget(body_);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    const auto add = [&](const QString& text, const QString& key, const QString& tip) {
+        auto* button = new QPushButton(text, holder);
+        button->setAutoDefault(false);
+        button->setToolTip(tip);
+        connect(button, &QPushButton::clicked, this, [this, key] { answer(key); });
+        row->addWidget(button);
+        if (first_ == nullptr) first_ = button;
+    };
+    if (question.kind == OperatorQuestion::Kind::Confirm) add(tr("&Done"), "yes", tr("It is as the sentence says."));
+    for (const auto& [key, text] : question.choices) {
+        const auto name = QString::fromStdString(key);
+        add(text.empty() ? name : QString::fromStdString(text), name, tr("Answers \"%1\".").arg(name));
+    }
+    return holder;
+}
+
+QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
+    auto* holder = new QWidget(body_);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    auto* line = new QLineEdit(holder);
+    line->setObjectName("answer");
+    line->setAccessibleName(QString::fromStdString(question.text));
+    line->setMinimumWidth(fontMetrics().averageCharWidth() * 16);
+    row->addWidget(line);
+    first_ = line;
+    connect(line, &QLineEdit::returnPressed, this, [this, line] { answer(line->text()); });
+    QStringList beside;
+    if (!question.unit.empty()) beside << axisUnit(0, QString::fromStdString(question.unit)).unit;
+    if (const auto range = accepted(question); !range.isEmpty()) beside << "(" + range + ")";
+    row->addWidget(new QLabel(beside.join(' '), holder));
+    line->setToolTip(tr("Type the answer; Return gives it to the protocol."));
+    auto* enter = new QPushButton(tr("&Enter"), holder);
+    enter->setAutoDefault(false);
+    enter->setToolTip(tr("Gives this answer to the protocol (Return)."));
+    connect(enter, &QPushButton::clicked, this, [this, line] { answer(line->text()); });
+    row->addWidget(enter);
+    return holder;
 }
 
 void PromptPanel::answer(const QString& text) {
     const auto taken = desk_.answer(text.trimmed().toStdString());
     if (taken || trouble_ == nullptr) return;
-    trouble_->setText(QString::fromStdString(taken.error().message));
+    trouble_->setText("⚠ " + QString::fromStdString(taken.error().message));
     trouble_->show();
+    if (first_ != nullptr) first_->setFocus();
 }
 
 }  // namespace tacto::gui

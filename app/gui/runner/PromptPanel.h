@@ -16,13 +16,22 @@ class PromptPanel final : public QFrame {
     Q_OBJECT
 public:
     explicit PromptPanel(OperatorDesk& desk, QWidget* parent = nullptr);
+    /// Shows the question until close(); an answer that does not fit is refused below it.
+    void ask(const OperatorQuestion& question);
+    void close();
+    [[nodiscard]] bool open() const { return body_ != nullptr; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
 
 private:
-    void ask(const OperatorQuestion& question);
+    [[nodiscard]] QWidget* buildChoices(const OperatorQuestion& question);
+    [[nodiscard]] QWidget* buildEntry(const OperatorQuestion& question);
     void answer(const QString& text);
     OperatorDesk& desk_;
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
+    QWidget* first_ = nullptr;  // takes the focus
     QLabel* trouble_ = nullptr;
 };
 

@@ -1,14 +1,19 @@
 #include "app/gui/runner/ProtocolWorkspace.h"
 
+#include <QApplication>
+#include <QFileInfo>
+
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ResultPanel.h"
+#include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/ScriptEditor.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstCase.h"
 
 namespace tacto::gui {
@@ -16,11 +21,11 @@ namespace tacto::gui {
 namespace {
 
 enum Step { kWiring, kSettings, kRun, kResult, kAllDone };
-enum Tab { kWorst, kLog, kResultTab, kReport };
 
-QString timeText(double seconds) {
-    if (seconds < 90) return QObject::tr("%1 s").arg(int(std::ceil(seconds)));
-    return QObject::tr("%1 min").arg(int(std::ceil(seconds / 60)));
+QString sentence(const Error& error) {
+    auto what = QString::fromStdString(error.message);
+    if (!what.isEmpty()) what[0] = what[0].toUpper();
+    return what.endsWith('.') ? what : what + '.';
 }
 
 }  // namespace
@@ -34,59 +39,88 @@ void ProtocolWorkspace::fillChooser(const QString& select) {
                                          : tr("%1 (the lab's own)").arg(QString::fromStdString(source.name)),
                           QString::fromStdString(source.name));
     }
+    if (chooser_->count() == 0) return panel_->say(tr("No protocol was found. Write one: New…"));
     chooser_->setCurrentIndex(std::max(0, chooser_->findData(select)));
     choose(chooser_->currentData().toString());
 }
 
 void ProtocolWorkspace::choose(const QString& nameOrPath) {
     declaration_.reset();
+    asked_.reset();
+    showButtons();
     auto source = ProtocolLibrary().find(nameOrPath.toStdString());
-    if (!source) return say(QString::fromStdString(source.error().message));
+    if (!source) return panel_->say(sentence(source.error()));
     source_ = std::move(*source);
-    auto declaration = readDeclaration(source_);
+    reading_.read(source_);
+}
+
+void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration) {
+    if (source.name != source_.name || running_) return;
     if (!declaration) {
         form_->show({});
-        purpose_->setText({});
-        wiring_->setText({});
-        showButtons();
-        return say(QString::fromStdString(declaration.error().message));
+        wiring_->show({});
+        purpose_->setText(QString::fromStdString(source.name));
+        const auto why = QString::fromStdString(declaration.error().message);
+        panel_->say(why + tr(" It cannot run before that is mended."), lineOf(why));
+    } else {
+        declaration_ = *declaration;
+        panel_->say({});
+        purpose_->setText(QString::fromStdString(declaration_->purpose));
+        wiring_->show(*declaration_);
+        form_->show(*declaration_);
     }
-    declaration_ = std::move(*declaration);
-    say({});
-    purpose_->setText(QString::fromStdString(declaration_->purpose));
-    QStringList needs;
-    for (const auto role : declaration_->needs) needs << text(nameOf(role));
-    wiring_->setText(
-        needs.isEmpty() ? tr("Needs no device.")
-                        : tr("Needs: %1. \"sim:\" fills every role that no other device fills.").arg(needs.join(", ")));
-    form_->show(*declaration_);
+    steps_->setNote(kRun, {});
+    steps_->setNote(kResult, {});
     steps_->setCurrent(kSettings);
+    judge();
     showButtons();
 }
 
-void ProtocolWorkspace::say(const QString& what) {
-    trouble_->setText(what);
-    trouble_->setVisible(!what.isEmpty());
+void ProtocolWorkspace::goTo(int step) {
+    if (step == kWiring || step == kSettings) {
+        QWidget* part = step == kWiring ? static_cast<QWidget*>(wiring_) : form_;
+        before_->ensureWidgetVisible(part, 0, 0);
+        if (auto* first = part->findChild<QLineEdit*>()) first->setFocus();
+        tabs_->setCurrentWidget(worstPage_);
+    } else {
+        tabs_->setCurrentWidget(step == kRun ? static_cast<QWidget*>(log_) : result_);
+    }
+}
+
+void ProtocolWorkspace::judge() {
+    const auto uris = devicesOf(wiring_->devices());
+    steps_->setTroubled(kWiring, !uris);
+    steps_->setNote(kWiring, wiring_->devices());
+    const int refused = form_->refused();
+    steps_->setTroubled(kSettings, refused > 0 || !declaration_);
+    steps_->setNote(kSettings, refused > 0 ? tr("%n to mend", nullptr, refused) : QString());
+    asked_.reset();
+    panel_->setReady(declaration_.has_value());
+    previewLater_.start();
 }
 
 void ProtocolWorkspace::preview() {
-    auto load = form_->text("load");
-    bool isNumber = false;
-    load.toDouble(&isNumber);
-    if (load.isEmpty()) load = kDefaultLoad;
-    if (isNumber) load += " ohm";
-    const auto worst = worstCase(desk_.profile(), desk_.limits().sets, load.toStdString());
+    const auto settings = form_->read();
+    if (!settings) {
+        worst_->show({});
+        return worstSays_->setText(tr("Shown again when every setting is accepted."));
+    }
+    const auto load = declaredLoad(settings->parameters);
+    const auto worst = worstCase(desk_.profile(), desk_.limits().sets, load);
     if (!worst) {
         worst_->show({});
-        worstSays_->setText(QString::fromStdString(worst.error().message));
-        return;
+        return worstSays_->setText("⚠ " + sentence(worst.error()));
     }
     worst_->show(worst->rows);
-    const auto strongest = tr("Strongest command of the profile: %1 every %2 into %3.")
+    bool isNumber = false;
+    const auto words = QString::fromStdString(load);
+    const double ohms = words.section(' ', 0, 0).toDouble(&isNumber);
+    const auto strongest = tr("The profile's strongest command, %1 every %2 into %3.")
                                .arg(settingText(desk_.profile().encoding.amplitudeMax.value(), "V"),
-                                    settingText(desk_.profile().encoding.intervalMin.count(), "s"), load);
-    worstSays_->setText(worst->refused.isEmpty() ? strongest + tr(" Every limit is kept.")
-                                                 : strongest + " ⚠ " + worst->refused);
+                                    settingText(desk_.profile().encoding.intervalMin.count(), "s"),
+                                    isNumber && words.endsWith(" ohm") ? settingText(ohms, "ohm") : words);
+    worstSays_->setText(worst->refused.isEmpty() ? tr("%1 Every limit that can be evaluated is kept.").arg(strongest)
+                                                 : tr("⚠ %1 %2").arg(strongest, worst->refused));
 }
 
 Result<RunOrder> ProtocolWorkspace::order() {
@@ -97,113 +131,122 @@ Result<RunOrder> ProtocolWorkspace::order() {
     order.script = source_;
     order.declaration = *declaration_;
     order.settings = std::move(*settings);
-    for (const auto& word : devices_->text().split(' ', Qt::SkipEmptyParts)) {
-        auto uri = DeviceUri::parse(word.toStdString());
-        if (!uri) return failure(uri);
-        order.uris.push_back(std::move(*uri));
-    }
-    order.seed = static_cast<std::uint64_t>(seed_->value());
-    order.realtime = realtime_->isChecked();
+    if (auto filled = wiring_->fill(order); !filled) return failure(filled);
     order.profile = desk_.profile();
     order.limits = desk_.limits();
-    order.out = out_->text().trimmed().toStdString();
     return order;
 }
 
-void ProtocolWorkspace::run() {
-    if (running_) return;
+void ProtocolWorkspace::runAsked() {
+    if (running_ || !declaration_) return;
     if (desk_.activity() == Activity::Running || desk_.activity() == Activity::Opening)
-        return say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
+        return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
     auto asked = order();
-    if (!asked) return say(QString::fromStdString(asked.error().message));
-    say({});
-    running_ = true;
-    paused_ = false;
-    since_.restart();
-    result_->clear();
-    log_->clear();
-    plane_->begin(true);
-    wave_->show(nullptr);
-    progress_->setRange(0, 0);
-    progress_->setFormat(tr("starting"));
-    left_->setText({});
-    steps_->setCurrent(kRun);
-    tabs_->setCurrentIndex(kLog);
-    showButtons();
-    desk_.run(*asked);
+    if (!asked) {
+        panel_->say(sentence(asked.error()));
+        return form_->goToRefused();
+    }
+    const auto harmless = desk_.allVirtual(asked->uris);
+    if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
+    asked_ = std::move(*asked);
+    if (*harmless) return runNow();
+    panel_->say({});
+    panel_->askToArm(tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
+                        "connected, and no person?")
+                         .arg(QString::fromStdString(declaredLoad(asked_->settings.parameters))));
 }
 
-void ProtocolWorkspace::refresh(const Telemetry&) {
+void ProtocolWorkspace::runNow() {
+    if (running_ || !asked_) return;
+    running_ = true;
+    paused_ = seenPaused_ = false;
+    result_->clear();
+    document_->close();
+    tabs_->setTabEnabled(tabs_->indexOf(pdf_), false);
+    log_->clear();
+    plane_->begin(false);
+    wave_->show(nullptr);
+    panel_->begin();
+    steps_->setNote(kRun, {});
+    steps_->setNote(kResult, {});
+    steps_->setCurrent(kRun);
+    tabs_->setCurrentWidget(log_);
+    showButtons();
+    desk_.run(*std::exchange(asked_, std::nullopt));
+}
+
+void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     if (!running_) return;
     const auto feed = desk_.takeRunFeed();
     for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
     for (const auto& trial : feed.trials) plane_->add(trial);
     if (!feed.captures.empty()) wave_->show(feed.captures.back());
-    if (const auto open = desk_.open(); open && desk_.activity() == Activity::Running && plane_->trials() == 0)
-        plane_->begin(open->simulated());
-    if (!feed.progress) return;
-    const auto& progress = *feed.progress;
-    progress_->setRange(0, int(progress.total));
-    progress_->setValue(int(progress.done));
-    progress_->setFormat(
-        tr("%1: %2 of %3").arg(QString::fromStdString(progress.label)).arg(progress.done).arg(progress.total));
-    if (progress.done > 0 && progress.total > progress.done && !paused_) {
-        const double perStep = double(since_.elapsed()) / 1000 / double(progress.done);
-        left_->setText(tr("about %1 left").arg(timeText(perStep * double(progress.total - progress.done))));
-    }
+    if (feed.progress) steps_->setNote(kRun, tr("%1 of %2").arg(feed.progress->done).arg(feed.progress->total));
+    // It may have been paused and resumed from elsewhere.
+    const bool isPaused = telemetry.state == InterlockState::Paused;
+    if (isPaused != std::exchange(seenPaused_, isPaused)) paused_ = isPaused;
+    panel_->show(feed.progress ? &*feed.progress : nullptr, paused_, prompt_->open());
 }
 
 void ProtocolWorkspace::ended(const FinishedRun& run) {
     if (!running_) return;
     refresh({});
     running_ = false;
-    paused_ = false;
-    progress_->setRange(0, 1);
-    progress_->setValue(run.result.outcome.error ? 0 : 1);
-    progress_->setFormat(run.result.outcome.error ? tr("ended early") : tr("done"));
-    left_->setText(tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
-    steps_->setCurrent(run.result.outcome.error ? kResult : kAllDone);
-    result_->show(run);
-    tabs_->setCurrentIndex(kResultTab);
-    showButtons();
+    prompt_->close();
     const auto& error = run.result.outcome.error;
-    if (error && run.result.session.empty()) say(QString::fromStdString(error->message) + tr(" Output is off."));
-    if (editor_ != nullptr && editor_->isVisible() && error && run.result.outcome.line > 0)
+    plane_->setSimulated(run.result.simulated);
+    panel_->end(error.has_value());
+    result_->show(run);
+    steps_->setCurrent(kAllDone);
+    steps_->setTroubled(kRun, false);
+    steps_->setNote(kResult, result_->word());
+    tabs_->setCurrentWidget(result_);
+    showButtons();
+    if (!error) return;
+    if (run.result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
+    if (editor_ != nullptr && editor_->isVisible() && run.result.outcome.line > 0)
         editor_->showError(run.result.outcome.line, QString::fromStdString(error->message));
 }
 
 void ProtocolWorkspace::showButtons() {
-    run_->setEnabled(!running_ && declaration_.has_value());
-    pause_->setEnabled(running_);
-    pause_->setText(paused_ ? tr("Res&ume") : tr("Pa&use"));
-    stop_->setEnabled(running_);
+    panel_->setReady(declaration_.has_value());
     form_->setEnabled(!running_);
+    wiring_->setEnabled(!running_);
     if (chooser_ != nullptr) chooser_->setEnabled(!running_);
 }
 
-void ProtocolWorkspace::edit(int line, const QString& why) {
+void ProtocolWorkspace::edit(const ProtocolSource& source, int line, const QString& why) {
     if (editor_ == nullptr) {
         editor_ = new ScriptEditor(this);
-        connect(editor_, &ScriptEditor::saved, this, [this](const QString& path) {
-            const auto name = QFileInfo(path).baseName();
-            if (chooser_ != nullptr)
-                fillChooser(name);
-            else if (name == fixed_)
-                choose(fixed_);
+        connect(editor_, &ScriptEditor::saved, this, &ProtocolWorkspace::saved);
+        connect(editor_, &ScriptEditor::runRequested, this, [this](const QString& path) {
+            editor_->hide();
+            window()->activateWindow();
+            saved(path);
+            goTo(kSettings);
         });
-        connect(editor_, &ScriptEditor::runRequested, this, [this] { editor_->hide(); });
     }
-    editor_->show(source_);
+    editor_->edit(source);
     if (line > 0) editor_->showError(line, why);
+}
+
+void ProtocolWorkspace::saved(const QString& path) {
+    if (running_) return;  // the next choice reads it
+    const auto name = QFileInfo(path).completeBaseName();
+    if (chooser_ != nullptr)
+        fillChooser(name);
+    else if (name == fixed_)
+        choose(fixed_);
 }
 
 void ProtocolWorkspace::openReport(const QString& pdf) {
     document_->load(pdf);
-    tabs_->setTabEnabled(kReport, document_->pageCount() > 0);
-    if (document_->pageCount() > 0)
-        tabs_->setCurrentIndex(kReport);
+    const bool readable = document_->pageCount() > 0;
+    tabs_->setTabEnabled(tabs_->indexOf(pdf_), readable);
+    if (readable)
+        tabs_->setCurrentWidget(pdf_);
     else
-        say(tr("%1 cannot be shown here.").arg(pdf));
+        panel_->say(tr("%1 cannot be shown here. Open it with another program.").arg(pdf));
 }
 
 }  // namespace tacto::gui

@@ -6,21 +6,18 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QCheckBox>
+#include <QBoxLayout>
 #include <QComboBox>
-#include <QElapsedTimer>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPdfDocument>
 #include <QPdfView>
 #include <QPlainTextEdit>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QSpinBox>
+#include <QScrollArea>
 #include <QTabWidget>
 #include <QTimer>
 
 #include "app/gui/desk/BenchDesk.h"
+#include "app/gui/runner/ScriptReading.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -30,9 +27,11 @@ class ExposureTable;
 class ParameterForm;
 class PromptPanel;
 class ResultPanel;
+class RunPanel;
 class ScriptEditor;
 class StepList;
 class TrialPlane;
+class WiringPanel;
 
 class ProtocolWorkspace final : public QWidget {
     Q_OBJECT
@@ -41,19 +40,33 @@ public:
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] bool running() const { return running_; }
 
+signals:
+    /// A running protocol asks a question that must be seen here.
+    void attentionWanted();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
-    [[nodiscard]] QWidget* buildSettings();
-    [[nodiscard]] QWidget* buildDevices(QWidget* parent);
-    [[nodiscard]] QWidget* buildRun();
+    [[nodiscard]] QWidget* buildPath();
+    [[nodiscard]] QWidget* buildHead(QWidget* parent);
+    [[nodiscard]] QWidget* buildPlots();
     [[nodiscard]] QWidget* buildTabs();
+    void buildKeys();
+    void placeWave();
+
     void fillChooser(const QString& select);
     void choose(const QString& nameOrPath);
+    void declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration);
+    void goTo(int step);
+    void judge();
     void preview();
-    void say(const QString& what);
-    void run();
+    void runAsked();
+    void runNow();
     void ended(const FinishedRun& run);
     void showButtons();
-    void edit(int line, const QString& why);
+    void edit(const ProtocolSource& source, int line, const QString& why);
+    void saved(const QString& path);
     void openReport(const QString& pdf);
     [[nodiscard]] Result<RunOrder> order();
 
@@ -61,30 +74,24 @@ private:
     const QString fixed_;  ///< the one protocol, or empty
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
+    std::optional<RunOrder> asked_;  // waits for the second step
     bool running_ = false;
-    bool paused_ = false;
-    QElapsedTimer since_;
-    QString session_;
+    bool paused_ = false;  // asked for here, or seen
+    bool seenPaused_ = false;
 
     StepList* steps_ = nullptr;
     QComboBox* chooser_ = nullptr;
     QLabel* purpose_ = nullptr;
-    QLabel* wiring_ = nullptr;
+    QScrollArea* before_ = nullptr;  // wiring and settings
+    WiringPanel* wiring_ = nullptr;
     ParameterForm* form_ = nullptr;
-    QLineEdit* devices_ = nullptr;
-    QSpinBox* seed_ = nullptr;
-    QCheckBox* realtime_ = nullptr;
-    QLineEdit* out_ = nullptr;
-    QLabel* trouble_ = nullptr;
-    QPushButton* run_ = nullptr;
-    QPushButton* pause_ = nullptr;
-    QPushButton* stop_ = nullptr;
-    QProgressBar* progress_ = nullptr;
-    QLabel* left_ = nullptr;
+    RunPanel* panel_ = nullptr;
     PromptPanel* prompt_ = nullptr;
+    QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
     CaptureStrip* wave_ = nullptr;
     QTabWidget* tabs_ = nullptr;
+    QWidget* worstPage_ = nullptr;
     ExposureTable* worst_ = nullptr;
     QLabel* worstSays_ = nullptr;
     QPlainTextEdit* log_ = nullptr;
@@ -93,6 +100,7 @@ private:
     QPdfView* pdf_ = nullptr;
     ScriptEditor* editor_ = nullptr;
     QTimer previewLater_;
+    ScriptReading reading_;  // Last: its thread ends first
 };
 
 }  // namespace tacto::gui

@@ -13,6 +13,12 @@ ReportMaker::ReportMaker(QObject* parent) : QObject(parent) {
     });
 }
 
+ReportMaker::~ReportMaker() {
+    process_.disconnect(this);
+    process_.kill();
+    process_.waitForFinished(1000);  // a killed process ends at once
+}
+
 void ReportMaker::make(const QString& session, const QString& out) {
     queue_.append({session, out});
     if (process_.state() == QProcess::NotRunning) next();
@@ -23,6 +29,7 @@ void ReportMaker::cancel() {
     if (process_.state() == QProcess::NotRunning) return;
     cancelled_ = true;
     process_.kill();
+    process_.waitForFinished(1000);  // at once; failed() comes from here
 }
 
 void ReportMaker::next() {
@@ -40,7 +47,7 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     else if (status == QProcess::CrashExit)
         emit failed(tr("No report: the program that draws it ended unexpectedly. The session is complete."));
     else if (code != 0)
-        emit failed(tr("No report: %1").arg(said));
+        emit failed(tr("No report: %1. The session is complete.").arg(said));
     else
         emit done(out_);
     next();

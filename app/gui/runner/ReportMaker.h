@@ -14,9 +14,10 @@ class ReportMaker final : public QObject {
     Q_OBJECT
 public:
     explicit ReportMaker(QObject* parent = nullptr);
-    /// Queued after what is being made. `out` ends in .pdf or .html.
+    ~ReportMaker() override;  ///< ends what is being made
+    /// Queued after what is being made. `out` ends in .pdf or .html. done() or failed() follows for each.
     void make(const QString& session, const QString& out);
-    /// Ends what is being made, and forgets the queue. Nothing half-written stays.
+    /// Ends what is being made, with failed(), and forgets the queue. Nothing half-written stays.
     void cancel();
     [[nodiscard]] bool busy() const { return process_.state() != QProcess::NotRunning || !queue_.isEmpty(); }
 
@@ -30,7 +31,7 @@ private:
     QProcess process_;
     QList<QPair<QString, QString>> queue_;
     QString out_;
-    bool cancelled_ = false;
+    bool cancelled_ = false;  // by the person, who needs no error
 };
 
 }  // namespace tacto::gui

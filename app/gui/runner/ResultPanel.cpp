@@ -1,195 +1,186 @@
 #include "app/gui/runner/ResultPanel.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
-#include <QHeaderView>
+#include <QScrollArea>
+#include <QUrl>
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/runner/ResultTables.h"
 
 namespace tacto::gui {
 
-namespace {
-
-QString wordsOf(const nlohmann::json& value, const QString& key) {
-    if (value.is_null()) return "–";
-    if (value.is_string()) return QString::fromStdString(value.get<std::string>());
-    if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
-    if (value.is_number_integer()) return QString::number(value.get<long long>());
-    const auto column = columnName(key);
-    if (value.is_number()) return quantityText(value.get<double>(), column.unit, 4);
-    return {};
-}
-
-/// "9.999 V (sd 1.2 mV, n = 25)" of a statistic, "100 % (96.3 to 100 %)" of an estimate; else empty.
-QString summaryOf(const nlohmann::json& value, const QString& key) {
-    if (!value.is_object()) return {};
-    const auto unit = columnName(key).unit;
-    const auto number = [&](const char* name) {
-        const auto at = value.find(name);
-        return at != value.end() && at->is_number() ? at->get<double>() : std::nan("");
-    };
-    if (value.contains("mean") && value.contains("n")) {
-        return QObject::tr("%1 (sd %2, n = %3)")
-            .arg(quantityText(number("mean"), unit, 4), quantityText(number("sd"), unit, 2))
-            .arg(int(number("n")));
-    }
-    if (value.contains("low") && value.contains("high") && value.contains("value")) {
-        return QObject::tr("%1 (95 %: %2 to %3)")
-            .arg(QString::number(number("value"), 'g', 4), QString::number(number("low"), 'g', 4),
-                 QString::number(number("high"), 'g', 4));
-    }
-    return {};
-}
-
-void grow(QTreeWidgetItem* parent, QTreeWidget* tree, const QString& key, const nlohmann::json& value) {
-    const auto name = columnName(key);
-    auto* item = parent != nullptr ? new QTreeWidgetItem(parent) : new QTreeWidgetItem(tree);
-    item->setText(0, name.title.isEmpty() ? key : name.title);
-    if (const auto summary = summaryOf(value, key); !summary.isEmpty()) {
-        item->setText(1, summary);
-        return;
-    }
-    if (value.is_object()) {
-        if (value.contains("name") && value["name"].is_string()) item->setText(0, wordsOf(value["name"], "name"));
-        if (value.contains("a") && value.contains("b")) {
-            item->setText(0, QString("%1 / %2").arg(wordsOf(value["a"], "a"), wordsOf(value["b"], "b")));
-        }
-        for (const auto& [inner, part] : value.items()) {
-            if (inner == "name" || inner == "a" || inner == "b") continue;
-            grow(item, tree, QString::fromStdString(inner), part);
-        }
-    } else if (value.is_array()) {
-        const bool numbers = std::all_of(value.begin(), value.end(), [](const auto& v) { return v.is_number(); });
-        QStringList row;
-        int index = 0;
-        for (const auto& part : value) {
-            if (numbers)
-                row << wordsOf(part, key);
-            else
-                grow(item, tree, QString::number(++index), part);
-        }
-        item->setText(1, numbers ? row.join("   ") : QObject::tr("%n row(s)", nullptr, int(value.size())));
-    } else {
-        item->setText(1, wordsOf(value, key));
-    }
-}
-
-}  // namespace
-
-VerdictLook verdictLook(const QString& verdict) {
+VerdictLook verdictLook(const QString& key) {
     const auto& c = colours();
-    if (verdict == "pass") return {QObject::tr("✔ PASS"), c.good};
-    if (verdict == "fail") return {QObject::tr("✖ FAIL"), c.fault};
-    if (verdict == "stopped") return {QObject::tr("■ STOPPED"), c.amber};
-    if (verdict == "indeterminate") return {QObject::tr("? INDETERMINATE"), c.amber};
-    return {QObject::tr("– NO VERDICT"), c.text};
+    if (key == "pass") return {"✔", QObject::tr("PASS"), c.good};
+    if (key == "fail") return {"✖", QObject::tr("FAIL"), c.amber};
+    if (key == "stopped") return {"■", QObject::tr("STOPPED"), c.amber};
+    if (key == "indeterminate") return {"?", QObject::tr("INDETERMINATE"), c.amber};
+    if (key == "error") return {"✖", QObject::tr("DID NOT RUN TO ITS END"), c.amber};
+    return {"–", QObject::tr("NO VERDICT"), c.text};
 }
 
 ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent), maker_(this) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    verdict_ = new QLabel(this);
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    auto* area = new QScrollArea(this);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    auto* page = new QWidget(area);
+    auto* layout = new QVBoxLayout(page);
+    empty_ = new QLabel(tr("The verdict, why, and the numbers appear here after a run."), page);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
+    empty_->setWordWrap(true);
+    layout->addWidget(empty_);
+    verdict_ = new QLabel(page);
     verdict_->setObjectName("verdict");
     auto font = verdict_->font();
     font.setPointSizeF(font.pointSizeF() * 1.8);
     font.setBold(true);
     verdict_->setFont(font);
     layout->addWidget(verdict_);
-    why_ = new QLabel(this);
+    why_ = new QLabel(page);
     why_->setObjectName("verdictWhy");
     why_->setWordWrap(true);
     why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     layout->addWidget(why_);
-    toScript_ = new QPushButton(tr("Show the &line in the script"), this);
-    connect(toScript_, &QPushButton::clicked, this, [this] { emit scriptErrorChosen(errorLine_); });
+    toScript_ = new QPushButton(tr("Show the &line in the script"), page);
+    toScript_->setObjectName("toScript");
+    toScript_->setToolTip(tr("Opens the script with the line marked at which it ended."));
+    toScript_->setAutoDefault(false);
+    connect(toScript_, &QPushButton::clicked, this, [this] { emit scriptErrorChosen(errorLine_, error_); });
     layout->addWidget(toScript_, 0, Qt::AlignLeft);
-    numbers_ = new QTreeWidget(this);
-    numbers_->setAccessibleName(tr("Results"));
-    numbers_->setHeaderLabels({tr("Result"), tr("Value")});
-    numbers_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-    numbers_->setAlternatingRowColors(true);
-    layout->addWidget(numbers_, 1);
-    files_ = new QLabel(this);
+    numbers_ = new ResultTables(page);
+    layout->addWidget(numbers_);
+    files_ = new QLabel(page);
+    files_->setObjectName("sessionPath");
     files_->setWordWrap(true);
-    files_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    files_->setOpenExternalLinks(true);
+    files_->setTextInteractionFlags(Qt::TextBrowserInteraction);
+    files_->setToolTip(tr("Everything the run recorded. The link opens its folder."));
     layout->addWidget(files_);
-    auto* row = new QHBoxLayout;
-    openReport_ = new QPushButton(tr("Open the re&port"), this);
-    openReport_->setToolTip(tr("The PDF, here in the window."));
-    connect(openReport_, &QPushButton::clicked, this, [this] { emit reportReady(report_); });
-    cancelReport_ = new QPushButton(tr("Cancel the report"), this);
-    connect(cancelReport_, &QPushButton::clicked, &maker_, &ReportMaker::cancel);
-    reportState_ = new QLabel(this);
-    reportState_->setWordWrap(true);
-    row->addWidget(openReport_);
-    row->addWidget(cancelReport_);
-    row->addWidget(reportState_, 1);
-    layout->addLayout(row);
+    layout->addStretch();
+    area->setWidget(page);
+    outer->addWidget(area, 1);
+    outer->addWidget(buildReportRow());
     connect(&maker_, &ReportMaker::done, this, [this](const QString& out) {
-        if (out.endsWith(".pdf")) report_ = out;
-        openReport_->setEnabled(!report_.isEmpty());
-        cancelReport_->setVisible(maker_.busy());
-        reportState_->setText(maker_.busy() ? tr("Drawing the report…") : tr("The report is written."));
+        const bool pdf = out.endsWith(".pdf");
+        if (pdf) report_ = out;
+        showReportState(tr("The report is written, as PDF and HTML."));
+        if (pdf) emit reportReady(out);
     });
     connect(&maker_, &ReportMaker::failed, this, [this](const QString& why) {
-        cancelReport_->setVisible(maker_.busy());
-        reportState_->setText(why);
+        if (reportFault_.isEmpty()) reportFault_ = why;
+        showReportState({});
     });
     clear();
 }
 
+QWidget* ResultPanel::buildReportRow() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    openReport_ = new QPushButton(tr("Open the re&port"), holder);
+    openReport_->setToolTip(tr("Shows the PDF, here in the window."));
+    connect(openReport_, &QPushButton::clicked, this, [this] { emit reportWanted(report_); });
+    drawing_ = new QProgressBar(holder);
+    drawing_->setRange(0, 0);
+    drawing_->setTextVisible(false);
+    drawing_->setAccessibleName(tr("Drawing the report"));
+    drawing_->setMaximumWidth(fontMetrics().averageCharWidth() * 14);
+    cancelReport_ = new QPushButton(tr("&Cancel the report"), holder);
+    cancelReport_->setToolTip(tr("The session is complete; its report can be drawn later, under Sessions."));
+    connect(cancelReport_, &QPushButton::clicked, &maker_, &ReportMaker::cancel);
+    reportState_ = new QLabel(holder);
+    reportState_->setObjectName("reportState");
+    reportState_->setWordWrap(true);
+    for (auto* button : {openReport_, cancelReport_}) button->setAutoDefault(false);
+    row->addWidget(openReport_);
+    row->addWidget(drawing_);
+    row->addWidget(cancelReport_);
+    row->addWidget(reportState_, 1);
+    return holder;
+}
+
+void ResultPanel::showReportState(const QString& said) {
+    const bool busy = maker_.busy();
+    openReport_->setEnabled(!report_.isEmpty());
+    drawing_->setVisible(busy);
+    cancelReport_->setVisible(busy);
+    reportState_->setText(!reportFault_.isEmpty() ? "⚠ " + reportFault_ : busy ? tr("Drawing the report…") : said);
+}
+
 void ResultPanel::clear() {
-    verdict_->setText({});
-    why_->setText({});
-    files_->setText({});
-    reportState_->setText({});
-    numbers_->clear();
-    report_.clear();
+    maker_.cancel();
+    verdictKey_.clear();
+    word_.clear();
+    error_.clear();
     errorLine_ = 0;
-    openReport_->setEnabled(false);
-    cancelReport_->hide();
+    for (auto* label : {verdict_, why_, files_}) {
+        label->setText({});
+        label->hide();
+    }
+    empty_->show();
+    numbers_->show({});
+    report_.clear();
+    reportFault_.clear();
+    showReportState({});
+    openReport_->parentWidget()->hide();
     toScript_->hide();
 }
 
 void ResultPanel::show(const FinishedRun& run) {
     clear();
     const auto& outcome = run.result.outcome;
-    const auto look = verdictLook(QString::fromStdString(run.result.verdict()));
-    verdict_->setText(outcome.error && run.result.verdict().empty() ? tr("✖ DID NOT RUN TO ITS END") : look.text);
-    auto palette = this->palette();
-    palette.setColor(QPalette::WindowText,
-                     outcome.error && run.result.verdict().empty() ? colours().fault : look.colour);
-    verdict_->setPalette(palette);
+    verdictKey_ = QString::fromStdString(run.result.verdict());
+    if (outcome.error && verdictKey_.isEmpty()) verdictKey_ = "error";
+    const auto look = verdictLook(verdictKey_);
+    word_ = look.word;
+    verdict_->setText(look.shape + "  " + look.word);
+    colour();
     QStringList why;
-    if (outcome.error) why << QString::fromStdString(outcome.error->message) + tr(" Output is off.");
     for (const auto& reason : outcome.reasons) why << QString::fromStdString(reason);
+    if (outcome.error) {
+        error_ = QString::fromStdString(outcome.error->message);
+        auto sentence = error_;
+        if (!sentence.endsWith('.')) sentence += '.';
+        why << sentence + tr(" Output is off.");
+    }
     for (const auto& trouble : run.result.troubles) why << QString::fromStdString(trouble.message);
     if (outcome.abandoned) {
         why << tr(
-            "The script still runs and was given up: it cannot reach the bench any more. Output is off. Restart "
-            "the program when you can.");
+            "The script did not end when it was told to and was given up: it cannot reach the bench any more. "
+            "Output is off. Restart the program when you can.");
     }
     if (run.result.simulated) why << tr("SIMULATED: no number here was measured on hardware.");
+    if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
     why_->setText(why.join("\n"));
+    empty_->hide();
+    verdict_->show();
+    why_->show();
     errorLine_ = outcome.line;
     toScript_->setVisible(outcome.error && outcome.line > 0);
-    showNumbers(outcome.results);
+    numbers_->show(outcome.results);
     const auto session = QString::fromStdString(run.result.session.string());
     if (session.isEmpty()) return;  // it never began
-    files_->setText(tr("Session: %1").arg(session));
-    reportState_->setText(tr("Drawing the report…"));
-    cancelReport_->show();
-    maker_.make(session, QString::fromStdString(run.pdf.string()));
-    maker_.make(session, QString::fromStdString(run.html.string()));
+    const auto folder = QUrl::fromLocalFile(QString::fromStdString(run.result.session.parent_path().string()));
+    files_->setText(tr("Session: <a href=\"%1\">%2</a>").arg(folder.toString(), session.toHtmlEscaped()));
+    files_->show();
+    openReport_->parentWidget()->show();
+    if (!run.pdf.empty()) maker_.make(session, QString::fromStdString(run.pdf.string()));
+    if (!run.html.empty()) maker_.make(session, QString::fromStdString(run.html.string()));
+    showReportState({});
 }
 
-void ResultPanel::showNumbers(const nlohmann::json& results) {
-    if (!results.is_object()) return;
-    for (const auto& [key, value] : results.items()) {
-        if (key == "trials") continue;  // one point each in the plane above
-        grow(nullptr, numbers_, QString::fromStdString(key), value);
-    }
-    numbers_->expandToDepth(0);
+void ResultPanel::colour() {
+    auto palette = this->palette();
+    palette.setColor(QPalette::WindowText, verdictLook(verdictKey_).colour);
+    verdict_->setPalette(palette);
+}
+
+void ResultPanel::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) colour();
 }
 
 }  // namespace tacto::gui

@@ -1,25 +1,15 @@
 #include "app/gui/runner/ScriptEditor.h"
 
 #include <QDir>
-#include <QHBoxLayout>
-#include <QInputDialog>
-#include <QPointer>
 #include <QRegularExpression>
 #include <QSaveFile>
-#include <QSplitter>
-#include <QTextBrowser>
-#include <QVBoxLayout>
-#include <thread>
 
 #include "app/gui/look/Look.h"
 #include "app/scripting/ProtocolLibrary.h"
-#include "app/scripting/ScriptRun.h"
 
 namespace tacto::gui {
 
 namespace {
-
-constexpr int kCheckAfter_ms = 600;
 
 constexpr const char* kTemplate = R"js(// What this protocol finds out.
 protocol({
@@ -41,117 +31,90 @@ function run(p) {
 
 }  // namespace
 
-ScriptEditor::ScriptEditor(QWidget* parent) : QDialog(parent) {
-    setWindowTitle(tr("Protocol script"));
-    auto* layout = new QVBoxLayout(this);
-    auto* split = new QSplitter(Qt::Horizontal, this);
-    code_ = new CodeEdit(split);
-    code_->setAccessibleName(tr("Script"));
-    auto* reference = new QTextBrowser(split);
-    reference->setAccessibleName(tr("Reference of the host objects"));
-    reference->setMarkdown(QString::fromStdString(scriptReference()));
-    split->addWidget(code_);
-    split->addWidget(reference);
-    split->setStretchFactor(0, 3);
-    split->setStretchFactor(1, 2);
-    layout->addWidget(split, 1);
-    message_ = new QLabel(this);
-    message_->setObjectName("scriptMessage");
-    message_->setWordWrap(true);
-    message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    layout->addWidget(message_);
-    auto* row = new QHBoxLayout;
-    const auto button = [&](const QString& text, const QString& tip, auto slot) {
-        auto* made = new QPushButton(text, this);
-        made->setToolTip(tip);
-        made->setAutoDefault(false);
-        connect(made, &QPushButton::clicked, this, slot);
-        row->addWidget(made);
-        return made;
-    };
-    button(tr("&Check"), tr("Reads what the script declares. Nothing is delivered."), &ScriptEditor::check);
-    save_ = button(tr("&Save"), tr("Into the lab's own protocols."), &ScriptEditor::save);
-    row->addStretch();
-    run_ = button(tr("Save and &open to run"), tr("Saves, and shows its form in the workspace."), &ScriptEditor::run);
-    button(tr("C&lose"), tr("Closes the editor; unsaved changes are lost."), &QDialog::reject);
-    layout->addLayout(row);
-    later_.setSingleShot(true);
-    connect(&later_, &QTimer::timeout, this, &ScriptEditor::check);
-    connect(code_, &QPlainTextEdit::textChanged, this, [this] { later_.start(kCheckAfter_ms); });
-    resize(fontMetrics().averageCharWidth() * 150, fontMetrics().height() * 42);
-}
-
-void ScriptEditor::show(const ProtocolSource& source) {
+void ScriptEditor::edit(const ProtocolSource& source) {
+    const bool same = !source.text.empty() && source.path == source_.path && source.name == source_.name;
+    if (isVisible() && code_->document()->isModified()) {
+        if (!same) message_->setText(tr("⚠ This script has changes that are not saved. Save it or close it first."));
+        raise();
+        activateWindow();
+        return;
+    }
     source_ = source;
     const bool isNew = source.text.empty();
     code_->setPlainText(isNew ? QString(kTemplate) : QString::fromStdString(source.text));
+    code_->document()->setModified(false);
     code_->setReadOnly(source.shipped);
     code_->mark(0);
-    save_->setText(source.shipped || isNew ? tr("&Save a copy…") : tr("&Save"));
-    setWindowTitle(isNew ? tr("New protocol script")
-                         : tr("Protocol script: %1").arg(QString::fromStdString(source.name)));
+    later_.stop();
+    naming_->hide();
+    leaving_->hide();
+    runWhenSaved_ = leaveWhenSaved_ = false;
     message_->setText(source.shipped
                           ? tr("This protocol comes with the program and cannot be changed here. Save a copy "
                                "to make it the lab's own.")
-                          : QString());
-    if (source.shipped) later_.stop();
-    QDialog::show();
+                      : isNew ? tr("A template to begin with. Save it under a name of its own.")
+                              : QString::fromStdString(source.path.string()));
+    showTitle();
+    show();
     raise();
+    activateWindow();
+    code_->setFocus();
+}
+
+void ScriptEditor::showTitle() {
+    const auto name = source_.name.empty() ? tr("new") : QString::fromStdString(source_.name);
+    setWindowTitle(source_.shipped ? tr("Protocol script: %1 (read-only)").arg(name)
+                                   : tr("Protocol script: %1[*]").arg(name));
+    setWindowModified(code_->document()->isModified());
+    save_->setText(source_.shipped || source_.path.empty() ? tr("&Save a copy…") : tr("&Save"));
 }
 
 void ScriptEditor::showError(int line, const QString& why) {
     code_->mark(line);
-    message_->setText(why);
+    message_->setText("⚠ " + why);
 }
 
 void ScriptEditor::check() {
     ProtocolSource source = source_;
     source.text = code_->toPlainText().toStdString();
     if (source.name.empty()) source.name = "script";
-    // The script's top level runs for up to a second: not on this thread. Only the newest answer counts.
-    const int number = ++*asked_;
-    std::thread([source = std::move(source), number, asked = asked_, editor = QPointer<ScriptEditor>(this)] {
-        auto declaration = readDeclaration(source);
-        QMetaObject::invokeMethod(
-            qApp,
-            [declaration = std::move(declaration), number, asked, editor] {
-                if (editor && *asked == number) editor->checked(declaration);
-            },
-            Qt::QueuedConnection);
-    }).detach();
+    reading_.read(source);
 }
 
 void ScriptEditor::checked(const Result<ProtocolDeclaration>& declaration) {
     if (declaration) {
         code_->mark(0);
         message_->setText(
-            tr("\"%1\" declares %n parameter(s) and reads well.", nullptr, int(declaration->parameters.size()))
+            tr("✔ \"%1\" declares %n parameter(s) and reads well.", nullptr, int(declaration->parameters.size()))
                 .arg(QString::fromStdString(declaration->title)));
         return;
     }
     const auto why = QString::fromStdString(declaration.error().message);
-    static const QRegularExpression place(R"(:(\d+):)");
-    const auto match = place.match(why);
-    showError(match.hasMatch() ? match.captured(1).toInt() : 0, why);
+    // Somebody may be typing: the mark comes, the cursor stays.
+    const auto cursor = code_->textCursor();
+    showError(lineOf(why), why);
+    if (code_->hasFocus()) code_->setTextCursor(cursor);
 }
 
 void ScriptEditor::save() {
     if (!source_.shipped && !source_.path.empty()) return saveTo(QString::fromStdString(source_.path.string()));
-    auto* dialog = new QInputDialog(this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("Save a copy"));
-    dialog->setLabelText(tr("Name of the protocol (letters, digits, - and _)"));
-    dialog->setTextValue(source_.name.empty() ? "my-protocol" : "my-" + QString::fromStdString(source_.name));
-    connect(dialog, &QInputDialog::textValueSelected, this, [this](const QString& name) {
-        static const QRegularExpression fitting("^[A-Za-z0-9_-]+$");
-        if (!fitting.match(name).hasMatch()) {
-            message_->setText(tr("\"%1\" is no name for a protocol; letters, digits, - and _ are expected.").arg(name));
-            return;
-        }
-        saveTo(QString::fromStdString((userProtocolsFolder() / (name.toStdString() + ".js")).string()));
-    });
-    connect(dialog, &QDialog::rejected, this, [this] { runWhenSaved_ = false; });
-    dialog->open();
+    name_->setText(source_.name.empty() ? "my-protocol" : "my-" + QString::fromStdString(source_.name));
+    naming_->show();
+    leaving_->hide();
+    name_->setFocus();
+    name_->selectAll();
+}
+
+void ScriptEditor::saveAs(const QString& name) {
+    static const QRegularExpression fitting("^[A-Za-z0-9_-]+$");
+    if (!fitting.match(name).hasMatch())
+        return message_->setText(
+            tr("⚠ \"%1\" is no name for a protocol: letters, digits, - and _ are expected.").arg(name));
+    const auto path = QString::fromStdString((userProtocolsFolder() / (name.toStdString() + ".js")).string());
+    if (QFileInfo::exists(path))
+        return message_->setText(
+            tr("⚠ The lab has a protocol %1 already. Choose another name, or edit that one.").arg(name));
+    saveTo(path);
 }
 
 void ScriptEditor::saveTo(const QString& path) {
@@ -159,23 +122,34 @@ void ScriptEditor::saveTo(const QString& path) {
     QSaveFile file(path);
     const auto text = code_->toPlainText().toUtf8();
     if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit()) {
-        message_->setText(tr("%1 was not saved: %2.").arg(path, file.errorString()));
-        return;
+        runWhenSaved_ = leaveWhenSaved_ = false;
+        return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.").arg(path, file.errorString()));
     }
     source_.path = path.toStdString();
-    source_.name = QFileInfo(path).baseName().toStdString();
+    source_.name = QFileInfo(path).completeBaseName().toStdString();
+    source_.text = text.toStdString();
     source_.shipped = false;
+    naming_->hide();
     code_->setReadOnly(false);
-    save_->setText(tr("&Save"));
-    setWindowTitle(tr("Protocol script: %1").arg(QFileInfo(path).baseName()));
+    code_->document()->setModified(false);
+    showTitle();
     message_->setText(tr("Saved to %1.").arg(path));
     emit saved(path);
+    check();
     if (std::exchange(runWhenSaved_, false)) emit runRequested(path);
+    if (std::exchange(leaveWhenSaved_, false)) leave();
 }
 
-void ScriptEditor::run() {
-    runWhenSaved_ = true;
-    save();
+void ScriptEditor::reject() {
+    if (!code_->document()->isModified()) return leave();
+    leaving_->show();
+    if (auto* first = leaving_->findChild<QPushButton*>()) first->setFocus();
+}
+
+void ScriptEditor::leave() {
+    code_->document()->setModified(false);
+    later_.stop();
+    QDialog::reject();
 }
 
 }  // namespace tacto::gui

@@ -1,6 +1,7 @@
 #include "app/gui/runner/TrialPlane.h"
 
 #include "app/gui/look/Look.h"
+#include "app/gui/runner/PlotMenu.h"
 
 namespace tacto::gui {
 
@@ -10,8 +11,13 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     xAxis->setLabel(tr("interval (s)"));
     yAxis->setLabel(tr("amplitude (V)"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
-    legend->setVisible(true);
-    axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignRight | Qt::AlignTop);
+    // Above the axes, in a row: inside, it would hide points.
+    axisRect()->insetLayout()->take(legend);
+    plotLayout()->insertRow(0);
+    plotLayout()->addElement(0, 0, legend);
+    plotLayout()->setRowStretchFactor(0, 0.001);
+    legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    addPlotMenu(*this, "trials");
     watermark_ = addWatermark(*axisRect());
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
@@ -31,6 +37,12 @@ void TrialPlane::begin(bool simulated) {
     xAxis->setRange(0, 2.2);
     yAxis->setRange(0, 44);
     colour();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void TrialPlane::setSimulated(bool simulated) {
+    if (watermark_->visible() == simulated) return;
+    watermark_->setVisible(simulated);
     replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -79,7 +91,7 @@ void TrialPlane::colour() {
     empty_->setColor(c.quiet);
     legend->setTextColor(c.text);
     legend->setBrush(QBrush(c.base));
-    legend->setBorderPen(QPen(c.grid));
+    legend->setBorderPen(Qt::NoPen);
     legend->setFont(QApplication::font());
     int index = 0;
     for (const auto& [name, graph] : conditions_) {

@@ -14,6 +14,7 @@ class TrialPlane final : public QCustomPlot {
 public:
     explicit TrialPlane(QWidget* parent = nullptr);
     void begin(bool simulated);
+    void setSimulated(bool simulated);
     /// A trial as record.trial() was given it; one without both features is counted and not drawn.
     void add(const nlohmann::json& trial);
     [[nodiscard]] int trials() const { return trials_; }

@@ -1,0 +1,202 @@
+#include "app/gui/runner/RunPanel.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+#include <cmath>
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kMinute_s = 60;
+constexpr double kMinutesFrom_s = 90;
+
+QString timeText(double seconds) {
+    if (seconds < kMinutesFrom_s) return QObject::tr("%1 s").arg(std::max(1, int(std::ceil(seconds))));
+    return QObject::tr("%1 min").arg(int(std::ceil(seconds / kMinute_s)));
+}
+
+}  // namespace
+
+void TimeLeft::note(const ScriptProgress& progress, bool paused, double now_s) {
+    if (seenAt_s_ < 0 || progress.label != label_ || progress.done < done_) {
+        label_ = progress.label;
+        firstDone_ = done_ = progress.done;
+        total_ = progress.total;
+        worked_s_ = workedAtStep_s_ = 0;
+        seenAt_s_ = now_s;
+        return;
+    }
+    if (!paused) worked_s_ += now_s - seenAt_s_;
+    seenAt_s_ = now_s;
+    total_ = progress.total;
+    if (progress.done > done_) workedAtStep_s_ = worked_s_;
+    done_ = progress.done;
+}
+
+std::optional<double> TimeLeft::seconds() const {
+    if (done_ <= firstDone_ || total_ <= done_) return std::nullopt;
+    const double perStep = workedAtStep_s_ / double(done_ - firstDone_);
+    // The step under way has had some of its time.
+    return std::max(0.0, perStep * double(total_ - done_) - (worked_s_ - workedAtStep_s_));
+}
+
+RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    trouble_ = new QLabel(this);
+    trouble_->setObjectName("runTrouble");
+    trouble_->setWordWrap(true);
+    trouble_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    trouble_->hide();
+    layout->addWidget(trouble_);
+    toLine_ = new QPushButton(tr("Show the &line in the script"), this);
+    toLine_->setObjectName("toLine");
+    toLine_->setAutoDefault(false);
+    toLine_->setToolTip(tr("Opens the script with that line marked."));
+    connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
+    toLine_->hide();
+    layout->addWidget(toLine_, 0, Qt::AlignLeft);
+    question_ = buildQuestion();
+    layout->addWidget(question_);
+    auto* row = new QHBoxLayout;
+    run_ = new QPushButton(tr("R&un"), this);
+    run_->setObjectName("runButton");
+    run_->setToolTip(
+        tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is open "
+           "under Live is closed first."));
+    connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
+    pause_ = new QPushButton(this);
+    pause_->setObjectName("pauseButton");
+    pause_->setToolTip(tr("Holds the output back; the script waits at its next step."));
+    connect(pause_, &QPushButton::clicked, this, [this] { emit pauseWanted(!paused_); });
+    stop_ = new QPushButton(tr("&Stop"), this);
+    stop_->setObjectName("stopButton");
+    stop_->setToolTip(tr("Output off; what was recorded so far is kept (Shift+F5)."));
+    connect(stop_, &QPushButton::clicked, this, &RunPanel::stopWanted);
+    for (auto* button : {run_, pause_, stop_}) {
+        button->setAutoDefault(false);
+        row->addWidget(button);
+    }
+    layout->addLayout(row);
+    bar_ = new QProgressBar(this);
+    bar_->setAccessibleName(tr("Progress"));
+    bar_->setRange(0, 1);
+    bar_->setValue(0);
+    bar_->setFormat(tr("not started"));
+    layout->addWidget(bar_);
+    left_ = new QLabel(" ", this);
+    left_->setObjectName("timeLeft");
+    left_->setForegroundRole(QPalette::PlaceholderText);
+    layout->addWidget(left_);
+    showButtons();
+}
+
+QWidget* RunPanel::buildQuestion() {
+    auto* holder = new QWidget(this);
+    auto* column = new QVBoxLayout(holder);
+    column->setContentsMargins(0, 0, 0, 0);
+    questionText_ = new QLabel(holder);
+    questionText_->setObjectName("armQuestion");
+    questionText_->setWordWrap(true);
+    column->addWidget(questionText_);
+    auto* row = new QHBoxLayout;
+    arm_ = new QPushButton(tr("&Arm and run"), holder);
+    arm_->setToolTip(tr("The second of two steps: the protocol may now put out current."));
+    connect(arm_, &QPushButton::clicked, this, [this] {
+        question_->hide();
+        emit confirmed();
+    });
+    auto* back = new QPushButton(tr("&Back"), holder);
+    back->setToolTip(tr("Nothing is opened and nothing put out."));
+    connect(back, &QPushButton::clicked, this, [this] {
+        question_->hide();
+        run_->setFocus();
+    });
+    for (auto* button : {arm_, back}) {
+        button->setAutoDefault(false);
+        row->addWidget(button);
+    }
+    row->addStretch();
+    column->addLayout(row);
+    holder->hide();
+    return holder;
+}
+
+void RunPanel::setReady(bool ready) {
+    ready_ = ready;
+    if (!ready) question_->hide();
+    showButtons();
+}
+
+void RunPanel::say(const QString& what, int line) {
+    said_ = what;
+    line_ = line;
+    toLine_->setVisible(line > 0);
+    trouble_->setText(what.isEmpty() ? QString() : "⚠ " + what);
+    trouble_->setVisible(!what.isEmpty());
+}
+
+void RunPanel::askToArm(const QString& what) {
+    questionText_->setText(what);
+    question_->show();
+    arm_->setFocus();
+}
+
+void RunPanel::begin() {
+    say({});
+    question_->hide();
+    running_ = true;
+    paused_ = false;
+    progress_ = {};
+    since_.restart();
+    timeLeft_.begin();
+    bar_->setRange(0, 0);
+    bar_->setFormat(tr("starting"));
+    left_->setText(tr("opening the devices"));
+    showButtons();
+    stop_->setFocus();
+}
+
+void RunPanel::show(const ScriptProgress* progress, bool paused, bool waiting) {
+    if (!running_) return;
+    if (std::exchange(paused_, paused) != paused) showButtons();
+    const double now_s = double(since_.elapsed()) / 1000;
+    if (progress != nullptr) progress_ = *progress;
+    if (progress_.total == 0) {
+        left_->setText(waiting  ? tr("waits for your answer")
+                       : paused ? tr("paused")
+                                : tr("running for %1").arg(timeText(now_s)));
+        return;
+    }
+    timeLeft_.note(progress_, paused || waiting, now_s);
+    bar_->setRange(0, int(progress_.total));
+    bar_->setValue(int(progress_.done));
+    bar_->setFormat(
+        tr("%1: %2 of %3").arg(QString::fromStdString(progress_.label)).arg(progress_.done).arg(progress_.total));
+    const auto left = timeLeft_.seconds();
+    left_->setText(waiting  ? tr("waits for your answer")
+                   : paused ? tr("paused")
+                   : left   ? tr("about %1 left").arg(timeText(*left))
+                            : tr("time left: not known yet"));
+}
+
+void RunPanel::end(bool early) {
+    running_ = false;
+    paused_ = false;
+    const auto steps = progress_.total > 0 ? tr(" after %1 of %2").arg(progress_.done).arg(progress_.total) : QString();
+    bar_->setRange(0, std::max(1, int(progress_.total)));
+    bar_->setValue(early ? int(progress_.done) : bar_->maximum());
+    bar_->setFormat(early ? tr("ended early%1").arg(steps) : tr("done"));
+    left_->setText(tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
+    showButtons();
+}
+
+void RunPanel::showButtons() {
+    run_->setEnabled(!running_ && ready_);
+    pause_->setEnabled(running_);
+    pause_->setText(paused_ ? tr("&Resume") : tr("&Pause"));
+    stop_->setEnabled(running_);
+}
+
+}  // namespace tacto::gui

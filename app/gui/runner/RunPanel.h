@@ -1,0 +1,78 @@
+// RunPanel.h - run, pause, stop; how far a run is and how long it still takes; what is in the way of one.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/scripting/ScriptRun.h"
+
+namespace tacto::gui {
+
+/// Time left from what the steps so far took: pauses and what came before the first step do not count.
+class TimeLeft {
+public:
+    void begin() { *this = {}; }
+    /// `now_s`: seconds since the run began. Anew when another list of steps begins.
+    void note(const ScriptProgress& progress, bool paused, double now_s);
+    /// Nothing before one step is through, or with none to come.
+    [[nodiscard]] std::optional<double> seconds() const;
+
+private:
+    std::string label_;
+    std::size_t firstDone_ = 0, done_ = 0, total_ = 0;
+    double seenAt_s_ = -1;
+    double worked_s_ = 0;        // since the first report of this list, without pauses
+    double workedAtStep_s_ = 0;  // when the newest step was through
+};
+
+class RunPanel final : public QWidget {
+    Q_OBJECT
+public:
+    explicit RunPanel(QWidget* parent = nullptr);
+    /// Whether there is something to run.
+    void setReady(bool ready);
+    /// A sentence in the way of the run; empty for none. `line` of the script that it is about; 0 for none.
+    void say(const QString& what, int line = 0);
+    /// The second deliberate step before a run on hardware: confirmed() follows, or nothing.
+    void askToArm(const QString& what);
+    void begin();
+    /// At each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
+    void show(const ScriptProgress* progress, bool paused, bool waiting);
+    void end(bool early);
+
+signals:
+    void runWanted();
+    void confirmed();
+    void pauseWanted(bool pause);
+    void stopWanted();
+    void lineWanted(int line, const QString& why);
+
+private:
+    [[nodiscard]] QWidget* buildQuestion();
+    void showButtons();
+    QLabel* trouble_;
+    QPushButton* toLine_;
+    QWidget* question_;
+    QLabel* questionText_ = nullptr;
+    QPushButton* arm_ = nullptr;
+    QPushButton* run_;
+    QPushButton* pause_;
+    QPushButton* stop_;
+    QProgressBar* bar_;
+    QLabel* left_;
+    QElapsedTimer since_;
+    TimeLeft timeLeft_;
+    ScriptProgress progress_;
+    QString said_;
+    int line_ = 0;
+    bool ready_ = false;
+    bool running_ = false;
+    bool paused_ = false;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,145 @@
+#include "app/gui/runner/WiringPanel.h"
+
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QMenu>
+#include <QRegularExpression>
+#include <QToolButton>
+
+#include "app/gui/look/ExposureTable.h"
+
+namespace tacto::gui {
+
+Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
+    static const QRegularExpression between(R"(\s+(?=[a-z_]+:))");
+    std::vector<DeviceUri> uris;
+    for (const auto& word : text.trimmed().split(between, Qt::SkipEmptyParts)) {
+        auto uri = DeviceUri::parse(word.trimmed().toStdString());
+        if (!uri) return failure(uri);
+        uris.push_back(std::move(*uri));
+    }
+    return uris;
+}
+
+WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
+    auto* form = new QFormLayout(this);
+    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+    needs_ = new QLabel(this);
+    needs_->setWordWrap(true);
+    needs_->setForegroundRole(QPalette::PlaceholderText);
+    form->addRow(needs_);
+    auto* devices = buildDevices();
+    form->addRow(tr("&Devices"), devices);
+    static_cast<QLabel*>(form->labelForField(devices))->setBuddy(devices_);
+    trouble_ = new QLabel(this);
+    trouble_->setObjectName("devicesTrouble");
+    trouble_->setWordWrap(true);
+    trouble_->hide();
+    form->addRow(trouble_);
+    seed_ = new QSpinBox(this);
+    seed_->setObjectName("seed");
+    seed_->setRange(0, 1'000'000'000);
+    seed_->setValue(1);
+    seed_->setToolTip(
+        tr("Of everything random: the order of trials, noise. The same seed on simulated devices gives "
+           "the same run, byte for byte."));
+    form->addRow(tr("S&eed"), seed_);
+    realtime_ = new QCheckBox(tr("in real ti&me"), this);
+    realtime_->setObjectName("realtime");
+    realtime_->setToolTip(
+        tr("Simulated devices otherwise run as fast as they can. Hardware always runs in real time."));
+    form->addRow(QString(), realtime_);
+    auto* out = buildOutput();
+    form->addRow(tr("&Output"), out);
+    static_cast<QLabel*>(form->labelForField(out))->setBuddy(out_);
+}
+
+QWidget* WiringPanel::buildDevices() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    devices_ = new QLineEdit("sim:", holder);
+    devices_->setObjectName("devices");
+    devices_->setToolTip(
+        tr("Devices, a blank between them. sim: simulates what no other device does; recording:FOLDER replays a "
+           "recorded fingertip; capture:FOLDER takes the oscilloscope's records from files."));
+    connect(devices_, &QLineEdit::textChanged, this, &WiringPanel::judge);
+    row->addWidget(devices_, 1);
+    auto* add = new QToolButton(holder);
+    add->setText("+");
+    add->setAccessibleName(tr("Add a recording or captures"));
+    add->setToolTip(tr("Takes a recording or oscilloscope records in the place of a device."));
+    add->setPopupMode(QToolButton::InstantPopup);
+    add->setFocusPolicy(Qt::StrongFocus);
+    auto* menu = new QMenu(add);
+    menu->addAction(tr("&Simulated devices"), this, [this] { devices_->setText("sim:"); });
+    menu->addAction(tr("A &recording as fingertip…"), this,
+                    [this] { addFolder("recording", tr("Folder of the recording")); });
+    menu->addAction(tr("&Captures as oscilloscope…"), this,
+                    [this] { addFolder("capture", tr("Folder of the captures")); });
+    add->setMenu(menu);
+    row->addWidget(add);
+    return holder;
+}
+
+QWidget* WiringPanel::buildOutput() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    out_ = new QLineEdit(holder);
+    out_->setObjectName("out");
+    out_->setPlaceholderText(tr("the sessions folder"));
+    out_->setToolTip(
+        tr("Folder for the session, its report and its captures as CSV. Empty: the sessions folder, "
+           "without CSV files."));
+    row->addWidget(out_, 1);
+    auto* choose = new QToolButton(holder);
+    choose->setText("…");
+    choose->setAccessibleName(tr("Choose the output folder"));
+    choose->setToolTip(tr("Chooses a folder."));
+    choose->setFocusPolicy(Qt::StrongFocus);
+    connect(choose, &QToolButton::clicked, this, [this] {
+        auto* dialog = new QFileDialog(this, tr("Folder for the run"));
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->setFileMode(QFileDialog::Directory);
+        connect(dialog, &QFileDialog::fileSelected, out_, &QLineEdit::setText);
+        dialog->open();
+    });
+    row->addWidget(choose);
+    return holder;
+}
+
+void WiringPanel::addFolder(const QString& scheme, const QString& title) {
+    auto* dialog = new QFileDialog(this, title);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::Directory);
+    connect(dialog, &QFileDialog::fileSelected, this, [this, scheme](const QString& folder) {
+        devices_->setText(QString("%1:%2 %3").arg(scheme, folder, devices().isEmpty() ? "sim:" : devices()));
+    });
+    dialog->open();
+}
+
+void WiringPanel::show(const ProtocolDeclaration& declaration) {
+    QStringList roles;
+    for (const auto role : declaration.needs) roles << text(nameOf(role));
+    needs_->setText(roles.isEmpty() ? tr("Needs no device.") : tr("Needs: %1.").arg(roles.join(", ")));
+}
+
+Result<void> WiringPanel::fill(RunOrder& order) const {
+    auto uris = devicesOf(devices_->text());
+    if (!uris) return failure(uris);
+    order.uris = std::move(*uris);
+    order.seed = static_cast<std::uint64_t>(seed_->value());
+    order.realtime = realtime_->isChecked();
+    order.out = out_->text().trimmed().toStdString();
+    return {};
+}
+
+void WiringPanel::judge() {
+    const auto uris = devicesOf(devices_->text());
+    trouble_->setText(uris ? QString() : "⚠ " + QString::fromStdString(uris.error().message));
+    trouble_->setVisible(!uris);
+    emit edited();
+}
+
+}  // namespace tacto::gui
