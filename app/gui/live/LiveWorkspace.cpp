@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/gui/live/CommandPanel.h"
 #include "app/gui/live/DrivePanel.h"
@@ -29,7 +30,10 @@ bool isSimulated(const OpenBench& bench, std::string_view role) {
                        [&](const auto& device) { return device.role == role && device.simulated; });
 }
 
-bool isRecording(const LiveOrder& order) { return !order.uris.empty() && order.uris.front().scheme == "recording"; }
+bool isReplay(const OpenBench& bench) {
+    return std::any_of(bench.about.devices.begin(), bench.about.devices.end(),
+                       [](const auto& device) { return device.uri.starts_with("recording:"); });
+}
 
 }  // namespace
 
@@ -46,9 +50,8 @@ void LiveWorkspace::begin() {
         taxels_->setVisible(history_.info(StreamKind::Taxels) != nullptr);
         taxels_->setSimulated(touch);
         command_->setSimulated(source);
-        const bool mine = tap_ && orderPending_;
-        if (tap_) orderPending_ = false;
-        rig_->begin(mine ? order_->speed : 1, mine && isRecording(*order_));
+        rig_->begin(pendingSpeed_.value_or(1), open && isReplay(*open));
+        if (tap_) pendingSpeed_.reset();
     }
     drive_->begin();
     plane_->setOrigin(touch, desk_.profile().roughness.calibrated);
@@ -110,8 +113,7 @@ void LiveWorkspace::readCapture(const Capture& capture) {
 
 void LiveWorkspace::openOrder(LiveOrder order) {
     order.profile = desk_.profile();
-    order_ = order;
-    orderPending_ = true;
+    pendingSpeed_ = order.speed;
     desk_.openLive(order);
 }
 
@@ -145,6 +147,20 @@ void LiveWorkspace::replayExample() {
         return;
     }
     openRecording(QString::fromStdString((*folder / "examples" / "linen-slide").string()));
+}
+
+void LiveWorkspace::replayAgain() {
+    const auto open = desk_.open();
+    if (!open) return;
+    LiveOrder order;
+    order.seed = open->about.seed;
+    order.speed = rig_->speed();
+    std::set<std::string> seen;  // one "sim:" stands for several devices
+    for (const auto& device : open->about.devices) {
+        const auto uri = DeviceUri::parse(device.uri);
+        if (uri && seen.insert(device.uri).second) order.uris.push_back(*uri);
+    }
+    openOrder(std::move(order));
 }
 
 void LiveWorkspace::chooseRecording() {

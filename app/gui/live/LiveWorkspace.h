@@ -53,12 +53,12 @@ private:
     void openSimulated();
     void chooseRecording();
     void replayExample();
+    void replayAgain();
 
     BenchDesk& desk_;
     LiveHistory history_;
     std::shared_ptr<BenchTap> tap_;
-    std::optional<LiveOrder> order_;  // the last that was given here; a replay can be had again
-    bool orderPending_ = false;       // given, and its bench is not open yet
+    std::optional<double> pendingSpeed_;  // of what was ordered here and is not open yet
     QStackedWidget* stack_;
     StripPlots* strips_ = nullptr;
     TaxelMap* taxels_ = nullptr;

@@ -29,6 +29,9 @@ LiveWorkspace::LiveWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(parent)
     connect(&desk_, &BenchDesk::captured, this, [this](std::shared_ptr<const Capture> capture) {
         if (capture) readCapture(*capture);
     });
+    connect(&desk_, &BenchDesk::failed, this, [this] {
+        if (desk_.activity() == Activity::Opening) pendingSpeed_.reset();
+    });
     begin();
 }
 
@@ -89,12 +92,7 @@ QWidget* LiveWorkspace::buildSide() {
     taxels_ = new TaxelMap(side);
     layout->addWidget(taxels_);
     rig_ = new RigPanel(desk_, side);
-    connect(rig_, &RigPanel::replayAgain, this, [this] {
-        if (!order_) return;
-        auto order = *order_;
-        order.speed = rig_->speed();
-        openOrder(std::move(order));
-    });
+    connect(rig_, &RigPanel::replayAgain, this, &LiveWorkspace::replayAgain);
     layout->addWidget(rig_);
     auto* profile = new QPushButton(tr("Encoding pro&file…"), side);
     profile->setToolTip(tr("How R and P become amplitude and interval, and the shape of a pulse."));

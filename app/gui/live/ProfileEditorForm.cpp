@@ -45,6 +45,8 @@ ProfileEditor::ProfileEditor(BenchDesk& desk, QWidget* parent) : QDialog(parent)
     facts_ = new QLabel(this);
     facts_->setObjectName("profileFacts");
     facts_->setWordWrap(true);
+    facts_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    facts_->setMinimumHeight(fontMetrics().height() * 4);
     right->addWidget(facts_);
     split->addLayout(right, 1);
     layout->addLayout(split, 1);

@@ -19,7 +19,7 @@ QCPAxisRect* cell(QCustomPlot& plot, int row, const QString& y) {
     plot.plotLayout()->addElement(row + 1, 0, axes);
     axes->axis(QCPAxis::atLeft)->setLabel(y);
     for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft}) {
-        axes->axis(side)->ticker()->setTickCount(4);
+        axes->axis(side)->ticker()->setTickCount(3);
         axes->axis(side)->setLayer("axes");
         axes->axis(side)->grid()->setLayer("grid");
     }
@@ -52,7 +52,7 @@ ProfilePreview::ProfilePreview(QWidget* parent)
     intervalPoint_ = graphIn(interval_);
     for (auto* point : {amplitudePoint_, intervalPoint_}) point->setLineStyle(QCPGraph::lsNone);
     wave_ = graphIn(pulse_);
-    setMinimumSize(fontMetrics().height() * 20, fontMetrics().height() * 20);
+    setMinimumSize(fontMetrics().height() * 20, fontMetrics().height() * 22);
     colour();
 }
 

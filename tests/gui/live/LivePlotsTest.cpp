@@ -229,6 +229,12 @@ TEST(TaxelMap, IsBluerWhereItIsPressed) {
     const QColor there = image.pixelColor(210, 10), elsewhere = image.pixelColor(110, 10);
     EXPECT_LT(there.lightness(), elsewhere.lightness() - 40);
     EXPECT_GT(there.blue() - there.red(), 80);
+    // Legible on every ground: the text of a full cell is light in the light theme.
+    int lightest = 0;
+    for (int x = 201; x < 299; ++x) {
+        for (int y = 1; y < 99; ++y) lightest = std::max(lightest, image.pixelColor(x, y).lightness());
+    }
+    EXPECT_GT(lightest, 240);
     const auto fresh = map.grab().toImage();
     map.setStale(true);
     EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";

@@ -4,6 +4,7 @@
 #include <QRadioButton>
 #include <QSlider>
 #include <QSplitter>
+#include <QTemporaryDir>
 #include <QTest>
 
 #include "app/gui/live/DrivePanel.h"
@@ -188,6 +189,17 @@ TEST_F(LiveBench, AFolderThatIsNoRecordingIsRefusedWithATemplate) {
     EXPECT_EQ(desk.activity(), gui::Activity::Closed);
 }
 
+TEST_F(LiveBench, ARecordingThatCannotBeReadLeavesTheWorkspaceEmptyAndSaysWhy) {
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("recording.json"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(R"({"title": "t", "streams": [{"kind": "force", "file": "none.csv"}]})");
+    file.close();
+    EXPECT_TRUE(live.openRecording(folder.path())) << "there is something to read";
+    ASSERT_TRUE(comesTrue([this] { return !complaints.isEmpty() && desk.activity() == gui::Activity::Closed; }));
+    EXPECT_NE(find<QPushButton>(live, "Open the simulated bench"), nullptr);
+}
+
 TEST_F(LiveBench, FreezingThePictureDoesNotFreezeTheOutput) {
     ASSERT_TRUE(openSimulated());
     ASSERT_TRUE(armed());
@@ -250,7 +262,8 @@ TEST_F(LiveBench, TheOscilloscopesReadingStandsBesideTheTrain) {
     settings.triggerLevel = 2;
     desk.runScope(settings, false);
     ASSERT_TRUE(comesTrue([this] { return live.plots().scopeReadings().size() >= 2; }));
-    EXPECT_NEAR(live.plots().scopeReadings().back(), 40, 2);
+    for (const double reading : live.plots().scopeReadings()) EXPECT_NEAR(reading, 40, 2);
+    EXPECT_LE(live.plots().scopeReadings().size(), desk.telemetry().trainsDelivered) << "one a train";
     shot(live, "live_scope");
 }
 
