@@ -70,11 +70,11 @@ void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
 }
 
 void CodeEdit::mark(int line) {
-    marked_ = line;
+    marked_ = std::min(line, blockCount());  // engines report a missing brace behind the end
     showMark();
     margin_->update();
     if (line <= 0) return;
-    const auto block = document()->findBlockByNumber(line - 1);
+    const auto block = document()->findBlockByNumber(marked_ - 1);
     if (!block.isValid()) return;
     setTextCursor(QTextCursor(block));
     centerCursor();

@@ -33,7 +33,8 @@ QString plain(const nlohmann::json& value) {
 ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
     auto* form = new QFormLayout(this);
     form->setContentsMargins(0, 0, 0, 0);
-    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
 }
 
 ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {

@@ -114,8 +114,10 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
     first_ = line;
     connect(line, &QLineEdit::returnPressed, this, [this, line] { answer(line->text()); });
     QStringList beside;
-    if (!question.unit.empty()) beside << axisUnit(0, QString::fromStdString(question.unit)).unit;
-    if (const auto range = accepted(question); !range.isEmpty()) beside << "(" + range + ")";
+    if (const auto range = accepted(question); !range.isEmpty())
+        beside << range;
+    else if (!question.unit.empty())
+        beside << axisUnit(0, QString::fromStdString(question.unit)).unit;
     row->addWidget(new QLabel(beside.join(' '), holder));
     line->setToolTip(tr("Type the answer; Return gives it to the protocol."));
     auto* enter = new QPushButton(tr("&Enter"), holder);

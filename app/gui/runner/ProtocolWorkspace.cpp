@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QFileInfo>
+#include <QScrollBar>
 
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
@@ -72,6 +73,9 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
     steps_->setNote(kRun, {});
     steps_->setNote(kResult, {});
     steps_->setCurrent(kSettings);
+    // Settings scroll up and down only: nothing may be cut at the right.
+    before_->setMinimumWidth(before_->widget()->minimumSizeHint().width() +
+                             before_->verticalScrollBar()->sizeHint().width());
     judge();
     showButtons();
 }

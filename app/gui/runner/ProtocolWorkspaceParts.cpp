@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kPreviewAfter_ms = 150;
 constexpr int kLogLines = 5000;  // shown; all of them are in the session
-constexpr int kPathChars = 40;
+constexpr int kPathChars = 48;
 constexpr int kBesideChars = 95;  // plots stand side by side from this width on
 
 }  // namespace

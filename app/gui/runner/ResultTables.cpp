@@ -138,6 +138,7 @@ QTableWidget* ResultTables::addTable(const QString& title, int rows, const QStri
     table->setAlternatingRowColors(true);
     table->setWordWrap(false);
     table->setTabKeyNavigation(false);
+    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     column_->addWidget(table);
     return table;
@@ -157,7 +158,11 @@ void fit(QTableWidget& table) {
     table.resizeRowsToContents();
     int height = table.horizontalHeader()->sizeHint().height() + 2 * table.frameWidth();
     for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
-    table.setFixedHeight(height + table.style()->pixelMetric(QStyle::PM_ScrollBarExtent));
+    int width = 2 * table.frameWidth();
+    for (int column = 0; column < table.columnCount(); ++column) width += table.columnWidth(column);
+    table.setMaximumWidth(width);
+    // Room for its scroll bar, where the page is narrower than it.
+    table.setFixedHeight(height + table.style()->pixelMetric(QStyle::PM_ScrollBarExtent) / 2);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     plotLayout()->insertRow(0);
     plotLayout()->addElement(0, 0, legend);
     plotLayout()->setRowStretchFactor(0, 0.001);
+    legend->setMaximumSize(100000, 100000);  // else an empty one narrows the axes to nothing
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
     addPlotMenu(*this, "trials");
     watermark_ = addWatermark(*axisRect());

@@ -23,7 +23,8 @@ Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
 
 WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     auto* form = new QFormLayout(this);
-    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
     needs_ = new QLabel(this);
     needs_->setWordWrap(true);
     needs_->setForegroundRole(QPalette::PlaceholderText);

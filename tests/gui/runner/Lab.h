@@ -2,12 +2,14 @@
 // is refreshed as the window does it.
 #pragma once
 
+#include <QTest>
 #include <QTimer>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/ProtocolWorkspace.h"
+#include "app/gui/runner/ScriptEditor.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
@@ -39,13 +41,32 @@ protected:
     }
     template <class T>
     T& the(const QString& name) {
-        auto* found = find<T>(*workspace, name);
+        T* found = nullptr;
+        static_cast<void>(comesTrue([&] { return (found = find<T>(*workspace, name)) != nullptr; }));
         if (found == nullptr) throw std::runtime_error("nothing visible is called " + name.toStdString());
         return *found;
     }
     bool ready() {
         return comesTrue([this] { return the<QPushButton>("runButton").isEnabled(); });
     }
+    /// Chooses a protocol in the workspace of all of them.
+    void choose(const QString& protocol) {
+        auto& chooser = the<QComboBox>("chooser");
+        const int index = chooser.findData(protocol);
+        ASSERT_GE(index, 0) << protocol.toStdString();
+        chooser.setCurrentIndex(index);
+    }
+    void type(const QString& field, const QString& text) {
+        auto& line = the<QLineEdit>(field);
+        line.setFocus();
+        line.selectAll();
+        QTest::keyClicks(&line, text);
+    }
+    bool ends(int limit_ms = 60'000) {
+        return comesTrue([this] { return ended != nullptr; }, limit_ms) &&
+               comesTrue([this] { return !says("verdict").isEmpty(); });
+    }
+    gui::ScriptEditor* editor() { return find<gui::ScriptEditor>(*workspace, "scriptEditor"); }
     QString says(const QString& name) {
         const auto* label = find<QLabel>(*workspace, name);
         return label != nullptr ? label->text() : QString();

@@ -1,9 +1,11 @@
 // The workspace of a protocol, used as a person does: from a click to a report.
-#include <QSignalSpy>
-#include <QTest>
+#include <QPdfDocument>
+#include <QPdfView>
+#include <QTabWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/runner/TrialPlane.h"
 #include "tests/gui/runner/Lab.h"
 
 namespace tacto::test {
@@ -11,24 +13,228 @@ namespace {
 
 using testing::HasSubstr;
 
-class Workspace : public Lab {};
+class Workspace : public Lab {
+protected:
+    ~Workspace() override { gui::applyTheme(gui::Theme::Light); }
+};
+
+constexpr const char* kLoop =
+    R"js(protocol({ title: "L", purpose: "Never ends.", needs: ["stimulator"], parameters: {} });
+function run(p) { bench.arm(); log("armed"); for (;;) {} }
+)js";
+
+constexpr const char* kAsk = R"js(protocol({ title: "A", purpose: "Asks.", needs: [], parameters: {} });
+function run(p) {
+  operator.confirm("ready", "Is the room quiet?");
+  log("got " + operator.enter("room", "Room temperature", { unit: "degC", min: 10, max: 40 }));
+}
+)js";
+
+constexpr const char* kBroken = R"js(protocol({ title: "B", purpose: "Breaks.", needs: [], parameters: {} });
+function run(p) {
+  log("here");
+  nothing.of.that();
+}
+)js";
 
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
     ASSERT_TRUE(ready());
+    type("repeats", "2");
+    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("into 1"); }));
     shot(*workspace, "before");
-    auto& repeats = the<QLineEdit>("repeats");
-    repeats.selectAll();
-    QTest::keyClicks(&repeats, "2");
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(comesTrue([this] { return ended != nullptr; }, 60'000));
-    ASSERT_TRUE(comesTrue([this] { return says("verdict").contains("INDETERMINATE"); }));
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("verdict").toStdString(), HasSubstr("INDETERMINATE"));
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("fewer than 73 trials"));
-    ASSERT_TRUE(comesTrue([this] { return the<QPushButton>("Open the report").isEnabled(); }, 60'000));
+    EXPECT_EQ(the<gui::TrialPlane>("Trials").drawn(), 8);
+    EXPECT_EQ(the<QTableWidget>("Conditions").rowCount(), 4);
+    EXPECT_EQ(the<QTableWidget>("Pairs").rowCount(), 6);
+    auto& toReport = the<QPushButton>("Open the report");
+    ASSERT_TRUE(comesTrue([&] { return toReport.isEnabled(); }, 60'000));
     shot(*workspace, "result");
-    click(the<QPushButton>("Open the report"));
+    click(toReport);
     EXPECT_GT(std::filesystem::file_size(ended->pdf), 10'000U);
+    EXPECT_GE(the<QPdfView>("reportView").document()->pageCount(), 1);
+    ASSERT_TRUE(comesTrue([this] { return std::filesystem::exists(ended->html); }, 60'000));
     shot(*workspace, "report");
+}
+
+TEST_F(Workspace, LooksRightDarkAndSmall) {
+    gui::applyTheme(gui::Theme::Dark);
+    open("", {760, 500});
+    choose("separability");
+    ASSERT_TRUE(ready());
+    type("repeats", "2");
+    type("load", "0");
+    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("accepted"); }));
+    shot(*workspace, "small_dark_before");
+    type("load", "470");
+    QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
+    ASSERT_TRUE(ends());
+    shot(*workspace, "small_dark_result");
+    for (const auto* widget : workspace->findChildren<QWidget*>()) {
+        if (!widget->isVisible() || widget->window() != workspace.get()) continue;
+        if (const auto* button = qobject_cast<const QPushButton*>(widget)) {
+            EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text().remove('&')))
+                << "cut: " << button->text().toStdString();
+        }
+    }
+}
+
+TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
+    open("separability");
+    ASSERT_TRUE(ready());
+    type("repeats", "1");
+    ASSERT_TRUE(comesTrue([this] { return !says("trouble-repeats").isEmpty(); }));
+    EXPECT_THAT(says("trouble-repeats").toStdString(), HasSubstr("2"));
+    click(the<QPushButton>("runButton"));
+    EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("a whole number from 2 to 500"));
+    EXPECT_FALSE(workspace->running());
+    EXPECT_EQ(desk.activity(), gui::Activity::Closed);
+    type("repeats", "2");
+    EXPECT_TRUE(comesTrue([this] { return find<QLabel>(*workspace, "trouble-repeats") == nullptr; }));
+    type("devices", "nonsense");
+    EXPECT_TRUE(comesTrue([this] { return !says("devicesTrouble").isEmpty(); }));
+    click(the<QPushButton>("runButton"));
+    EXPECT_FALSE(workspace->running());
+}
+
+TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
+    open("separability");
+    ASSERT_TRUE(ready());
+    ASSERT_TRUE(
+        comesTrue([this] { return says("worstCase").contains("1 kΩ") || says("worstCase").contains("1\u202fkΩ"); }));
+    EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Every limit that can be evaluated is kept"));
+    type("load", "10");
+    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("will be refused"); }))
+        << says("worstCase").toStdString();
+    type("load", "lots");
+    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("when every setting is accepted"); }));
+}
+
+TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
+    write("ask", kAsk);
+    open("");
+    choose("ask");
+    ASSERT_TRUE(ready());
+    gui::ProtocolWorkspace other(desk, "separability");
+    other.show();
+    QTest::keyClick(workspace.get(), Qt::Key_F5);
+    ASSERT_TRUE(comesTrue([this] { return says("question") == "Is the room quiet?"; }));
+    EXPECT_EQ(find<QLabel>(other, "question"), nullptr) << "only where the run was started";
+    click(the<QPushButton>("Done"));
+    ASSERT_TRUE(comesTrue([this] { return says("question") == "Room temperature"; }));
+    type("answer", "99");
+    shot(*workspace, "question");
+    QTest::keyClick(&the<QLineEdit>("answer"), Qt::Key_Return);
+    EXPECT_THAT(says("promptTrouble").toStdString(), HasSubstr("99"));
+    EXPECT_FALSE(ended);
+    type("answer", "21.5");
+    click(the<QPushButton>("Enter"));
+    ASSERT_TRUE(ends());
+    EXPECT_FALSE(ended->result.outcome.error);
+    EXPECT_THAT(ended->result.outcome.log, testing::Contains("got 21.5"));
+    EXPECT_EQ(find<QLabel>(*workspace, "question"), nullptr);
+}
+
+TEST_F(Workspace, ARefusedQuestionEndsTheRun) {
+    write("ask", kAsk);
+    open("");
+    choose("ask");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("runButton"));
+    click(the<QPushButton>("Refuse and end the run"));
+    ASSERT_TRUE(ends());
+    EXPECT_TRUE(ended->result.outcome.error);
+    EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
+}
+
+TEST_F(Workspace, StopsAScriptThatLoopsForEver) {
+    RecordProperty("hazard", "H10");
+    write("loop", kLoop);
+    open("");
+    choose("loop");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; }));
+    EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
+    QTest::keyClick(workspace.get(), Qt::Key_F5, Qt::ShiftModifier);
+    EXPECT_NE(desk.telemetry().state, InterlockState::Armed) << "before the key was through";
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("verdict").toStdString(), HasSubstr("STOPPED"));
+    EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("Output is off"));
+    EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
+}
+
+TEST_F(Workspace, AScriptErrorNamesItsLineAndTheEditorMarksIt) {
+    write("broken", kBroken);
+    open("");
+    choose("broken");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("broken.js:4:"));
+    click(the<QPushButton>("toScript"));
+    ASSERT_TRUE(comesTrue([this] { return editor() != nullptr; }));
+    EXPECT_EQ(editor()->code().marked(), 4);
+    shot(*editor(), "editor_error");
+}
+
+TEST_F(Workspace, AScriptThatCannotBeReadSaysWhereAndLeadsThere) {
+    write("unreadable", "protocol({ title: 'U', purpose: 'u', needs: [], parameters: {} });\n\nfunction run(,) {}\n");
+    open("");
+    choose("unreadable");
+    ASSERT_TRUE(comesTrue([this] { return says("runTrouble").contains("unreadable.js:3"); }))
+        << says("runTrouble").toStdString();
+    EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
+    click(the<QPushButton>("toLine"));
+    ASSERT_TRUE(comesTrue([this] { return editor() != nullptr; }));
+    EXPECT_EQ(editor()->code().marked(), 3);
+    editor()->showError(99, "an error behind the end, as engines report a missing brace");
+    EXPECT_EQ(editor()->code().marked(), 4) << "the last line there is";
+}
+
+TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAlive) {
+    open("separability");
+    ASSERT_TRUE(ready());
+    type("repeats", "2");
+    type("out", "/proc/nothing/here");
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("/proc/nothing/here"));
+    EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("Output is off"));
+    EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
+    ended.reset();
+    auto& out = the<QLineEdit>("out");
+    out.clear();
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(comesTrue([this] { return says("verdict").contains("INDETERMINATE"); }, 60'000)) << "the next run runs";
+}
+
+TEST_F(Workspace, PausesAndResumes) {
+    write("steps", R"js(protocol({ title: "S", purpose: "Steps.", needs: ["stimulator"], parameters: {} });
+function run(p) {
+  bench.arm();
+  bench.drive("manual", { roughness: 0.5, pressure: 0.5 });
+  for (const i of progress([1, 2, 3, 4, 5, 6, 7, 8], "Steps")) bench.wait(0.4);
+}
+)js");
+    open("");
+    choose("steps");
+    ASSERT_TRUE(ready());
+    click(the<QCheckBox>("realtime"));
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Delivering; }));
+    ASSERT_TRUE(comesTrue([this] {
+        return says("timeLeft").contains("left") && !says("timeLeft").contains("not known");
+    })) << says("timeLeft").toStdString();
+    click(the<QPushButton>("pauseButton"));
+    ASSERT_TRUE(comesTrue([this] { return says("timeLeft") == "paused"; }));
+    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Paused; }));
+    click(the<QPushButton>("pauseButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+// The editor of the lab's own protocols, by keys and mouse.
+#include <gmock/gmock.h>
+
+#include "tests/gui/runner/Lab.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Editor : public Lab {
+protected:
+    gui::ScriptEditor& opened() {
+        static_cast<void>(comesTrue([this] { return editor() != nullptr; }));
+        return *editor();
+    }
+    template <class T>
+    T& in(const QString& name) {
+        T* found = nullptr;
+        static_cast<void>(comesTrue([&] { return (found = find<T>(opened(), name)) != nullptr; }));
+        if (found == nullptr) throw std::runtime_error("the editor shows no " + name.toStdString());
+        return *found;
+    }
+    QString message() { return in<QLabel>("scriptMessage").text(); }
+    static void replaceText(gui::ScriptEditor& editor, const QString& text) {
+        editor.code().setFocus();
+        QTest::keyClick(&editor.code(), Qt::Key_A, Qt::ControlModifier);
+        for (const auto& line : text.split('\n')) {
+            QTest::keyClicks(&editor.code(), line);
+            QTest::keyClick(&editor.code(), Qt::Key_Return);
+        }
+    }
+};
+
+TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
+    open("");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("New…"));
+    shot(opened(), "editor");
+    click(in<QPushButton>("Check"));
+    ASSERT_TRUE(comesTrue([this] { return message().contains("reads well"); })) << message().toStdString();
+    click(in<QPushButton>("Run…"));
+    auto& name = in<QLineEdit>("protocolName");
+    name.selectAll();
+    QTest::keyClicks(&name, "no/good");
+    click(in<QPushButton>("Save as"));
+    EXPECT_THAT(message().toStdString(), HasSubstr("no name for a protocol"));
+    name.selectAll();
+    QTest::keyClicks(&name, "bend");
+    QTest::keyClick(&name, Qt::Key_Return);
+    EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "bend.js"));
+    EXPECT_EQ(the<QComboBox>("chooser").currentData().toString(), "bend");
+    ASSERT_TRUE(ready());
+    ASSERT_TRUE(comesTrue([this] { return workspace->isActiveWindow(); }));
+    QTest::keyClick(workspace.get(), Qt::Key_F5);
+    ASSERT_TRUE(ends());
+    EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
+}
+
+TEST_F(Editor, MarksTheLineOfAnErrorWhileSomebodyTypes) {
+    open("");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("New…"));
+    replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) { (\n");
+    ASSERT_TRUE(comesTrue([this] { return opened().code().marked() > 1; }));
+    EXPECT_THAT(message().toStdString(), HasSubstr("script:"));
+    replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) {}\n");
+    ASSERT_TRUE(comesTrue([this] { return opened().code().marked() == 0; }));
+}
+
+TEST_F(Editor, AShippedProtocolIsReadOnlyAndSavesAsACopy) {
+    open("");
+    choose("separability");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("Edit…"));
+    const auto before = opened().code().toPlainText();
+    QTest::keyClicks(&opened().code(), "zzz");
+    EXPECT_EQ(opened().code().toPlainText(), before);
+    click(in<QPushButton>("Save a copy…"));
+    QTest::keyClick(&in<QLineEdit>("protocolName"), Qt::Key_Return);
+    EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "my-separability.js"));
+    QTest::keyClicks(&opened().code(), "//");
+    EXPECT_NE(opened().code().toPlainText(), before) << "the copy is the lab's own";
+}
+
+TEST_F(Editor, AsksBeforeItLosesAnything) {
+    open("");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("New…"));
+    QTest::keyClicks(&opened().code(), "// mine");
+    QTest::keyClick(&opened(), Qt::Key_Escape);
+    EXPECT_TRUE(opened().isVisible());
+    click(in<QPushButton>("Keep editing"));
+    EXPECT_THAT(opened().code().toPlainText().toStdString(), HasSubstr("// mine"));
+    click(in<QPushButton>("Close"));
+    click(in<QPushButton>("Discard the changes"));
+    EXPECT_TRUE(comesTrue([this] { return editor() == nullptr; }));
+}
+
+TEST_F(Editor, SaysWhyItCouldNotSave) {
+    open("");
+    ASSERT_TRUE(ready());
+    std::filesystem::create_directories(userProtocolsFolder().parent_path());
+    std::ofstream(userProtocolsFolder()) << "a file where the folder belongs";
+    click(the<QPushButton>("New…"));
+    QTest::keyClick(&opened(), Qt::Key_S, Qt::ControlModifier);
+    QTest::keyClick(&in<QLineEdit>("protocolName"), Qt::Key_Return);
+    EXPECT_THAT(message().toStdString(), HasSubstr("Not saved"));
+    EXPECT_FALSE(opened().code().toPlainText().isEmpty());
+}
+
+}  // namespace
+}  // namespace tacto::test
