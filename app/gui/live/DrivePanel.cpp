@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QVBoxLayout>
 #include <cmath>
 
@@ -20,15 +21,17 @@ DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QGroupBox(tr("Drive")
     auto* layout = new QVBoxLayout(this);
     sources_ = new QButtonGroup(this);
     off_ = new QRadioButton(tr("O&ff"), this);
-    off_->setToolTip(tr("No train is sent. Every stop, disarm and fault comes back to this."));
+    off_->setToolTip(
+        tr("No train is sent. Every stop, disarm and fault comes back to this. Arrows move, Return chooses."));
     byHand_ = new QRadioButton(tr("By &hand"), this);
-    byHand_->setToolTip(tr("R and P come from the two sliders."));
+    byHand_->setToolTip(tr("R and P come from the two sliders. Arrows move, Return chooses."));
     finger_ = new QRadioButton(tr("From the fin&gertip"), this);
     finger_->setToolTip(tr("R and P come from what the fingertip feels; without contact no train is sent."));
     auto* row = new QHBoxLayout;
     for (auto* button : {off_, byHand_, finger_}) {
         sources_->addButton(button);
         row->addWidget(button);
+        button->installEventFilter(this);
         connect(button, &QRadioButton::clicked, this, &DrivePanel::drive);
     }
     row->addStretch();
@@ -75,6 +78,25 @@ DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString
         if (byHand_->isChecked()) drive();
     });
     return index;
+}
+
+bool DrivePanel::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::KeyPress) return QGroupBox::eventFilter(watched, event);
+    const auto buttons = sources_->buttons();
+    const auto at = buttons.indexOf(qobject_cast<QAbstractButton*>(watched));
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    if (at < 0) return false;
+    if (key == Qt::Key_Return || key == Qt::Key_Enter) {
+        buttons[at]->click();
+        return true;
+    }
+    const int step = key == Qt::Key_Right || key == Qt::Key_Down ? 1
+                     : key == Qt::Key_Left || key == Qt::Key_Up  ? -1
+                                                                 : 0;
+    if (step == 0) return false;
+    const auto to = at + step;
+    if (to >= 0 && to < buttons.size() && buttons[to]->isEnabled()) buttons[to]->setFocus(Qt::TabFocusReason);
+    return true;
 }
 
 void DrivePanel::begin() {

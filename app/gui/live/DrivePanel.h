@@ -28,6 +28,11 @@ public:
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] DriveSource chosen() const;
 
+protected:
+    /// Arrows go from source to source without choosing: on the way from off to the fingertip nothing drives by hand.
+    /// Return chooses.
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
     struct Index {
         QSlider* slider;

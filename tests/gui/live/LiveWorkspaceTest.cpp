@@ -6,6 +6,7 @@
 #include <QSplitter>
 #include <QTemporaryDir>
 #include <QTest>
+#include <ctime>
 
 #include "app/gui/live/DrivePanel.h"
 #include "app/gui/live/StripPlots.h"
@@ -298,6 +299,43 @@ TEST_F(LiveBench, EveryControlIsReachableAndExplained) {
         // Of radio buttons the group is reached, its arrows choose.
         EXPECT_TRUE(reached.contains(control) || qobject_cast<QRadioButton*>(control)) << who.toStdString();
     }
+}
+
+TEST_F(LiveBench, OnTheWayToTheFingertipNothingDrivesByHand) {
+    RecordProperty("hazard", "H5");
+    ASSERT_TRUE(openSimulated());
+    ASSERT_TRUE(armed());
+    auto* off = find<QRadioButton>(live, "Off");
+    off->setFocus();
+    live.activateWindow();
+    QTest::keyClick(off, Qt::Key_Right);
+    EXPECT_EQ(QApplication::focusWidget(), find<QRadioButton>(live, "By hand"));
+    ASSERT_TRUE(passes(0.5));
+    EXPECT_EQ(desk.telemetry().driving, DriveSource::Off);
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right);
+    EXPECT_EQ(desk.telemetry().trainsDelivered, 0U);
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+    EXPECT_TRUE(comesTrue([this] { return desk.telemetry().driving == DriveSource::Sensor; }));
+}
+
+TEST_F(LiveBench, TheWholeWorkspaceLeavesTheWindowItsTime) {
+    ASSERT_TRUE(openSimulated());
+    ASSERT_TRUE(armed());
+    click(*find<QRadioButton>(live, "From the fingertip"));
+    ASSERT_TRUE(passes(3));
+    const auto threadTime_s = [] {
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+    };
+    const double before = threadTime_s();
+    const auto began = std::chrono::steady_clock::now();
+    ASSERT_TRUE(passes(4));
+    const double real = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    const double share = (threadTime_s() - before) / real;
+    RecordProperty("share_of_a_core", std::to_string(share));
+    std::printf("the live workspace takes %.1f %% of a core\n", 100 * share);
+    EXPECT_LT(share, 0.8);  // the target is a quarter; this only catches a disaster
 }
 
 TEST_F(LiveBench, LooksRightInBothThemesAndSizes) {
