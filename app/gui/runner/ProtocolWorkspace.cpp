@@ -57,6 +57,8 @@ void ProtocolWorkspace::choose(const QString& nameOrPath) {
 
 void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration) {
     if (source.name != source_.name || running_) return;
+    // The form is made anew: who was in it shall be in it again, or no key reaches the workspace.
+    const bool wasInForm = form_->isAncestorOf(QApplication::focusWidget());
     if (!declaration) {
         form_->show({});
         wiring_->show({});
@@ -78,13 +80,17 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
                              before_->verticalScrollBar()->sizeHint().width());
     judge();
     showButtons();
+    if (wasInForm) QTimer::singleShot(0, this, [this] { goTo(kSettings); });
 }
 
 void ProtocolWorkspace::goTo(int step) {
     if (step == kWiring || step == kSettings) {
         QWidget* part = step == kWiring ? static_cast<QWidget*>(wiring_) : form_;
         before_->ensureWidgetVisible(part, 0, 0);
-        if (auto* first = part->findChild<QLineEdit*>()) first->setFocus();
+        if (auto* first = part->findChild<QLineEdit*>())
+            first->setFocus();
+        else
+            panel_->setFocus();
         tabs_->setCurrentWidget(worstPage_);
     } else {
         tabs_->setCurrentWidget(step == kRun ? static_cast<QWidget*>(log_) : result_);

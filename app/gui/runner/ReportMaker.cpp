@@ -1,8 +1,21 @@
 #include "app/gui/runner/ReportMaker.h"
 
 #include <QCoreApplication>
+#include <QDir>
+#include <QFileInfo>
 
 namespace tacto::gui {
+
+namespace {
+
+/// What a killed program leaves beside `out` while it writes: QSaveFile's "report.pdf.AbCdEf".
+void removeHalfWritten(const QString& out) {
+    const QFileInfo file(out);
+    auto folder = file.dir();
+    for (const auto& left : folder.entryList({file.fileName() + ".??????"}, QDir::Files)) folder.remove(left);
+}
+
+}  // namespace
 
 ReportMaker::ReportMaker(QObject* parent) : QObject(parent) {
     connect(&process_, &QProcess::finished, this, &ReportMaker::ended);
@@ -17,6 +30,7 @@ ReportMaker::~ReportMaker() {
     process_.disconnect(this);
     process_.kill();
     process_.waitForFinished(1000);  // a killed process ends at once
+    if (!out_.isEmpty()) removeHalfWritten(out_);
 }
 
 void ReportMaker::make(const QString& session, const QString& out) {
@@ -42,6 +56,8 @@ void ReportMaker::next() {
 
 void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     const auto said = QString::fromUtf8(process_.readAllStandardError()).trimmed().remove("tactoscope-cli: ");
+    const auto out = std::exchange(out_, QString());
+    if (status == QProcess::CrashExit) removeHalfWritten(out);
     if (cancelled_)
         emit failed(tr("The report was cancelled; the session is complete."));
     else if (status == QProcess::CrashExit)
@@ -49,7 +65,7 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     else if (code != 0)
         emit failed(tr("No report: %1. The session is complete.").arg(said));
     else
-        emit done(out_);
+        emit done(out);
     next();
 }
 

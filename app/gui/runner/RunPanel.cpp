@@ -66,6 +66,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
         tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is open "
            "under Live is closed first."));
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
+    setFocusProxy(run_);
     pause_ = new QPushButton(this);
     pause_->setObjectName("pauseButton");
     pause_->setToolTip(tr("Holds the output back; the script waits at its next step."));

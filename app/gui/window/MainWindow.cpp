@@ -144,6 +144,8 @@ void MainWindow::buildPages() {
     pages_->addWidget(sessions_);
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
     pages_->addWidget(protocols_);
+    connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
+    connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
     connect(live_, &LiveWorkspace::refusedRecording, this, &MainWindow::complain);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
     connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {

@@ -1,10 +1,13 @@
 // Parts of the runner by themselves: time left, devices as text, values as cells, reports by a child process.
+#include <QElapsedTimer>
+#include <QTemporaryDir>
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/ReportMaker.h"
 #include "app/gui/runner/ResultTables.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/WiringPanel.h"
+#include "app/gui/runner/WorstCase.h"
 #include "tests/gui/runner/Lab.h"
 
 namespace tacto::test {
@@ -59,6 +62,20 @@ TEST(ShownValue, KnowsStatisticsSharesAndUnits) {
                 HasSubstr("40.12 ± 0.46"));
 }
 
+TEST(WorstCase, NamesTheLimitThatIsBrokenAndIsQuickEnoughForTheWindow) {
+    const auto profile = shippedProfile().value();
+    const auto limits = shippedLimits().value();
+    QElapsedTimer timer;
+    timer.start();
+    const auto kept = gui::worstCase(profile, limits.sets, "1000 ohm").value();
+    EXPECT_LT(timer.elapsed(), 100) << "it is worked out on the window's thread";
+    EXPECT_TRUE(kept.refused.isEmpty()) << kept.refused.toStdString();
+    EXPECT_GT(kept.rows.size(), 5U);
+    EXPECT_FALSE(gui::worstCase(profile, limits.sets, "10 ohm").value().refused.isEmpty());
+    EXPECT_FALSE(gui::worstCase(profile, limits.sets, "nonsense"));
+    RecordProperty("microseconds", int(timer.nsecsElapsed() / 3000));
+}
+
 TEST(ReportMaker, TellsWhyThereIsNoReport) {
     gui::ReportMaker maker;
     QString why;
@@ -74,9 +91,13 @@ TEST(ReportMaker, CancelEndsItAndSaysSo) {
     gui::ReportMaker maker;
     QStringList said;
     QObject::connect(&maker, &gui::ReportMaker::failed, [&](const QString& why) { said << why; });
-    maker.make("/nowhere/at/all.tacto", "/tmp/never.pdf");
-    maker.make("/nowhere/at/all.tacto", "/tmp/never.html");
+    const QTemporaryDir folder;
+    const auto half = folder.filePath("never.pdf.AbCdEf");
+    std::ofstream(half.toStdString()) << "half a report";
+    maker.make("/nowhere/at/all.tacto", folder.filePath("never.pdf"));
+    maker.make("/nowhere/at/all.tacto", folder.filePath("never.html"));
     maker.cancel();
+    EXPECT_FALSE(QFileInfo::exists(half));
     EXPECT_FALSE(maker.busy());
     ASSERT_EQ(said.size(), 1);
     EXPECT_THAT(said.first().toStdString(), HasSubstr("cancelled"));

@@ -51,7 +51,8 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "bend.js"));
     EXPECT_EQ(the<QComboBox>("chooser").currentData().toString(), "bend");
     ASSERT_TRUE(ready());
-    ASSERT_TRUE(comesTrue([this] { return workspace->isActiveWindow(); }));
+    ASSERT_TRUE(comesTrue(
+        [this] { return workspace->isActiveWindow() && workspace->isAncestorOf(QApplication::focusWidget()); }));
     QTest::keyClick(workspace.get(), Qt::Key_F5);
     ASSERT_TRUE(ends());
     EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
@@ -63,7 +64,7 @@ TEST_F(Editor, MarksTheLineOfAnErrorWhileSomebodyTypes) {
     click(the<QPushButton>("New…"));
     replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) { (\n");
     ASSERT_TRUE(comesTrue([this] { return opened().code().marked() > 1; }));
-    EXPECT_THAT(message().toStdString(), HasSubstr("script:"));
+    EXPECT_THAT(message().toStdString(), HasSubstr("SyntaxError"));
     replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) {}\n");
     ASSERT_TRUE(comesTrue([this] { return opened().code().marked() == 0; }));
 }
@@ -103,7 +104,8 @@ TEST_F(Editor, SaysWhyItCouldNotSave) {
     std::filesystem::create_directories(userProtocolsFolder().parent_path());
     std::ofstream(userProtocolsFolder()) << "a file where the folder belongs";
     click(the<QPushButton>("New…"));
-    QTest::keyClick(&opened(), Qt::Key_S, Qt::ControlModifier);
+    ASSERT_TRUE(comesTrue([this] { return opened().isActiveWindow(); }));
+    QTest::keyClick(&opened().code(), Qt::Key_S, Qt::ControlModifier);
     QTest::keyClick(&in<QLineEdit>("protocolName"), Qt::Key_Return);
     EXPECT_THAT(message().toStdString(), HasSubstr("Not saved"));
     EXPECT_FALSE(opened().code().toPlainText().isEmpty());
