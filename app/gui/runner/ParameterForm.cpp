@@ -103,6 +103,12 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) written->setBuddy(field.editor);
         fields_.push_back(std::move(field));
     }
+    if (fields_.empty()) {
+        auto* none = new QLabel(tr("This protocol has nothing to set."), this);
+        none->setForegroundRole(QPalette::PlaceholderText);
+        none->setWordWrap(true);
+        form->addRow(none);
+    }
     judge();
 }
 

@@ -5,6 +5,10 @@
 
 namespace tacto::gui {
 
+namespace {
+constexpr int kOneRowChars = 85;
+}
+
 TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
     setToolTip(tr("One point per trial: amplitude and interval as the oscilloscope saw them."));
@@ -24,7 +28,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
     empty_->setText(tr("Trials appear here while the protocol runs."));
-    setMinimumHeight(fontMetrics().height() * 10);
+    setMinimumHeight(fontMetrics().height() * 12);
     begin(false);
 }
 
@@ -100,6 +104,18 @@ void TrialPlane::colour() {
         graph->setPen(QPen(look.color));
         graph->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 1.5), QBrush(Qt::NoBrush), 8));
     }
+}
+
+void TrialPlane::resizeEvent(QResizeEvent* event) {
+    // Names in one row where they fit, else in two columns.
+    const int wrap = width() < fontMetrics().averageCharWidth() * kOneRowChars ? 2 : 0;
+    if (legend->wrap() != wrap) {
+        legend->setWrap(wrap);
+        // A grid keeps its cells where they were: put them in anew.
+        for (int i = 0; i < plottableCount(); ++i) plottable(i)->removeFromLegend();
+        for (int i = 0; i < plottableCount(); ++i) plottable(i)->addToLegend();
+    }
+    QCustomPlot::resizeEvent(event);
 }
 
 void TrialPlane::changeEvent(QEvent* event) {

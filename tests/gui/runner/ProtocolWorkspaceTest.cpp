@@ -57,6 +57,15 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     EXPECT_GT(std::filesystem::file_size(ended->pdf), 10'000U);
     EXPECT_GE(the<QPdfView>("reportView").document()->pageCount(), 1);
     ASSERT_TRUE(comesTrue([this] { return std::filesystem::exists(ended->html); }, 60'000));
+    const auto inkOnPaper = [this] {
+        const auto page = the<QPdfView>("reportView").viewport()->grab().toImage();
+        int dark = 0;
+        for (int y = 0; y < page.height(); y += 2) {
+            for (int x = 0; x < page.width(); x += 2) dark += qGray(page.pixel(x, y)) < 100;
+        }
+        return dark > 100;
+    };
+    EXPECT_TRUE(comesTrue(inkOnPaper, 30'000)) << "the page is drawn, not only opened";
     shot(*workspace, "report");
 }
 
