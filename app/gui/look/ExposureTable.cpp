@@ -97,7 +97,8 @@ void ExposureTable::show(std::span<const ExposureRow> rows) {
         cell(0, title)->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, text(row.set.view())));
         auto* value = cell(1, row.evaluated ? quantityText(row.value, text(row.unit), 3) : tr("not evaluated"));
         value->setToolTip(row.evaluated ? QString() : text(row.reason.view()));
-        value->setForeground(broken ? colours().fault : palette().color(QPalette::Text));
+        // Else the palette's own, which follows the theme.
+        value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
         cell(2, limitText(row, compact_))->setToolTip(limitText(row));
         auto* bar = cell(3, QString());
         bar->setData(kShare, row.evaluated && !std::isnan(row.limit) ? row.value / row.limit : std::nan(""));
