@@ -59,7 +59,9 @@ Telemetry BenchDesk::telemetry() const {
 
 std::vector<DeviceIdentity> BenchDesk::devices() const { return makeRegistry_().list(); }
 
-Result<bool> BenchDesk::allVirtual(const std::vector<DeviceUri>& uris) const { return makeRegistry_().allVirtual(uris); }
+Result<bool> BenchDesk::allVirtual(const std::vector<DeviceUri>& uris) const {
+    return makeRegistry_().allVirtual(uris);
+}
 
 void BenchDesk::stop(const char* by) noexcept {
     const std::scoped_lock lock(benchMutex_);

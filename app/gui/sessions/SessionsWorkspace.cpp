@@ -97,6 +97,7 @@ QWidget* SessionsWorkspace::buildList() {
     connect(find, &QShortcut::activated, search_, [this] { search_->setFocus(); });
     column->addWidget(search_);
     table_ = new QTableWidget(0, 7, holder);
+    table_->setObjectName("sessionsTable");
     table_->setAccessibleName(tr("Sessions"));
     table_->setHorizontalHeaderLabels(
         {tr("Began"), tr("Protocol"), tr("Verdict"), tr("Duration"), tr("Size"), tr("Devices"), tr("File")});
