@@ -306,6 +306,7 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
 
     if (!report.isCheck) ++shown_.trainsDelivered;
     shown_.imbalance = report.imbalance;
+    shown_.imbalanceUncertainty = report.imbalanceUncertainty;
     const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);
     if (judgement.stops()) return trip(causeOf(judgement.finding), judgement.reason.view(), now);
     if (report.measured > kMostDelivered * report.amplitude) {

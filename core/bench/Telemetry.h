@@ -48,7 +48,8 @@ struct Telemetry {
 
     double impedance_ohm = NAN;  ///< last measured |Z|
     double impedanceAge_s = NAN;
-    double imbalance = NAN;  ///< of the last pulse
+    double imbalance = NAN;             ///< of the last pulse: |net charge| / phase charge
+    double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
     std::uint64_t trainsDelivered = 0;
     std::uint64_t trainsRefused = 0;  ///< by the limits

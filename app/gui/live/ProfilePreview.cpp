@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/PlotPicture.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Waveform.h"
 
@@ -34,6 +35,7 @@ ProfilePreview::ProfilePreview(QWidget* parent)
     setToolTip(
         tr("What the profile makes of R and P, with a dot where touch stands now; and one pulse at the largest "
            "amplitude."));
+    addPlotMenu(*this, "encoding");
     auto* unused = axisRect();
     amplitude_ = cell(*this, 0, tr("amplitude (V)"));
     interval_ = cell(*this, 1, tr("interval (s)"));

@@ -4,6 +4,7 @@
 
 #include "app/gui/live/StripIndex.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/look/PlotPicture.h"
 
 namespace tacto::gui {
 
@@ -34,6 +35,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     setToolTip(
         tr("Everything on one time axis, newest at the right. Hatched: no sample has come since. A frozen picture "
            "can be dragged, and zoomed with the wheel."));
+    addPlotMenu(*this, "live");
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
     auto* unused = axisRect();

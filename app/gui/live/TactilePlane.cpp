@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/PlotPicture.h"
 
 namespace tacto::gui {
 
@@ -14,6 +15,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Tactile plane"));
     setToolTip(tr("Roughness R across, pressure P up. The marks are the four conditions; the dot is now."));
     setNotAntialiasedElements(QCP::aeNone);
+    addPlotMenu(*this, "tactile-plane");
     // Room for the names outside the square: the point moves inside it.
     xAxis->setRange(-0.28, 1.28);
     yAxis->setRange(-0.24, 1.24);

@@ -13,31 +13,62 @@ namespace {
 constexpr int kShare = Qt::UserRole;          // double, NaN without a limit or a value
 constexpr int kEvaluated = Qt::UserRole + 1;  // bool
 constexpr int kBroken = Qt::UserRole + 2;     // bool: a limit that refuses is not kept
+constexpr int kQuantity = 0, kValue = 1, kLimit = 2, kUsed = 3;
+constexpr int kWideChars = 75;  // from this width on the bar has a column of its own
+
+/// A thin bar of how much of a limit is used; hatched where that was not evaluated.
+void paintShare(QPainter& painter, const QRectF& frame, const QModelIndex& index, const QPalette& palette) {
+    const auto& c = colours();
+    const double share = index.data(kShare).toDouble();
+    painter.save();
+    painter.setPen(QPen(palette.color(QPalette::Mid), 1));
+    if (!index.data(kEvaluated).toBool()) {
+        painter.setBrush(QBrush(c.quiet, Qt::BDiagPattern));
+        painter.drawRect(frame);
+    } else if (!std::isnan(share)) {
+        painter.setBrush(palette.color(QPalette::Midlight));
+        painter.drawRect(frame);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(index.data(kBroken).toBool() ? c.fault : share >= 0.8 ? c.amber : c.accent);
+        painter.drawRect(
+            QRectF(frame.left(), frame.top(), frame.width() * std::clamp(share, 0.0, 1.0), frame.height()));
+    }
+    painter.restore();
+}
 
 class BarDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
     void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-        const auto& c = colours();
-        const double share = index.data(kShare).toDouble();
         const double inset = option.rect.height() * 0.3;
-        const QRectF frame = QRectF(option.rect).adjusted(3.5, inset, -3.5, -inset);
-        painter->save();
-        painter->setPen(QPen(option.palette.color(QPalette::Mid), 1));
-        if (!index.data(kEvaluated).toBool()) {
-            painter->setBrush(QBrush(c.quiet, Qt::BDiagPattern));
-            painter->drawRect(frame);
-        } else if (!std::isnan(share)) {
-            painter->setBrush(option.palette.color(QPalette::Midlight));
-            painter->drawRect(frame);
-            painter->setPen(Qt::NoPen);
-            painter->setBrush(index.data(kBroken).toBool() ? c.fault : share >= 0.8 ? c.amber : c.accent);
-            painter->drawRect(
-                QRectF(frame.left(), frame.top(), frame.width() * std::clamp(share, 0.0, 1.0), frame.height()));
-        }
-        painter->restore();
+        paintShare(*painter, QRectF(option.rect).adjusted(3.5, inset, -3.5, -inset), index, option.palette);
     }
 };
+
+/// The quantity, and under it the bar while it has no column of its own.
+class QuantityDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto* table = qobject_cast<const QTableView*>(option.widget);
+        const auto bar = index.siblingAtColumn(kUsed);
+        if (table == nullptr || !table->isColumnHidden(kUsed) || !bar.data(kEvaluated).isValid())
+            return QStyledItemDelegate::paint(painter, option, index);
+        auto above = option;
+        const int height = std::max(4, option.rect.height() / 5);
+        above.rect.adjust(0, 0, 0, -height);
+        QStyledItemDelegate::paint(painter, above, index);
+        paintShare(*painter,
+                   QRectF(option.rect.left() + 3.5, option.rect.bottom() - height - 0.5, option.rect.width() - 7.0,
+                          height - 1.0),
+                   bar, option.palette);
+    }
+};
+
+QString sectionTitle(const ExposureRow& row) {
+    return row.set.empty() ? QObject::tr("shown, without a limit")
+                           : QObject::tr("limits of %1").arg(text(row.set.view()));
+}
 
 }  // namespace
 
@@ -69,41 +100,83 @@ ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     setEditTriggers(QAbstractItemView::NoEditTriggers);
     setSelectionBehavior(QAbstractItemView::SelectRows);
     setWordWrap(false);
-    setItemDelegateForColumn(3, new BarDelegate(this));
+    setShowGrid(false);
+    setItemDelegateForColumn(kQuantity, new QuantityDelegate(this));
+    setItemDelegateForColumn(kUsed, new BarDelegate(this));
     auto* header = horizontalHeader();
-    header->setSectionResizeMode(0, QHeaderView::Stretch);
-    for (const int column : {1, 2}) header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
-    header->resizeSection(3, fontMetrics().horizontalAdvance("not eval"));
+    header->setSectionResizeMode(kQuantity, QHeaderView::Stretch);
+    for (const int column : {kValue, kLimit}) header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    header->resizeSection(kUsed, fontMetrics().horizontalAdvance("not evaluated"));
+    header->setHighlightSections(false);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
+    measure();
+}
+
+void ExposureTable::measure() {
+    compact_ = width() < fontMetrics().averageCharWidth() * kWideChars;
+    setColumnHidden(kUsed, compact_);
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() + (compact_ ? 10 : 6));
+}
+
+void ExposureTable::resizeEvent(QResizeEvent* event) {
+    const bool was = compact_;
+    measure();
+    if (was != compact_) show(rows_);
+    QTableWidget::resizeEvent(event);
+}
+
+void ExposureTable::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) measure();
+    QTableWidget::changeEvent(event);
+}
+
+QTableWidgetItem* ExposureTable::cell(int line, int column, const QString& shown) {
+    auto* made = item(line, column);
+    if (made == nullptr) {
+        made = new QTableWidgetItem;
+        if (column > 0) made->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        setItem(line, column, made);
+    }
+    if (made->text() != shown) made->setText(shown);
+    return made;
+}
+
+void ExposureTable::showSection(int line, const QString& title) {
+    if (columnSpan(line, kQuantity) == 1) setSpan(line, kQuantity, 1, columnCount());
+    auto* made = cell(line, kQuantity, title);
+    made->setData(Qt::ForegroundRole, QBrush(colours().quiet));
+    made->setToolTip({});
+    cell(line, kUsed, {})->setData(kEvaluated, QVariant());
+}
+
+void ExposureTable::showRow(int line, const ExposureRow& row) {
+    if (columnSpan(line, kQuantity) != 1) setSpan(line, kQuantity, 1, 1);
+    const bool broken = row.evaluated && !row.within && row.action == LimitAction::Refuse;
+    const auto title = rowTitle(row);
+    auto* quantity = cell(line, kQuantity, title);
+    quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, text(row.set.view())));
+    quantity->setData(Qt::ForegroundRole, QVariant());
+    const auto missing = compact_ ? QString("–") : tr("not evaluated");
+    auto* value = cell(line, kValue, row.evaluated ? quantityText(row.value, text(row.unit), 3) : missing);
+    value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(text(row.reason.view())));
+    // Else the palette's own, which follows the theme.
+    value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
+    cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
+    auto* bar = cell(line, kUsed, QString());
+    bar->setData(kShare, row.evaluated && !std::isnan(row.limit) ? row.value / row.limit : std::nan(""));
+    bar->setData(kEvaluated, row.evaluated);
+    bar->setData(kBroken, broken);
 }
 
 void ExposureTable::show(std::span<const ExposureRow> rows) {
-    if (rowCount() != int(rows.size())) setRowCount(int(rows.size()));
-    for (int i = 0; i < int(rows.size()); ++i) {
-        const auto& row = rows[std::size_t(i)];
-        const auto cell = [&](int column, const QString& shown) {
-            auto* made = item(i, column);
-            if (made == nullptr) {
-                made = new QTableWidgetItem;
-                if (column > 0) made->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-                setItem(i, column, made);
-            }
-            if (made->text() != shown) made->setText(shown);
-            return made;
-        };
-        const bool broken = row.evaluated && !row.within && row.action == LimitAction::Refuse;
-        const auto title = rowTitle(row);
-        cell(0, title)->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, text(row.set.view())));
-        auto* value = cell(1, row.evaluated ? quantityText(row.value, text(row.unit), 3) : tr("not evaluated"));
-        value->setToolTip(row.evaluated ? QString() : text(row.reason.view()));
-        // Else the palette's own, which follows the theme.
-        value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
-        cell(2, limitText(row, compact_))->setToolTip(limitText(row));
-        auto* bar = cell(3, QString());
-        bar->setData(kShare, row.evaluated && !std::isnan(row.limit) ? row.value / row.limit : std::nan(""));
-        bar->setData(kEvaluated, row.evaluated);
-        bar->setData(kBroken, broken);
+    if (rows.data() != rows_.data()) rows_.assign(rows.begin(), rows.end());
+    int lines = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) lines += i == 0 || !(rows_[i].set == rows_[i - 1].set) ? 2 : 1;
+    if (rowCount() != lines) setRowCount(lines);
+    int line = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        if (i == 0 || !(rows_[i].set == rows_[i - 1].set)) showSection(line++, sectionTitle(rows_[i]));
+        showRow(line++, rows_[i]);
     }
 }
 

@@ -1,11 +1,12 @@
 // ExposureTable.h - exposure rows against their limits: quantity, value, limit, and a bar of how much of it is used;
-// hatched where a row was not evaluated.
+// hatched where a row was not evaluated. In a narrow place the bar stands under the quantity.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTableWidget>
 #include <span>
+#include <vector>
 
 #include "core/safety/Exposure.h"
 
@@ -15,12 +16,21 @@ class ExposureTable final : public QTableWidget {
     Q_OBJECT
 public:
     explicit ExposureTable(QWidget* parent = nullptr);
-    /// What kind of limit it is stands in the tool tip alone.
-    void setCompact(bool compact) { compact_ = compact; }
+    /// Rows of one limit set stand under its name.
     void show(std::span<const ExposureRow> rows);
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
 private:
-    bool compact_ = false;
+    void measure();
+    [[nodiscard]] QTableWidgetItem* cell(int line, int column, const QString& shown);
+    void showSection(int line, const QString& title);
+    void showRow(int line, const ExposureRow& row);
+
+    std::vector<ExposureRow> rows_;
+    bool compact_ = false;  ///< narrow: the bar under the quantity, what kind of limit it is in the tool tip
 };
 
 /// "RMS current over 5 s into 500 Ω".

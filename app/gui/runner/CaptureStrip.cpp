@@ -1,7 +1,7 @@
 #include "app/gui/runner/CaptureStrip.h"
 
 #include "app/gui/look/Look.h"
-#include "app/gui/runner/PlotMenu.h"
+#include "app/gui/look/PlotPicture.h"
 #include "app/report/FigureDrawing.h"
 
 namespace tacto::gui {
@@ -25,7 +25,7 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(tr("The last captured train appears here."));
+    empty_->setText(tr("The last captured train\nappears here."));
     addPlotMenu(*this, "train");
     setMinimumHeight(fontMetrics().height() * 10);
     show(nullptr);

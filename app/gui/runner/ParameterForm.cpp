@@ -34,7 +34,7 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
     auto* form = new QFormLayout(this);
     form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
+    form->setRowWrapPolicy(QFormLayout::WrapAllRows);  // a narrow column: nothing is cut
 }
 
 ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
@@ -88,6 +88,7 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         if (const auto range = rangeText(parameter); !range.isEmpty()) {
             auto* quiet = new QLabel(range, column);
             quiet->setForegroundRole(QPalette::PlaceholderText);
+            line->addSpacing(fontMetrics().averageCharWidth());
             line->addWidget(quiet);
         }
         stack->addLayout(line);

@@ -1,7 +1,7 @@
 #include "app/gui/runner/TrialPlane.h"
 
 #include "app/gui/look/Look.h"
-#include "app/gui/runner/PlotMenu.h"
+#include "app/gui/look/PlotPicture.h"
 
 namespace tacto::gui {
 
@@ -27,7 +27,7 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(tr("Trials appear here while the protocol runs."));
+    empty_->setText(tr("Trials appear here\nwhile the protocol runs."));
     setMinimumHeight(fontMetrics().height() * 12);
     begin(false);
 }

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/PlotPicture.h"
 #include "app/report/FigureDrawing.h"
 #include "core/session/SessionReader.h"
 
@@ -81,6 +82,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
         this));
     auto* tabs = new QTabWidget(this);
     plane_ = new QCustomPlot(tabs);
+    plane_->setAccessibleName(tr("Trials of both"));
+    addPlotMenu(*plane_, "trials");
     plane_->xAxis->setLabel(tr("interval (s)"));
     plane_->yAxis->setLabel(tr("amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
@@ -96,6 +99,8 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     column->addWidget(stream_);
     streams_ = new QCustomPlot(page);
     streams_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+    streams_->setAccessibleName(tr("The stream of both"));
+    addPlotMenu(*streams_, "streams");
     column->addWidget(streams_, 1);
     tabs->addTab(page, tr("&Streams"));
     auto* table = new QTableWidget(tabs);

@@ -4,6 +4,7 @@
 #include <QSplitter>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/PlotPicture.h"
 #include "app/report/FigureDrawing.h"
 #include "core/session/SessionReader.h"
 
@@ -65,6 +66,7 @@ SessionDetails::SessionDetails(QWidget* parent) : QTabWidget(parent) {
     plot_->axisRect()->setRangeZoom(Qt::Horizontal);
     plot_->axisRect()->setRangeDrag(Qt::Horizontal);
     plot_->xAxis->setLabel(tr("time (s)"));
+    addPlotMenu(*plot_, "stream");
     stylePlot(*plot_);
     split->addWidget(streams_);
     split->addWidget(plot_);

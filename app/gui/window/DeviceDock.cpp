@@ -30,7 +30,10 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     tree_->setWordWrap(true);
     tree_->setTextElideMode(Qt::ElideRight);
     tree_->setToolTip(tr("What is present. Those in bold are open."));
-    layout->addWidget(tree_, 1);
+    tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+    tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
+    tree_->setUniformRowHeights(false);
+    layout->addWidget(tree_);
     facts_ = new QLabel(body);
     facts_->setWordWrap(true);
     facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
@@ -53,6 +56,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     buttons->addWidget(check_, 2, 0);
     buttons->addWidget(close_, 2, 1);
     layout->addLayout(buttons);
+    layout->addStretch(1);
     setWidget(body);
 
     connect(open_, &QPushButton::clicked, this, &DeviceDock::openSelected);

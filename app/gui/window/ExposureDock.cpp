@@ -4,7 +4,6 @@ namespace tacto::gui {
 
 ExposureDock::ExposureDock(QWidget* parent) : QDockWidget(tr("Exposure"), parent), table_(new ExposureTable(this)) {
     setObjectName("exposureDock");
-    table_->setCompact(true);
     table_->setAccessibleName(tr("Exposure against limits"));
     table_->setToolTip(
         tr("Worst case over the permitted load range, exposure of the last 5 s included. Hatched: not "

@@ -72,7 +72,7 @@ const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
          {{"Esc, Pause", QT_TRANSLATE_NOOP("Keys", "output off, from anywhere")},
           {"Space", QT_TRANSLATE_NOOP("Keys", "output off, outside text fields")},
           {"Return", QT_TRANSLATE_NOOP("Keys", "presses the focused button")},
-          {"Ctrl+1 … Ctrl+6", QT_TRANSLATE_NOOP("Keys", "the six workspaces")},
+          {"Ctrl+1 … Ctrl+7", QT_TRANSLATE_NOOP("Keys", "the seven workspaces")},
           {"F1", QT_TRANSLATE_NOOP("Keys", "explains what has the focus")},
           {"?", QT_TRANSLATE_NOOP("Keys", "this sheet")},
           {"F11", QT_TRANSLATE_NOOP("Keys", "full screen")},

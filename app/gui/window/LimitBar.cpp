@@ -11,6 +11,7 @@ namespace tacto::gui {
 namespace {
 
 QString whereJudged(const ExposureRow& row) {
+    if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω") : QObject::tr("worst case over the load range");
 }
 
@@ -44,7 +45,7 @@ void LimitBar::show(const std::optional<ExposureRow>& row) {
     known_ = row.has_value();
     limited_ = row && !std::isnan(row->limit);
     evaluated_ = row && row->evaluated;
-    within_ = !row || row->within || !row->evaluated;
+    broken_ = row && row->evaluated && !row->within && row->action == LimitAction::Refuse;
     share_ = limited_ && evaluated_ ? row->value / row->limit : std::nan("");
     if (!row) {
         text_ = "–";
@@ -88,7 +89,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
     painter.setPen(c.quiet);
     painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(title_, Qt::ElideRight, width()));
     const QRect bottom(0, height() - line, width(), line);
-    painter.setPen(within_ ? palette().color(QPalette::WindowText) : c.fault);
+    painter.setPen(broken_ ? c.fault : palette().color(QPalette::WindowText));
     painter.drawText(bottom, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(text_, Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
     const int room = height() - 2 * line;
@@ -104,7 +105,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
     if (std::isnan(share_)) return;
     const double filled = std::clamp(share_, 0.0, 1.0);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(!within_ ? c.fault : share_ >= 0.8 ? c.amber : c.accent);
+    painter.setBrush(broken_ ? c.fault : share_ >= 0.8 ? c.amber : c.accent);
     painter.drawRect(QRectF(frame.left(), frame.top(), frame.width() * filled, frame.height()));
 }
 

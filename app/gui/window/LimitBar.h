@@ -37,7 +37,7 @@ private:
     bool known_ = false;
     bool limited_ = false;
     bool evaluated_ = false;
-    bool within_ = true;
+    bool broken_ = false;  ///< a limit that refuses is not kept
 };
 
 /// The row of `quantities` that is nearest to its limit; one that should be evaluated and was not comes first.

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "core/safety/TrainCheck.h"
 
 namespace tacto::gui {
 
@@ -19,6 +20,25 @@ QLabel* quietLabel(QWidget* parent) {
     label->setFont(font);
     label->setMinimumWidth(1);
     return label;
+}
+
+/// The last pulse's measured net charge against what a person may receive. On bench loads it is only shown: amber
+/// above the limit, red from ten times it (safety.md H5).
+std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
+    if (telemetry.trainsDelivered == 0) return std::nullopt;
+    const auto present = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+    const auto balance = chargeBalance(present(telemetry.imbalance), present(telemetry.imbalanceUncertainty));
+    ExposureRow row;
+    row.quantity = Quantity::NetCharge;
+    row.unit = "%";
+    row.value = telemetry.imbalance * 100;
+    row.limit = kNetChargeLimit * 100;
+    row.set = "a person";
+    row.action = balance == ChargeBalance::Red ? LimitAction::Refuse : LimitAction::Warn;
+    row.evaluated = balance != ChargeBalance::NotEvaluated;
+    row.within = balance == ChargeBalance::Green;
+    if (!row.evaluated) row.reason = "The read-back does not tell it to 0.5 % of the phase charge.";
+    return row;
 }
 
 }  // namespace
@@ -80,7 +100,7 @@ SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(d
         {tr("5 s RMS"), {Q::RmsCurrent5s, Q::RmsVoltage5s}},
         {tr("Energy"), {Q::PulseEnergy}},
         {tr("Density"), {Q::PowerDensity, Q::CurrentDensity}},
-        {tr("Net charge"), {Q::NetCharge}},
+        {tr("Net charge"), {}},  // measured, not predicted: see netCharge()
         {tr("In train"), {Q::RmsCurrentTrain}},
         {tr("1 s RMS"), {Q::RmsCurrent1s}},
     };
@@ -191,7 +211,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
     for (const auto& shown : bars_) {
-        std::optional<ExposureRow> row;
+        std::optional<ExposureRow> row = shown.quantities.empty() ? netCharge(telemetry) : std::nullopt;
         for (const auto quantity : shown.quantities) {
             auto candidate = tightest(telemetry.exposure(), {quantity});
             if (!candidate) continue;

@@ -47,7 +47,7 @@ private:
     QPushButton* stop_ = nullptr;
     struct Shown {
         LimitBar* bar;
-        std::vector<Quantity> quantities;
+        std::vector<Quantity> quantities;  ///< none: the measured net charge
     };
     std::vector<Shown> bars_;
     std::uint64_t trainsSeen_ = 0;
