@@ -1,0 +1,59 @@
+// StallWatch.h - how long the window could not answer: the longest gap between the beats of a 5 ms timer in its event
+// loop, while something runs. A gap of 5 ms is an idle window.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QEventLoop>
+#include <QTimer>
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace tacto::test {
+
+struct Stalls {
+    static constexpr double kBeat_ms = 5;
+    static constexpr double kNoticed_ms = 50;  ///< from here on a person feels it
+    double longest_ms = 0;
+    std::size_t noticed = 0;  ///< gaps above kNoticed_ms
+    std::size_t beats = 0;
+    double lasted_s = 0;
+};
+
+/// Does `begin` from inside the event loop, then lets the window live until `isSo`. Nothing when that did not come
+/// true within `limit_ms`. `isSo` is asked at each beat and its time is not counted: it stands for no part of the
+/// window.
+[[nodiscard]] inline std::optional<Stalls> stallsWhile(const std::function<void()>& begin,
+                                                       const std::function<bool()>& isSo, int limit_ms) {
+    using SteadyClock = std::chrono::steady_clock;
+    const auto since = [](SteadyClock::time_point then) {
+        return std::chrono::duration<double, std::milli>(SteadyClock::now() - then).count();
+    };
+    QEventLoop loop;
+    QTimer beat;
+    beat.setTimerType(Qt::PreciseTimer);
+    Stalls seen;
+    bool came = false;
+    auto last = SteadyClock::now();
+    const auto began = last;
+    QObject::connect(&beat, &QTimer::timeout, &loop, [&] {
+        const double gap = since(last);
+        seen.longest_ms = std::max(seen.longest_ms, gap);
+        if (gap > Stalls::kNoticed_ms) ++seen.noticed;
+        ++seen.beats;
+        came = isSo();
+        if (came || since(began) > limit_ms) loop.quit();
+        last = SteadyClock::now();
+    });
+    beat.start(static_cast<int>(Stalls::kBeat_ms));
+    QTimer::singleShot(0, &loop, begin);
+    last = SteadyClock::now();
+    loop.exec();
+    seen.lasted_s = since(began) / 1000;
+    return came ? std::optional(seen) : std::nullopt;
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,184 @@
+// Redraw.cpp - what live plots cost at 60 frames a second, 1280x720: CPU time of the window's thread and of the whole
+// process (the simulated bench and its recording included) over some seconds of wall time, beside a plot with nothing
+// in it that is redrawn as often.
+//
+// To be met: two channels under 25 % of one core.
+#include <QTabWidget>
+#include <fmt/format.h>
+#include <qcustomplot.h>
+
+#include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/live/StripPlots.h"
+#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/window/MainWindow.h"
+#include "tests/gui/Person.h"
+#include "tests/perf/window/WindowPerf.h"
+
+namespace tacto::perf {
+
+namespace {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+constexpr double kFrames_hz = 60;
+constexpr int kSettle_ms = 1000;
+constexpr int kMeasured_ms = 5000;
+constexpr double kGoal_percent = 25;
+const QSize kScreen(1280, 720);
+
+struct Cost {
+    double window_percent = 0;   ///< of one core, the window's thread
+    double process_percent = 0;  ///< of one core, all threads
+    double frames_hz = 0;        ///< pictures that were really drawn
+};
+
+/// Calls `frame` sixty times a second; nothing calls it when it is empty. `drawn` counts pictures.
+Cost costOf(const std::function<void()>& frame, const std::size_t& drawn) {
+    QTimer timer;
+    timer.setTimerType(Qt::PreciseTimer);
+    timer.setSingleShot(true);
+    const auto now = [] { return std::chrono::steady_clock::now(); };
+    const std::chrono::duration<double> step(1 / kFrames_hz);
+    std::chrono::duration<double> due(0);
+    const auto began = now();
+    // Due times stand on a grid of sixtieths, whatever a frame takes; what is missed is not made up for.
+    const auto next = [&] {
+        const std::chrono::duration<double> passed = now() - began;
+        due = std::max(due + step, passed);
+        timer.start(
+            std::chrono::duration_cast<std::chrono::milliseconds>(due - passed + std::chrono::microseconds(500)));
+    };
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+        frame();
+        next();
+    });
+    if (frame) next();
+    pass(kSettle_ms);
+    const double window = secondsOf(CLOCK_THREAD_CPUTIME_ID), process = secondsOf(CLOCK_PROCESS_CPUTIME_ID);
+    const auto drawnBefore = drawn;
+    const auto from = now();
+    pass(kMeasured_ms);
+    const double wall = std::chrono::duration<double>(now() - from).count();
+    return {100 * (secondsOf(CLOCK_THREAD_CPUTIME_ID) - window) / wall,
+            100 * (secondsOf(CLOCK_PROCESS_CPUTIME_ID) - process) / wall,
+            static_cast<double>(drawn - drawnBefore) / wall};
+}
+
+void count(QCustomPlot& plot, std::size_t& drawn) {
+    QObject::connect(&plot, &QCustomPlot::afterReplot, [&drawn] { ++drawn; });
+}
+
+void tell(const std::string& what, const Cost& cost, const Cost& baseline, bool hasGoal) {
+    const auto figures =
+        fmt::format("{:7.1f} % {:7.1f} % {:9.1f}", cost.window_percent, cost.process_percent, cost.frames_hz);
+    auto remark = fmt::format("{:.1f} times the empty plot", cost.window_percent / baseline.window_percent);
+    if (hasGoal) {
+        const bool met = cost.window_percent < kGoal_percent && cost.frames_hz > 0.95 * kFrames_hz;
+        remark += fmt::format("; wanted: under {:.0f} % of one core at {:.0f}/s: {}", kGoal_percent, kFrames_hz,
+                              verdict(met));
+    }
+    line(what, figures, remark);
+}
+
+Cost emptyPlot() {
+    QCustomPlot plot;
+    plot.setNotAntialiasedElements(QCP::aeAll);
+    plot.resize(kScreen);
+    plot.show();
+    std::size_t drawn = 0;
+    count(plot, drawn);
+    double t = 0;
+    return costOf(
+        [&] {
+            t += 1 / kFrames_hz;
+            plot.xAxis->setRange(t, t + 10);
+            plot.replot(QCustomPlot::rpQueuedReplot);
+        },
+        drawn);
+}
+
+/// Two channels, another capture of the bench in each frame: no real one triggers so fast.
+void twoChannels(const Cost& baseline) {
+    const char* what = "oscilloscope: two channels, new each frame";
+    gui::BenchDesk desk(test::simulatedRegistry);
+    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
+    std::vector<gui::ShownPtr> captures;
+    QObject::connect(&desk, &gui::BenchDesk::captured, [&](std::shared_ptr<const Capture> capture) {
+        captures.push_back(gui::prepareCapture(std::move(capture), {}, {}));
+    });
+    ScopeSettings settings;
+    {
+        gui::ScopeWorkspace controls(desk);
+        settings = controls.settings();
+    }
+    desk.runScope(settings, false);
+    if (!comes([&] { return captures.size() >= 4; })) return notMeasured(what, "the oscilloscope does not trigger");
+    desk.stopScope();
+    pass(100);
+    gui::ScopeView view;
+    view.resize(kScreen);
+    view.QWidget::show();
+    std::size_t drawn = 0, k = 0;
+    count(view, drawn);
+    const auto cost = costOf([&] { view.show(captures[k++ % captures.size()]); }, drawn);
+    tell(what, cost, baseline, true);
+}
+
+/// All strips, taxels and the tactile plane, while a finger slides and trains are delivered.
+void touch(const Cost& baseline) {
+    const char* what = "touch: every strip, plane and panel";
+    gui::BenchDesk desk(test::simulatedRegistry);
+    gui::LiveWorkspace live(desk);
+    live.resize(kScreen);
+    live.show();
+    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
+    desk.present("P120", 50, 1);
+    desk.drive(DriveSource::Sensor);
+    std::size_t drawn = 0;
+    count(const_cast<gui::StripPlots&>(live.plots()), drawn);
+    // Ten seconds are shown: a full picture is what costs.
+    QTimer fill;
+    QObject::connect(&fill, &QTimer::timeout, [&] { live.refresh(desk.telemetry(), true); });
+    fill.start(50);
+    desk.setSpeed(10);
+    const bool filled = comes([&] { return live.history().now_s() > 14; });
+    desk.setSpeed(1);
+    fill.stop();
+    if (!filled) return notMeasured(what, "the simulated bench stands still");
+    tell(what, costOf([&] { live.refresh(desk.telemetry(), true); }, drawn), baseline, true);
+}
+
+/// The program as it is, redrawn as often as it does by itself.
+void wholeWindow(const Cost& baseline, int tab, const std::string& what) {
+    gui::MainWindow window(test::simulatedRegistry);
+    window.resize(1440, 900);
+    window.show();
+    auto& desk = window.desk();
+    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
+    desk.present("P120", 50, 1);
+    desk.drive(DriveSource::Sensor);
+    auto* tabs = window.findChild<QTabWidget*>("livePage");
+    window.showWorkspace(0);
+    tabs->setCurrentIndex(tab);
+    auto* plot = tab == 0 ? static_cast<QCustomPlot*>(window.findChild<gui::StripPlots*>())
+                          : static_cast<QCustomPlot*>(window.findChild<gui::ScopeView*>());
+    std::size_t drawn = 0;
+    count(*plot, drawn);
+    pass(2000);
+    tell(what, costOf({}, drawn), baseline, false);
+}
+
+}  // namespace
+
+void measureRedraw() {
+    heading("live redraw, CPU time of one core", "   window   process  frames/s");
+    const auto baseline = emptyPlot();
+    tell("baseline: empty plot", baseline, baseline, false);
+    twoChannels(baseline);
+    touch(baseline);
+    wholeWindow(baseline, 0, "the whole window at its own pace: touch");
+    wholeWindow(baseline, 1, "the whole window at its own pace: oscilloscope");
+}
+
+}  // namespace tacto::perf

@@ -1,0 +1,95 @@
+// perf_window - what the window costs and how soon it answers, each figure beside its goal and its baseline, measured
+// in the same run. On the offscreen platform unless QT_QPA_PLATFORM says otherwise; the user's folders are elsewhere.
+//
+//   perf_window PATH-OF-tactoscope-cli [redraw] [stalls] [stop]
+#include "tests/perf/window/WindowPerf.h"
+
+#include <QApplication>
+#include <QTemporaryDir>
+#include <chrono>
+#include <cstdio>
+#include <set>
+
+#include "app/gui/look/Look.h"
+#include "tests/gui/window/StallWatch.h"
+
+namespace tacto::perf {
+
+namespace {
+bool everything = true;
+}
+
+void heading(const char* what, const char* columns) { std::printf("\n%-46s %s\n", what, columns); }
+
+void line(const std::string& what, const std::string& figures, const std::string& remark) {
+    std::printf("  %-44s %s%s%s\n", what.c_str(), figures.c_str(), remark.empty() ? "" : "  ", remark.c_str());
+    std::fflush(stdout);
+}
+
+void notMeasured(const std::string& what, const std::string& why) {
+    everything = false;
+    line(what, "not measured: " + why);
+}
+
+bool everythingWasMeasured() noexcept { return everything; }
+
+const char* verdict(bool met) noexcept { return met ? "met" : "MISSED"; }
+
+double secondsOf(clockid_t clock) noexcept {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+bool comes(const std::function<bool()>& isSo, int limit_ms) {
+    return test::stallsWhile([] {}, isSo, limit_ms).has_value();
+}
+
+void pass(int ms) {
+    QEventLoop loop;
+    QTimer::singleShot(ms, &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
+bool openBench(gui::BenchDesk& desk, double speed) {
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = desk.profile();
+    order.speed = speed;
+    desk.openLive(order);
+    return comes([&] { return desk.activity() == gui::Activity::Live; });
+}
+
+bool deliver(gui::BenchDesk& desk) {
+    const auto state = [&] { return desk.telemetry().state; };
+    ArmRequest request;
+    request.operatorConfirmed = true;
+    desk.arm(request);
+    if (!comes([&] { return state() == InterlockState::Armed; })) return false;
+    desk.drive(DriveSource::Manual, 0.5, 1);
+    return comes([&] { return state() == InterlockState::Delivering; });
+}
+
+}  // namespace tacto::perf
+
+int main(int argc, char** argv) {
+    const QTemporaryDir home;
+    for (const auto* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
+        qputenv(name, home.path().toUtf8());
+    if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("tactoscope");
+    QApplication::setOrganizationName("tactoscope");
+    QApplication::setQuitOnLastWindowClosed(false);
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: perf_window PATH-OF-tactoscope-cli [redraw] [stalls] [stop]\n");
+        return 2;
+    }
+    tacto::gui::applyTheme(tacto::gui::Theme::Light);
+    const std::set<std::string> parts(argv + 2, argv + argc);
+    const auto wanted = [&](const char* part) { return parts.empty() || parts.contains(part); };
+    if (wanted("redraw")) tacto::perf::measureRedraw();
+    if (wanted("stalls")) tacto::perf::measureStalls(argv[1]);
+    if (wanted("stop")) tacto::perf::measureStop();
+    return tacto::perf::everythingWasMeasured() ? 0 : 1;
+}
