@@ -1,0 +1,99 @@
+#include "drivers/usb/UsbDevice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <libusb.h>
+
+#include "drivers/usb/UsbError.h"
+#include "drivers/usb/UsbLine.h"
+
+namespace tacto {
+
+Result<std::shared_ptr<UsbDevice>> UsbDevice::open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info) {
+    auto handle = context->openHandle(info);
+    if (!handle) return failure(handle);
+    return std::shared_ptr<UsbDevice>(new UsbDevice(std::move(context), info, *handle));
+}
+
+UsbDevice::~UsbDevice() {
+    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back.
+    for (const auto interface : claimed_) libusb_release_interface(handle_, interface);
+    for (const auto interface : detached_) libusb_attach_kernel_driver(handle_, interface);
+    libusb_close(handle_);
+}
+
+Result<UsbBulkPair> UsbDevice::bulkPair(UsbFunction function) const {
+    libusb_config_descriptor* read = nullptr;
+    if (const int code = libusb_get_active_config_descriptor(libusb_get_device(handle_), &read); code != 0) {
+        return tl::unexpected(usbError(code, label_, "reading its descriptors"));
+    }
+    const std::unique_ptr<libusb_config_descriptor, void (*)(libusb_config_descriptor*)> configuration(
+        read, &libusb_free_config_descriptor);
+    return findBulkPair(*configuration, function, label_);
+}
+
+Result<void> UsbDevice::claim(std::uint8_t interface) {
+    const int active = libusb_kernel_driver_active(handle_, interface);
+    if (active == 1) {
+        if (const int code = libusb_detach_kernel_driver(handle_, interface);
+            code != 0 && code != LIBUSB_ERROR_NOT_FOUND) {
+            return tl::unexpected(usbError(code, label_, "taking it from the kernel's driver"));
+        }
+        detached_.push_back(interface);
+    }
+    if (const int code = libusb_claim_interface(handle_, interface); code != 0) {
+        return tl::unexpected(usbError(code, label_, fmt::format("claiming interface {}", interface)));
+    }
+    claimed_.push_back(interface);
+    return {};
+}
+
+Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout) {
+    const auto what = fmt::format("request {:#04x}", request.request);
+    if (!deadlineAfter(timeout)) {
+        return fail(ErrorCode::InvalidArgument, "{}: the time-out of {} is {} s; {}", label_, what, timeout.count(),
+                    kTimeoutRange);
+    }
+    if (data.size() > 4096) {  // usbfs takes a page at most
+        return fail(ErrorCode::InvalidArgument, "{}: {} has {} bytes; at most 4096 were expected", label_, what,
+                    data.size());
+    }
+    // To libusb 0 ms means for ever.
+    const auto milliseconds = static_cast<unsigned>(std::max(1.0, std::ceil(timeout.count() * 1e3)));
+    const int code = libusb_control_transfer(handle_, request.type, request.request, request.value, request.index,
+                                             data.data(), static_cast<std::uint16_t>(data.size()), milliseconds);
+    if (code < 0) return tl::unexpected(usbError(code, label_, what));
+    return static_cast<std::size_t>(code);
+}
+
+Result<void> UsbDevice::controlOut(const UsbRequest& request, std::span<const std::uint8_t> data, Seconds timeout) {
+    if ((request.type & LIBUSB_ENDPOINT_IN) != 0) {
+        return fail(ErrorCode::InvalidArgument, "{}: request type {:#04x} is for input; bit 7 clear was expected",
+                    label_, request.type);
+    }
+    std::vector<std::uint8_t> copy(data.begin(), data.end());
+    auto taken = control(request, copy, timeout);
+    if (!taken) return failure(taken);
+    if (*taken != data.size()) {
+        return fail(ErrorCode::Device, "{}: it took {} bytes of request {:#04x}; {} were expected", label_, *taken,
+                    request.request, data.size());
+    }
+    return {};
+}
+
+Result<std::size_t> UsbDevice::controlIn(const UsbRequest& request, std::span<std::uint8_t> into, Seconds timeout) {
+    if ((request.type & LIBUSB_ENDPOINT_IN) == 0) {
+        return fail(ErrorCode::InvalidArgument, "{}: request type {:#04x} is for output; bit 7 set was expected",
+                    label_, request.type);
+    }
+    return control(request, into, timeout);
+}
+
+Result<void> UsbDevice::clearHalt(std::uint8_t endpoint) {
+    if (const int code = libusb_clear_halt(handle_, endpoint); code != 0) {
+        return tl::unexpected(usbError(code, label_, fmt::format("clearing endpoint {:#04x}", endpoint)));
+    }
+    return {};
+}
+
+}  // namespace tacto

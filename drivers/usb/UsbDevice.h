@@ -1,0 +1,71 @@
+// UsbDevice.h - an open USB device: its claimed interfaces, the kernel drivers that were asked to step aside, and
+// requests to its control endpoint.
+//
+// Destruction releases the interfaces, gives the device back to the kernel's drivers and closes it; transfers must
+// have ended before.
+// Thread-safety: one thread at a time, and never the event thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/Units.h"
+#include "drivers/usb/UsbContext.h"
+#include "drivers/usb/UsbEndpoints.h"
+
+namespace tacto {
+
+/// The first 6 bytes of a SETUP packet, USB 2.0 section 9.3.
+struct UsbRequest {
+    std::uint8_t type = 0;     ///< bmRequestType; bit 7 is set for input
+    std::uint8_t request = 0;  ///< bRequest
+    std::uint16_t value = 0;   ///< wValue
+    std::uint16_t index = 0;   ///< wIndex
+};
+
+class UsbDevice {
+public:
+    /// Errors: NotFound (unplugged meanwhile); Io with the sentence that helps (not permitted).
+    [[nodiscard]] static Result<std::shared_ptr<UsbDevice>> open(std::shared_ptr<UsbContext> context,
+                                                                 const UsbDeviceInfo& info);
+    ~UsbDevice();
+    UsbDevice(const UsbDevice&) = delete;
+    UsbDevice& operator=(const UsbDevice&) = delete;
+
+    [[nodiscard]] const UsbDeviceInfo& info() const noexcept { return info_; }
+    [[nodiscard]] const std::string& label() const noexcept { return label_; }
+    /// Errors: Device where the device's descriptors cannot be read; as findBulkPair().
+    [[nodiscard]] Result<UsbBulkPair> bulkPair(UsbFunction function) const;
+
+    /// Takes an interface for this program alone, away from the kernel's driver too.
+    /// Errors: Io (another program has it); Device (gone, or it has no such interface).
+    [[nodiscard]] Result<void> claim(std::uint8_t interface);
+
+    /// Sends `data` with a request, and waits. Errors: Timeout; Device (gone, refused, took fewer bytes).
+    [[nodiscard]] Result<void> controlOut(const UsbRequest& request, std::span<const std::uint8_t> data,
+                                          Seconds timeout);
+    /// Fetches what a request is answered with: the bytes that came, at most those of `into`. Errors: as above.
+    [[nodiscard]] Result<std::size_t> controlIn(const UsbRequest& request, std::span<std::uint8_t> into,
+                                                Seconds timeout);
+    /// Makes a stalled endpoint work again. Errors: Device (gone, refused).
+    [[nodiscard]] Result<void> clearHalt(std::uint8_t endpoint);
+
+    [[nodiscard]] libusb_device_handle* handle() const noexcept { return handle_; }
+
+private:
+    UsbDevice(std::shared_ptr<UsbContext> context, UsbDeviceInfo info, libusb_device_handle* handle)
+        : context_(std::move(context)), info_(std::move(info)), label_(info_.label()), handle_(handle) {}
+    [[nodiscard]] Result<std::size_t> control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout);
+
+    const std::shared_ptr<UsbContext> context_;  // outlives the handle
+    const UsbDeviceInfo info_;
+    const std::string label_;
+    libusb_device_handle* const handle_;
+    std::vector<std::uint8_t> claimed_;
+    std::vector<std::uint8_t> detached_;  // the kernel's driver is given back here
+};
+
+}  // namespace tacto
