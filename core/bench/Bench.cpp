@@ -413,14 +413,28 @@ void Bench::idle(Seconds duration) noexcept {
     }
 }
 
-Result<void> Bench::requestCaptures(int trains, const ScopeSettings& settings) {
+bool Bench::canCaptureUntriggered() const noexcept { return state_->scope && state_->scope->canForce(); }
+
+Result<void> Bench::requestCaptures(int trains, const ScopeSettings& settings,
+                                    std::optional<Seconds> untriggeredAfter) {
     auto& s = *state_;
     if (!s.scope) return fail(ErrorCode::Unsupported, "no oscilloscope is open to capture with");
     if (trains < 1 || trains > static_cast<int>(ScopeSession::kMaxCaptures)) {
         return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains,
                     ScopeSession::kMaxCaptures);
     }
-    s.scope->request(settings, s.config.clock->now(), static_cast<std::size_t>(trains));
+    std::optional<Instant> forceAfter;
+    if (untriggeredAfter) {
+        if (!s.scope->canForce()) {
+            return fail(ErrorCode::Unsupported, "this oscilloscope takes no record without a trigger");
+        }
+        if (!(untriggeredAfter->count() > 0 && untriggeredAfter->count() <= 3600)) {
+            return fail(ErrorCode::InvalidArgument, "an untriggered record after {} s; above 0 to 3600 s is expected",
+                        untriggeredAfter->count());
+        }
+        forceAfter = toInstant(*untriggeredAfter);
+    }
+    s.scope->request(settings, s.config.clock->now(), static_cast<std::size_t>(trains), forceAfter);
     return {};
 }
 

@@ -80,8 +80,14 @@ public:
     /// oscilloscope; Timeout when fewer came; as wait().
     [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
     /// capture() in two halves, for a caller that goes on meanwhile: the next `trains` triggers, whenever they come.
-    /// A new request replaces one that is under way. Errors: Unsupported; InvalidArgument for the number.
-    [[nodiscard]] Result<void> requestCaptures(int trains, const ScopeSettings& settings);
+    /// A new request replaces one that is under way. With `untriggeredAfter` a record comes untriggered (and is marked
+    /// so) whenever no trigger has come for that long; capture() never takes one.
+    /// Errors: Unsupported, also where the oscilloscope takes no record without a trigger; InvalidArgument for the
+    /// number or the wait.
+    [[nodiscard]] Result<void> requestCaptures(int trains, const ScopeSettings& settings,
+                                               std::optional<Seconds> untriggeredAfter = {});
+    /// Whether requestCaptures() may be asked for untriggered records.
+    [[nodiscard]] bool canCaptureUntriggered() const noexcept;
     /// What a request has brought so far, or why the oscilloscope failed. Empties it.
     [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
     void cancelCaptures() noexcept;

@@ -4,11 +4,13 @@
 
 namespace tacto {
 
-void ScopeSession::request(const ScopeSettings& settings, Instant now, std::size_t wanted) {
+void ScopeSession::request(const ScopeSettings& settings, Instant now, std::size_t wanted,
+                           std::optional<Instant> untriggeredAfter) {
     const std::scoped_lock lock(mutex_);
     notBefore_s_ = toSeconds(now);
     requested_ = settings;
     wanted_ = wanted;
+    forceAfter_ = untriggeredAfter;
     cancelled_ = false;
     captures_.clear();
     error_.reset();
@@ -41,6 +43,16 @@ Result<std::vector<Capture>> ScopeSession::take() {
     return std::exchange(captures_, {});
 }
 
+Result<void> ScopeSession::forceWhenDue(Instant now) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!active_ || !forceAfter_ || forced_ == nullptr || forceAsked_ || now - quietSince_ < *forceAfter_)
+            return {};
+    }
+    forceAsked_ = true;
+    return forced_->forceTrigger();
+}
+
 Instant ScopeSession::serve(Instant now) noexcept {
     constexpr Instant kPollEvery = std::chrono::milliseconds(5);
     std::optional<ScopeSettings> settings;
@@ -60,6 +72,8 @@ Instant ScopeSession::serve(Instant now) noexcept {
         device_.disarm();
         done = device_.configure(*settings);
         if (done) done = device_.arm();
+        quietSince_ = now;
+        forceAsked_ = false;
     }
     while (done && polling) {
         auto capture = device_.poll();
@@ -68,6 +82,8 @@ Instant ScopeSession::serve(Instant now) noexcept {
         } else if (!*capture) {
             break;
         } else {
+            quietSince_ = now;
+            forceAsked_ = false;
             const std::scoped_lock lock(mutex_);
             if ((*capture)->trigger_s < notBefore_s_) continue;
             captures_.push_back(std::move(**capture));
@@ -77,6 +93,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
             break;
         }
     }
+    if (done && polling) done = forceWhenDue(now);
     if (!done) {
         device_.disarm();
         const std::scoped_lock lock(mutex_);

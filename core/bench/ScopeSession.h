@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/devices/ForcedTrigger.h"
 #include "core/devices/Oscilloscope.h"
 
 namespace tacto {
@@ -18,11 +19,16 @@ public:
     static constexpr std::size_t kMaxCaptures = 64;
 
     /// `device` outlives the session.
-    explicit ScopeSession(Oscilloscope& device) : device_(device) {}
+    explicit ScopeSession(Oscilloscope& device) : device_(device), forced_(dynamic_cast<ForcedTrigger*>(&device)) {}
 
     /// Asks for `wanted` captures triggered from `now` on, with these settings; throws away older ones. The device
     /// is disarmed with the last of them, so that none is taken that nobody asked for.
-    void request(const ScopeSettings& settings, Instant now, std::size_t wanted);
+    /// With `untriggeredAfter`, a record is taken without a trigger when none has come for that long since the request
+    /// or the capture before; only where canForce().
+    void request(const ScopeSettings& settings, Instant now, std::size_t wanted,
+                 std::optional<Instant> untriggeredAfter = {});
+    /// Whether the device can take a record without a trigger.
+    [[nodiscard]] bool canForce() const noexcept { return forced_ != nullptr; }
     /// No more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
@@ -35,7 +41,10 @@ public:
     [[nodiscard]] bool active() const;
 
 private:
+    [[nodiscard]] Result<void> forceWhenDue(Instant now);
+
     Oscilloscope& device_;
+    ForcedTrigger* const forced_;  // the device's, or null
     mutable std::mutex mutex_;
     std::optional<ScopeSettings> requested_;  // guarded
     std::size_t wanted_ = 0;                  // guarded
@@ -44,6 +53,10 @@ private:
     std::vector<Capture> captures_;           // guarded
     double notBefore_s_ = 0;                  // guarded: a trigger before it belongs to an earlier request
     std::optional<Error> error_;              // guarded
+    std::optional<Instant> forceAfter_;       // guarded
+    // serve()'s:
+    Instant quietSince_{0};
+    bool forceAsked_ = false;  // and its record has not come
 };
 
 }  // namespace tacto

@@ -23,6 +23,7 @@ struct Capture {
     double start_s = 0;    ///< time of sample 0 on the session's time base
     double trigger_s = 0;  ///< time stamp of the trigger; NaN for a record without one
     bool simulated = false;
+    bool untriggered = false;  ///< taken because no trigger came: it shows the signal, not an event; trigger_s is NaN
     std::vector<CaptureChannel> channels;  ///< equally long
 
     [[nodiscard]] std::size_t samples() const noexcept {

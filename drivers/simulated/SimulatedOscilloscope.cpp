@@ -67,8 +67,20 @@ Result<void> SimulatedOscilloscope::arm() {
     if (const auto reply = answers(now); !reply) return reply;
     settings_ = wanted_;
     trigger_s_.reset();
+    forced_s_.reset();
     armed_ = true;
     searchFrom_s_ = toSeconds(now);
+    return {};
+}
+
+Result<void> SimulatedOscilloscope::forceTrigger() {
+    const Instant now = world_->clock().now();
+    if (const auto reply = answers(now); !reply) return reply;
+    if (!armed_) {
+        return fail(ErrorCode::Unsupported, "the simulated oscilloscope is not armed: it can take no record");
+    }
+    const double before = settings_.preTrigger * static_cast<double>(settings_.samples) / settings_.sampleRate.value();
+    if (!forced_s_) forced_s_ = std::max(toSeconds(now), searchFrom_s_ + before);
     return {};
 }
 
@@ -93,10 +105,14 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
     return world_->circuit().inspect(now, [&](const std::deque<PlayedPulse>& pulses) -> std::optional<Capture> {
         const double length = static_cast<double>(settings_.samples) / settings_.sampleRate.value();
         if (!trigger_s_) trigger_s_ = findTrigger(pulses);
-        if (!trigger_s_ || *trigger_s_ + (1 - settings_.preTrigger) * length > toSeconds(now)) return std::nullopt;
-        Capture capture = render(pulses, *trigger_s_);
-        searchFrom_s_ = *trigger_s_ + (1 - settings_.preTrigger) * length;
+        // What comes first takes the record; a trigger within a record that is under way is passed over.
+        const bool untriggered = forced_s_ && (!trigger_s_ || *forced_s_ < *trigger_s_);
+        const auto middle_s = untriggered ? forced_s_ : trigger_s_;
+        if (!middle_s || *middle_s + (1 - settings_.preTrigger) * length > toSeconds(now)) return std::nullopt;
+        Capture capture = render(pulses, *middle_s, untriggered);
+        searchFrom_s_ = *middle_s + (1 - settings_.preTrigger) * length;
         trigger_s_.reset();
+        forced_s_.reset();
         if (flaws_.faults.active(Fault::Nan, now)) {
             for (auto& channel : capture.channels) {
                 std::fill(channel.samples.begin(), channel.samples.end(), std::numeric_limits<float>::quiet_NaN());
@@ -106,13 +122,14 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
     });
 }
 
-Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, double trigger_s) {
+Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered) {
     const double rate = settings_.sampleRate.value();
     const double before = settings_.preTrigger * static_cast<double>(settings_.samples);
     Capture capture;
     capture.rate_hz = rate;
-    capture.start_s = std::ceil(trigger_s * rate - before) / rate;  // the sample clock's own grid
-    capture.trigger_s = trigger_s;
+    capture.start_s = std::ceil(middle_s * rate - before) / rate;  // the sample clock's own grid
+    capture.trigger_s = untriggered ? std::numeric_limits<double>::quiet_NaN() : middle_s;
+    capture.untriggered = untriggered;
     capture.simulated = true;
     const double end = capture.start_s + static_cast<double>(settings_.samples) / rate;
     const double bandwidth = traits_.bandwidth.value();

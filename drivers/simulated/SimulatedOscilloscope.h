@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/devices/ForcedTrigger.h"
 #include "core/devices/Oscilloscope.h"
 #include "drivers/simulated/FastNoise.h"
 #include "drivers/simulated/FaultSchedule.h"
@@ -30,7 +31,7 @@ struct ScopeFlaws {
     std::uint64_t seed = 1;
 };
 
-class SimulatedOscilloscope final : public Oscilloscope, public WorldMember {
+class SimulatedOscilloscope final : public Oscilloscope, public ForcedTrigger, public WorldMember {
 public:
     SimulatedOscilloscope(DeviceIdentity identity, std::shared_ptr<World> world, const ScopeTraits& traits,
                           const ScopeFlaws& flaws);
@@ -41,12 +42,14 @@ public:
     [[nodiscard]] Result<void> arm() override;
     [[nodiscard]] Result<std::optional<Capture>> poll() override;
     void disarm() noexcept override { armed_ = false; }
+    [[nodiscard]] Result<void> forceTrigger() override;
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
 private:
     [[nodiscard]] Result<void> answers(Instant now) const;
     [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
-    [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double trigger_s);
+    /// A record around `middle_s`, where a trigger stood unless it is `untriggered`.
+    [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered);
     void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset);
 
     const DeviceIdentity identity_;
@@ -58,6 +61,7 @@ private:
     bool armed_ = false;
     double searchFrom_s_ = 0;  // triggers before this are over
     std::optional<double> trigger_s_;
+    std::optional<double> forced_s_;  // a record is taken here unless a trigger comes before
     std::vector<double> buffer_;
 };
 

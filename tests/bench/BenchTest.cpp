@@ -39,6 +39,41 @@ TEST_F(BenchTest, CapturesWhatTheLoadReceivesOnsetToOnset) {
     EXPECT_EQ(measured->interval_s.n, 2U);
 }
 
+TEST_F(BenchTest, ShowsTheSignalUntriggeredWhenNoTriggerComes) {
+    open({});
+    ASSERT_TRUE(bench_->canCaptureUntriggered());
+    ASSERT_TRUE(bench_->requestCaptures(2, ScopeSettings{}, Seconds(0.3)));
+    bench_->idle(Seconds(0.25));
+    EXPECT_TRUE(bench_->takeCaptures()->empty()) << "a trigger may still come";
+    bench_->idle(Seconds(0.5));
+    const auto quiet = bench_->takeCaptures();
+    ASSERT_TRUE(quiet);
+    ASSERT_EQ(quiet->size(), 2U);
+    EXPECT_TRUE(quiet->front().untriggered);
+    EXPECT_NEAR(quiet->back().start_s - quiet->front().start_s, 0.31, 0.03) << "again after another wait";
+
+    // With trains every half second, longer waits are never over.
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    ASSERT_TRUE(bench_->requestCaptures(3, ScopeSettings{}, Seconds(0.8)));
+    ASSERT_TRUE(bench_->wait(Seconds(2)));
+    const auto triggered = bench_->takeCaptures();
+    ASSERT_TRUE(triggered);
+    ASSERT_EQ(triggered->size(), 3U);
+    for (const auto& capture : *triggered) EXPECT_FALSE(capture.untriggered);
+}
+
+TEST_F(BenchTest, NothingUntriggeredComesUnasked) {
+    open({});
+    ASSERT_TRUE(bench_->requestCaptures(1, ScopeSettings{}));
+    bench_->idle(Seconds(5));
+    EXPECT_TRUE(bench_->takeCaptures()->empty());
+    const auto never = bench_->requestCaptures(1, ScopeSettings{}, Seconds(0));
+    ASSERT_FALSE(never);
+    EXPECT_EQ(never.error().code, ErrorCode::InvalidArgument);
+}
+
 TEST_F(BenchTest, APressIsFeltAtOnceWhenTheIntervalShrinks) {
     open({});
     ASSERT_TRUE(arm());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "core/devices/ForcedTrigger.h"
 #include "drivers/simulated/FilteredTrace.h"
 #include "drivers/simulated/SimulatedMassager.h"
 #include "tests/drivers/SimBench.h"
@@ -36,6 +37,32 @@ TEST(SimulatedOscilloscope, TriggerTimeIsExactBetweenSamples) {
         const double here = static_cast<double>(v[k]), next = static_cast<double>(v[k + 1]);
         EXPECT_NEAR(here + (at - static_cast<double>(k)) * (next - here), 5, 0.05);
     }
+}
+
+TEST(SimulatedOscilloscope, ATriggerBeforeTheForcedRecordWinsAndOneInItIsPassedOver) {
+    SimBench bench;
+    bench.open("sim:oscilloscope");
+    bench.open("sim:stimulator");
+    auto& forced = dynamic_cast<ForcedTrigger&>(*bench.devices.oscilloscope);
+    auto settings = record(1e5, 2000, 5);
+    settings.preTrigger = 0.9;  // 18 ms must pass before a record can be forced
+    bench.arm(settings);
+    ASSERT_TRUE(forced.forceTrigger());
+    bench.deliver(voltagePulse(10));
+    const auto triggered = bench.capture();
+    EXPECT_FALSE(triggered.untriggered);
+    EXPECT_TRUE(std::isfinite(triggered.trigger_s));
+    settings.preTrigger = 0.1;
+    bench.arm(settings);
+    bench.wait(Seconds(0.005));
+    ASSERT_TRUE(forced.forceTrigger());
+    bench.wait(Seconds(0.001));
+    bench.deliver(voltagePulse(10));
+    const auto untriggered = bench.capture();
+    EXPECT_TRUE(untriggered.untriggered);
+    EXPECT_TRUE(std::isnan(untriggered.trigger_s));
+    EXPECT_GT(peakOf(untriggered.channels[0]), 9) << "the pulse is seen all the same";
+    EXPECT_FALSE(bench.devices.oscilloscope->poll()->has_value());
 }
 
 TEST(SimulatedOscilloscope, IntervalsFromTriggerStampsAreThoseOfTheOnsets) {

@@ -29,6 +29,7 @@ struct BenchDesk::Live {
     SteadyTime servedAt = realNow();
     std::optional<ScopeSettings> scope;  // captures are wanted
     bool single = false;
+    std::optional<Seconds> untriggeredAfter;
     bool recordingFailed = false;
 };
 
@@ -164,15 +165,13 @@ void BenchDesk::fitLoad(const std::string& load) {
     });
 }
 
-void BenchDesk::runScope(const ScopeSettings& settings, bool single) {
-    post([this, settings, single] {
+void BenchDesk::runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter) {
+    post([this, settings, single, untriggeredAfter] {
         if (!live_) return;
         live_->scope = settings;
         live_->single = single;
-        if (auto requested = live_->bench->requestCaptures(1, settings); !requested) {
-            live_->scope.reset();
-            report(requested.error());
-        }
+        live_->untriggeredAfter = untriggeredAfter;
+        requestCapture();
     });
 }
 
@@ -249,22 +248,28 @@ void BenchDesk::serveLive() {
     }
 }
 
+void BenchDesk::requestCapture() {
+    const auto requested = live_->bench->requestCaptures(1, *live_->scope, live_->untriggeredAfter);
+    if (!requested) endScope(requested.error());
+}
+
+void BenchDesk::endScope(const Error& error) {
+    live_->scope.reset();
+    report(error);
+    tell([this, why = QString::fromStdString(error.message)] { emit scopeStopped(why); });
+}
+
 void BenchDesk::serveScope() {
     if (!live_->scope) return;
     auto taken = live_->bench->takeCaptures();
-    if (!taken) {
-        live_->scope.reset();
-        return report(taken.error());
-    }
+    if (!taken) return endScope(taken.error());
     if (taken->empty()) return;
     auto capture = std::make_shared<const Capture>(std::move(taken->back()));
     tell([this, capture] { emit captured(capture); });
-    if (live_->single) {
+    if (live_->single)
         live_->scope.reset();
-    } else if (auto again = live_->bench->requestCaptures(1, *live_->scope); !again) {
-        live_->scope.reset();
-        report(again.error());
-    }
+    else
+        requestCapture();
 }
 
 void BenchDesk::publishBench(Bench* bench, ScriptRun* script) {
@@ -295,6 +300,7 @@ std::shared_ptr<const OpenBench> describe(Bench& bench, const SessionAbout& abou
     if (devices.oscilloscope) open->scope = devices.oscilloscope->traits();
     open->paced = bench.clock().isVirtual();
     open->surfaces = devices.surface != nullptr;
+    open->untriggered = bench.canCaptureUntriggered();
     return open;
 }
 

@@ -40,8 +40,9 @@ struct OpenBench {
     std::vector<StreamInfo> streams;  ///< of the sensor; empty without one
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;
-    bool paced = false;     ///< on the virtual clock: `speed` means something
-    bool surfaces = false;  ///< the rig presents surfaces by itself
+    bool paced = false;        ///< on the virtual clock: `speed` means something
+    bool surfaces = false;     ///< the rig presents surfaces by itself
+    bool untriggered = false;  ///< the oscilloscope can take a record without a trigger
     [[nodiscard]] bool simulated() const { return about.simulated; }
 };
 
@@ -106,8 +107,9 @@ public:
     /// Puts a surface under a simulated finger; an empty material lifts it.
     void present(const std::string& material, double speed_mm_s, double force_n);
     void fitLoad(const std::string& load);
-    /// From now on captures come by captured(), one per trigger, until stopScope(). `single`: one, then none.
-    void runScope(const ScopeSettings& settings, bool single);
+    /// From now on captures come by captured(), one per trigger, until stopScope() or scopeStopped(). `single`: one,
+    /// then none. `untriggeredAfter`: one also whenever no trigger has come for that long (where open()->untriggered).
+    void runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter = {});
     void stopScope();
 
     /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is.
@@ -120,6 +122,9 @@ signals:
     void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
     void captured(std::shared_ptr<const tacto::Capture> capture);
+    /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
+    /// is not touched by it. failed() says it too, for who looks elsewhere.
+    void scopeStopped(const QString& why);
     void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);
 
 private:
@@ -130,6 +135,8 @@ private:
     void report(const Error& error);
     void serveLive();
     void serveScope();
+    void requestCapture();
+    void endScope(const Error& error);
     void openOnThread(const LiveOrder& order);
     void closeOnThread();
     void runOnThread(const RunOrder& order);

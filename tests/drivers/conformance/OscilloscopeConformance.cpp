@@ -119,12 +119,43 @@ TEST_P(OscilloscopeConformance, EachPulseGivesOneCaptureUntilDisarmed) {
     EXPECT_FALSE(captured().has_value());
 }
 
+TEST_P(OscilloscopeConformance, AForcedRecordIsMarkedOverlapsNoOtherAndLeavesItWaiting) {
+    auto* forced = dynamic_cast<ForcedTrigger*>(&device());
+    if (forced == nullptr) GTEST_SKIP() << "this oscilloscope takes no record without a trigger";
+    ASSERT_TRUE(device().configure(usual()).has_value());
+    const auto idle = forced->forceTrigger();
+    ASSERT_FALSE(idle.has_value()) << "it is not armed";
+    EXPECT_EQ(idle.error().code, ErrorCode::Unsupported);
+    double free_s = toSeconds(rig_->clock().now());  // from here on no record has been
+    ASSERT_TRUE(device().arm().has_value());
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(forced->forceTrigger().has_value());
+        const auto capture = captured();
+        ASSERT_TRUE(capture.has_value());
+        EXPECT_TRUE(capture->untriggered);
+        EXPECT_TRUE(std::isnan(capture->trigger_s));
+        EXPECT_EQ(capture->samples(), usual().samples);
+        EXPECT_GE(capture->start_s, free_s - 1e-6);
+        free_s = capture->start_s + static_cast<double>(capture->samples()) / capture->rate_hz;
+        EXPECT_LE(free_s, toSeconds(rig_->clock().now()) + 1e-6);
+        EXPECT_FALSE(captured().has_value()) << "one record for one call";
+    }
+    if (!rig_->pulse()) GTEST_SKIP() << "this rig cannot make a pulse";
+    const auto triggered = captured();
+    ASSERT_TRUE(triggered.has_value());
+    EXPECT_FALSE(triggered->untriggered);
+    EXPECT_GT(triggered->trigger_s, free_s);
+}
+
 TEST_P(OscilloscopeConformance, UnpluggedIsAnErrorAndNotACrash) {
     if (!rig_->unplug()) GTEST_SKIP() << "this rig cannot pull the plug";
     const auto found = device().poll();
     ASSERT_FALSE(found.has_value());
     EXPECT_EQ(found.error().code, ErrorCode::Device);
     EXPECT_FALSE(device().arm().has_value());
+    if (auto* forced = dynamic_cast<ForcedTrigger*>(&device())) {
+        EXPECT_FALSE(forced->forceTrigger().has_value());
+    }
     device().disarm();
 }
 
