@@ -3,12 +3,14 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QSettings>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <algorithm>
 #include <cmath>
 
 #include "app/gui/scope/QuantitySpin.h"
+#include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/Steps.h"
 #include "app/report/NumberText.h"
 
@@ -20,6 +22,9 @@ constexpr double kUsualSamples = 20'000;  ///< what Auto aims at in a short reco
 constexpr double kUsualRate_hz = 500e3;   ///< and in a long one: 100 samples in a phase of 200 µs
 constexpr double kLowestRate_hz = 1000;
 constexpr double kLowestLevel = 1e-6;
+constexpr double kMostVolts = 200;
+constexpr double kMostAmps = 0.5;
+constexpr double kLowestListed_hz = 10e3;
 
 void choose(QComboBox* combo, double value) {
     for (int i = 0; i < combo->count(); ++i) {
@@ -35,7 +40,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
       traits_{Hertz(2e6), 1'000'000, 8, Hertz(0)},
       source_(combo(tr("Trigger source"), tr("The channel that is watched: a capture begins where its magnitude rises "
                                              "through the level."))),
-      level_(new QuantitySpin("V", kLowestLevel, 50, this)),
+      level_(new QuantitySpin("V", kLowestLevel, kMostVolts, this)),
       preTrigger_(new QSpinBox(this)),
       length_(combo(tr("Record length"), tr("The time that one capture covers. To measure an interval it must hold two "
                                             "trains."))),
@@ -88,6 +93,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     });
     for (auto* box : {length_, rate_, volts_, amps_}) {
         connect(box, &QComboBox::activated, this, [this] {
+            wantedRate_hz_ = rate_->currentData().toDouble();
             say();
             emit changed();
         });
@@ -105,11 +111,11 @@ QComboBox* AcquisitionPanel::combo(const QString& name, const QString& tip) {
 }
 
 void AcquisitionPanel::fillRates() {
-    const double chosen = rate_->currentData().toDouble();
     rate_->clear();
     rate_->addItem(tr("Auto"), 0.0);
-    for (const double hz : stepsBetween(10e3, traits_.maxRate.value())) rate_->addItem(settingText(hz, "Hz"), hz);
-    choose(rate_, chosen);
+    for (const double hz : stepsBetween(kLowestListed_hz, traits_.maxRate.value()))
+        rate_->addItem(settingText(hz, "Hz"), hz);
+    choose(rate_, wantedRate_hz_);
 }
 
 void AcquisitionPanel::setTraits(const ScopeTraits& traits) {
@@ -145,13 +151,14 @@ bool AcquisitionPanel::triggersOnCurrent() const { return source_->currentData()
 void AcquisitionPanel::sourceChanged() {
     const bool current = triggersOnCurrent();
     const QSignalBlocker quiet(level_);
-    level_->setUnit(current ? "A" : "V", kLowestLevel, current ? 0.5 : 200);
+    level_->setUnit(current ? "A" : "V", kLowestLevel, current ? kMostAmps : kMostVolts);
     level_->setValue(current ? 1e-3 : 1);
 }
 
 void AcquisitionPanel::setLevel(double level) {
+    // Three digits: it follows what is commanded, and nobody compares the fourth.
     const QSignalBlocker quiet(level_);
-    level_->setValue(level);
+    level_->setValue(QString::number(level, 'g', 3).toDouble());
 }
 
 void AcquisitionPanel::setPreTrigger(double fraction) {
@@ -159,6 +166,36 @@ void AcquisitionPanel::setPreTrigger(double fraction) {
 }
 
 void AcquisitionPanel::setLevelHeld(bool held) { level_->setEnabled(!held); }
+
+void AcquisitionPanel::save(QSettings& settings) const {
+    settings.setValue("trigger/onCurrent", triggersOnCurrent());
+    settings.setValue("trigger/level", level_->value());
+    settings.setValue("trigger/preTrigger", preTrigger_->value());
+    settings.setValue("record/length", length_->currentData());
+    settings.setValue("record/rate", wantedRate_hz_);
+    settings.setValue("record/volts", volts_->currentData());
+    settings.setValue("record/amps", amps_->currentData());
+}
+
+void AcquisitionPanel::restore(const QSettings& settings) {
+    const QSignalBlocker quiet(this);
+    if (const auto current = rememberedFlag(settings, "trigger/onCurrent")) {
+        source_->setCurrentIndex(*current ? 1 : 0);
+        sourceChanged();
+    }
+    if (const auto level = rememberedNumber(settings, "trigger/level", level_->minimum(), level_->maximum())) {
+        setLevel(*level);
+    }
+    if (const auto part = rememberedNumber(settings, "trigger/preTrigger", 0, 100)) setPreTrigger(*part / 100);
+    for (const auto& [box, key] :
+         {std::pair{length_, "record/length"}, std::pair{volts_, "record/volts"}, std::pair{amps_, "record/amps"}}) {
+        if (const auto value = rememberedNumber(settings, key, 0, 1e3)) choose(box, *value);
+    }
+    const auto rate = rememberedNumber(settings, "record/rate", kLowestListed_hz, 1e10);
+    wantedRate_hz_ = rate && stepNotBelow(*rate) == *rate ? *rate : 0;
+    fillRates();
+    say();
+}
 
 void AcquisitionPanel::say() {
     const auto s = settings();

@@ -12,6 +12,7 @@
 
 class QComboBox;
 class QLabel;
+class QSettings;
 class QSpinBox;
 
 namespace tacto::gui {
@@ -34,6 +35,10 @@ public:
     /// The level is not the user's now.
     void setLevelHeld(bool held);
 
+    void save(QSettings& settings) const;
+    /// What is not there or not possible stays as it is. Says nothing by changed().
+    void restore(const QSettings& settings);
+
 signals:
     void changed();
 
@@ -45,6 +50,7 @@ private:
     [[nodiscard]] double rate_hz() const;
 
     ScopeTraits traits_;
+    double wantedRate_hz_ = 0;  ///< chosen, though the oscilloscope that is open may not offer it; 0: automatic
     QComboBox* source_;
     QuantitySpin* level_;
     QSpinBox* preTrigger_;

@@ -16,15 +16,16 @@
 
 namespace tacto::gui {
 
+/// In the order of the table: what is looked at first stands where it is seen without scrolling.
 enum class Reading {
     Amplitude,
     Width,
     Interval,
     Rise,
     Fall,
+    Charge,
     Overshoot,
     Droop,
-    Charge,
     Gap,
     Imbalance,
     Pulses,

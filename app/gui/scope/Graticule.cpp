@@ -41,12 +41,16 @@ void GraticuleTicker::generate(const QCPRange& range, const QLocale&, QChar, int
     labels->clear();
     const double step = std::abs(range.size() / divisions_ * perCoordinate_ * factor_);
     const int decimals = decimalsFor(values, step);
+    // Where not every division has a number, zero has one.
+    const auto isZero = [&](double v) { return std::abs(v) < step / 400; };
+    const auto zero = std::find_if(values.begin(), values.end(), isZero) - values.begin();
+    const int first = zero <= divisions_ ? static_cast<int>(zero) % every_ : 0;
     for (int i = 0; i <= divisions_; ++i) {
-        if (blank_ || i % every_ != 0) {
+        if (blank_ || i % every_ != first) {
             labels->append(QString());
             continue;
         }
-        const double value = std::abs(values[i]) < step / 400 ? 0.0 : values[i];
+        const double value = isZero(values[i]) ? 0.0 : values[i];
         labels->append(QString::number(value, 'f', decimals).replace('-', QChar(0x2212)));
     }
 }

@@ -129,7 +129,6 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
     its.position->setSuffix(tr(" div"));
     its.position->setKeyboardTracking(false);
     its.position->setAlignment(Qt::AlignRight);
-    its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 32);
     connect(its.position, &QDoubleSpinBox::valueChanged, this,
             [this, key](double value) { view_.setLanePosition(key, value); });
     grid_->addWidget(its.scale, 2 * row + 1, 0, 1, 2);
@@ -154,6 +153,7 @@ void LanePanel::follow() {
         its.shown->setChecked(lane.shown);
         if (its.scale == nullptr) continue;
         offerScales(*its.scale, lane.scale.perDivision, lane.unit);
+        its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 32);
         const QSignalBlocker quiet(its.position);
         if (!its.position->hasFocus() || std::abs(its.position->value() - lane.scale.position) > 5e-3) {
             its.position->setValue(lane.scale.position);

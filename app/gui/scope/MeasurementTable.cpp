@@ -88,9 +88,7 @@ MeasurementTable::MeasurementTable(QWidget* parent)
     table_->setTabKeyNavigation(false);
     table_->setFrameShape(QFrame::NoFrame);
     table_->verticalHeader()->hide();
-    table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
     table_->horizontalHeader()->setHighlightSections(false);
-    table_->setFont(digits(font()));
     table_->setColumnCount(2 + static_cast<int>(kReadings));
     QStringList titles{tr("Channel"), QString()};
     for (std::size_t r = 0; r < kReadings; ++r) titles << readingName(static_cast<Reading>(r)).title;
@@ -101,33 +99,48 @@ MeasurementTable::MeasurementTable(QWidget* parent)
         header->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     }
     table_->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    // Wide enough for what may come: columns that jump with every capture cannot be read.
-    for (std::size_t r = 0; r < kReadings; ++r) {
-        const int c = 2 + static_cast<int>(r);
-        const auto widest = static_cast<Reading>(r) == Reading::Charge ? "00000 µV·s m" : "−000.0 mm";
-        auto bold = table_->font();
-        bold.setBold(true);
-        table_->setColumnWidth(
-            c, std::max(QFontMetrics(bold).horizontalAdvance(widest), fontMetrics().horizontalAdvance(titles[c]) + 16));
-    }
+    sizeColumns();
     reset_->setToolTip(tr("Forgets the captures seen so far; the next one is the first."));
     connect(reset_, &QPushButton::clicked, this, &MeasurementTable::clear);
     warnings_->setWordWrap(true);
     warnings_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     warnings_->setObjectName("warnings");
+    warnings_->hide();
     auto* line = new QHBoxLayout;
     line->addWidget(seen_, 1);
     line->addWidget(reset_);
+    seen_->setWordWrap(true);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
     layout->addLayout(line);
     layout->addWidget(table_, 1);
     layout->addWidget(warnings_);
+    layout->addStretch();  // takes the room of a table that is not there yet
     refill();
 }
 
+/// Wide enough for what may come: columns that jump with every capture cannot be read.
+void MeasurementTable::sizeColumns() {
+    table_->setFont(digits(font()));
+    table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
+    auto bold = digits(font());
+    bold.setBold(true);
+    const QFontMetrics wide(bold);
+    for (std::size_t r = 0; r < kReadings; ++r) {
+        const int c = 2 + static_cast<int>(r);
+        const auto widest = static_cast<Reading>(r) == Reading::Charge ? "00000 µV·s" : "−000.0 mm";
+        const auto title = table_->horizontalHeaderItem(c)->text();
+        table_->setColumnWidth(c, std::max(wide.horizontalAdvance(widest), fontMetrics().horizontalAdvance(title)) +
+                                      fontMetrics().averageCharWidth() * 2);
+    }
+    table_->resizeColumnToContents(0);
+    table_->resizeColumnToContents(1);
+    table_->setMinimumHeight(table_->horizontalHeader()->sizeHint().height() + 3 * (fontMetrics().height() + 4));
+}
+
 void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings) {
+    passedOver_ = false;
     const auto rows = statistics_.channels().size();
     statistics_.add(measured);
     if (rows != statistics_.channels().size() || statistics_.captures() == 1) layRows();
@@ -138,7 +151,15 @@ void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, cons
     refill();
 }
 
+void MeasurementTable::passOverUntriggered() {
+    passedOver_ = true;
+    warnings_->clear();
+    warnings_->hide();
+    refill();
+}
+
 void MeasurementTable::clear() {
+    passedOver_ = false;
     statistics_.clear();
     warnings_->clear();
     warnings_->hide();
@@ -188,9 +209,14 @@ void MeasurementTable::refill() {
         for (int s = 0; s < kStatistics; ++s) fillRow(static_cast<int>(c) * kStatistics + s, channels[c], s);
     }
     const auto n = static_cast<int>(statistics_.captures());
-    seen_->setText(n == 0   ? tr("Measurements appear with the first capture.")
-                   : n == 1 ? tr("Over 1 capture")
-                            : tr("Over %1 captures").arg(n));
+    auto said = n == 0   ? tr("Measurements appear with the first capture.")
+                : n == 1 ? tr("Over 1 capture")
+                         : tr("Over %1 captures").arg(n);
+    if (passedOver_) {
+        said = n == 0 ? tr("Untriggered: nothing is measured. Measurements appear with the first trigger.")
+                      : said + tr(" · what is shown now is untriggered and not counted");
+    }
+    seen_->setText(said);
     reset_->setEnabled(n > 0);
     table_->setVisible(n > 0);
 }
@@ -220,6 +246,9 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
 void MeasurementTable::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange) restyle();
+    if (event->type() != QEvent::FontChange) return;
+    sizeColumns();
+    restyle();
 }
 
 void MeasurementTable::restyle() {
@@ -229,9 +258,9 @@ void MeasurementTable::restyle() {
         for (int c = 0; c < table_->columnCount(); ++c) {
             auto* item = table_->item(row, c);
             const bool last = row % kStatistics == kLast;
-            auto font = table_->font();
-            font.setBold(last);
-            item->setFont(font);
+            auto numbers = digits(font());
+            numbers.setBold(last);
+            item->setFont(numbers);
             item->setForeground(c == 0   ? (channel.unit == "A" ? colours().current : colours().voltage)
                                 : c == 1 ? colours().quiet
                                          : colours().text);

@@ -21,6 +21,8 @@ public:
 
     /// One more capture.
     void add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings);
+    /// What is shown now was not triggered: it is not counted, and that is said until the next capture.
+    void passOverUntriggered();
     void clear();
     [[nodiscard]] const CaptureStatistics& statistics() const noexcept { return statistics_; }
     /// The table as tab-separated text, for the clipboard.
@@ -32,11 +34,13 @@ protected:
 
 private:
     void layRows();
+    void sizeColumns();
     void restyle();
     void refill();
     void fillRow(int row, const CaptureStatistics::Channel& channel, int statistic);
 
     CaptureStatistics statistics_;
+    bool passedOver_ = false;
     QTableWidget* table_;
     QLabel* seen_;
     QLabel* warnings_;

@@ -11,7 +11,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDecimals = 12;  // of the value that is held; what is shown has six digits
+constexpr int kDecimals = 12;  // of the value that is held
+constexpr int kShown = 4;      // significant digits of it that are shown
+
+/// Nobody sets a level to a millionth, and nobody reads one.
+double asShown(double value) { return QString::number(value, 'g', kShown).toDouble(); }
 
 }  // namespace
 
@@ -48,10 +52,14 @@ void QuantitySpin::setUnit(const QString& unit, double low, double high) {
 }
 
 QString QuantitySpin::textFromValue(double value) const {
-    return settingText(std::abs(value) < 1e-11 ? 0 : value, unit_);
+    return settingText(std::abs(value) < 1e-11 ? 0 : asShown(value), unit_);
 }
 
-double QuantitySpin::valueFromText(const QString& text) const { return parseQuantity(text, unit_).value_or(value()); }
+double QuantitySpin::valueFromText(const QString& text) const {
+    // The digits that are not shown stay as long as nobody types others.
+    if (text == textFromValue(value())) return value();
+    return parseQuantity(text, unit_).value_or(value());
+}
 
 QValidator::State QuantitySpin::validate(QString& text, int&) const {
     const auto parsed = parseQuantity(text, unit_);

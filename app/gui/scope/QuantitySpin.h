@@ -1,6 +1,7 @@
 // QuantitySpin.h - a number with its unit, as people write it: "2 V", "15 mA", "-1.5 ms".
 //
-// The value is in the unit given (V, A, s); any prefix may be typed. Steps follow the size of the number.
+// The value is in the unit given (V, A, s); any prefix may be typed. Four significant digits are shown; the value keeps
+// what it has. Steps follow the size of the number.
 //
 // Thread-safety: the GUI thread.
 #pragma once

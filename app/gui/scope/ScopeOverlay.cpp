@@ -114,6 +114,7 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
 void ScopeOverlay::draw(QCPPainter* painter) {
     painter->setFont(font());
     drawMarks(*painter);
+    drawNote(*painter);
     drawTrigger(*painter);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
@@ -213,6 +214,16 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
         painter.setBrush(Qt::NoBrush);
         painter.drawText(QRectF(left, top + 4, width, line), Qt::AlignCenter, mark.why);
     }
+}
+
+void ScopeOverlay::drawNote(QCPPainter& painter) const {
+    if (state.note.isEmpty()) return;
+    const QFontMetricsF metrics(font());
+    const auto a = area();
+    // In the corner: the middle belongs to the signal, the edges to handles.
+    const double width = metrics.horizontalAdvance(state.note) + 12;
+    drawTag(painter, QPointF(a.right() - width / 2 - metrics.height() * 2, a.top() + metrics.height()), state.note,
+            colours().text);
 }
 
 void ScopeOverlay::drawHover(QCPPainter& painter) const {

@@ -53,6 +53,7 @@ struct OverlayState {
     std::optional<QRectF> box;          ///< pixels
     std::optional<Hover> hover;
     std::vector<Mark> marks;  ///< in time order
+    QString note;             ///< about the whole record: "not triggered"
 };
 
 class ScopeOverlay final : public QCPLayerable {
@@ -89,6 +90,7 @@ private:
     void drawCursors(QCPPainter& painter) const;
     void drawMarks(QCPPainter& painter) const;
     void drawHover(QCPPainter& painter) const;
+    void drawNote(QCPPainter& painter) const;
     void drawTag(QCPPainter& painter, const QPointF& centre, const QString& text, const QColor& colour) const;
 
     QCPAxis* keys_;

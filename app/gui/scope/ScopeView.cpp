@@ -10,6 +10,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kMostInRoll = 600;
+constexpr double kRollPerDivision_s = 1;  ///< at least
 constexpr std::size_t kMostSamplesKept = 40'000'000;
 
 QString letterFor(const Trace& trace, const std::vector<TracePtr>& all) {
@@ -56,18 +57,14 @@ TracePtr ScopeView::trace(const QString& key) const {
 void ScopeView::show(ShownPtr shown) {
     // A view that showed the whole record goes on to show the whole record when its length or pre-trigger changes.
     bool whole = false;
-    const auto isWhole = [this](const ShownCapture& s) {
-        const auto fitted = showingTime(view_, s.capture->start_s - s.zero_s, s.end_s() - s.zero_s);
-        return std::abs(fitted.left_s - view_.left_s) < view_.perDivision_s / 10 &&
-               fitted.perDivision_s == view_.perDivision_s;
-    };
     if (shown_ && shown_->source.isEmpty() && shown->source.isEmpty()) {
         const auto placed = [](const ShownCapture& s) { return s.capture->start_s - s.zero_s; };
         const double length = shown_->end_s() - shown_->capture->start_s;
-        whole = isWhole(*shown_) && (std::abs(placed(*shown_) - placed(*shown)) > length / 50 ||
-                                     std::abs(shown->end_s() - shown->capture->start_s - length) > length / 50);
+        whole = showsWhole(*shown_) && (std::abs(placed(*shown_) - placed(*shown)) > length / 50 ||
+                                        std::abs(shown->end_s() - shown->capture->start_s - length) > length / 50);
         older_.push_front(std::move(shown_));
     } else {
+        chosen_ = chosenView();
         older_.clear();
     }
     shown_ = std::move(shown);
@@ -76,8 +73,10 @@ void ScopeView::show(ShownPtr shown) {
     if (older_.empty()) {
         history_ = {};
         if (!roll_) fitTime();
+        if (roll_) view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
         fitLanes(view_);
         untouched_ = true;
+        takeChosenView();
     } else if (whole && !roll_) {
         fitTime();
     }
@@ -107,6 +106,7 @@ void ScopeView::replaceMath(ShownPtr shown) {
 }
 
 void ScopeView::clear() {
+    chosen_ = chosenView();
     shown_.reset();
     older_.clear();
     while (!lanes_.empty()) removeLane(lanes_.back()->key);
@@ -270,7 +270,7 @@ void ScopeView::setRoll(bool roll) {
     wantedMoment_s_.reset();
     history_ = {};
     if (roll_ && shown_) {
-        view_.perDivision_s = std::max(view_.perDivision_s, 1.0);
+        view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
         view_.left_s = rollLeft(view_.perDivision_s);
     } else {
         dropOldest();

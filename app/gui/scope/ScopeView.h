@@ -46,6 +46,15 @@ struct CursorReadout {
     [[nodiscard]] double dy() const noexcept { return y2 - y1; }
 };
 
+/// What somebody chose to see of the bench's captures, where it is not the whole.
+struct ChosenView {
+    struct Time {
+        double left_s = 0, perDivision_s = 0;
+    };
+    std::optional<Time> time;
+    std::map<QString, LaneScale> lanes;  ///< empty: fitted
+};
+
 class ScopeView final : public QCustomPlot {
     Q_OBJECT
 public:
@@ -77,6 +86,9 @@ public:
     bool undoZoom();
     [[nodiscard]] bool canUndo() const noexcept { return !history_.empty(); }
     void setBoxZoom(bool on);
+    /// For the bench's first capture, instead of a fit: from an earlier session, or from before a file was looked at.
+    void setChosenView(ChosenView chosen) { chosen_ = std::move(chosen); }
+    [[nodiscard]] ChosenView chosenView() const;
 
     /// Captures before the newest that stay, faded.
     void setPersistence(int captures);
@@ -145,6 +157,8 @@ private:
     void dropOldest();
     [[nodiscard]] Lane* gripLane(int number);
     void fitLanes(Viewport& view) const;
+    [[nodiscard]] bool showsWhole(const ShownCapture& shown) const;
+    void takeChosenView();
     [[nodiscard]] bool outgrown() const;
     /// Where the screen begins in roll mode: the newest capture ends it.
     [[nodiscard]] double rollLeft(double perDivision_s) const;
@@ -181,6 +195,7 @@ private:
     bool roll_ = false;
 
     Viewport view_;
+    ChosenView chosen_;
     ViewHistory history_;
     bool untouched_ = true;  ///< the view is a fit and nobody has changed it: it grows with the signal
     bool boxZoom_ = false;

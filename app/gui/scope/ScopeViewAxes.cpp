@@ -35,7 +35,6 @@ ScopeView::ScopeView(QWidget* parent)
     setMouseTracking(true);
     setNoAntialiasingOnDrag(true);
     setNotAntialiasedElements(QCP::aeAll);
-    setMinimumSize(fontMetrics().averageCharWidth() * 40, fontMetrics().height() * 10);
     addLayer("behind", layer("grid"), QCustomPlot::limAbove);
     watermark_ = addWatermark(*axisRect());
     ground_ = new RecordGround(xAxis);
@@ -78,6 +77,7 @@ QColor ScopeView::colourOf(const Lane& lane) const {
 void ScopeView::restyle() {
     const auto& c = colours();
     stylePlot(*this);
+    setMinimumSize(fontMetrics().averageCharWidth() * 40, fontMetrics().height() * 10);
     ground_->setColour(c.grid);
     for (auto* axis : {xAxis, yAxis, xAxis2, yAxis2}) {
         axis->setBasePen(QPen(hasFocus() ? c.accent : c.quiet, 1));
@@ -148,7 +148,13 @@ void ScopeView::applyAxes() {
     const auto time = axisUnit(view_.width_s() / 2, "s");
     timeTicker_->setQuantity(0, 1, time.factor);
     const QFontMetrics small(xAxis->tickLabelFont());
-    timeTicker_->setEvery(axisRect()->width() / kDivisionsAcross < small.horizontalAdvance("−000.00 ") ? 2 : 1);
+    // From the widget's size: the axes' own is that of the last drawing.
+    const auto edges = axisRect()->minimumMargins();
+    const int across = (width() - edges.left() - edges.right()) / kDivisionsAcross;
+    const int widest = small.horizontalAdvance("−000.00 ");
+    timeTicker_->setEvery(across * 2 < widest ? 5 : across < widest ? 2 : 1);
+    const int up = (height() - edges.top() - edges.bottom()) / kDivisionsUp;
+    for (const auto& ticker : {leftTicker_, rightTicker_}) ticker->setEvery(up < small.height() ? 2 : 1);
     xAxis->setLabel(roll_ ? tr("Session time (%1)").arg(time.unit) : tr("Time from the trigger (%1)").arg(time.unit));
     if (shown_ && !roll_ && !std::isfinite(shown_->capture->trigger_s)) {
         xAxis->setLabel(tr("Time from the record's begin (%1)").arg(time.unit));
@@ -207,6 +213,7 @@ void ScopeView::fillOverlay() {
         for (const double level : *levelCursors_) o.levelCursors.push_back(level / scale.perDivision + scale.position);
     }
     o.focusedCursor = focusedCursor_;
+    if (shown_ && shown_->capture->untriggered) o.note = tr("not triggered");
     o.box = box_;
     o.hover = hover_;
     if (marked == nullptr) return;

@@ -201,6 +201,7 @@ void ScopeView::nudge(int key, Qt::KeyboardModifiers modifiers) {
         if (across && timeCursors_) {
             auto& at = (*timeCursors_)[static_cast<std::size_t>(focusedCursor_)];
             at = modifiers.testFlag(Qt::ControlModifier) ? nextEdge(at, sign) : at + sign * pixels * pixelTime();
+            hover_ = hoverAt(at);  // as under the mouse
         } else if (const auto* active = lane(active_); !across && levelCursors_ && active != nullptr) {
             (*levelCursors_)[static_cast<std::size_t>(focusedCursor_ - 2)] +=
                 sign * pixels * scaleOf(*active).perDivision * kDivisionsUp / std::max(1, axisRect()->height());

@@ -34,7 +34,7 @@ void ScopeView::fitLanes(Viewport& view) const {
         double low = all.empty() ? 0 : static_cast<double>(all.low);
         double high = all.empty() ? 0 : static_cast<double>(all.high);
         // A flat line is not blown up to its last bit.
-        const double least = newest->low < newest->high ? (newest->high - newest->low) / 50
+        const double least = newest->low < newest->high ? (newest->high - newest->low) / 60
                              : low == high              ? std::max(1e-3, std::abs(low))
                                                         : 0;
         if (high - low < least) {
@@ -68,6 +68,36 @@ void ScopeView::fitTime() {
     double from = shown_->capture->start_s, to = shown_->end_s();
     if (roll_ && !older_.empty()) from = std::min(from, older_.back()->capture->start_s);
     view_ = showingTime(view_, from - zero_s(), to - zero_s());
+}
+
+bool ScopeView::showsWhole(const ShownCapture& shown) const {
+    const auto fitted = showingTime(view_, shown.capture->start_s - shown.zero_s, shown.end_s() - shown.zero_s);
+    return std::abs(fitted.left_s - view_.left_s) < view_.perDivision_s / 10 &&
+           fitted.perDivision_s == view_.perDivision_s;
+}
+
+ChosenView ScopeView::chosenView() const {
+    if (!shown_ || !shown_->source.isEmpty()) return chosen_;
+    ChosenView chosen;
+    if (!roll_ && !showsWhole(*shown_)) chosen.time = ChosenView::Time{view_.left_s, view_.perDivision_s};
+    if (untouched_) return chosen;
+    for (const auto& l : lanes_) {
+        if (!l->stored) chosen.lanes[l->key] = scaleOf(*l);
+    }
+    return chosen;
+}
+
+void ScopeView::takeChosenView() {
+    if (!shown_->source.isEmpty()) return;
+    if (chosen_.time && !roll_) {
+        view_.left_s = chosen_.time->left_s;
+        view_.perDivision_s = chosen_.time->perDivision_s;
+    }
+    for (const auto& [key, scale] : chosen_.lanes) {
+        if (lane(key) == nullptr) continue;
+        view_.lanes[key] = scale;
+        untouched_ = false;
+    }
 }
 
 void ScopeView::fit() {

@@ -21,10 +21,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kLevelShare = 0.2;      ///< of the commanded amplitude, in Auto
-constexpr qint64 kQuietAfter_ms = 1500;  ///< without a trigger this long it is said
-constexpr qint64 kFollowEvery_ms = 300;  ///< the level is moved no more often: a request gives up the one under way
-constexpr double kFollowFrom = 1.3;      ///< and only when it would change by more than this factor
+constexpr double kLevelShare = 0.2;         ///< of the commanded amplitude, in Auto
+constexpr qint64 kQuietAfter_ms = 1500;     ///< without a trigger this long it is said
+constexpr qint64 kFollowEvery_ms = 300;     ///< the level is moved no more often: a request gives up the one under way
+constexpr Seconds kFreeRunAfter{0.4};       ///< without a trigger, while nothing is delivered that could be one
+constexpr double kFreeRunIntervals = 1.25;  ///< while something is: of the longest interval between two trains
+constexpr double kFollowFrom = 1.3;         ///< and only when it would change by more than this factor
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
@@ -41,9 +43,10 @@ bool ScopeWorkspace::benchCanCapture() const {
 void ScopeWorkspace::benchChanged() {
     if (benchCanCapture()) {
         acquisition_->setTraits(*desk_.open()->scope);
-        if (wanted_ && !running_ && isVisible()) run();
-    } else if (running_) {
-        running_ = false;
+        if (wanted_ && !running_ && (watched_ || isVisible())) run();
+    } else if (running_ || failed_) {
+        if (failed_) problem_.clear();
+        failed_ = running_ = false;
         wanted_ = true;  // goes on with the next bench
     }
     showState();
@@ -51,17 +54,27 @@ void ScopeWorkspace::benchChanged() {
 
 ScopeSettings ScopeWorkspace::settings() const { return acquisition_->settings(); }
 
+void ScopeWorkspace::setWatched(bool watched) {
+    watched_ = watched;
+    benchChanged();
+}
+
 void ScopeWorkspace::setMode(ScopeMode mode) {
+    applyMode(mode);
+    run();
+}
+
+void ScopeWorkspace::applyMode(ScopeMode mode) {
     mode_ = mode;
     if (auto* button = modes_->button(static_cast<int>(mode))) button->setChecked(true);
     view_->setRoll(mode == ScopeMode::Roll);
     acquisition_->setLevelHeld(mode == ScopeMode::Auto || mode == ScopeMode::Roll);
     followAmplitude();
-    run();
 }
 
 void ScopeWorkspace::run() {
     wanted_ = true;
+    failed_ = false;
     problem_.clear();
     if (benchCanCapture()) {
         running_ = true;
@@ -81,8 +94,36 @@ void ScopeWorkspace::hold() {
 
 void ScopeWorkspace::request() {
     requested_ = settings();
+    requestedWait_ = untriggeredAfter();
     sinceRequest_.start();
-    desk_.runScope(requested_, mode_ == ScopeMode::Single);
+    desk_.runScope(requested_, mode_ == ScopeMode::Single, requestedWait_);
+}
+
+/// In Auto (and Roll) there is a picture even without a trigger. While trains are delivered it waits for the slowest
+/// of them first: a picture that jumps between triggered and not is worse than a late one.
+std::optional<Seconds> ScopeWorkspace::untriggeredAfter() const {
+    if (mode_ != ScopeMode::Auto && mode_ != ScopeMode::Roll) return {};
+    if (!desk_.open() || !desk_.open()->untriggered) return {};
+    if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
+    return kFreeRunIntervals * desk_.profile().encoding.intervalMax;
+}
+
+/// The oscilloscope failed. The bench goes on, and so does the output: only nobody sees it any more.
+void ScopeWorkspace::stopped(const QString& why) {
+    running_ = false;
+    wanted_ = false;  // no use asking again and again: somebody has to look at it first
+    failed_ = true;
+    done_.clear();
+    auto what = why;
+    while (what.endsWith('.')) what.chop(1);
+    const auto state = desk_.telemetry().state;
+    const bool on =
+        state == InterlockState::Armed || state == InterlockState::Delivering || state == InterlockState::Checking;
+    problem_ =
+        tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
+            .arg(what, on ? tr("The output is not switched off by this and goes on unmeasured: STOP ends it.")
+                          : tr("Output is off."));
+    showState();
 }
 
 /// In Auto (and Roll) the level is a fifth of what is commanded: above the noise, below the pulse.
@@ -102,20 +143,28 @@ void ScopeWorkspace::followAmplitude() {
 void ScopeWorkspace::refresh(const Telemetry& telemetry) {
     telemetry_ = telemetry;
     followAmplitude();
-    say();
+    if (running_ && untriggeredAfter() != requestedWait_) request();
+    if (isVisible()) say();
 }
 
 void ScopeWorkspace::take(const ShownPtr& shown) {
     const bool ours = shown->source.isEmpty();
+    const bool untriggered = shown->capture->untriggered;
     if (ours && !running_) return;  // one that was under way when the picture was held
     if (!view_->shown() || view_->shown()->source != shown->source || !ours) table_->clear();
     problem_.clear();
     done_.clear();
-    ++taken_;
-    sinceCapture_.start();
+    if (!untriggered) {
+        ++taken_;
+        sinceCapture_.start();
+    }
     view_->show(shown);
-    table_->add(shown->measurement, shown->warnings);
-    if (ours && mode_ == ScopeMode::Single) {
+    if (untriggered)
+        table_->passOverUntriggered();
+    else
+        table_->add(shown->measurement, shown->warnings);
+    emit captureShown(shown);
+    if (ours && mode_ == ScopeMode::Single && !untriggered) {
         running_ = false;
         wanted_ = false;
     }
@@ -168,6 +217,14 @@ QString ScopeWorkspace::outputText() const {
     return tr("Output is off after a fault.");
 }
 
+QString ScopeWorkspace::waitingText(const QString& level) const {
+    const auto& shown = view_->shown();
+    if (shown && shown->source.isEmpty() && shown->capture->untriggered) {
+        return tr("No trigger at %1: shown untriggered, not measured. %2").arg(level, outputText());
+    }
+    return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
+}
+
 QString ScopeWorkspace::statusText() const {
     if (!problem_.isEmpty()) return problem_;
     if (pipe_.opening()) return tr("Reading the capture…");
@@ -177,7 +234,7 @@ QString ScopeWorkspace::statusText() const {
     if (running_) {
         const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
         if (sinceCapture_.elapsed() > kQuietAfter_ms || taken_ == 0) {
-            return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
+            return waitingText(level);
         }
         auto text = taken_ == 1 ? tr("Trigger at %1 · 1 capture").arg(level)
                                 : tr("Trigger at %1 · %2 captures").arg(level).arg(taken_);

@@ -3,6 +3,8 @@
 // Takes the captures of the open bench while it runs, opens captures from files, and shows what others hand it. "Hold"
 // keeps the picture and touches no output: only STOP does that.
 //
+// What somebody chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
+//
 // Keys: A auto, N normal, S single; the screen's own are in ScopeView.h.
 //
 // Thread-safety: the GUI thread.
@@ -17,6 +19,7 @@
 class QLabel;
 class QMenu;
 class QPushButton;
+class QSplitter;
 class QStackedWidget;
 class QToolButton;
 class QButtonGroup;
@@ -32,7 +35,7 @@ class SpectrumPanel;
 class ViewPanel;
 
 enum class ScopeMode {
-    Auto,    ///< the level follows the commanded amplitude
+    Auto,    ///< the level follows the commanded amplitude; untriggered when no trigger comes
     Normal,  ///< the level is the user's
     Single,  ///< one capture, then hold
     Roll,    ///< captures one after the other on the session's time
@@ -45,8 +48,10 @@ public:
     explicit ScopeWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
     ~ScopeWorkspace() override;
 
-    /// At 30 Hz while this is visible.
+    /// At 30 Hz while this is visible; also while it is not, where setWatched().
     void refresh(const Telemetry& telemetry);
+    /// Somebody else shows what captureShown() tells: captures are taken though this is not visible.
+    void setWatched(bool watched);
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.
     bool openCaptureFile(const QString& path);
@@ -62,6 +67,7 @@ public:
     [[nodiscard]] bool running() const noexcept { return running_; }
     [[nodiscard]] ScopeView& view() noexcept { return *view_; }
     [[nodiscard]] MeasurementTable& table() noexcept { return *table_; }
+    [[nodiscard]] QSize minimumSizeHint() const override;
     /// What the next capture is asked with.
     [[nodiscard]] ScopeSettings settings() const;
 
@@ -71,11 +77,16 @@ public slots:
     void hold();
 
 signals:
+    /// Every capture that comes to the screen, measured: a MeasurementSummary takes it.
+    void captureShown(tacto::gui::ShownPtr shown);
     /// The empty workspace's next step: the window opens the simulated bench.
     void openBenchWanted();
 
 protected:
     void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
@@ -90,6 +101,13 @@ private:
     void take(const ShownPtr& shown);
     void request();
     void followAmplitude();
+    void applyMode(ScopeMode mode);
+    void stopped(const QString& why);
+    [[nodiscard]] std::optional<Seconds> untriggeredAfter() const;
+    [[nodiscard]] QString waitingText(const QString& level) const;
+    void fitControls();
+    void save() const;
+    void restore();
     void say();
     void sayCursors();
     void showSpectrum();
@@ -108,8 +126,11 @@ private:
     ScopeMode mode_ = ScopeMode::Auto;
     bool wanted_ = true;  ///< runs as soon as there is a bench
     bool running_ = false;
+    bool watched_ = false;
+    bool failed_ = false;  ///< the oscilloscope stopped by itself; until somebody lets it run again
     Telemetry telemetry_;
     ScopeSettings requested_;
+    std::optional<Seconds> requestedWait_;
     QElapsedTimer sinceRequest_;
     QElapsedTimer sinceCapture_;
     QString problem_;
@@ -117,6 +138,10 @@ private:
     int taken_ = 0;
 
     QStackedWidget* stack_ = nullptr;
+    QSplitter* plots_ = nullptr;
+    QWidget* controls_ = nullptr;
+    bool controlsWanted_ = true;
+    bool controlsForced_ = false;  ///< asked for where there is no room for them
     ScopeView* view_ = nullptr;
     SpectrumPanel* spectrum_ = nullptr;
     MeasurementTable* table_ = nullptr;

@@ -9,8 +9,8 @@
 #include <QMimeData>
 #include <QTemporaryDir>
 
-#include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/look/PlotPicture.h"
+#include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/ScopeView.h"
 #include "app/gui/scope/ScopeWorkspace.h"

@@ -9,7 +9,6 @@
 #include <QShortcut>
 #include <QSplitter>
 #include <QStackedWidget>
-#include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -56,7 +55,7 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     buildMenu();
     auto* tools = buildTools();
     view_ = new ScopeView(this);
-    auto* controls = buildControls();
+    controls_ = buildControls();
     spectrum_ = new SpectrumPanel(this);
     table_ = new MeasurementTable(this);
     status_ = new QLabel(this);
@@ -69,41 +68,49 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     readout_->hide();
 
-    auto* plots = new QSplitter(Qt::Vertical, this);
-    plots->setChildrenCollapsible(false);
-    plots->addWidget(view_);
-    plots->addWidget(spectrum_);
-    plots->addWidget(table_);
-    plots->setStretchFactor(0, 5);
-    plots->setStretchFactor(1, 2);
-    plots->setStretchFactor(2, 2);
-    plots->setSizes({600, 200, 190});
+    plots_ = new QSplitter(Qt::Vertical, this);
+    plots_->setChildrenCollapsible(false);
+    plots_->addWidget(view_);
+    plots_->addWidget(spectrum_);
+    plots_->addWidget(table_);
+    plots_->setStretchFactor(0, 5);
+    plots_->setStretchFactor(1, 2);
+    plots_->setStretchFactor(2, 2);
+    plots_->setSizes({600, 200, 190});
     spectrum_->hide();
 
     auto* left = new QWidget(this);
     auto* column = new QVBoxLayout(left);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(4);
-    column->addWidget(tools);
     auto* statusLine = new QHBoxLayout;
     statusLine->addWidget(status_, 1);
     statusLine->addWidget(cancelOpen_);
     column->addLayout(statusLine);
     column->addWidget(readout_);
-    column->addWidget(plots, 1);
+    column->addWidget(plots_, 1);
 
     auto* whole = new QWidget(this);
-    auto* row = new QHBoxLayout(whole);
-    row->setContentsMargins(8, 8, 8, 8);
+    auto* rows = new QVBoxLayout(whole);
+    rows->setContentsMargins(8, 8, 8, 8);
+    rows->setSpacing(4);
+    rows->addWidget(tools);
+    auto* row = new QHBoxLayout;
     row->addWidget(left, 1);
-    row->addWidget(controls);
-    connect(controlsShown_, &QToolButton::toggled, controls, &QWidget::setVisible);
+    row->addWidget(controls_);
+    rows->addLayout(row, 1);
+    connect(controlsShown_, &QToolButton::clicked, this, [this](bool on) {
+        controlsWanted_ = on;
+        controlsForced_ = on;
+        fitControls();
+    });
 
     stack_ = new QStackedWidget(this);
     stack_->addWidget(buildEmpty());
     stack_->addWidget(whole);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSizeConstraint(QLayout::SetNoConstraint);  // see minimumSizeHint()
     layout->addWidget(stack_);
 
     connectView();
@@ -111,6 +118,7 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     connect(&desk_, &BenchDesk::captured, this, [this](std::shared_ptr<const Capture> capture) {
         if (running_) pipe_.take(std::move(capture));
     });
+    connect(&desk_, &BenchDesk::scopeStopped, this, &ScopeWorkspace::stopped);
     connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);
     connect(&pipe_, &CapturePipe::recalculated, this, [this](const ShownPtr& shown) {
         // A newer capture already has the new calculation.
@@ -135,11 +143,15 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     auto* undo = new QShortcut(QKeySequence::Undo, this);
     undo->setContext(Qt::WidgetWithChildrenShortcut);
     connect(undo, &QShortcut::activated, this, [this] { view_->undoZoom(); });
+    restore();
     benchChanged();
 }
 
 /// The view loses the focus while it is taken down, and says so: by then nobody is here to listen.
-ScopeWorkspace::~ScopeWorkspace() { disconnect(view_, nullptr, this, nullptr); }
+ScopeWorkspace::~ScopeWorkspace() {
+    save();
+    disconnect(view_, nullptr, this, nullptr);
+}
 
 void ScopeWorkspace::connectView() {
     connect(view_, &ScopeView::cursorsChanged, this, &ScopeWorkspace::sayCursors);
@@ -174,73 +186,6 @@ void ScopeWorkspace::connectView() {
             [this](const QPoint& at) { menu_->popup(view_->mapToGlobal(at)); });
 }
 
-QToolButton* ScopeWorkspace::tool(const QString& text, const QString& tip, bool checkable) {
-    auto* button = new QToolButton(this);
-    button->setText(text);
-    button->setToolTip(tip);
-    button->setCheckable(checkable);
-    button->setFocusPolicy(Qt::StrongFocus);
-    return button;
-}
-
-QWidget* ScopeWorkspace::buildTools() {
-    // A tool bar folds what does not fit behind an arrow.
-    auto* bar = new QToolBar(this);
-    bar->setMovable(false);
-    bar->layout()->setSpacing(3);
-    bar->layout()->setContentsMargins(0, 0, 0, 0);
-    run_ = new QPushButton(tr("Run"), this);
-    run_->setToolTip(tr("Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
-    connect(run_, &QPushButton::clicked, this, [this] { running_ ? hold() : run(); });
-    bar->addWidget(run_);
-    modes_ = new QButtonGroup(this);
-    const auto mode = [&](ScopeMode which, const QString& text, const QString& tip) {
-        auto* button = tool(text, tip, true);
-        modes_->addButton(button, static_cast<int>(which));
-        button->setChecked(which == mode_);
-        connect(button, &QToolButton::clicked, this, [this, which] { setMode(which); });
-        bar->addWidget(button);
-    };
-    mode(ScopeMode::Auto, tr("Auto"), tr("A: the trigger level follows a fifth of the commanded amplitude."));
-    mode(ScopeMode::Normal, tr("Normal"), tr("N: captures whenever the signal rises through the level set here."));
-    mode(ScopeMode::Single, tr("Single"), tr("S: takes one capture and holds it."));
-    mode(ScopeMode::Roll, tr("Roll"),
-         tr("Captures one after the other on the session's time. A capture is a record "
-            "around a trigger: what lies between them was not recorded and is hatched."));
-    bar->addSeparator();
-    auto* fit =
-        tool(tr("Fit"), tr("Home or a double click: the whole record, every lane as large as it can be."), false);
-    connect(fit, &QToolButton::clicked, this, [this] { view_->fit(); });
-    undo_ = tool(tr("Undo zoom"), tr("Ctrl+Z: back to the view before."), false);
-    connect(undo_, &QToolButton::clicked, this, [this] { view_->undoZoom(); });
-    box_ = tool(tr("Box"), tr("The next drag draws a box that becomes the whole screen. Shift+drag does it at once."),
-                true);
-    connect(box_, &QToolButton::toggled, this, [this](bool on) { view_->setBoxZoom(on); });
-    timeCursors_ = tool(tr("Time cursors"),
-                        tr("Two cursors across time. They snap to edges; arrows nudge the one with "
-                           "the filled tag, Ctrl+arrow jumps to the next edge, 1 and 2 choose."),
-                        true);
-    connect(timeCursors_, &QToolButton::toggled, this, [this](bool on) { view_->setTimeCursors(on); });
-    levelCursors_ = tool(tr("Level cursors"),
-                         tr("Two cursors across the active lane's level. They snap to where the "
-                            "signal rests; up and down nudge, 3 and 4 choose."),
-                         true);
-    connect(levelCursors_, &QToolButton::toggled, this, [this](bool on) { view_->setLevelCursors(on); });
-    for (auto* button : {fit, undo_, box_, timeCursors_, levelCursors_}) bar->addWidget(button);
-    bar->addSeparator();
-    auto* save = tool(tr("Save"), tr("Copies and saves the picture and its data, opens captures."), false);
-    save->setPopupMode(QToolButton::InstantPopup);
-    save->setMenu(menu_);
-    bar->addWidget(save);
-    controlsShown_ =
-        tool(tr("Controls"), tr("Shows or hides the column at the right, to give the screen its room."), true);
-    controlsShown_->setChecked(true);
-    bar->addWidget(controlsShown_);
-    cancelOpen_ = tool(tr("Cancel"), tr("Gives up reading. What is shown stays."), false);
-    connect(cancelOpen_, &QToolButton::clicked, &pipe_, &CapturePipe::cancelOpen);
-    return bar;
-}
-
 QWidget* ScopeWorkspace::buildControls() {
     auto* lanes = new LanePanel(*view_, this);
     viewPanel_ = new ViewPanel(*view_, this);
@@ -263,6 +208,7 @@ QWidget* ScopeWorkspace::buildControls() {
     section(tr("Trigger and record"), acquisition_);
     column->addStretch();
     auto* scroll = new ControlColumn(this);
+    scroll->setObjectName("scopeControls");
     scroll->setWidget(inside);
     return scroll;
 }
@@ -278,6 +224,38 @@ QWidget* ScopeWorkspace::buildEmpty() {
     auto* column = static_cast<QVBoxLayout*>(empty->layout());
     column->insertWidget(column->count() - 1, open, 0, Qt::AlignCenter);
     return empty;
+}
+
+/// Without the column at the right, which goes where there is no room for it: large text must not make the window
+/// larger than its screen.
+QSize ScopeWorkspace::minimumSizeHint() const {
+    return {view_->minimumWidth() + fontMetrics().averageCharWidth() * 4, fontMetrics().height() * 16};
+}
+
+void ScopeWorkspace::fitControls() {
+    const int needed = view_->minimumWidth() + controls_->sizeHint().width() + fontMetrics().averageCharWidth() * 4;
+    const bool room = width() >= needed;
+    if (room) controlsForced_ = false;
+    const bool on = controlsWanted_ && (room || controlsForced_);
+    controlsShown_->setChecked(on);
+    controls_->setVisible(on);
+}
+
+void ScopeWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fitControls();
+}
+
+void ScopeWorkspace::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() != QEvent::FontChange || controls_ == nullptr) return;
+    readout_->setFont(digits(font()));
+    QMetaObject::invokeMethod(this, &ScopeWorkspace::fitControls, Qt::QueuedConnection);  // once all have the new font
+}
+
+void ScopeWorkspace::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    save();
 }
 
 void ScopeWorkspace::showEvent(QShowEvent* event) {

@@ -3,10 +3,13 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
+#include <QSettings>
 #include <QSignalBlocker>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/scope/QuantitySpin.h"
+#include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/ScopeView.h"
 #include "app/gui/scope/Steps.h"
 #include "app/report/NumberText.h"
@@ -61,7 +64,10 @@ ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
             [this] { view_.setPersistence(persistence_->currentData().toInt()); });
     connect(power_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
     connect(charge_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
-    connect(difference_, &QComboBox::activated, this, &ViewPanel::wishChanged);
+    connect(difference_, &QComboBox::activated, this, [this] {
+        wantedDifference_.clear();
+        emit wishChanged();
+    });
     connect(spectrum_, &QCheckBox::toggled, this, &ViewPanel::spectrumToggled);
     connect(&view_, &ScopeView::viewChanged, this, &ViewPanel::follow);
     connect(&view_, &ScopeView::lanesChanged, this, &ViewPanel::offerDifferences);
@@ -95,9 +101,11 @@ void ViewPanel::offerDifferences() {
         }
     }
     const int same = difference_->findData(chosen);
-    difference_->setCurrentIndex(std::max(0, same));
+    const int wanted = wantedDifference_.isEmpty() ? -1 : difference_->findData(wantedDifference_);
+    difference_->setCurrentIndex(std::max({0, same, wanted}));
     difference_->setEnabled(difference_->count() > 1);
-    if (same < 0 && !chosen.toStringList().isEmpty()) emit wishChanged();
+    if (wanted >= 0) wantedDifference_.clear();
+    if (wanted >= 0 || (same < 0 && !chosen.toStringList().isEmpty())) emit wishChanged();
 }
 
 MathWish ViewPanel::wish() const {
@@ -114,6 +122,32 @@ MathWish ViewPanel::wish() const {
         }
     }
     return wish;
+}
+
+void ViewPanel::save(QSettings& settings) const {
+    settings.setValue("persistence", persistence_->currentData());
+    settings.setValue("math/power", power_->isChecked());
+    settings.setValue("math/charge", charge_->isChecked());
+    settings.setValue("spectrum", wantsSpectrum());
+    // A reference is not kept, nor is what is taken from it.
+    auto difference = wantedDifference_.isEmpty() ? difference_->currentData().toStringList() : wantedDifference_;
+    if (difference.size() != 2 || difference[1].startsWith("reference/")) difference.clear();
+    settings.setValue("math/difference", difference);
+}
+
+void ViewPanel::restore(const QSettings& settings) {
+    if (const auto captures = rememberedNumber(settings, "persistence", 0, ScopeView::kMostBehind)) {
+        if (const int at = persistence_->findData(static_cast<int>(*captures)); at >= 0) {
+            persistence_->setCurrentIndex(at);
+            view_.setPersistence(persistence_->currentData().toInt());
+        }
+    }
+    for (const auto& [box, key] :
+         {std::pair{power_, "math/power"}, std::pair{charge_, "math/charge"}, std::pair{spectrum_, "spectrum"}}) {
+        box->setChecked(rememberedFlag(settings, key).value_or(box->isChecked()));
+    }
+    wantedDifference_ = settings.value("math/difference").toStringList();
+    if (wantedDifference_.size() != 2) wantedDifference_.clear();
 }
 
 bool ViewPanel::wantsSpectrum() const { return spectrum_->isChecked(); }

@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QComboBox;
+class QSettings;
 
 namespace tacto::gui {
 
@@ -22,6 +23,10 @@ public:
     ViewPanel(ScopeView& view, QWidget* parent);
     [[nodiscard]] MathWish wish() const;
     [[nodiscard]] bool wantsSpectrum() const;
+
+    void save(QSettings& settings) const;
+    /// What is not there or not possible stays as it is.
+    void restore(const QSettings& settings);
 
 signals:
     void wishChanged();
@@ -39,6 +44,7 @@ private:
     QCheckBox* charge_;
     QComboBox* difference_;
     QCheckBox* spectrum_;
+    QStringList wantedDifference_;  ///< remembered, until there are lanes to take it of
 };
 
 }  // namespace tacto::gui

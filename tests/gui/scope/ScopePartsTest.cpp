@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/look/PlotPicture.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
-#include "app/gui/look/PlotPicture.h"
 #include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/SpectrumPanel.h"
 #include "app/gui/scope/Steps.h"

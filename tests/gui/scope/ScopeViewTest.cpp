@@ -174,6 +174,20 @@ TEST_F(Screen, BetweenTwoEdgesTheMouseReadsWidthAndInterval) {
     EXPECT_FALSE(view.overlay().hover);
 }
 
+TEST_F(Screen, ACursorMovedByArrowsReadsWhatTheMouseWould) {
+    view.setTimeCursors(true);
+    QTest::keyClick(&view, Qt::Key_1);
+    // From the rest between the pulses back over the edges of the first one, then into its leading phase.
+    for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
+    EXPECT_NEAR(view.readout().x1_s, 0, 1e-7) << "onset of the first pulse";
+    QTest::keyClick(&view, Qt::Key_Right);
+    ASSERT_TRUE(view.overlay().hover);
+    EXPECT_THAT(view.overlay().hover->text.toStdString(), HasSubstr("Width 200.0"));
+    EXPECT_THAT(view.overlay().hover->text.toStdString(), HasSubstr("interval 4.000"));
+    QTest::keyClick(&view, Qt::Key_Left, Qt::ShiftModifier);
+    EXPECT_FALSE(view.overlay().hover) << "before the first pulse there is nothing to read";
+}
+
 TEST_F(Screen, GapsAreHatchedAndClippedSamplesMarked) {
     EXPECT_EQ(view.graph(volts)->gapColumns(), 0);
     EXPECT_EQ(view.graph(volts)->clippedColumns(), 0);

@@ -18,6 +18,7 @@
 #include "core/measure/CaptureFile.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"
+#include "tests/gui/scope/ScopeBench.h"
 
 namespace tacto::test {
 namespace {
@@ -27,43 +28,6 @@ using gui::BenchDesk;
 using gui::ScopeMode;
 using gui::ScopeWorkspace;
 using testing::HasSubstr;
-
-class Scope : public testing::Test {
-protected:
-    Scope() {
-        scope.resize(1280, 760);
-        scope.QWidget::show();
-        QObject::connect(&desk, &BenchDesk::failed, [this](const QString& what) { complaints << what; });
-    }
-    void openBench() {
-        gui::LiveOrder order;
-        order.uris.push_back(*DeviceUri::parse("sim:"));
-        order.profile = desk.profile();
-        desk.openLive(order);
-        ASSERT_TRUE(comesTrue([this] { return desk.activity() == Activity::Live; }));
-    }
-    void deliver() {
-        ArmRequest request;
-        request.load = "1 kohm";
-        request.operatorConfirmed = true;
-        desk.arm(request);
-        ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; }));
-        desk.drive(DriveSource::Manual, 0.5, 0.8);
-    }
-    /// As the window does at 30 Hz.
-    bool comes(const std::function<bool()>& isSo) {
-        return comesTrue([&] {
-            scope.refresh(desk.telemetry());
-            return isSo();
-        });
-    }
-    std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
-    void draw() { scope.view().replot(QCustomPlot::rpImmediateRefresh); }
-
-    BenchDesk desk{simulatedRegistry};
-    ScopeWorkspace scope{desk};
-    QStringList complaints;
-};
 
 TEST_F(Scope, AnEmptyOneSaysWhatItIsForAndOffersTheNextStep) {
     auto* next = find<QPushButton>(scope, "Open the simulated bench");
@@ -82,7 +46,7 @@ TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
     EXPECT_THAT(status(), HasSubstr("Output is disarmed."));
     shot(scope, "workspace-waiting");
     deliver();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_TRUE(comes([&] { return triggered(); }));
     EXPECT_TRUE(scope.view().shown()->capture->simulated);
     ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 3; }));
     // Auto: a fifth of what is commanded.
@@ -99,7 +63,7 @@ TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
 TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_TRUE(comes([&] { return triggered(); }));
     QTest::keyClick(&scope.view(), Qt::Key_S);
     EXPECT_EQ(scope.mode(), ScopeMode::Single);
     ASSERT_TRUE(comes([&] { return !scope.running(); }));
@@ -145,7 +109,7 @@ TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
 TEST_F(Scope, DraggingTheTriggersMomentChangesThePreTrigger) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_TRUE(comes([&] { return triggered(); }));
     scope.refresh(desk.telemetry());
     draw();
     auto& view = scope.view();
@@ -234,6 +198,14 @@ TEST_F(Scope, CursorsReadBelowTheTools) {
     click(*find<QToolButton>(scope, "Level cursors"));
     EXPECT_TRUE(readout->isVisible());
     EXPECT_THAT(readout->text().toStdString(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("Y2")));
+    // By keys: X1 to the first onset, X2 to the second pulse's.
+    auto& view = scope.view();
+    QTest::keyClick(&view, Qt::Key_1);
+    for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
+    QTest::keyClick(&view, Qt::Key_2);
+    for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
+    EXPECT_THAT(readout->text().toStdString(),
+                testing::AllOf(HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
     QCoreApplication::processEvents();  // layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-cursors");
@@ -290,28 +262,13 @@ TEST_F(Scope, ACaptureWithoutPulsesSaysWhyInWords) {
 TEST_F(Scope, RollFromTheBenchShowsSessionTime) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_TRUE(comes([&] { return triggered(); }));
     click(*find<QToolButton>(scope, "Roll"));
     EXPECT_EQ(scope.mode(), ScopeMode::Roll);
     ASSERT_TRUE(comes([&] { return scope.view().graph("channel/voltage")->spans().size() >= 6; }));
     EXPECT_GE(scope.view().viewport().left_s, 0) << "before the session there is no time";
     EXPECT_GE(scope.view().viewport().right_s(), scope.view().shown()->end_s() - 0.05);
     shot(scope, "workspace-roll");
-}
-
-TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
-    gui::applyTheme(gui::Theme::Dark);
-    for (const auto& [name, size] : {std::pair{"small", QSize(680, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
-        scope.resize(size);
-        QCoreApplication::processEvents();
-        draw();
-        shot(scope, QString("workspace-dark-%1").arg(name));
-        EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
-        EXPECT_GT(scope.view().axisRect()->height(), 100);
-    }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

@@ -1,0 +1,129 @@
+// The oscilloscope in small and large windows, with small and large text, light and dark.
+#include <QScrollArea>
+#include <QTableWidget>
+#include <QToolButton>
+#include <gtest/gtest.h>
+
+#include "app/gui/look/Look.h"
+#include "tests/gui/scope/Captures.h"
+#include "tests/gui/scope/ScopeBench.h"
+
+namespace tacto::test {
+namespace {
+
+/// What is on the screen of a window of 1024x640 and 1440x900 with its docks, at every size of text.
+class ScopeSizes : public Scope, public testing::WithParamInterface<std::tuple<QSize, int>> {
+protected:
+    ScopeSizes() : before_(QApplication::font()) { writeAt(before_.pointSizeF() * std::get<1>(GetParam()) / 100); }
+    ~ScopeSizes() override {
+        writeAt(before_.pointSizeF());
+        gui::applyTheme(gui::Theme::Light);
+    }
+
+private:
+    /// As the window does when another size of text is chosen: a style sheet would keep the fonts it met.
+    void writeAt(double points) {
+        auto font = before_;
+        font.setPointSizeF(points);
+        const auto sheet = qApp->styleSheet();
+        qApp->setStyleSheet({});
+        QApplication::setFont(font);
+        qApp->setStyleSheet(sheet);
+    }
+
+    QFont before_;
+};
+
+TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
+    const auto [size, percent] = GetParam();
+    scope.resize(size);
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // layouts settle
+    EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
+    draw();
+    const QRect all = scope.rect();
+    for (auto* button : scope.findChildren<QAbstractButton*>()) {
+        if (!button->isVisible() || button->text().isEmpty()) continue;
+        EXPECT_GE(button->width(), button->minimumSizeHint().width()) << button->text().toStdString();
+    }
+    for (const auto* name : {"Run", "Auto", "Fit", "Time cursors", "Save", "Controls"}) {
+        auto* button = find<QAbstractButton>(scope, name);
+        ASSERT_NE(button, nullptr) << name;
+        EXPECT_TRUE(all.contains(QRect(button->mapTo(&scope, QPoint()), button->size()))) << name;
+    }
+    EXPECT_GT(scope.view().axisRect()->width(), 100);
+    EXPECT_GT(scope.view().axisRect()->height(), 60);
+    // The column of controls scrolls; what is in it has its full width.
+    auto* controls = scope.findChild<QScrollArea*>("scopeControls");
+    ASSERT_NE(controls, nullptr);
+    if (controls->isVisible()) {
+        EXPECT_GE(controls->viewport()->width(), controls->widget()->minimumSizeHint().width());
+        EXPECT_GE(controls->widget()->height(), controls->widget()->minimumSizeHint().height());
+    }
+    if (size.width() >= 960 && percent == 100) {
+        const auto* cells = scope.findChild<QTableWidget*>("measurements");
+        for (int c = 0; c <= 7; ++c) {
+            EXPECT_LE(cells->columnViewportPosition(c) + cells->columnWidth(c), cells->viewport()->width())
+                << cells->horizontalHeaderItem(c)->text().toStdString();
+        }
+        EXPECT_EQ(cells->horizontalHeaderItem(7)->text(), "Charge");
+        for (int c = 2; c < cells->columnCount(); ++c) {
+            EXPECT_LE(QFontMetrics(cells->item(0, c)->font()).horizontalAdvance(cells->item(0, c)->text()),
+                      cells->columnWidth(c) - 4);
+        }
+    }
+    const auto name = QString("size-%1x%2-%3").arg(size.width()).arg(size.height()).arg(percent);
+    shot(scope, name);
+    gui::applyTheme(gui::Theme::Dark);
+    QCoreApplication::processEvents();
+    draw();
+    shot(scope, name + "-dark");
+}
+
+std::string nameOfSize(const testing::TestParamInfo<std::tuple<QSize, int>>& of) {
+    return "w" + std::to_string(std::get<0>(of.param).width()) + "text" + std::to_string(std::get<1>(of.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Window, ScopeSizes,
+                         testing::Combine(testing::Values(QSize(640, 470), QSize(960, 720)),
+                                          testing::Values(100, 125, 150, 200)),
+                         nameOfSize);
+
+TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    auto* button = find<QToolButton>(scope, "Controls");
+    auto* controls = scope.findChild<QScrollArea*>("scopeControls");
+    EXPECT_TRUE(controls->isVisible());
+    scope.resize(420, 480);
+    QCoreApplication::processEvents();
+    EXPECT_FALSE(controls->isVisible());
+    EXPECT_FALSE(button->isChecked());
+    click(*button);
+    EXPECT_TRUE(controls->isVisible()) << "asked for, it comes";
+    click(*button);
+    scope.resize(1280, 760);
+    QCoreApplication::processEvents();
+    EXPECT_FALSE(controls->isVisible()) << "sent away, it stays away";
+    click(*button);
+    EXPECT_TRUE(controls->isVisible());
+}
+
+TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
+    scope.show(std::make_shared<const Capture>(twoPulses()));
+    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    gui::applyTheme(gui::Theme::Dark);
+    for (const auto& [name, size] : {std::pair{"small", QSize(680, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
+        scope.resize(size);
+        QCoreApplication::processEvents();
+        draw();
+        shot(scope, QString("workspace-dark-%1").arg(name));
+        EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
+        EXPECT_GT(scope.view().axisRect()->height(), 100);
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test
