@@ -134,9 +134,7 @@ void MeasurementTable::sizeColumns() {
         table_->setColumnWidth(c, std::max(wide.horizontalAdvance(widest), fontMetrics().horizontalAdvance(title)) +
                                       fontMetrics().averageCharWidth() * 2);
     }
-    table_->resizeColumnToContents(0);
-    table_->resizeColumnToContents(1);
-    table_->setMinimumHeight(table_->horizontalHeader()->sizeHint().height() + 3 * (fontMetrics().height() + 4));
+    setMinimumHeight(fontMetrics().height() * 3);  // it may be squeezed: the screen goes first
 }
 
 void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings) {
@@ -180,8 +178,6 @@ void MeasurementTable::layRows() {
         if (row % kStatistics == 0) table_->item(row, 0)->setText(titled(channel.name));
         table_->item(row, 1)->setText(statisticName(row % kStatistics));
     }
-    table_->resizeColumnToContents(0);
-    table_->resizeColumnToContents(1);
     restyle();
 }
 
@@ -266,6 +262,7 @@ void MeasurementTable::restyle() {
                                          : colours().text);
         }
     }
+    for (const int column : {0, 1}) table_->resizeColumnToContents(column);
 }
 
 }  // namespace tacto::gui

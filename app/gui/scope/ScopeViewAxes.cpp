@@ -77,7 +77,7 @@ QColor ScopeView::colourOf(const Lane& lane) const {
 void ScopeView::restyle() {
     const auto& c = colours();
     stylePlot(*this);
-    setMinimumSize(fontMetrics().averageCharWidth() * 40, fontMetrics().height() * 10);
+    setMinimumSize(fontMetrics().averageCharWidth() * 40, fontMetrics().height() * 8);
     ground_->setColour(c.grid);
     for (auto* axis : {xAxis, yAxis, xAxis2, yAxis2}) {
         axis->setBasePen(QPen(hasFocus() ? c.accent : c.quiet, 1));

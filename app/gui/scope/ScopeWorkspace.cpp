@@ -26,6 +26,7 @@ constexpr qint64 kQuietAfter_ms = 1500;     ///< without a trigger this long it 
 constexpr qint64 kFollowEvery_ms = 300;     ///< the level is moved no more often: a request gives up the one under way
 constexpr Seconds kFreeRunAfter{0.4};       ///< without a trigger, while nothing is delivered that could be one
 constexpr double kFreeRunIntervals = 1.25;  ///< while something is: of the longest interval between two trains
+constexpr double kTimeKnown = 0.02;         ///< of a sample's distance to the next: what a cursor reads of an edge
 constexpr double kFollowFrom = 1.3;         ///< and only when it would change by more than this factor
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
@@ -280,7 +281,12 @@ void ScopeWorkspace::say() {
 }
 
 void ScopeWorkspace::sayCursors() {
-    const auto r = view_->readout();
+    auto r = view_->readout();
+    // An edge between two samples is known to a small part of their distance, and no better.
+    if (const auto& shown = view_->shown()) {
+        const double grain = std::pow(10, std::floor(std::log10(kTimeKnown / shown->capture->rate_hz)));
+        for (auto* t : {&r.x1_s, &r.x2_s}) *t = std::round(*t / grain) * grain;
+    }
     QStringList parts;
     if (std::isfinite(r.x1_s)) {
         parts << tr("X1 %1").arg(quantityText(r.x1_s, "s")) << tr("X2 %1").arg(quantityText(r.x2_s, "s"))

@@ -15,6 +15,7 @@ QToolButton* ScopeWorkspace::tool(const QString& text, const QString& tip, bool 
     button->setText(text);
     button->setToolTip(tip);
     button->setCheckable(checkable);
+    button->setAutoRaise(true);
     button->setFocusPolicy(Qt::StrongFocus);
     return button;
 }

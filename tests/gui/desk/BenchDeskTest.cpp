@@ -144,6 +144,44 @@ TEST_F(Desk, GivesCapturesUntilToldNotTo) {
     EXPECT_LE(captures.size(), before + 2) << "single takes one (and one may have been under way)";
 }
 
+TEST_F(Desk, GivesUntriggeredRecordsWhereTheyAreAskedFor) {
+    open("sim:", 4);
+    ASSERT_TRUE(desk.open()->untriggered);
+    std::vector<std::shared_ptr<const Capture>> captures;
+    QObject::connect(&desk, &BenchDesk::captured, [&](std::shared_ptr<const Capture> c) { captures.push_back(c); });
+    ScopeSettings settings;
+    desk.runScope(settings, false);
+    const auto at = desk.telemetry().at;
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().at > at + std::chrono::seconds(2); }));
+    EXPECT_TRUE(captures.empty()) << "nobody asked for them";
+    desk.runScope(settings, false, Seconds(0.3));
+    ASSERT_TRUE(comesTrue([&] { return captures.size() >= 3; }));
+    for (const auto& capture : captures) EXPECT_TRUE(capture->untriggered);
+    desk.stopScope();
+}
+
+TEST_F(Desk, TellsThatTheOscilloscopeStoppedAndTakesAnotherOrder) {
+    RecordProperty("hazard", "H9");
+    open("sim:oscilloscope?fault=unplug@2s..5s", 4);
+    QStringList stops;
+    QObject::connect(&desk, &BenchDesk::scopeStopped, [&](const QString& why) { stops << why; });
+    int captures = 0;
+    QObject::connect(&desk, &BenchDesk::captured, [&] { ++captures; });
+    desk.runScope(ScopeSettings{}, false);
+    ASSERT_TRUE(comesTrue([&] { return !stops.isEmpty(); }));
+    EXPECT_THAT(stops.first().toStdString(), HasSubstr("unplugged"));
+    EXPECT_EQ(complaints, stops) << "once, and to everybody";
+    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().at > std::chrono::seconds(5); }));
+    desk.runScope(ScopeSettings{}, false, Seconds(0.2));
+    EXPECT_TRUE(comesTrue([&] { return captures > 0; }));
+    EXPECT_EQ(stops.size(), 1);
+    ScopeSettings impossible;
+    impossible.samples = 0;
+    desk.runScope(impossible, false);
+    ASSERT_TRUE(comesTrue([&] { return stops.size() == 2; }));
+    EXPECT_THAT(stops.last().toStdString(), HasSubstr("record of 0 samples"));
+}
+
 TEST_F(Desk, RunsAProtocolAndTellsHowItEnded) {
     std::shared_ptr<const gui::FinishedRun> ended;
     QObject::connect(&desk, &BenchDesk::finished, [&](std::shared_ptr<const gui::FinishedRun> run) { ended = run; });

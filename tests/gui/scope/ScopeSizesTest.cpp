@@ -52,6 +52,11 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
         ASSERT_NE(button, nullptr) << name;
         EXPECT_TRUE(all.contains(QRect(button->mapTo(&scope, QPoint()), button->size()))) << name;
     }
+    const auto* cells = scope.findChild<QTableWidget*>("measurements");
+    for (int row = 0; row < 2; ++row) {
+        const auto* item = cells->item(row, 1);
+        EXPECT_GE(cells->columnWidth(1), QFontMetrics(item->font()).horizontalAdvance(item->text()));
+    }
     EXPECT_GT(scope.view().axisRect()->width(), 100);
     EXPECT_GT(scope.view().axisRect()->height(), 60);
     // The column of controls scrolls; what is in it has its full width.
@@ -62,7 +67,6 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
         EXPECT_GE(controls->widget()->height(), controls->widget()->minimumSizeHint().height());
     }
     if (size.width() >= 960 && percent == 100) {
-        const auto* cells = scope.findChild<QTableWidget*>("measurements");
         for (int c = 0; c <= 7; ++c) {
             EXPECT_LE(cells->columnViewportPosition(c) + cells->columnWidth(c), cells->viewport()->width())
                 << cells->horizontalHeaderItem(c)->text().toStdString();

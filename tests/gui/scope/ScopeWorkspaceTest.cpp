@@ -205,7 +205,7 @@ TEST_F(Scope, CursorsReadBelowTheTools) {
     QTest::keyClick(&view, Qt::Key_2);
     for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
     EXPECT_THAT(readout->text().toStdString(),
-                testing::AllOf(HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
+                testing::AllOf(HasSubstr("X1 0"), HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
     QCoreApplication::processEvents();  // layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-cursors");
