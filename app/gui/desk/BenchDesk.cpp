@@ -153,7 +153,10 @@ void BenchDesk::present(const std::string& material, double speed_mm_s, double f
         if (!live_ || !live_->bench->devices().surface) return;
         auto& surface = *live_->bench->devices().surface;
         if (auto done = surface.present(material, MillimetresPerSecond(speed_mm_s), Newtons(force_n)); !done)
-            report(done.error());
+            return report(done.error());
+        tell([this, name = QString::fromStdString(material), speed_mm_s, force_n] {
+            emit presented(name, speed_mm_s, force_n);
+        });
     });
 }
 

@@ -121,6 +121,8 @@ signals:
     void changed();                    ///< activity, open bench or profile
     void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
+    /// The finger slides over another surface, whoever asked for it. An empty material: it is lifted.
+    void presented(const QString& material, double speed_mm_s, double force_n);
     void captured(std::shared_ptr<const tacto::Capture> capture);
     /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
     /// is not touched by it. failed() says it too, for who looks elsewhere.

@@ -9,6 +9,7 @@
 #include <QButtonGroup>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
+#include <QGridLayout>
 #include <QGroupBox>
 #include <QLabel>
 #include <QRadioButton>
@@ -38,7 +39,7 @@ private:
         QSlider* slider;
         QDoubleSpinBox* box;
     };
-    [[nodiscard]] Index addIndex(class QGridLayout& grid, int row, const QString& label, const QString& name,
+    [[nodiscard]] Index addIndex(QGridLayout& grid, int row, const QString& label, const QString& name,
                                  const QString& tip);
     void drive();
     void follow(DriveSource driving);

@@ -26,7 +26,7 @@ LiveWorkspace::LiveWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(parent)
     stack_->addWidget(opening);
     stack_->addWidget(buildBench());
     connect(&desk_, &BenchDesk::changed, this, &LiveWorkspace::begin);
-    connect(&desk_, &BenchDesk::captured, this, [this](std::shared_ptr<const Capture> capture) {
+    connect(&desk_, &BenchDesk::captured, this, [this](const std::shared_ptr<const Capture>& capture) {
         if (capture && !capture->untriggered) readCapture(*capture);  // one that shows a train, not just the signal
     });
     connect(&desk_, &BenchDesk::failed, this, [this] {

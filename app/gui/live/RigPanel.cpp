@@ -18,6 +18,7 @@ RigPanel::RigPanel(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(de
     layout->addWidget(surfaces_);
     pace_ = buildPace();
     layout->addWidget(pace_);
+    connect(&desk_, &BenchDesk::presented, this, &RigPanel::follow);
     begin(1, false);
 }
 
@@ -102,14 +103,25 @@ void RigPanel::enableRest() {
     for (auto* box : {speed_, force_}) box->setEnabled(touches);
 }
 
+void RigPanel::endOwnStrokes() {
+    const QSignalBlocker quiet(material_);
+    if (!material_->itemData(0).isValid()) material_->removeItem(0);
+}
+
 void RigPanel::present() {
     if (!material_->currentData().isValid()) return;
-    if (!material_->itemData(0).isValid()) {
-        const QSignalBlocker quiet(material_);
-        material_->removeItem(0);
-    }
+    endOwnStrokes();
     enableRest();
     desk_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
+}
+
+void RigPanel::follow(const QString& material, double speed_mm_s, double force_n) {
+    endOwnStrokes();
+    const QSignalBlocker quietMaterial(material_), quietSpeed(speed_), quietForce(force_);
+    if (const int known = material_->findData(material); known >= 0) material_->setCurrentIndex(known);
+    speed_->setValue(speed_mm_s);
+    force_->setValue(force_n);
+    enableRest();
 }
 
 }  // namespace tacto::gui

@@ -28,7 +28,9 @@ signals:
 private:
     [[nodiscard]] QWidget* buildSurfaces();
     [[nodiscard]] QWidget* buildPace();
+    void endOwnStrokes();
     void present();
+    void follow(const QString& material, double speed_mm_s, double force_n);
     void enableRest();
 
     BenchDesk& desk_;

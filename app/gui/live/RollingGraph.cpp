@@ -33,7 +33,7 @@ std::optional<QCPRange> RollingGraph::extent(const QCPRange& time) const {
 }
 
 QCPRange RollingGraph::getKeyRange(bool& found, QCP::SignDomain) const {
-    found = series_ != nullptr && series_->size() > 0;
+    found = series_ != nullptr && !series_->empty();
     return found ? QCPRange(series_->time(0), series_->time(series_->size() - 1)) : QCPRange();
 }
 

@@ -89,7 +89,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     small.setPointSizeF(small.pointSizeF() * 0.85);
     painter.setFont(small);
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        const QRectF cell((int(i) % columns) * w + 1, (int(i) / columns) * h + 1, w - 2, h - 2);
+        const QRectF cell((int(i) % columns) * w + 1, double(int(i) / columns) * h + 1, w - 2, h - 2);
         const float value = values_[i];
         const double share = most_ > 0 && std::isfinite(value) ? std::clamp(double(value / most_), 0.0, 1.0) : 0;
         // From the ground to the pressure colour: even steps in lightness in both themes.

@@ -89,6 +89,17 @@ void applyTheme(Theme wanted) {
                                  palette.color(QPalette::HighlightedText).name()));
 }
 
+void applyTextSize(int percent) {
+    static const double desktops_pt = QApplication::font().pointSizeF();
+    auto font = QApplication::font();
+    font.setPointSizeF(desktops_pt * (percent < 100 || percent > 200 ? 100 : percent) / 100);
+    // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
+    const auto sheet = qApp->styleSheet();
+    qApp->setStyleSheet({});
+    QApplication::setFont(font);
+    qApp->setStyleSheet(sheet);
+}
+
 Theme currentTheme() { return theme; }
 
 const Colours& colours() { return theme == Theme::Dark ? kDark : kLight; }

@@ -24,6 +24,9 @@ enum class Theme { Light, Dark };
 /// Sets palette and style of the whole program.
 void applyTheme(Theme theme);
 [[nodiscard]] Theme currentTheme();
+/// Text of the whole program at 100 to 200 % of the desktop's size; anything else is 100. What was already built keeps
+/// the room it took: best called before the window is made.
+void applyTextSize(int percent);
 
 /// Data carry the colour; everything else is quiet. Contrast of text ≥ 4.5:1 on `base`.
 struct Colours {

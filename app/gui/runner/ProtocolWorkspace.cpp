@@ -190,7 +190,10 @@ void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     const auto feed = desk_.takeRunFeed();
     for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
     for (const auto& trial : feed.trials) plane_->add(trial);
-    if (!feed.captures.empty()) wave_->show(feed.captures.back());
+    if (!feed.captures.empty()) {
+        wave_->show(feed.captures.back());
+        emit captured(feed.captures.back());
+    }
     if (feed.progress) steps_->setNote(kRun, tr("%1 of %2").arg(feed.progress->done).arg(feed.progress->total));
     // It may have been paused and resumed from elsewhere.
     const bool isPaused = telemetry.state == InterlockState::Paused;

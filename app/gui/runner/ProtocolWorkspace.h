@@ -43,6 +43,8 @@ public:
 signals:
     /// A running protocol asks a question that must be seen here.
     void attentionWanted();
+    /// The newest train of the running protocol.
+    void captured(std::shared_ptr<const tacto::Capture> capture);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -50,7 +50,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchDesk& desk, const QString& protocol, Q
     layout->addWidget(split, 1);
     buildKeys();
 
-    connect(&desk_, &BenchDesk::finished, this, [this](std::shared_ptr<const FinishedRun> run) { ended(*run); });
+    connect(&desk_, &BenchDesk::finished, this, [this](const std::shared_ptr<const FinishedRun>& run) { ended(*run); });
     connect(&desk_, &BenchDesk::changed, this, [this] {
         previewLater_.start();
         if (const auto open = desk_.open(); running_ && open) plane_->setSimulated(open->simulated());

@@ -118,6 +118,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     connect(stream_, &QComboBox::currentIndexChanged, this, &CompareWindow::drawStream);
     drawTrials();
     drawStream();
+    if (plane_->graphCount() == 0) tabs->setCurrentIndex(1);
     resize(fontMetrics().averageCharWidth() * 120, fontMetrics().height() * 36);
 }
 
@@ -141,6 +142,13 @@ void CompareWindow::drawTrials() {
             const double x = feature(trial, "interval_s"), y = feature(trial, "amplitude_v");
             if (std::isfinite(x) && std::isfinite(y)) graph->addData(x, y);
         }
+    }
+    if (plane_->graphCount() == 0) {
+        auto* none = new QCPItemText(plane_);
+        none->position->setType(QCPItemPosition::ptAxisRectRatio);
+        none->position->setCoords(0.5, 0.5);
+        none->setText(tr("Neither session holds a trial."));
+        none->setColor(colours().quiet);
     }
     stylePlot(*plane_);
     plane_->legend->setVisible(plane_->graphCount() > 0);

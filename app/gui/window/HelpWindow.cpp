@@ -31,7 +31,8 @@ QString definitions() {
 QString limitsAsHtml(const ShippedLimits& limits) {
     QString html;
     for (const auto& set : limits.sets) {
-        html += QString("<h3>%1</h3><table cellspacing=\"0\" cellpadding=\"4\">").arg(words(set.title).toHtmlEscaped());
+        html += QString("<h3>%1 (%2)</h3><table cellspacing=\"0\" cellpadding=\"4\">")
+                    .arg(words(set.title).toHtmlEscaped(), words(set.id).toHtmlEscaped());
         html += QString(
                     "<tr><th align=\"left\">%1</th><th align=\"left\">%2</th><th align=\"left\">%3</th>"
                     "<th align=\"left\">%4</th></tr>")

@@ -15,6 +15,7 @@
 
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
+#include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/window/ArmDialog.h"
@@ -33,6 +34,7 @@ namespace {
 
 constexpr int kFrame_ms = 33;
 constexpr int kRecentFiles = 8;
+constexpr int kStackedLines = 50;
 
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
@@ -42,7 +44,7 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
-    baseFontSize_ = QApplication::font().pointSizeF();
+    applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
     new StopKeys([this](const char* by) { desk_.stop(by); }, this);
 
     safety_ = new SafetyBar(desk_, this);
@@ -198,8 +200,16 @@ void MainWindow::buildNavigation() {
 void MainWindow::buildDocks() {
     devices_ = new DeviceDock(desk_, this);
     exposure_ = new ExposureDock(this);
-    addDockWidget(Qt::RightDockWidgetArea, devices_);
-    addDockWidget(Qt::RightDockWidgetArea, exposure_);
+    measurements_ = new QDockWidget(tr("Measurements"), this);
+    measurements_->setObjectName("measurementDock");
+    summary_ = new MeasurementSummary(measurements_);
+    measurements_->setWidget(summary_);
+    for (auto* dock : {static_cast<QDockWidget*>(devices_), measurements_, static_cast<QDockWidget*>(exposure_)})
+        addDockWidget(Qt::RightDockWidgetArea, dock);
+    connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
+    connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
+    for (auto* protocol : {separability_, protocols_})
+        connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
@@ -214,7 +224,9 @@ void MainWindow::tick() {
     line_->refresh();
     const auto* shown = pages_->currentWidget();
     live_->refresh(telemetry, shown == livePage_ && livePage_->currentWidget() == live_);
-    if (shown == livePage_ && livePage_->currentWidget() == scope_) scope_->refresh(telemetry);
+    const bool measured = measurements_->isVisible();
+    if (measured || (shown == livePage_ && livePage_->currentWidget() == scope_)) scope_->refresh(telemetry);
+    if (measured) summary_->refresh(telemetry);
     // One of the two takes what a run says: the one it was started from, told apart by themselves.
     separability_->refresh(telemetry);
     protocols_->refresh(telemetry);
@@ -340,12 +352,13 @@ void MainWindow::remember(const QString& path) {
 void MainWindow::restore() {
     QSettings settings;
     setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
-    setTextSize(settings.value("textSize", 100).toInt());
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1440, 900);
     if (!restoreState(settings.value("state").toByteArray())) {
         // Once the window is laid out: room for the exposure table's four columns.
         QTimer::singleShot(0, this, [this] {
-            resizeDocks({devices_, exposure_}, {width() / 4, width() / 4}, Qt::Horizontal);
+            resizeDocks({devices_, measurements_, exposure_}, {width() / 4, width() / 4, width() / 4}, Qt::Horizontal);
+            // Three above each other where there is room, else the last two as tabs.
+            if (height() < fontMetrics().height() * kStackedLines) tabifyDockWidget(measurements_, exposure_);
         });
     }
     showWorkspace(settings.value("workspace", 0).toInt());

@@ -24,6 +24,7 @@ namespace tacto::gui {
 class DeviceDock;
 class ExposureDock;
 class LiveWorkspace;
+class MeasurementSummary;
 class ProtocolWorkspace;
 class RecordingLine;
 class SafetyBar;
@@ -73,7 +74,6 @@ private:
     void checkImpedance();
     void openSimulatedBench();
     void setTheme(Theme theme);
-    void setTextSize(int percent);
     void showScope();
     [[nodiscard]] QString declaredLoad() const;
 
@@ -90,6 +90,8 @@ private:
     SessionsWorkspace* sessions_ = nullptr;
     DeviceDock* devices_ = nullptr;
     ExposureDock* exposure_ = nullptr;
+    QDockWidget* measurements_ = nullptr;
+    MeasurementSummary* summary_ = nullptr;
     RecordingLine* line_ = nullptr;
     Tour* tour_ = nullptr;
     QActionGroup* navigation_ = nullptr;
@@ -97,7 +99,6 @@ private:
     QTimer frame_;
     QString load_ = "1 kohm";
     bool disarmWhenArmed_ = false;  // an impedance check is under way
-    double baseFontSize_ = 10;
 };
 
 }  // namespace tacto::gui

@@ -63,19 +63,12 @@ void MainWindow::setTheme(Theme theme) {
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
 }
 
-void MainWindow::setTextSize(int percent) {
-    if (percent < 100 || percent > 200) percent = 100;
-    auto font = QApplication::font();
-    font.setPointSizeF(baseFontSize_ * percent / 100);
-    QApplication::setFont(font);
-    QSettings().setValue("textSize", percent);
-}
-
 void MainWindow::buildViewMenu() {
     auto* view = menuBar()->addMenu(tr("&View"));
     for (auto* action : navigation_->actions()) view->addAction(action);
     view->addSeparator();
     view->addAction(devices_->toggleViewAction());
+    view->addAction(measurements_->toggleViewAction());
     view->addAction(exposure_->toggleViewAction());
     view->addAction(tr("&Messages"), line_, &RecordingLine::showLog);
     view->addSeparator();
@@ -83,8 +76,11 @@ void MainWindow::buildViewMenu() {
     view->addAction(tr("&Dark"), this, [this] { setTheme(Theme::Dark); });
     auto* size = view->addMenu(tr("&Text size"));
     for (const int percent : {100, 125, 150, 200})
-        size->addAction(tr("%1 %").arg(percent), this, [this, percent] { setTextSize(percent); });
-    size->setToolTip(tr("Takes full effect when the window is opened again."));
+        size->addAction(tr("%1 %").arg(percent), this, [this, percent] {
+            QSettings().setValue("textSize", percent);
+            applyTextSize(percent);
+            line_->say(tr("Text at %1 %. Everything has its best place when the window is opened again.").arg(percent));
+        });
     view->addAction(tr("&Full screen"), QKeySequence(Qt::Key_F11), this,
                     [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
 }

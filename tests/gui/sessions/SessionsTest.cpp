@@ -1,11 +1,14 @@
 // Sessions as files and as a workspace: listed, searched, exported, replayed, verified.
 #include <QPushButton>
+#include <QTabWidget>
 #include <QTableWidget>
+#include <QTest>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/gui/desk/BenchDesk.h"
+#include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "core/acquisition/Recording.h"
@@ -20,25 +23,33 @@ using testing::HasSubstr;
 
 class Recorded : public testing::Test {
 protected:
-    void SetUp() override {
+    void SetUp() override { session = record({"sim:"}, 2); }
+    void TearDown() override {
+        for (const auto& made : made_) std::filesystem::remove(made);
+    }
+    /// The session of a simulated bench that ran for so long.
+    std::filesystem::path record(const std::vector<const char*>& uris, int seconds) {
         gui::LiveOrder order;
-        order.uris.push_back(*DeviceUri::parse("sim:"));
+        for (const auto* uri : uris) order.uris.push_back(*DeviceUri::parse(uri));
         order.profile = desk.profile();
         order.speed = 5;
         desk.openLive(order);
-        ASSERT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Live; }));
-        session = desk.open()->session;
-        ASSERT_TRUE(comesTrue([this] { return desk.telemetry().at > std::chrono::seconds(2); }));
+        EXPECT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Live; }));
+        made_.push_back(desk.open()->session);
+        EXPECT_TRUE(comesTrue([&] { return desk.telemetry().at > std::chrono::seconds(seconds); }));
         desk.close();
-        ASSERT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Closed; }));
+        EXPECT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Closed; }));
+        return made_.back();
     }
-    void TearDown() override { std::filesystem::remove(session); }
     static gui::WorkPort port(bool cancelled = false) {
         return {std::make_shared<std::atomic<bool>>(cancelled), [](int, int) {}};
     }
     gui::BenchDesk desk{simulatedRegistry};
     std::filesystem::path session;
     const ScratchDir folder;
+
+private:
+    std::vector<std::filesystem::path> made_;
 };
 
 TEST_F(Recorded, IsALineThatSaysWhatItHolds) {
@@ -129,6 +140,64 @@ TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
     EXPECT_TRUE(table->isRowHidden(0));
     search->clear();
     EXPECT_FALSE(table->isRowHidden(0));
+}
+
+TEST_F(Recorded, TwoAreComparedOverEachOther) {
+    (void)record({"sim:stimulator?gain=1.05", "sim:"}, 3);
+    gui::SessionsWorkspace workspace(desk);
+    workspace.resize(1200, 700);
+    workspace.show();
+    auto* table = workspace.findChild<QTableWidget*>("sessionsTable");
+    ASSERT_TRUE(comesTrue([&] { return table->rowCount() == 2; }));
+    auto* compare = find<QPushButton>(workspace, "Compare two");
+    ASSERT_NE(compare, nullptr);
+    const auto press = [&](int row, Qt::KeyboardModifiers modifiers) {
+        QTest::mouseClick(table->viewport(), Qt::LeftButton, modifiers,
+                          table->visualRect(table->model()->index(row, 0)).center());
+    };
+    press(0, Qt::NoModifier);
+    EXPECT_FALSE(compare->isEnabled()) << "one is compared with nothing";
+    press(1, Qt::ControlModifier);
+    ASSERT_TRUE(comesTrue([&] { return compare->isEnabled(); }));
+    click(*compare);
+    gui::CompareWindow* both = nullptr;
+    ASSERT_TRUE(comesTrue([&] { return (both = workspace.findChild<gui::CompareWindow*>()) != nullptr; }));
+    ASSERT_TRUE(comesTrue([&] { return both->isVisible(); }));
+    QString words;
+    for (auto* differs : both->findChildren<QTableWidget*>()) {
+        for (int row = 0; row < differs->rowCount(); ++row) {
+            for (int column = 0; column < 3; ++column) words += differs->item(row, column)->text() + "; ";
+        }
+    }
+    EXPECT_TRUE(words.contains("gain=1.05")) << words.toStdString();
+    auto* tabs = both->findChild<QTabWidget*>();
+    for (int page = 0; page < tabs->count(); ++page) {
+        tabs->setCurrentIndex(page);
+        QTest::qWait(200);
+        shot(*both, QString("compare-%1").arg(page));
+    }
+    const auto drawn = [&] {
+        const auto plots = both->findChildren<QCustomPlot*>();
+        return std::any_of(plots.begin(), plots.end(), [](const auto* plot) { return plot->plottableCount() >= 2; });
+    };
+    EXPECT_TRUE(comesTrue(drawn)) << "a stream of both, over each other";
+    both->close();
+}
+
+TEST_F(Recorded, ReplayGoesToTheLiveWorkspace) {
+    gui::SessionsWorkspace workspace(desk);
+    workspace.resize(1200, 700);
+    workspace.show();
+    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
+    QString ready;
+    QObject::connect(&workspace, &gui::SessionsWorkspace::recordingReady, &workspace,
+                     [&](const QString& target) { ready = target; });
+    auto* replay = find<QPushButton>(workspace, "Replay");
+    ASSERT_NE(replay, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return replay->isEnabled(); }));
+    click(*replay);
+    ASSERT_TRUE(comesTrue([&] { return !ready.isEmpty(); }));
+    EXPECT_TRUE(Recording::open(ready.toStdString()).has_value());
 }
 
 }  // namespace

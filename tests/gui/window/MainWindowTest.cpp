@@ -16,7 +16,7 @@
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/run/RunFiles.h"
-#include "tests/gui/Person.h"
+#include "tests/gui/window/WindowFixture.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -24,48 +24,6 @@ namespace {
 
 using gui::Activity;
 using testing::HasSubstr;
-
-class Window : public testing::Test {
-protected:
-    Window() {
-        window.resize(1440, 900);
-        window.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-        window.activateWindow();
-    }
-    ~Window() override { window.close(); }
-    void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-        auto* focus = QApplication::activeWindow() != nullptr ? QApplication::activeWindow() : &window;
-        QTest::keyClick(focus->windowHandle(), key, modifiers);
-        QCoreApplication::processEvents();
-    }
-    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
-    [[nodiscard]] QString banner() {
-        const auto* label = window.findChild<QLabel*>("bannerText");
-        return label->isVisible() ? label->text() : QString();
-    }
-    void open() {
-        key(Qt::Key_B, Qt::ControlModifier);
-        ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
-        QTest::qWait(80);  // the next frame enables the buttons
-    }
-    /// Both steps, as a person takes them.
-    void arm() {
-        auto* first = window.findChild<QPushButton*>("armButton");
-        ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
-        click(*first);
-        auto* second = window.findChild<QPushButton*>("armOutput");
-        ASSERT_NE(second, nullptr);
-        ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
-        click(*second);
-        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; }));
-    }
-    void deliver() {
-        window.desk().drive(DriveSource::Manual, 0.5, 1);
-        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Delivering; }));
-    }
-    gui::MainWindow window{simulatedRegistry};
-};
 
 TEST_F(Window, ArmingTakesTwoSteps) {
     RecordProperty("hazard", "H6");

@@ -1,0 +1,202 @@
+// What one expects of every good program: drop files on it, find them again, the tour, help at hand, and that it looks
+// tomorrow as it was left today.
+#include <QDropEvent>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QSettings>
+#include <QTabWidget>
+#include <gmock/gmock.h>
+
+#include "app/gui/look/Look.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::Activity;
+using testing::HasSubstr;
+
+const auto kExample = sourceDir() / "resources" / "examples" / "linen-slide";
+
+class Habits : public Window {
+protected:
+    void drop(const std::filesystem::path& path) {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(path.string()))});
+        QDragEnterEvent enter({400, 400}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
+        ASSERT_TRUE(enter.isAccepted());
+        QDropEvent event({400, 400}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &event);
+    }
+    [[nodiscard]] QAction* menuEntry(const QString& menu, const QString& entry) {
+        for (auto* action : window.menuBar()->actions()) {
+            if (action->text().remove('&') != menu) continue;
+            emit action->menu()->aboutToShow();
+            for (auto* found : action->menu()->actions()) {
+                if (found->text().remove('&') == entry) return found;
+            }
+        }
+        return nullptr;
+    }
+    [[nodiscard]] QFrame* tour() { return window.findChild<QFrame*>("tour"); }
+};
+
+TEST_F(Habits, ARecordingThatIsDroppedReplaysAndIsRemembered) {
+    drop(kExample);
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    auto* recent = menuEntry("File", "Recent");
+    ASSERT_NE(recent, nullptr);
+    emit recent->menu()->aboutToShow();
+    ASSERT_FALSE(recent->menu()->actions().isEmpty());
+    EXPECT_EQ(recent->menu()->actions().first()->text().toStdString(), kExample.string());
+}
+
+TEST_F(Habits, ACaptureThatIsDroppedOpensInTheOscilloscope) {
+    const ScratchDir folder;
+    drop(folder.write("pulse.csv", "time_s,voltage_V\n0,0\n0.0001,10\n0.0002,10\n0.0003,0\n0.0004,0\n"));
+    EXPECT_EQ(banner().toStdString(), "");
+    EXPECT_EQ(window.workspace(), 0);
+    EXPECT_EQ(window.findChild<QTabWidget*>("livePage")->currentIndex(), 1);
+}
+
+TEST_F(Habits, AForeignFileThatIsDroppedIsRefusedInWords) {
+    const ScratchDir folder;
+    drop(folder.write("photo.jpeg", "not for us"));
+    EXPECT_THAT(banner().toStdString(), HasSubstr("photo.jpeg"));
+    EXPECT_EQ(window.desk().activity(), Activity::Closed);
+}
+
+TEST_F(Habits, TheTourIsDoneNotRead) {
+    window.beginTour();
+    ASSERT_NE(tour(), nullptr);
+    ASSERT_TRUE(tour()->isVisible());
+    const auto next = [this] { click(*find<QPushButton>(*tour(), "Next")); };
+    next();
+    click(*find<QPushButton>(*tour(), "Open it"));
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    next();
+    click(*find<QPushButton>(*tour(), "Slide over P120"));
+    EXPECT_TRUE(comesTrue([this] { return window.desk().telemetry().sliding; }));
+    next();
+    shot(window, "tour");
+    click(*find<QPushButton>(*tour(), "Arm…"));
+    auto* arm = window.findChild<QPushButton*>("armOutput");
+    ASSERT_NE(arm, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return arm->isVisible(); }));
+    EXPECT_EQ(state(), InterlockState::Disarmed) << "the tour arms nothing by itself";
+    key(Qt::Key_Escape);
+    next();
+    click(*find<QPushButton>(*tour(), "Show it"));
+    EXPECT_EQ(window.workspace(), 3);
+    click(*find<QPushButton>(*tour(), "Done"));
+    EXPECT_FALSE(tour()->isVisible());
+    EXPECT_TRUE(QSettings().value("tourDone").toBool()) << "it does not come again by itself";
+}
+
+TEST_F(Habits, EscStopsInsideTheTour) {
+    RecordProperty("hazard", "H2");
+    open();
+    arm();
+    deliver();
+    window.beginTour();
+    ASSERT_NE(tour(), nullptr);
+    key(Qt::Key_Escape);
+    EXPECT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+}
+
+TEST_F(Habits, TheKeysAreOneKeyAway) {
+    key(Qt::Key_Question);
+    QDialog* sheet = nullptr;
+    ASSERT_TRUE(comesTrue([&] {
+        for (auto* dialog : window.findChildren<QDialog*>()) {
+            if (dialog->isVisible() && dialog->windowTitle() == "Keys") sheet = dialog;
+        }
+        return sheet != nullptr;
+    }));
+    shot(*sheet, "keys");
+    QString words;
+    for (const auto* label : sheet->findChildren<QLabel*>()) words += label->text();
+    for (const auto* wanted : {"Esc", "Space", "Ctrl+1", "F5", "F1"})
+        EXPECT_THAT(words.toStdString(), HasSubstr(wanted));
+    sheet->close();
+}
+
+TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
+    auto* entry = menuEntry("Help", "Definitions and limits");
+    ASSERT_NE(entry, nullptr);
+    entry->trigger();
+    QDialog* help = nullptr;
+    ASSERT_TRUE(comesTrue([&] {
+        for (auto* dialog : window.findChildren<QDialog*>()) {
+            if (dialog->isVisible()) help = dialog;
+        }
+        return help != nullptr;
+    }));
+    auto* tabs = help->findChild<QTabWidget*>();
+    ASSERT_NE(tabs, nullptr);
+    shot(*help, "help-definitions");
+    tabs->setCurrentIndex(1);
+    const auto limits = tabs->currentWidget()->findChildren<QTextBrowser*>() +
+                        QList<QTextBrowser*>{qobject_cast<QTextBrowser*>(tabs->currentWidget())};
+    QString words;
+    for (const auto* page : limits) {
+        if (page != nullptr) words += page->toPlainText();
+    }
+    for (const auto& set : window.desk().limits().sets) EXPECT_THAT(words.toStdString(), HasSubstr(set.id));
+    shot(*help, "help-limits");
+    help->close();
+}
+
+TEST_F(Habits, TheWindowIsAsItWasLeft) {
+    window.showWorkspace(5);
+    auto* dark = menuEntry("View", "Dark");
+    ASSERT_NE(dark, nullptr);
+    dark->trigger();
+    auto* exposure = window.findChild<QDockWidget*>("exposureDock");
+    exposure->hide();
+    window.resize(1111, 777);
+    window.close();
+    {
+        gui::MainWindow again(simulatedRegistry);
+        again.show();
+        EXPECT_EQ(again.workspace(), 5);
+        EXPECT_EQ(gui::currentTheme(), gui::Theme::Dark);
+        EXPECT_TRUE(again.findChild<QDockWidget*>("exposureDock")->isHidden());
+        EXPECT_EQ(again.size(), QSize(1111, 777));
+        again.close();
+    }
+    QSettings().clear();
+    gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(Habits, TextAtTwiceTheSizeFits) {
+    window.close();
+    const auto font = QApplication::font();
+    QSettings().setValue("textSize", 200);
+    {
+        gui::MainWindow large(simulatedRegistry);
+        large.resize(1440, 900);
+        large.show();
+        EXPECT_LE(large.width(), 1920) << "a full HD screen holds it";
+        for (int page = 0; page < 7; ++page) {
+            large.showWorkspace(page);
+            QTest::qWait(60);
+            shot(large, QString("text200-%1").arg(page));
+            for (auto* button : large.findChildren<QPushButton*>()) {
+                const auto words = button->text().remove('&');
+                if (!button->isVisible() || words.isEmpty()) continue;
+                EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(words))
+                    << page << ": \"" << words.toStdString() << "\" is cut";
+            }
+        }
+        large.close();
+    }
+    QApplication::setFont(font);
+    QSettings().clear();
+}
+
+}  // namespace
+}  // namespace tacto::test
