@@ -1,0 +1,238 @@
+#include "drivers/sciencemode/Acks.h"
+
+#include <algorithm>
+
+namespace tacto::sciencemode {
+namespace {
+
+constexpr std::size_t kIdLength = 10;
+constexpr std::size_t kPlaceLength = 3;  // result, place, measurement
+constexpr std::size_t kMeasuredLength = kPlaceLength + 2 + 2 * kSamples;
+constexpr std::size_t kVersionLength = 7;  // result and two versions; a hash of the firmware follows
+constexpr std::size_t kHashLength = 6;     // four bytes, its kind, whether it is valid
+
+tl::unexpected<Error> wrongLength(Command command, std::size_t length, std::string_view expected) {
+    return fail(ErrorCode::Device, "the stimulator's answer to {} has {} bytes; {} were expected", nameOf(command),
+                length, expected);
+}
+
+std::uint16_t wordAt(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+    return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
+}
+
+}  // namespace
+
+std::string_view meaningOf(ResultCode code) noexcept {
+    switch (code) {
+        case ResultCode::Ok:
+            return "no error";
+        case ResultCode::Transfer:
+            return "the transfer was garbled";
+        case ResultCode::Parameter:
+            return "a parameter is out of its range";
+        case ResultCode::Protocol:
+            return "the message does not follow the protocol";
+        case ResultCode::StimulatorTimeout:
+            return "its stimulation unit does not answer its controller";
+        case ResultCode::NotInitialised:
+            return "its stimulation is not initialised";
+        case ResultCode::HighVoltage:
+            return "its high voltage is faulty";
+        case ResultCode::Electrode:
+            return "an electrode is off";
+        case ResultCode::InvalidCommand:
+            return "it does not know the command";
+        case ResultCode::PulseTimeout:
+            return "a pulse did not end in time";
+        case ResultCode::Busy:
+            return "it is busy";
+        case ResultCode::LowCurrent:
+            return "the pulse did not reach its current: the impedance is too high, or an electrode is lifting";
+    }
+    return "of an error that has no name";
+}
+
+tl::unexpected<Error> refusal(Command command, ResultCode code) {
+    return fail(ErrorCode::Device, "the stimulator refused {} because {} (result {})", nameOf(command), meaningOf(code),
+                static_cast<int>(code));
+}
+
+std::string_view meaningOf(ChannelState state) noexcept {
+    switch (state) {
+        case ChannelState::Ok:
+            return "no error";
+        case ChannelState::ElectrodeOff:
+            return "an electrode is off";
+        case ChannelState::PeriodNotReached:
+            return "the repetition period was not kept";
+        case ChannelState::CurrentNotReached:
+            return "the current was not reached";
+    }
+    return "of an error that has no name";
+}
+
+Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload) {
+    if (payload.size() != 1) return wrongLength(command, payload.size(), "1");
+    return static_cast<ResultCode>(payload[0]);
+}
+
+Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into) {
+    into.complete = into.measured = false;
+    into.measurement = Measurement::None;
+    if (payload.size() != 1 && payload.size() != kPlaceLength && payload.size() != kMeasuredLength) {
+        return wrongLength(Command::ChannelConfig, payload.size(), "1, 3 or 261");
+    }
+    into.result = static_cast<ResultCode>(payload[0]);
+    if (payload.size() == 1) {
+        if (into.result != ResultCode::Ok) return {};
+        return wrongLength(Command::ChannelConfig, payload.size(), "at least 3, for a pulse that succeeded,");
+    }
+    if (payload[2] > 3) {
+        return fail(ErrorCode::Device, "the stimulator measured quantity {} of a pulse; 0 to 3 were expected",
+                    payload[2]);
+    }
+    into.complete = true;
+    into.channel = payload[1] & 0xF;
+    into.connector = payload[1] >> 4;
+    into.measurement = static_cast<Measurement>(payload[2]);
+    into.measured = payload.size() == kMeasuredLength && into.measurement != Measurement::None;
+    if (!into.measured) return {};
+    into.sampleTime_us = wordAt(payload, kPlaceLength);
+    for (std::size_t i = 0; i < kSamples; ++i) into.samples[i] = wordAt(payload, kPlaceLength + 2 + 2 * i);
+    return {};
+}
+
+Result<CurrentDataAck> readCurrentDataAck(std::span<const std::uint8_t> payload) {
+    CurrentDataAck ack;
+    if (payload.size() == 1 && payload[0] != 0) {
+        ack.result = static_cast<ResultCode>(payload[0]);
+        return ack;
+    }
+    if (payload.size() != 7) return wrongLength(Command::CurrentData, payload.size(), "7");
+    if (payload[1] != 4) {
+        return fail(ErrorCode::Device, "the stimulator answered selection {} of its current data; 4 was asked for",
+                    payload[1]);
+    }
+    ack.result = static_cast<ResultCode>(payload[0]);
+    ack.running = payload[2];
+    for (std::size_t i = 0; i < kMidChannels; ++i) {
+        const unsigned nibble = (payload[3 + i / 2] >> (4 * (i % 2))) & 0xFU;
+        if (nibble > 3) {
+            return fail(ErrorCode::Device, "the stimulator reports state {} of channel {}; 0 to 3 were expected",
+                        nibble, i);
+        }
+        ack.channels[i] = static_cast<ChannelState>(nibble);
+    }
+    return ack;
+}
+
+Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload) {
+    StimStatusAck ack;
+    if (payload.size() == 1 && payload[0] != 0) {
+        ack.result = static_cast<ResultCode>(payload[0]);
+        return ack;
+    }
+    if (payload.size() != 3) return wrongLength(Command::StimStatus, payload.size(), "3");
+    if (payload[1] > 3) {
+        return fail(ErrorCode::Device, "the stimulator is in state {}; 0 to 3 were expected", payload[1]);
+    }
+    ack.result = static_cast<ResultCode>(payload[0]);
+    ack.status = static_cast<Stimulation>(payload[1]);
+    ack.highVoltage = payload[2];
+    return ack;
+}
+
+Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload) {
+    DeviceIdAck ack;
+    if (payload.size() == 1 && payload[0] != 0) {
+        ack.result = static_cast<ResultCode>(payload[0]);
+        return ack;
+    }
+    if (payload.size() != 1 + kIdLength) return wrongLength(Command::DeviceId, payload.size(), "11");
+    ack.result = static_cast<ResultCode>(payload[0]);
+    for (const auto byte : payload.subspan(1)) {
+        if (byte == 0) break;
+        if (byte < 0x20 || byte > 0x7E) {
+            return fail(ErrorCode::Device,
+                        "the stimulator's identity holds the byte {:02X}; printable ASCII was expected", byte);
+        }
+        ack.id += static_cast<char>(byte);
+    }
+    while (ack.id.ends_with(' ')) ack.id.pop_back();
+    return ack;
+}
+
+std::string Version::text() const { return fmt::format("{}.{}.{}", major, minor, patch); }
+
+Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload) {
+    ExtendedVersionAck ack;
+    if (payload.size() == 1 && payload[0] != 0) {
+        ack.result = static_cast<ResultCode>(payload[0]);
+        return ack;
+    }
+    if (payload.size() != kVersionLength && payload.size() != kVersionLength + kHashLength) {
+        return wrongLength(Command::ExtendedVersion, payload.size(), "7 or 13");
+    }
+    ack.result = static_cast<ResultCode>(payload[0]);
+    ack.firmware = {payload[1], payload[2], payload[3]};
+    ack.protocol = {payload[4], payload[5], payload[6]};
+    return ack;
+}
+
+Payload payloadOf(const ChannelConfigAck& ack) noexcept {
+    Payload payload;
+    payload.push(static_cast<unsigned>(ack.result));
+    if (!ack.complete) return payload;
+    payload.push(static_cast<unsigned>(ack.channel) | static_cast<unsigned>(ack.connector) << 4U);
+    payload.push(static_cast<unsigned>(ack.measurement));
+    if (!ack.measured) return payload;
+    payload.push(static_cast<unsigned>(ack.sampleTime_us) >> 8U);
+    payload.push(ack.sampleTime_us);
+    for (const auto sample : ack.samples) {
+        payload.push(static_cast<unsigned>(sample) >> 8U);
+        payload.push(sample);
+    }
+    return payload;
+}
+
+Payload payloadOf(const CurrentDataAck& ack) noexcept {
+    Payload payload;
+    payload.push(static_cast<unsigned>(ack.result));
+    payload.push(4);
+    payload.push(ack.running);
+    for (std::size_t i = 0; i < kMidChannels; i += 2) {
+        payload.push(static_cast<unsigned>(ack.channels[i]) | static_cast<unsigned>(ack.channels[i + 1]) << 4U);
+    }
+    return payload;
+}
+
+Payload payloadOf(const StimStatusAck& ack) noexcept {
+    Payload payload;
+    payload.push(static_cast<unsigned>(ack.result));
+    payload.push(static_cast<unsigned>(ack.status));
+    payload.push(ack.highVoltage);
+    return payload;
+}
+
+Payload payloadOf(const DeviceIdAck& ack) noexcept {
+    Payload payload;
+    payload.push(static_cast<unsigned>(ack.result));
+    for (std::size_t i = 0; i < kIdLength; ++i) {
+        payload.push(i < ack.id.size() ? static_cast<unsigned char>(ack.id[i]) : ' ');
+    }
+    return payload;
+}
+
+Payload payloadOf(const ExtendedVersionAck& ack) noexcept {
+    Payload payload;
+    payload.push(static_cast<unsigned>(ack.result));
+    for (const auto& version : {ack.firmware, ack.protocol}) {
+        payload.push(version.major);
+        payload.push(version.minor);
+        payload.push(version.patch);
+    }
+    for (std::size_t i = 0; i < kHashLength; ++i) payload.push(0);
+    return payload;
+}
+
+}  // namespace tacto::sciencemode

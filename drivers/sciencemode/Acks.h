@@ -1,0 +1,98 @@
+// Acks.h - what a ScienceMode4 device answers: typed results, from payloads and (for the emulated device) back.
+//
+// A parser believes no length: a payload of another size than its ack has is refused.
+//
+// Source of every figure: ../shared/wire/sciencemode4.md.
+//
+// Thread-safety: pure functions; nothing allocates on success.
+#pragma once
+
+#include <string>
+
+#include "drivers/sciencemode/Commands.h"
+
+namespace tacto::sciencemode {
+
+/// The first payload byte of an ack. Devices may send others; see meaningOf().
+enum class ResultCode : std::uint8_t {
+    Ok = 0,
+    Transfer = 1,
+    Parameter = 2,
+    Protocol = 3,
+    StimulatorTimeout = 4,
+    NotInitialised = 7,
+    HighVoltage = 8,
+    Electrode = 10,
+    InvalidCommand = 11,
+    PulseTimeout = 16,
+    Busy = 21,
+    LowCurrent = 28,
+};
+/// Half a sentence on what went wrong, for "the stimulator refused LL_INIT: ...".
+[[nodiscard]] std::string_view meaningOf(ResultCode code) noexcept;
+/// The error arm for an ack that is not Ok: one sentence. Device.
+[[nodiscard]] tl::unexpected<Error> refusal(Command command, ResultCode code);
+
+inline constexpr std::size_t kSamples = 128;
+
+/// Of LL_CHANNEL_CONFIG: what the device measured during its own pulse.
+struct ChannelConfigAck {
+    ResultCode result = ResultCode::Ok;
+    bool complete = false;  ///< false: a result alone, nothing below is stated
+    int channel = 0;
+    int connector = 0;
+    Measurement measurement = Measurement::None;
+    std::uint16_t sampleTime_us = 0;                ///< what it counts is unverified: see ReadBack.h
+    bool measured = false;                          ///< samples follow
+    std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V; the sign is lost
+};
+
+enum class ChannelState : std::uint8_t { Ok = 0, ElectrodeOff = 1, PeriodNotReached = 2, CurrentNotReached = 3 };
+[[nodiscard]] std::string_view meaningOf(ChannelState state) noexcept;
+
+/// Of ML_GET_CURRENT_DATA.
+struct CurrentDataAck {
+    ResultCode result = ResultCode::Ok;
+    std::uint8_t running = 0;  ///< a bit per channel
+    std::array<ChannelState, kMidChannels> channels{};
+};
+
+enum class Stimulation : std::uint8_t { None = 0, LowLevel = 1, MidLevel = 2, MidLevelRunning = 3 };
+struct StimStatusAck {
+    ResultCode result = ResultCode::Ok;
+    Stimulation status = Stimulation::None;
+    std::uint8_t highVoltage = 0;
+};
+
+struct DeviceIdAck {
+    ResultCode result = ResultCode::Ok;
+    std::string id;  ///< 10 characters, trailing blanks removed
+};
+
+struct Version {
+    std::uint8_t major = 0, minor = 0, patch = 0;
+    [[nodiscard]] std::string text() const;
+    bool operator==(const Version&) const = default;
+};
+struct ExtendedVersionAck {
+    ResultCode result = ResultCode::Ok;
+    Version firmware;
+    Version protocol;
+};
+
+/// Errors, all: Device, for a payload that is no such ack.
+[[nodiscard]] Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload);
+/// A result alone, or a result, a place and a measurement without samples, are acks too (an error, or no measurement).
+[[nodiscard]] Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into);
+[[nodiscard]] Result<CurrentDataAck> readCurrentDataAck(std::span<const std::uint8_t> payload);
+[[nodiscard]] Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload);
+[[nodiscard]] Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload);
+[[nodiscard]] Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload);
+
+[[nodiscard]] Payload payloadOf(const ChannelConfigAck& ack) noexcept;
+[[nodiscard]] Payload payloadOf(const CurrentDataAck& ack) noexcept;
+[[nodiscard]] Payload payloadOf(const StimStatusAck& ack) noexcept;
+[[nodiscard]] Payload payloadOf(const DeviceIdAck& ack) noexcept;
+[[nodiscard]] Payload payloadOf(const ExtendedVersionAck& ack) noexcept;
+
+}  // namespace tacto::sciencemode

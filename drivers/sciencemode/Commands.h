@@ -1,0 +1,120 @@
+// Commands.h - what the host says to a ScienceMode4 device: typed requests, to payloads and back.
+//
+// A builder refuses what the wire cannot carry (a wrapped field would be a wrong pulse): it never rounds and never
+// clamps. The reading half serves the emulated device.
+//
+// Source of every figure: ../shared/wire/sciencemode4.md.
+//
+// Thread-safety: pure functions; nothing allocates on success.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/base/Units.h"
+#include "drivers/sciencemode/Frame.h"
+
+namespace tacto::sciencemode {
+
+enum class Command : std::uint16_t {
+    LowLevelInit = 0,
+    ChannelConfig = 2,
+    LowLevelStop = 4,
+    MidLevelInit = 30,
+    MidLevelUpdate = 32,
+    MidLevelStop = 34,
+    CurrentData = 36,
+    DeviceId = 52,
+    Reset = 58,
+    StimStatus = 62,
+    GeneralError = 66,
+    UnknownCommand = 67,
+    ExtendedVersion = 68,
+};
+[[nodiscard]] std::string_view nameOf(Command command) noexcept;  // as the vendor writes it: "LL_CHANNEL_CONFIG"
+/// The command of the answer to `command`.
+[[nodiscard]] constexpr std::uint16_t ackOf(Command command) noexcept {
+    return static_cast<std::uint16_t>(static_cast<std::uint16_t>(command) + 1);
+}
+
+enum class HighVoltage : std::uint8_t { Default = 0, Off = 1, V30 = 2, V60 = 3, V90 = 4, V120 = 5, V150 = 6 };
+enum class Measurement : std::uint8_t { None = 0, Current = 1, Voltage = 2, Source = 3 };
+
+inline constexpr double kCurrentMost_mA = 130;
+inline constexpr double kCurrentStep_mA = 0.5;
+inline constexpr int kPointLeast_us = 10;
+inline constexpr int kPointMost_us = 4095;  // 12 bits
+inline constexpr std::size_t kPointsMost = 16;
+inline constexpr std::size_t kChannels = 4;     // LL: 2 bits, and a connector bit
+inline constexpr std::size_t kMidChannels = 8;  // ML: a bit each
+inline constexpr Seconds kPeriodMost{16.3835};  // 15 bits of 0.5 ms
+
+/// A stretch of constant current. Several make a pulse.
+struct Point {
+    Micros time{0};        ///< whole µs, 10 to 4095
+    Milliamps current{0};  ///< multiples of 0.5 mA, −130 to 130; signed: the phase's direction
+    bool operator==(const Point&) const = default;
+};
+
+/// The points of one pulse.
+struct Points {
+    std::array<Point, kPointsMost> items{};
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const Point> span() const noexcept { return {items.data(), count}; }
+    [[nodiscard]] Micros duration() const noexcept;
+    [[nodiscard]] bool add(const Point& point) noexcept;  ///< false when full
+};
+
+struct Payload {
+    std::array<std::uint8_t, kPayloadMost> bytes;  // Not cleared: only the first `size` mean anything
+    std::size_t size = 0;
+    [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
+    void push(unsigned byte) noexcept { bytes[size++] = static_cast<std::uint8_t>(byte & 0xFFU); }
+};
+
+struct LowLevelInit {
+    HighVoltage highVoltage = HighVoltage::Default;
+    Measurement measurement = Measurement::None;
+    bool operator==(const LowLevelInit&) const = default;
+};
+struct ChannelConfig {
+    int channel = 0;    ///< 0 to 3
+    int connector = 0;  ///< 0 yellow, 1 green
+    bool execute = true;
+    Points points;
+};
+/// One channel of ML_UPDATE, which repeats by itself.
+struct MidLevelChannel {
+    int channel = 0;  ///< 0 to 7: 4 × connector + channel
+    int ramp = 0;     ///< 0 to 15
+    Seconds period{0};
+    Points points;
+};
+struct MidLevelUpdate {
+    std::array<std::optional<MidLevelChannel>, kMidChannels> channels;
+};
+
+using PointBytes = std::array<std::uint8_t, 4>;
+/// Errors: InvalidArgument naming the value and its range.
+[[nodiscard]] Result<PointBytes> encodePoint(const Point& point);
+[[nodiscard]] Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept;
+
+/// The 16 bits of a repetition period, `period << 1 | fine`: in 0.5 ms, or in 0.25 ms where only that is exact.
+/// Errors: InvalidArgument for a period that is not above 0, off that grid, or does not fit 15 bits.
+[[nodiscard]] Result<std::uint16_t> encodePeriod(Seconds period);
+[[nodiscard]] Seconds decodePeriod(std::uint16_t bits) noexcept;
+
+[[nodiscard]] Payload payloadOf(const LowLevelInit& request) noexcept;
+[[nodiscard]] Result<Payload> payloadOf(const ChannelConfig& request);
+[[nodiscard]] Payload midLevelInitPayload(bool stopAllOnError) noexcept;
+[[nodiscard]] Result<Payload> payloadOf(const MidLevelUpdate& request);
+[[nodiscard]] Payload currentDataPayload() noexcept;
+
+/// The other way round. Nothing when the payload is not one that the builders make.
+[[nodiscard]] std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept;
+[[nodiscard]] std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> payload) noexcept;
+[[nodiscard]] std::optional<bool> readMidLevelInit(std::span<const std::uint8_t> payload) noexcept;
+[[nodiscard]] std::optional<MidLevelUpdate> readMidLevelUpdate(std::span<const std::uint8_t> payload) noexcept;
+
+}  // namespace tacto::sciencemode

@@ -1,0 +1,30 @@
+#include "drivers/sciencemode/ScienceModeStimulator.h"
+
+namespace tacto::sciencemode {
+
+namespace {
+constexpr int kOldestProtocol = 3;  // RehaMove3, nearly the same
+constexpr int kNewestProtocol = 4;  // P24
+}  // namespace
+
+Result<Identification> identify(Exchange& exchange) {
+    const auto idPayload = exchange.ask(Command::DeviceId);
+    if (!idPayload) return failure(idPayload);
+    auto id = readDeviceIdAck(*idPayload);
+    if (!id) return failure(id);
+    if (id->result != ResultCode::Ok) return refusal(Command::DeviceId, id->result);
+    if (id->id.empty()) return fail(ErrorCode::Device, "the stimulator has no identity; 10 characters were expected");
+
+    const auto versionPayload = exchange.ask(Command::ExtendedVersion);
+    if (!versionPayload) return failure(versionPayload);
+    const auto version = readExtendedVersionAck(*versionPayload);
+    if (!version) return failure(version);
+    if (version->result != ResultCode::Ok) return refusal(Command::ExtendedVersion, version->result);
+    if (version->protocol.major < kOldestProtocol || version->protocol.major > kNewestProtocol) {
+        return fail(ErrorCode::Device, "stimulator {} speaks ScienceMode {}; version {} or {} was expected", id->id,
+                    version->protocol.text(), kOldestProtocol, kNewestProtocol);
+    }
+    return Identification{std::move(id->id), version->firmware, version->protocol};
+}
+
+}  // namespace tacto::sciencemode

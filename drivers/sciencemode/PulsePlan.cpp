@@ -1,0 +1,106 @@
+#include "drivers/sciencemode/PulsePlan.h"
+
+#include <cmath>
+
+namespace tacto::sciencemode {
+namespace {
+
+constexpr double kHair = 1e-6;
+constexpr double kCompliance_V = 150;  // the device's highest supply
+
+/// Adds `duration` at `current`, as several points where one is too short for it. Errors: as encodePoint(), but Device.
+Result<void> addStretch(Points& points, std::string_view what, Micros duration, double current_mA) {
+    const double us = std::round(duration.count());
+    if (!(std::abs(duration.count() - us) <= kHair) || !(us >= kPointLeast_us)) {
+        return fail(ErrorCode::Device, "the stimulator refused a {} of {} µs: whole µs from {} up", what,
+                    duration.count(), kPointLeast_us);
+    }
+    const int pieces = static_cast<int>(std::ceil(us / kPointMost_us));
+    if (!(pieces <= static_cast<int>(kPointsMost - points.count))) {
+        return fail(ErrorCode::Device,
+                    "the stimulator refused a pulse whose {} of {} µs does not fit its {} points of at most {} µs",
+                    what, us, kPointsMost, kPointMost_us);
+    }
+    const int total = static_cast<int>(us);
+    for (int piece = 0; piece < pieces; ++piece) {
+        // Equal parts: each is far above the least.
+        const int from = total * piece / pieces;
+        const int to = total * (piece + 1) / pieces;
+        const Point point{Micros(to - from), Milliamps(current_mA)};
+        if (const auto bytes = encodePoint(point); !bytes) return fail(ErrorCode::Device, "{}", bytes.error().message);
+        static_cast<void>(points.add(point));
+    }
+    return {};
+}
+
+Result<void> addPulse(Points& points, const PulseTrain& train, const PulsePlan& plan) {
+    const double lead = plan.amplitude.value() * (train.polarity == Polarity::Positive ? 1 : -1);
+    if (auto added = addStretch(points, "phase width", plan.leading, lead); !added) return added;
+    if (plan.second.count() == 0) return {};
+    if (plan.gap.count() > 0) {
+        if (auto added = addStretch(points, "inter-phase gap", plan.gap, 0); !added) return added;
+    }
+    const double second = train.shape == PulseShape::AsymmetricBiphasic ? -lead / train.rechargeRatio : -lead;
+    return addStretch(points, "second phase", plan.second, second);
+}
+
+}  // namespace
+
+SourceTraits sourceTraits(bool readsBack) noexcept {
+    SourceTraits traits;
+    traits.drive = Drive::Current;
+    traits.gap = GapState::HighImpedance;  // a point of 0 mA carries no current
+    traits.amplitudeStep = kCurrentStep_mA;
+    traits.amplitudeMax = kCurrentMost_mA;
+    traits.compliance = Volts(kCompliance_V);
+    traits.currentLimit = Milliamps(kCurrentMost_mA);
+    traits.widthStep = Micros(1);
+    traits.widthMin = Micros(kPointLeast_us);
+    traits.widthMax = Micros(kPointMost_us);
+    traits.pulsesMax = 1000;
+    traits.deadMan = Seconds(2);
+    traits.readsBack = readsBack;
+    traits.checkCurrent = Milliamps(kCurrentStep_mA);
+    return traits;
+}
+
+Result<PulsePlan> planPulse(const PulseTrain& train) {
+    if (auto sane = validate(train); !sane) return failure(sane);
+    const auto* current = std::get_if<Milliamps>(&train.amplitude);
+    if (current == nullptr) {
+        return fail(ErrorCode::Device, "the stimulator is a current source and refused a train in volts");
+    }
+    PulsePlan plan;
+    plan.amplitude = *current;
+    plan.leading = train.phaseWidth;
+    if (!(plan.leading.count() <= kPointMost_us)) {
+        return fail(ErrorCode::Device, "the stimulator refused a phase width of {} µs: {} to {} µs",
+                    plan.leading.count(), kPointLeast_us, kPointMost_us);
+    }
+    if (train.shape != PulseShape::Monophasic) {
+        plan.gap = train.interPhaseGap;
+        plan.second = plan.leading * (train.shape == PulseShape::AsymmetricBiphasic ? train.rechargeRatio : 1.0);
+    }
+    if (auto added = addPulse(plan.points, train, plan); !added) return failure(added);
+    return plan;
+}
+
+Result<Points> planRepetition(const PulseTrain& train) {
+    const auto plan = planPulse(train);
+    if (!plan) return failure(plan);
+    if (train.pulses > static_cast<int>(kPointsMost)) {
+        return fail(ErrorCode::Device,
+                    "the stimulator refused to repeat a train of {} pulses: its {} points hold fewer", train.pulses,
+                    kPointsMost);
+    }
+    Points points;
+    for (int pulse = 0; pulse < train.pulses; ++pulse) {
+        if (auto added = addPulse(points, train, *plan); !added) return failure(added);
+        if (pulse + 1 == train.pulses) break;
+        const Micros pause = Micros(1e6 / train.rate.value()) - plan->points.duration();
+        if (auto added = addStretch(points, "pause between pulses", pause, 0); !added) return failure(added);
+    }
+    return points;
+}
+
+}  // namespace tacto::sciencemode

@@ -1,0 +1,34 @@
+// PulsePlan.h - from an approved pulse train to the points of a ScienceMode pulse. Refuses, never rounds: what reaches
+// the wire is what the gate approved.
+//
+// Thread-safety: pure functions; nothing allocates on success.
+#pragma once
+
+#include "core/encoding/PulseTrain.h"
+#include "core/safety/SourceTraits.h"
+#include "drivers/sciencemode/Commands.h"
+
+namespace tacto::sciencemode {
+
+/// One pulse as sent, and what its read-back is compared with.
+struct PulsePlan {
+    Points points;
+    Milliamps amplitude{0};  ///< of the leading phase, unsigned
+    Micros leading{0};       ///< widths
+    Micros gap{0};
+    Micros second{0};  ///< 0: monophasic
+};
+
+/// What a P24 can do: a current source of 0 to 130 mA in steps of 0.5 mA, phases of 10 to 4095 µs, a dead-man of 2 s in
+/// mid level. `readsBack`: whether status() can tell |Z|.
+[[nodiscard]] SourceTraits sourceTraits(bool readsBack) noexcept;
+
+/// Its pulse. Errors: Device for a train in volts (a current source never gets volts, H4), for values off the device's
+/// grid or range, and for a pulse of more than 16 points.
+[[nodiscard]] Result<PulsePlan> planPulse(const PulseTrain& train);
+
+/// A whole train as the points of one mid-level repetition, its pauses included. Errors: as planPulse(); Device for
+/// more than 16 points (3 biphasic pulses at 100 Hz fit).
+[[nodiscard]] Result<Points> planRepetition(const PulseTrain& train);
+
+}  // namespace tacto::sciencemode

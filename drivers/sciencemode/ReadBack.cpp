@@ -1,0 +1,88 @@
+#include "drivers/sciencemode/ReadBack.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacto::sciencemode {
+namespace {
+
+constexpr double kSampleUnit = 0.01;  // mA or V
+constexpr double kCoverage = 1.96;    // 95 %
+/// A measured current below this share of the commanded one found no way.
+constexpr double kNoCurrent = 0.1;
+
+double sampleAt(const ChannelConfigAck& ack, std::size_t index) noexcept { return ack.samples[index] * kSampleUnit; }
+
+/// The magnitude as it stands at the end of the leading phase: a straight line through the last two samples in it.
+std::optional<double> leadingEnd(const ChannelConfigAck& ack, double step_us, double width_us) noexcept {
+    const double last = std::ceil(width_us / step_us - 1e-9) - 1;
+    if (!(last >= 0) || !(last < static_cast<double>(kSamples))) return std::nullopt;
+    const auto index = static_cast<std::size_t>(last);
+    const double value = sampleAt(ack, index);
+    if (index == 0) return value;
+    const double slope = (value - sampleAt(ack, index - 1)) / step_us;
+    return std::max(0.0, value + slope * (width_us - last * step_us));
+}
+
+/// Sum of the samples in [from, to), or nothing when they end before.
+std::optional<double> chargeIn(const ChannelConfigAck& ack, double step_us, double from_us, double to_us) noexcept {
+    if (!(to_us <= step_us * static_cast<double>(kSamples))) return std::nullopt;
+    double sum = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        const double t = static_cast<double>(i) * step_us;
+        if (t >= from_us - 1e-9 && t < to_us - 1e-9) sum += sampleAt(ack, i) * step_us;
+    }
+    return sum;
+}
+
+void judgeBalance(const ChannelConfigAck& ack, const PulsePlan& plan, double step_us, PulseReading& into) noexcept {
+    if (plan.second.count() == 0) return;
+    const double secondAt = (plan.leading + plan.gap).count();
+    const auto first = chargeIn(ack, step_us, 0, plan.leading.count());
+    const auto second = chargeIn(ack, step_us, secondAt, secondAt + plan.second.count());
+    if (!first || !second || !(*first > 0) || !(*second > 0)) return;
+    const double imbalance = std::abs(*first - *second) / std::max(*first, *second);
+    // Each phase has two edges, each known to one step, and a plateau known to one unit.
+    const auto relative = [&](double width_us, double charge) {
+        const double plateau = charge / width_us;
+        return std::hypot(std::sqrt(2.0) * step_us / width_us, kSampleUnit / plateau) / std::sqrt(12.0);
+    };
+    const double uncertainty =
+        kCoverage * std::hypot(relative(plan.leading.count(), *first), relative(plan.second.count(), *second));
+    if (!(imbalance > uncertainty)) return;
+    into.imbalance = imbalance;
+    into.imbalanceUncertainty = uncertainty;
+}
+
+}  // namespace
+
+std::optional<Micros> sampleStep(const ChannelConfigAck& ack, const PulsePlan& plan) noexcept {
+    if (!ack.measured || ack.sampleTime_us == 0) return std::nullopt;
+    const Micros stated(ack.sampleTime_us);
+    if (stated < plan.points.duration()) return stated;
+    return stated / static_cast<double>(kSamples);
+}
+
+PulseReading readPulse(const ChannelConfigAck& ack, const PulsePlan& plan, Volts compliance) noexcept {
+    PulseReading reading;
+    if (ack.result == ResultCode::Electrode) reading.electrode = ElectrodeState::Open;
+    const auto step = sampleStep(ack, plan);
+    const double commanded = plan.amplitude.value();
+    if (!step || !(commanded > 0)) return reading;  // an amplitude of 0 measures nothing
+    const auto end = leadingEnd(ack, step->count(), plan.leading.count());
+    if (!end) return reading;
+    if (ack.measurement == Measurement::Current) {
+        reading.amplitude = Milliamps(*end);
+        if (*end < kNoCurrent * commanded) reading.electrode = ElectrodeState::Open;
+        if (reading.electrode == ElectrodeState::NotMeasured) reading.electrode = ElectrodeState::Ok;
+        judgeBalance(ack, plan, step->count(), reading);
+    } else if (ack.measurement == Measurement::Voltage) {
+        if (*end >= kAtCompliance * compliance.value()) reading.electrode = ElectrodeState::Open;
+        if (reading.electrode == ElectrodeState::Open) return reading;  // the current is not the commanded one
+        reading.impedance = Ohms(*end / (commanded * 1e-3));
+        reading.electrode = *reading.impedance < kTouching ? ElectrodeState::Short : ElectrodeState::Ok;
+    }
+    return reading;
+}
+
+}  // namespace tacto::sciencemode

@@ -1,0 +1,160 @@
+// ScienceModeStimulator.h - a Hasomed P24 (or RehaMove3) as a Stimulator: a current source of 0 to 130 mA in steps of
+// 0.5 mA.
+//
+// deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, so that nothing lies
+// between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
+// electrode that is found off, an ack that is missing or a refusal ends the train there. Pulses never follow each other
+// faster than the approved rate, and a train that is kLateMost late (a host that slept) is given up. repeat() uses mid
+// level, for bench loads, and only where the device was opened for it.
+//
+// A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
+// the fault does.
+//
+// Thread-safety: as Stimulator; forceOff() waits for no transfer. On a VirtualClock there is no thread and the owner
+// calls serve(); elsewhere nobody does.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "core/base/Clock.h"
+#include "core/devices/Stimulator.h"
+#include "core/devices/Transport.h"
+#include "drivers/sciencemode/Exchange.h"
+#include "drivers/sciencemode/PulsePlan.h"
+#include "drivers/sciencemode/ReadBack.h"
+
+namespace tacto::sciencemode {
+
+struct StimulatorSettings {
+    int channel = 0;        ///< 0 to 3
+    int connector = 0;      ///< 0 yellow, 1 green
+    bool midLevel = false;  ///< repeat() is allowed
+    /// Whether firmware honours a fixed level is unverified, so the compliance stated to the gate stays 150 V.
+    HighVoltage highVoltage = HighVoltage::Default;
+    Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude
+};
+
+/// Makes a fresh transport to the device; called again to reconnect. Errors: NotFound, Device.
+using Connect = std::function<Result<std::unique_ptr<Transport>>()>;
+
+/// What a device says it is.
+struct Identification {
+    std::string id;
+    Version firmware;
+    Version protocol;
+};
+/// Errors: Device when it is none of this kind or speaks another protocol than version 4 (or 3: RehaMove3); Timeout.
+[[nodiscard]] Result<Identification> identify(Exchange& exchange);
+
+class ScienceModeStimulator final : public Stimulator, public RepeatingStimulator {
+public:
+    static constexpr Seconds kLateMost{0.04};
+
+    /// Connects, asks the device who it is, ends whatever it was doing and initialises low level. `wanted`, unless
+    /// empty, is the identity that it must have. `uri` is what opens it again. `clock` outlives the device.
+    /// Errors: as `connect` and identify(); NotFound when another device answered; Device when it refuses.
+    [[nodiscard]] static Result<std::unique_ptr<ScienceModeStimulator>> open(Connect connect, std::string uri,
+                                                                             std::string_view wanted,
+                                                                             const StimulatorSettings& settings,
+                                                                             const Clock& clock);
+    ~ScienceModeStimulator() override;  ///< output off
+    ScienceModeStimulator(const ScienceModeStimulator&) = delete;
+    ScienceModeStimulator& operator=(const ScienceModeStimulator&) = delete;
+
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
+    [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
+    /// Returns with the ack of the first pulse: 50 ms at most after the pulse's own end. Refuses, besides what
+    /// Stimulator says, what planPulse() refuses, an expired approval, and a train while another is in progress. A
+    /// train that forceOff() overtakes is cut, which is no error; an electrode that is off is told by status().
+    [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
+    /// Refuses, besides, a device that was not opened for mid level, an interval shorter than the approved one, and
+    /// what ML_UPDATE cannot carry.
+    [[nodiscard]] Result<void> repeat(ApprovedTrain&& train, Seconds interval) override;
+    /// During a train, what its last pulse told; otherwise the device is asked. What ended a train early is the error
+    /// of the status() after it, once. `imbalance` is a lower bound (see ReadBack.h) and mostly absent.
+    [[nodiscard]] Result<StimulatorStatus> status() override;
+    /// Reads the channels' state in mid level, which feeds the dead-man; nothing in low level. Errors: as status(), and
+    /// Device for a channel that reports a fault or has stopped.
+    [[nodiscard]] Result<void> keepAlive() override;
+    void forceOff() noexcept override;
+
+    /// Sends the pulse that is due, if any, and returns when the next one is. For the driver's own thread, and for
+    /// tests on a virtual clock.
+    Instant serve(Instant now) noexcept;
+
+    [[nodiscard]] ExchangeCounts counts();
+
+private:
+    /// A train of pulses that is being sent.
+    struct Play {
+        PulsePlan plan;
+        Payload request;
+        int pulses = 0;
+        int sent = 0;
+        Instant period{0};
+        Instant planned{0};  ///< onset of the first pulse
+        Instant due{0};      ///< of the next
+        std::uint64_t offs = 0;
+    };
+    enum class Level { None, Low, Mid };
+    enum class Sent { Answered, Stopped };  ///< Stopped: forceOff() came between
+
+    ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock);
+
+    // With io_ held:
+    [[nodiscard]] Result<Identification> connect();
+    void endEverything();
+    /// A request with a plain ack. A stop since `offs` is repeated behind it.
+    [[nodiscard]] Result<void> command(Command command, const Payload& payload, std::uint64_t offs);
+    [[nodiscard]] Result<void> ensureLowLevel(std::uint64_t offs);
+    [[nodiscard]] Result<void> accepts(const ApprovedTrain& train);
+    [[nodiscard]] Result<Sent> firePulse(const PulsePlan& plan, const Payload& request, std::uint64_t offs,
+                                         PulseReading& reading, Instant& written);
+    [[nodiscard]] Result<StimulatorStatus> askStatus();
+
+    [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
+        return offs_.load(std::memory_order_acquire) != offs;
+    }
+    [[nodiscard]] bool playing() const noexcept;  // with state_ held
+    [[nodiscard]] bool repeating() const noexcept { return midOffs_.load() == offs_.load(); }
+    [[nodiscard]] StimulatorStatus snapshot(Instant at) const;  // with state_ held
+    void firePlayed(Instant now);
+    void sendStop() noexcept;
+    void run();
+
+    const Connect connect_;
+    const StimulatorSettings settings_;
+    const Clock& clock_;
+    const SourceTraits traits_;
+    DeviceIdentity identity_;  // Constant once open() has returned
+
+    std::mutex io_;  // the transport's one caller; held for an exchange. Locked before the others
+    std::unique_ptr<Exchange> exchange_;
+    Level level_ = Level::None;
+    std::uint64_t levelOffs_ = 0;  // offs_ when level_ was reached: any later stop ended it
+    std::atomic<bool> gone_{false};
+
+    std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it
+    std::unique_ptr<Transport> transport_;
+
+    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+    std::atomic<std::uint64_t> offs_{0};          // forceOff() calls
+    std::atomic<std::uint64_t> midOffs_{kNever};  // offs_ when a repetition began
+
+    mutable std::mutex state_;  // all below; held for copies only
+    std::optional<Play> play_;
+    PulseReading reading_;
+    std::optional<Error> ended_;  // why the last train ended early
+    std::uint64_t trains_ = 0;
+    std::condition_variable changed_;
+    bool quitting_ = false;
+
+    std::thread thread_;  // Last: starts when all else is ready
+};
+
+}  // namespace tacto::sciencemode

@@ -1,0 +1,86 @@
+#include "tests/drivers/sciencemode/ScienceModeBench.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tacto::test {
+
+PulseTrain biphasic(double milliamps, int pulses, double rate_hz) {
+    PulseTrain train;
+    train.amplitude = Milliamps(milliamps);
+    train.pulses = pulses;
+    train.rate = Hertz(rate_hz);
+    return train;
+}
+
+std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits) {
+    LimitRow row;
+    row.quantity = Quantity::PeakVoltage;
+    row.max = 1000;
+    row.source = "test";
+    LimitSet limits;
+    limits.id = limits.title = "test";
+    limits.rows.push_back(row);
+    GateSetup setup;
+    setup.source = traits;
+    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    setup.limits.push_back(limits);
+    auto gate = std::make_unique<SafetyGate>(clock);
+    if (const auto configured = gate->configure(setup); !configured) {
+        throw std::runtime_error(configured.error().message);
+    }
+    return gate;
+}
+
+ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train, Seconds interval) {
+    TrainRequest request;
+    request.train = train;
+    request.interval = interval;
+    request.onset = clock.now();
+    auto approval = gate.approve(request);
+    if (!approval) throw std::runtime_error(approval.error().message);
+    return std::move(*approval);
+}
+
+ScienceModeBench::ScienceModeBench(sciencemode::EmulatedSettings device, sciencemode::StimulatorSettings settings)
+    : line(std::make_shared<EmulatedLine>(clock, &clock, std::move(device))) {
+    auto opened = sciencemode::ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock);
+    if (!opened) throw std::runtime_error(opened.error().message);
+    stimulator = std::move(*opened);
+    gate_ = wideGate(clock, stimulator->traits());
+}
+
+ScienceModeBench::~ScienceModeBench() = default;
+
+void ScienceModeBench::wait(Seconds duration) {
+    static_cast<void>(line->pulses());  // what is on its way to the device arrives before time passes
+    const Instant until = clock.now() + toInstant(duration);
+    while (stimulator) {
+        const Instant next = stimulator->serve(clock.now());
+        if (next > until) break;
+        clock.advanceTo(next);
+    }
+    clock.advanceTo(until);
+}
+
+ApprovedTrain ScienceModeBench::approved(double milliamps, int pulses, double rate_hz) {
+    return approved(biphasic(milliamps, pulses, rate_hz));
+}
+
+ApprovedTrain ScienceModeBench::approved(const PulseTrain& train, Seconds interval) {
+    return approve(*gate_, clock, train, std::max(interval, train.duration()));
+}
+
+Result<void> ScienceModeBench::deliver(const PulseTrain& train) {
+    auto delivered = stimulator->deliver(approved(train));
+    if (delivered) wait(train.duration() + Seconds(0.01));
+    return delivered;
+}
+
+StimulatorStatus ScienceModeBench::status() {
+    const auto read = stimulator->status();
+    if (!read) throw std::runtime_error(read.error().message);
+    return *read;
+}
+
+}  // namespace tacto::test
