@@ -3,6 +3,7 @@
 
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
+#include "app/scripting/ProtocolLibrary.h"
 #include "app/scripting/ScriptSession.h"
 
 namespace tacto {
@@ -31,6 +32,9 @@ Result<Json> confirm(ScriptSession& session, const Json& list) {
     if (!options) return failure(options);
     auto drawing = arguments.text(*options, "drawing", "");
     if (!drawing) return failure(drawing);
+    if (!drawing->empty()) {
+        if (const auto file = drawingFile(*drawing); !file) return failure(file);
+    }
     question->drawing = *drawing;
     return session.ask(*question);
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #ifndef TACTOSCOPE_INSTALLED_RESOURCES
@@ -96,6 +97,20 @@ Result<fs::path> resourcesFolder() {
     if (usable(TACTOSCOPE_INSTALLED_RESOURCES)) return fs::path(TACTOSCOPE_INSTALLED_RESOURCES);
     return fail(ErrorCode::NotFound, "the program's resources were not found in {}; set TACTOSCOPE_RESOURCES",
                 fmt::join(tried, ", "));
+}
+
+Result<fs::path> drawingFile(std::string_view name) {
+    const auto resources = resourcesFolder();
+    if (!resources) return failure(resources);
+    std::set<std::string> known;
+    std::error_code failed;
+    for (fs::directory_iterator entry(*resources / "drawings", failed), end; !failed && entry != end;
+         entry.increment(failed))
+        if (entry->path().extension() == ".svg") known.insert(entry->path().stem().string());
+    // Looked up, never joined: a script's word is no path.
+    if (const auto found = known.find(std::string(name)); found != known.end())
+        return *resources / "drawings" / (*found + ".svg");
+    return fail(ErrorCode::InvalidArgument, "there is no drawing \"{}\"; there are: {}", name, fmt::join(known, ", "));
 }
 
 fs::path userProtocolsFolder() {

@@ -19,6 +19,9 @@ namespace tacto {
 /// Errors: NotFound naming what was tried.
 [[nodiscard]] Result<std::filesystem::path> resourcesFolder();
 
+/// The file of a shipped drawing ("wiring"). Errors: InvalidArgument naming those there are.
+[[nodiscard]] Result<std::filesystem::path> drawingFile(std::string_view name);
+
 /// $XDG_DATA_HOME/tactoscope/protocols, or ~/.local/share/tactoscope/protocols. Need not exist.
 [[nodiscard]] std::filesystem::path userProtocolsFolder();
 

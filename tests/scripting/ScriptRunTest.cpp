@@ -100,6 +100,8 @@ TEST(ScriptRun, ArgumentErrorsNameTheFunctionTheValueAndWhatIsAccepted) {
               "/lab/probe.js:2: capture 99 is held no longer; measure captures before 64 more are taken");
     EXPECT_EQ(error("operator.confirm('wiring', 'Check the wiring')"),
               "/lab/probe.js:2: nobody can answer \"Check the wiring\"; give --set wiring=...");
+    EXPECT_EQ(error("operator.confirm('wiring', 'Check', { drawing: '../help/window' })"),
+              "/lab/probe.js:2: there is no drawing \"../help/window\"; there are: wiring");
     EXPECT_NE(error("verdict({ verdict: 'good' })"), "");
     EXPECT_NE(error("random.blocks('abc')"), "");
     EXPECT_NE(error("random.blocks([1], -1)"), "");

@@ -4,13 +4,16 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QSvgRenderer>
 
 #include "app/gui/look/Look.h"
+#include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
 namespace {
 
+constexpr int kDrawingChars = 70;
 constexpr int kStripe = 5;  // pixels of amber at the left: the run waits for a person
 
 QString accepted(const OperatorQuestion& question) {
@@ -54,6 +57,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     font.setBold(true);
     says->setFont(font);
     column->addWidget(says);
+    if (auto* drawing = buildDrawing(question)) column->addWidget(drawing);
     auto* row = new QHBoxLayout;
     row->addWidget(question.kind == OperatorQuestion::Kind::Enter ? buildEntry(question) : buildChoices(question));
     row->addStretch();
@@ -80,6 +84,27 @@ void PromptPanel::close() {
     body_->hide();
     body_ = nullptr;
     trouble_ = nullptr;
+}
+
+/// On white in both themes: it is a drawing on paper.
+QWidget* PromptPanel::buildDrawing(const OperatorQuestion& question) {
+    if (question.drawing.empty()) return nullptr;
+    const auto file = drawingFile(question.drawing);
+    if (!file) return new QLabel("⚠ " + QString::fromStdString(file.error().message), body_);
+    QSvgRenderer drawn(QString::fromStdString(file->string()));
+    const double scale = devicePixelRatioF() * fontMetrics().averageCharWidth() * kDrawingChars /
+                         std::max(1, drawn.defaultSize().width());
+    QImage image((QSizeF(drawn.defaultSize()) * scale).toSize(), QImage::Format_RGB32);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    drawn.render(&painter);
+    painter.end();
+    image.setDevicePixelRatio(devicePixelRatioF());
+    auto* label = new QLabel(body_);
+    label->setObjectName("drawing");
+    label->setAccessibleName(tr("Drawing: %1").arg(QString::fromStdString(question.drawing)));
+    label->setPixmap(QPixmap::fromImage(image));
+    return label;
 }
 
 QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {

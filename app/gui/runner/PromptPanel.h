@@ -25,6 +25,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    [[nodiscard]] QWidget* buildDrawing(const OperatorQuestion& question);
     [[nodiscard]] QWidget* buildChoices(const OperatorQuestion& question);
     [[nodiscard]] QWidget* buildEntry(const OperatorQuestion& question);
     void answer(const QString& text);

@@ -25,7 +25,7 @@ function run(p) { bench.arm(); log("armed"); for (;;) {} }
 
 constexpr const char* kAsk = R"js(protocol({ title: "A", purpose: "Asks.", needs: [], parameters: {} });
 function run(p) {
-  operator.confirm("ready", "Is the room quiet?");
+  operator.confirm("ready", "Is the room quiet?", { drawing: "wiring" });
   log("got " + operator.enter("room", "Room temperature", { unit: "degC", min: 10, max: 40 }));
 }
 )js";
@@ -132,6 +132,8 @@ TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
     QTest::keyClick(workspace.get(), Qt::Key_F5);
     ASSERT_TRUE(comesTrue([this] { return says("question") == "Is the room quiet?"; }));
     EXPECT_EQ(find<QLabel>(other, "question"), nullptr) << "only where the run was started";
+    EXPECT_FALSE(the<QLabel>("drawing").pixmap().isNull());
+    shot(*workspace, "drawing");
     click(the<QPushButton>("Done"));
     ASSERT_TRUE(comesTrue([this] { return says("question") == "Room temperature"; }));
     type("answer", "99");
