@@ -32,6 +32,16 @@ void Series::push(double t_s, std::span<const float> values) {
     count_ = std::min(count_ + 1, times_.size());
 }
 
+std::array<Series::Piece, 2> Series::pieces(std::size_t first, std::size_t end) const noexcept {
+    std::array<Piece, 2> found;
+    if (first >= end) return found;
+    const std::size_t from = at(first), n = end - first;
+    const std::size_t before = std::min(n, times_.size() - from);  // up to where the ring turns over
+    found[0] = {times_.data() + from, values_.data() + from * channels_, before};
+    if (n > before) found[1] = {times_.data(), values_.data(), n - before};
+    return found;
+}
+
 std::size_t Series::firstFrom(double t_s) const noexcept {
     std::size_t low = 0, high = count_;
     while (low < high) {

@@ -7,6 +7,7 @@
 // Thread-safety: the GUI thread; the one reader of the bench's tap.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -35,6 +36,14 @@ public:
     [[nodiscard]] float value(std::size_t i, std::size_t channel) const noexcept {
         return values_[at(i) * channels_ + channel];
     }
+    /// Samples that lie one after the other in memory: `values` has channels() for each time.
+    struct Piece {
+        const double* times = nullptr;
+        const float* values = nullptr;
+        std::size_t size = 0;
+    };
+    /// The samples from `first` up to `end` <= size(): in two pieces where the ring turns over, for who reads many.
+    [[nodiscard]] std::array<Piece, 2> pieces(std::size_t first, std::size_t end) const noexcept;
     /// Of the newest; not to be asked of an empty one.
     [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
     /// The first sample at or after `t_s`; size() when there is none.

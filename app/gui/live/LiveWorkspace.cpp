@@ -21,7 +21,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kSideEvery = 3;                     // pictures: numbers ten times a second are as fast as one reads
+constexpr int kSideEvery_ms = 90;                 // numbers ten times a second are as fast as one reads
+constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
@@ -65,12 +66,21 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     drive_->refresh(telemetry);
     rig_->refresh(telemetry);
     strips_->redraw();
+    const auto isDue = [](QElapsedTimer& since, int every_ms) {
+        if (since.isValid() && since.elapsed() < every_ms) return false;
+        since.start();
+        return true;
+    };
+    if (isDue(sincePlane_, kPlaneEvery_ms)) showPlane(telemetry);
+    if (isDue(sinceSide_, kSideEvery_ms)) showSide(telemetry);
+}
+
+void LiveWorkspace::showPlane(const Telemetry& telemetry) {
     const bool stale = healthWords(telemetry, !history_.streams().empty(), true, 0).stale;
     const bool byHand = telemetry.driving == DriveSource::Manual;
     const double absent = std::nan("");
     plane_->show(history_.frames(), history_.now_s(), stale && !byHand ? absent : telemetry.roughness,
                  stale && !byHand ? absent : telemetry.pressure, byHand);
-    if (frame_++ % kSideEvery == 0) showSide(telemetry);
 }
 
 void LiveWorkspace::showSide(const Telemetry& telemetry) {

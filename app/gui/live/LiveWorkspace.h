@@ -26,7 +26,7 @@ class LiveWorkspace final : public QWidget {
     Q_OBJECT
 public:
     explicit LiveWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
-    /// Thirty times a second. Takes what came either way; draws when `visible`.
+    /// Thirty to sixty times a second. Takes what came either way; draws when `visible`.
     void refresh(const Telemetry& telemetry, bool visible);
     /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
     /// refusedRecording() tells why, when it is no recording.
@@ -46,6 +46,7 @@ private:
     [[nodiscard]] QWidget* buildSide();
     [[nodiscard]] QWidget* buildFoot();
     void begin();
+    void showPlane(const Telemetry& telemetry);
     void showSide(const Telemetry& telemetry);
     void showTaxels(bool stale);
     void readCapture(const Capture& capture);
@@ -68,9 +69,8 @@ private:
     RigPanel* rig_ = nullptr;
     QPushButton* freeze_ = nullptr;
     QLabel* health_ = nullptr;
-    QElapsedTimer sinceReading_;
+    QElapsedTimer sinceReading_, sincePlane_, sinceSide_;
     std::vector<float> newest_;  // reused
-    int frame_ = 0;
 };
 
 }  // namespace tacto::gui

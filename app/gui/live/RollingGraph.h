@@ -33,12 +33,14 @@ protected:
     void drawLegendIcon(QCPPainter* painter, const QRectF& rect) const override;
 
 private:
+    void addBar(int column, double from, double to);
     const Series* series_ = nullptr;
     std::size_t channel_ = 0;
     double gap_s_ = 1e9;
     double scale_ = 1;
     bool dashed_ = false;
-    QVector<QLineF> lines_;
+    QVector<QLineF> lines_;  // reused
+    QVector<QRect> bars_;    // reused
 };
 
 }  // namespace tacto::gui

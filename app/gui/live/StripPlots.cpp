@@ -38,6 +38,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     addPlotMenu(*this, "live");
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
+    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     auto* unused = axisRect();
     strips_.resize(kStripCount);
     makeStrip(kAcceleration, tr("Acceleration"), 1, false);
@@ -82,12 +83,6 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
         (*graph)->setLineStyle(QCPGraph::lsNone);
     }
     readings_.reserve(kReadings);
-    addKeys(strips_[kAcceleration], 3);
-    addKeys(strips_[kForce], 1);
-    addKeys(strips_[kTaxels], 1);
-    addKeys(strips_[kSpectrum], 1);
-    addKeys(strips_[kIndices], 2);
-    addKeys(strips_[kTrains], 5);
     begin(false, false, "V");
 }
 
@@ -124,29 +119,7 @@ void StripPlots::makeStrip(std::size_t index, const QString& title, double least
     strip.hatch->setClipAxisRect(strip.axes);
     strip.hatch->setPen(Qt::NoPen);
     strip.hatch->setVisible(false);
-    strip.caption = new QCPItemText(this);
-    strip.caption->setLayer("legend");
-    strip.caption->setClipAxisRect(strip.axes);  // whose visibility it shares
-    strip.caption->setClipToAxisRect(false);
-    strip.caption->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);  // above the strip, clear of its trace
-    strip.caption->setPadding(QMargins(2, 0, 3, 1));
-    strip.caption->position->setAxisRect(strip.axes);
-    strip.caption->position->setType(QCPItemPosition::ptAxisRectRatio);
-    strip.caption->position->setCoords(0, 0);
-}
-
-void StripPlots::addKeys(Strip& strip, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        auto* key = new QCPItemText(this);
-        key->setLayer("legend");
-        key->setClipAxisRect(strip.axes);
-        key->setClipToAxisRect(false);
-        key->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
-        key->setPadding(QMargins(3, 0, 5, 1));
-        key->position->setParentAnchor(i == 0 ? strip.caption->topRight : strip.keys.back()->topRight);
-        key->position->setCoords(0, 0);
-        strip.keys.push_back(key);
-    }
+    strip.caption = new StripCaption(*strip.axes);
 }
 
 void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit) {
@@ -203,7 +176,6 @@ void StripPlots::layOut() {
         strip.axes->setMinimumSize(strip.present ? 50 : 0, strip.present ? line * 3 : 0);
         strip.axes->setMaximumSize(QWIDGETSIZE_MAX, strip.present ? QWIDGETSIZE_MAX : 1);
         strip.caption->setVisible(strip.present);
-        for (auto* key : strip.keys) key->setVisible(strip.present);
         strip.watermark->setVisible(strip.present && strip.simulated);
         strip.hatch->setVisible(false);
     }
@@ -227,15 +199,11 @@ void StripPlots::colour() {
     for (std::size_t i = 0; i < strips_.size(); ++i) {
         auto& strip = strips_[i];
         strip.watermark->setFont(faint);
-        strip.caption->setText(strip.unit.isEmpty() ? strip.title : QString("%1 (%2)").arg(strip.title, strip.unit));
-        strip.caption->setColor(c.text);
+        strip.caption->setFont(small);
+        strip.caption->setWord(0, strip.unit.isEmpty() ? strip.title : QString("%1 (%2)").arg(strip.title, strip.unit));
+        strip.caption->setColour(0, c.text);
+        for (std::size_t k = 0; k < keys[i].size(); ++k) strip.caption->setColour(k + 1, keys[i][k]);
         strip.hatch->setBrush(QBrush(withAlpha(c.quiet, 90), Qt::BDiagPattern));
-        for (std::size_t k = 0; k < strip.keys.size(); ++k) strip.keys[k]->setColor(keys[i][k]);
-        auto texts = strip.keys;
-        texts.push_back(strip.caption);
-        for (auto* text : texts) {
-            text->setFont(small);
-        }
     }
     for (std::size_t i = 0; i < acceleration_.size(); ++i) acceleration_[i]->setPen(QPen(axisColour(i)));
     force_.front()->setPen(QPen(c.text));

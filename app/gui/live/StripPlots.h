@@ -13,6 +13,7 @@
 #include "app/gui/live/LiveHistory.h"
 #include "app/gui/live/RollingGraph.h"
 #include "app/gui/live/Spectrogram.h"
+#include "app/gui/live/StripCaption.h"
 
 namespace tacto::gui {
 
@@ -52,8 +53,7 @@ private:
         QString title;
         QString unit;
         QCPItemText* watermark = nullptr;
-        QCPItemText* caption = nullptr;
-        std::vector<QCPItemText*> keys;  ///< beside the caption, each in the colour of what it names
+        StripCaption* caption = nullptr;  ///< title, then a key for each thing drawn, in its colour
         QCPItemRect* hatch = nullptr;
         double scale = 1;  ///< from samples to the axis
         double least = 0;  ///< the value axis never shows a smaller span
@@ -62,7 +62,6 @@ private:
         bool simulated = false;
     };
     void makeStrip(std::size_t index, const QString& title, double least, bool fromZero);
-    void addKeys(Strip& strip, std::size_t count);
     [[nodiscard]] const LiveHistory& shown() const { return frozen_ ? *frozen_ : history_; }
     void attach();
     void colour();

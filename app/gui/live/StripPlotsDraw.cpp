@@ -212,23 +212,24 @@ void StripPlots::write() {
     };
     const QStringList axes{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
-        strips_[kAcceleration].keys[i]->setText(acceleration_[i]->visible() ? axes[int(i)] : QString());
+        strips_[kAcceleration].caption->setWord(1 + i, acceleration_[i]->visible() ? axes[int(i)] : QString());
     }
     const auto* force = shown().samples(StreamKind::Force);
     // One form for all values: digits that do not jump.
-    strips_[kForce].keys[0]->setText(quantityText(double(newest(force, 0)), strips_[kForce].unit, ColumnFormat{0, 2}));
+    strips_[kForce].caption->setWord(1,
+                                     quantityText(double(newest(force, 0)), strips_[kForce].unit, ColumnFormat{0, 2}));
     const auto* taxels = shown().samples(StreamKind::Taxels);
-    strips_[kTaxels].keys[0]->setText(taxels == nullptr ? QString() : tr("%1 of them").arg(taxels->channels()));
-    strips_[kSpectrum].keys[0]->setText(spectrogram_->scaleText());
+    strips_[kTaxels].caption->setWord(1, taxels == nullptr ? QString() : tr("%1 of them").arg(taxels->channels()));
+    strips_[kSpectrum].caption->setWord(1, spectrogram_->scaleText());
     const auto& frames = shown().frames();
-    strips_[kIndices].keys[0]->setText(indexText(tr("— roughness R"), newest(&frames, LiveHistory::kRoughness)));
-    strips_[kIndices].keys[1]->setText(indexText(tr("┄ pressure P"), newest(&frames, LiveHistory::kPressure)));
-    auto& keys = strips_[kTrains].keys;
-    keys[0]->setText(tr("— command"));
-    keys[1]->setText(tr("▮ delivered"));
-    keys[2]->setText(measuredAt_.isEmpty() ? QString() : tr("○ read back"));
-    keys[3]->setText(scoped_->data()->isEmpty() ? QString() : tr("◇ oscilloscope"));
-    keys[4]->setText(failedAt_.isEmpty() ? QString() : tr("✕ not delivered"));
+    strips_[kIndices].caption->setWord(1, indexText(tr("— roughness R"), newest(&frames, LiveHistory::kRoughness)));
+    strips_[kIndices].caption->setWord(2, indexText(tr("┄ pressure P"), newest(&frames, LiveHistory::kPressure)));
+    auto& trains = *strips_[kTrains].caption;
+    trains.setWord(1, tr("— command"));
+    trains.setWord(2, tr("▮ delivered"));
+    trains.setWord(3, measuredAt_.isEmpty() ? QString() : tr("○ read back"));
+    trains.setWord(4, scoped_->data()->isEmpty() ? QString() : tr("◇ oscilloscope"));
+    trains.setWord(5, failedAt_.isEmpty() ? QString() : tr("✕ not delivered"));
 }
 
 }  // namespace tacto::gui

@@ -15,6 +15,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Tactile plane"));
     setToolTip(tr("Roughness R across, pressure P up. The marks are the four conditions; the dot is now."));
     setNotAntialiasedElements(QCP::aeNone);
+    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     addPlotMenu(*this, "tactile-plane");
     // Room for the names outside the square: the point moves inside it.
     xAxis->setRange(-0.28, 1.28);

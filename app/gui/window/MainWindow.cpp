@@ -105,7 +105,10 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     noteChange();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+    // Hiding is told to the workspaces, and they ask the desk: it is a member, and gone when Qt would hide the window.
+    hide();
+}
 
 void MainWindow::buildPages() {
     livePage_ = new QTabWidget(pages_);

@@ -127,7 +127,7 @@ void twoChannels(const Cost& baseline) {
 
 /// All strips, taxels and the tactile plane, while a finger slides and trains are delivered.
 void touch(const Cost& baseline) {
-    const char* what = "touch: every strip, plane and panel";
+    const char* what = "touch: every strip; plane 30/s, numbers 10/s";
     gui::BenchDesk desk(test::simulatedRegistry);
     gui::LiveWorkspace live(desk);
     live.resize(kScreen);
@@ -167,6 +167,7 @@ void wholeWindow(const Cost& baseline, int tab, const std::string& what) {
     count(*plot, drawn);
     pass(2000);
     tell(what, costOf({}, drawn), baseline, false);
+    window.close();
 }
 
 }  // namespace

@@ -127,6 +127,7 @@ void measureStalls(const std::string& cli) {
                                                            after(4000), kLimit_ms));
     auto* tabs = window.findChild<QTabWidget*>("livePage");
     table.add("the same, in the oscilloscope", stallsWhile([&] { tabs->setCurrentIndex(1); }, after(4000), kLimit_ms));
+    window.close();
 }
 
 }  // namespace tacto::perf

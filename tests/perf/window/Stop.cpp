@@ -1,7 +1,7 @@
 // Stop.cpp - from the STOP click or the Esc key to the device's forceOff() having returned, while delivering.
 //
 // The event is put into the window's queue by another thread at a moment that the window does not choose, so that
-// waiting for a picture that is being drawn counts. Esc goes through a modal dialog's text field in every other round.
+// waiting for a picture that is being drawn counts. The baseline is the same click in a window that draws nothing.
 //
 // To be met: 10 ms.
 #include <QCoreApplication>
@@ -23,8 +23,6 @@
 namespace tacto::perf {
 
 namespace {
-
-using SteadyClockTime = std::chrono::steady_clock::time_point;
 
 constexpr int kRounds = 100;
 constexpr double kGoal_ms = 10;
@@ -76,78 +74,103 @@ Registry timedRegistry() {
     return Registry(std::move(drivers));
 }
 
-/// Puts the events that `make` makes into the window's queue after `wait_ms`, from outside; the time of the first.
-/// The event loop runs meanwhile. NaN when forceOff() did not come within 5 s.
-double stopTime_ms(double wait_ms, const std::function<void()>& post) {
-    offAt_ns = 0;
+/// What a hand does, ready to be put into a window's queue.
+using Events = std::vector<std::unique_ptr<QEvent>>;
+
+Events escape() {
+    Events events;
+    for (const auto type : {QEvent::KeyPress, QEvent::KeyRelease})
+        events.push_back(std::make_unique<QKeyEvent>(type, Qt::Key_Escape, Qt::NoModifier));
+    return events;
+}
+
+Events clickOn(const QWidget& button) {
+    const QPointF at = button.mapTo(button.window(), button.rect().center());
+    const QPointF onScreen = button.window()->mapToGlobal(at);
+    Events events;
+    events.push_back(std::make_unique<QMouseEvent>(QEvent::MouseButtonPress, at, at, onScreen, Qt::LeftButton,
+                                                   Qt::LeftButton, Qt::NoModifier));
+    events.push_back(std::make_unique<QMouseEvent>(QEvent::MouseButtonRelease, at, at, onScreen, Qt::LeftButton,
+                                                   Qt::NoButton, Qt::NoModifier));
+    return events;
+}
+
+/// Posts them after `wait_ms`, from outside, while the event loop runs; the time until `done_ns` is set. NaN when that
+/// did not come within 5 s.
+double answerTime_ms(double wait_ms, QWindow& to, Events events, const std::atomic<std::int64_t>& done_ns) {
     std::atomic<std::int64_t> postedAt_ns{0};
     std::thread hand([&] {
         std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(wait_ms));
         postedAt_ns = now_ns();
-        post();
+        for (auto& event : events) QCoreApplication::postEvent(&to, event.release());
     });
-    const bool came = comes([] { return offAt_ns != 0; }, 5000);
+    const bool came = comes([&] { return done_ns != 0; }, 5000);
     hand.join();
-    return came ? 1e-6 * static_cast<double>(offAt_ns - postedAt_ns) : std::nan("");
+    return came ? 1e-6 * static_cast<double>(done_ns - postedAt_ns) : std::nan("");
 }
 
-void postKey(QWindow& to) {
-    for (const auto type : {QEvent::KeyPress, QEvent::KeyRelease})
-        QCoreApplication::postEvent(&to, new QKeyEvent(type, Qt::Key_Escape, Qt::NoModifier));
+/// At a moment that no picture is in step with.
+double anyMoment_ms(Random& random) { return 40 + 40 * random.uniform(); }
+
+struct Taken {
+    double median_ms = 0, worst_ms = 0;
+};
+Taken takenOf(std::vector<double> all) {
+    std::ranges::sort(all);
+    return {all[all.size() / 2], all.back()};
+}
+std::string figures(const Taken& taken) {
+    return fmt::format("{:7.2f} ms {:7.2f} ms", taken.median_ms, taken.worst_ms);
 }
 
-void postClick(QWindow& to, QPointF at, QPointF onScreen) {
-    QCoreApplication::postEvent(&to, new QMouseEvent(QEvent::MouseButtonPress, at, at, onScreen, Qt::LeftButton,
-                                                     Qt::LeftButton, Qt::NoModifier));
-    QCoreApplication::postEvent(&to, new QMouseEvent(QEvent::MouseButtonRelease, at, at, onScreen, Qt::LeftButton,
-                                                     Qt::NoButton, Qt::NoModifier));
+/// Presses a button of a window with nothing else to do.
+Taken emptyWindow() {
+    QWidget window;
+    window.resize(1440, 900);
+    QPushButton button("STOP", &window);
+    std::atomic<std::int64_t> pressedAt_ns{0};
+    QObject::connect(&button, &QPushButton::pressed, [&] { pressedAt_ns = now_ns(); });
+    window.show();
+    pass(200);
+    Random random(7, "empty");
+    std::vector<double> all;
+    for (int round = 0; round < kRounds; ++round) {
+        pressedAt_ns = 0;
+        all.push_back(answerTime_ms(anyMoment_ms(random), *window.windowHandle(), clickOn(button), pressedAt_ns));
+    }
+    return takenOf(std::move(all));
 }
 
-/// `act` stops once it is told how long to wait first, and tells how long that took.
-void rounds(gui::BenchDesk& desk, const std::string& what, double baseline_ms,
-            const std::function<double(int round, double wait_ms)>& act) {
-    std::vector<double> taken;
+/// Delivers, then times `stop`, given how long to wait first, a hundred times.
+void rounds(gui::BenchDesk& desk, const std::string& what, const Taken& baseline,
+            const std::function<double(double wait_ms)>& stop) {
+    std::vector<double> all;
     Random random(7, what.c_str());
     for (int round = 0; round < kRounds; ++round) {
         desk.setSpeed(10);  // arming takes bench time
         const bool on = deliver(desk);
         desk.setSpeed(1);
         if (!on) return notMeasured(what, "the simulated bench does not deliver");
-        const double ms = act(round, 40 + 40 * random.uniform());
+        offAt_ns = 0;
+        const double ms = stop(anyMoment_ms(random));
         if (!std::isfinite(ms)) return notMeasured(what, "the output was not switched off within 5 s");
-        taken.push_back(ms);
+        all.push_back(ms);
         if (!comes([&] { return desk.telemetry().state == InterlockState::Disarmed; }))
             return notMeasured(what, "the bench is not disarmed after a stop");
     }
-    std::ranges::sort(taken);
-    const double median = taken[taken.size() / 2], worst = taken.back();
-    line(what, fmt::format("{:7.2f} ms {:7.2f} ms", median, worst),
-         baseline_ms > 0 ? fmt::format("{:.1f} times the call alone; wanted: within {:.0f} ms: {}",
-                                       median / baseline_ms, kGoal_ms, verdict(worst <= kGoal_ms))
-                         : std::string());
-}
-
-/// What BenchDesk::stop() takes when nobody has to wait for the window's queue.
-double callAlone_ms(gui::BenchDesk& desk) {
-    std::vector<double> taken;
-    for (int round = 0; round < kRounds; ++round) {
-        desk.setSpeed(10);
-        if (!deliver(desk)) return 0;
-        desk.setSpeed(1);
-        offAt_ns = 0;
-        const auto from = now_ns();
-        desk.stop("benchmark");
-        taken.push_back(1e-6 * static_cast<double>(offAt_ns - from));
-    }
-    std::ranges::sort(taken);
-    line("baseline: the call alone", fmt::format("{:7.2f} ms {:7.2f} ms", taken[taken.size() / 2], taken.back()));
-    return taken[taken.size() / 2];
+    const auto taken = takenOf(std::move(all));
+    line(what, figures(taken),
+         fmt::format("{:.1f} times the empty window; wanted: within {:.0f} ms: {}",
+                     taken.median_ms / baseline.median_ms, kGoal_ms, verdict(taken.worst_ms <= kGoal_ms)));
 }
 
 }  // namespace
 
 void measureStop() {
-    heading("stop while delivering, until forceOff() returned, of 100", "   median      worst");
+    heading("stop while delivering, to the end of forceOff()", "   median      worst of 100");
+    const auto baseline = emptyWindow();
+    if (!(baseline.worst_ms > 0)) return notMeasured("baseline: empty window", "a click had no effect");
+    line("baseline: a button of an empty window", figures(baseline));
     gui::MainWindow window(timedRegistry);
     window.resize(1440, 900);
     window.show();
@@ -155,24 +178,20 @@ void measureStop() {
     auto& desk = window.desk();
     if (!openBench(desk)) return notMeasured("stop", "the simulated bench does not open");
     desk.present("P120", 50, 1);
-    const double baseline_ms = callAlone_ms(desk);
-    if (!(baseline_ms > 0)) return notMeasured("baseline: the call alone", "the simulated bench does not deliver");
     const auto* button = window.findChild<QPushButton*>("stopButton");
-    rounds(desk, "STOP clicked", baseline_ms, [&](int, double wait_ms) {
-        const QPointF at = button->mapTo(&window, button->rect().center());
-        return stopTime_ms(wait_ms,
-                           [&, at, screen = window.mapToGlobal(at)] { postClick(*window.windowHandle(), at, screen); });
-    });
-    rounds(desk, "Esc", baseline_ms,
-           [&](int, double wait_ms) { return stopTime_ms(wait_ms, [&] { postKey(*window.windowHandle()); }); });
-    rounds(desk, "Esc in a modal dialog's text field", baseline_ms, [&](int, double wait_ms) {
+    rounds(desk, "STOP clicked", baseline,
+           [&](double wait_ms) { return answerTime_ms(wait_ms, *window.windowHandle(), clickOn(*button), offAt_ns); });
+    rounds(desk, "Esc", baseline,
+           [&](double wait_ms) { return answerTime_ms(wait_ms, *window.windowHandle(), escape(), offAt_ns); });
+    rounds(desk, "Esc in a modal dialog's text field", baseline, [&](double wait_ms) {
         QDialog dialog(&window);
         dialog.setModal(true);
         QLineEdit field(&dialog);
         dialog.show();
         field.setFocus();
-        return stopTime_ms(wait_ms, [&] { postKey(*dialog.windowHandle()); });
+        return answerTime_ms(wait_ms, *dialog.windowHandle(), escape(), offAt_ns);
     });
+    window.close();
 }
 
 }  // namespace tacto::perf
