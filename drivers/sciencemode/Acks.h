@@ -64,6 +64,9 @@ struct StimStatusAck {
     std::uint8_t highVoltage = 0;
 };
 
+/// How the identity of an emulated device begins, so that its results are marked as simulated (H9).
+inline constexpr std::string_view kEmulatedId = "EMU";
+
 struct DeviceIdAck {
     ResultCode result = ResultCode::Ok;
     std::string id;  ///< 10 characters, trailing blanks removed

@@ -30,7 +30,7 @@ Result<std::unique_ptr<ScienceModeStimulator>> ScienceModeStimulator::open(Conne
                           "ScienceMode stimulator",
                           found->id,
                           fmt::format("{}, ScienceMode {}", found->firmware.text(), found->protocol.text()),
-                          false};
+                          found->id.starts_with(kEmulatedId)};
         if (const auto ready = self.ensureLowLevel(self.offs_.load()); !ready) return failure(ready);
     }
     if (!clock.isVirtual()) self.thread_ = std::thread([&self] { self.run(); });

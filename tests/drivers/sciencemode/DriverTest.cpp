@@ -1,0 +1,262 @@
+// sciencemode: URIs, which device they open, and the same through a terminal.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <thread>
+
+#include "drivers/sciencemode/EmulatedPty.h"
+#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/sciencemode/TtyTransport.h"
+#include "tests/drivers/sciencemode/ScienceModeBench.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sciencemode;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+/// Sockets with emulated devices in them.
+class EmulatedPorts final : public ScienceModePorts {
+public:
+    explicit EmulatedPorts(const Clock& clock) : clock_(clock) {}
+    std::shared_ptr<EmulatedLine> add(ScienceModePort port, const EmulatedSettings& settings) {
+        auto line = std::make_shared<EmulatedLine>(clock_, nullptr, settings);
+        lines_[port.place] = line;
+        ports_.push_back(std::move(port));
+        return line;
+    }
+    std::vector<ScienceModePort> list() const override { return ports_; }
+    Result<std::unique_ptr<Transport>> open(const ScienceModePort& port) override {
+        opened.push_back(port.place);
+        return lines_.at(port.place)->connect();
+    }
+    std::vector<std::string> opened;
+    std::vector<ScienceModePort> ports_;
+
+private:
+    const Clock& clock_;
+    std::map<std::string, std::shared_ptr<EmulatedLine>> lines_;
+};
+
+EmulatedSettings named(std::string id) {
+    EmulatedSettings settings;
+    settings.id = std::move(id);
+    return settings;
+}
+
+class ScienceModeUri : public testing::Test {
+protected:
+    [[nodiscard]] Result<void> open(const std::string& text) {
+        devices_ = {};
+        const auto uri = DeviceUri::parse(text);
+        if (!uri) return failure(uri);
+        return driver_->open(*uri, {}, OpenContext{clock_, 1, "1 kohm"}, devices_);
+    }
+    [[nodiscard]] std::string serial() const { return devices_.stimulator->identity().serial; }
+    void deliver(double milliamps = 5) {
+        const auto gate = wideGate(clock_, devices_.stimulator->traits());
+        const auto delivered = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(milliamps), Seconds(2)));
+        ASSERT_TRUE(delivered.has_value()) << delivered.error().message;
+    }
+
+    SteadyClock clock_;
+    std::shared_ptr<EmulatedPorts> ports_ = std::make_shared<EmulatedPorts>(clock_);
+    std::unique_ptr<Driver> driver_ = makeScienceModeDriver(ports_);
+    DeviceSet devices_;
+};
+
+TEST_F(ScienceModeUri, OpensTheFirstThatAnswersAsAStimulator) {
+    const auto other = ports_->add({"A1", "1-1", ""}, named("whatever"));
+    other->inspect([](auto& device, Instant) { device.misbehave(AckFault::Drop, 1000); });  // some other STM32
+    ports_->add({"A2", "1-2", ""}, named("P24-000002"));
+    ASSERT_TRUE(open("sciencemode:").has_value());
+    EXPECT_EQ(serial(), "P24-000002");
+    EXPECT_FALSE(devices_.stimulator->identity().simulated);
+}
+
+TEST_F(ScienceModeUri, FindsADeviceByItsUsbSerialOrItsIdentity) {
+    RecordProperty("hazard", "H4");
+    ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    ports_->add({"A2", "1-2", ""}, named("P24-000002"));
+    ASSERT_TRUE(open("sciencemode:P24-000002").has_value());
+    EXPECT_EQ(serial(), "P24-000002");
+    ASSERT_TRUE(open("sciencemode:A1").has_value());
+    EXPECT_EQ(serial(), "P24-000001");
+    EXPECT_EQ(ports_->opened.back(), "1-1");
+    const auto missing = open("sciencemode:P24-000003");
+    ASSERT_FALSE(missing.has_value());
+    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    EXPECT_EQ(devices_.stimulator, nullptr);
+}
+
+TEST_F(ScienceModeUri, SaysWhyNothingCouldBeOpened) {
+    EXPECT_THAT(open("sciencemode:").error().message, HasSubstr("none is plugged in"));
+    ports_->add({"A1", "1-1", "may not be opened by you: run ./dev install-rules"}, named("P24-000001"));
+    const auto refused = open("sciencemode:");
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Io);
+    EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
+    const auto listed = driver_->list();
+    ASSERT_EQ(listed.size(), 1U);
+    EXPECT_THAT(listed[0].name, HasSubstr("install-rules"));
+    EXPECT_EQ(listed[0].uri, "sciencemode:A1");
+}
+
+TEST_F(ScienceModeUri, ParametersReachTheDevice) {
+    RecordProperty("hazard", "H4");
+    const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    ASSERT_TRUE(open("sciencemode:?channel=2&connector=green&voltage=60&measure=current").has_value());
+    EXPECT_FALSE(devices_.stimulator->traits().readsBack);
+    deliver();
+    ASSERT_EQ(line->pulses(), 1U);
+    EXPECT_EQ(line->pulseList()[0].channel, 6);
+    bool found = false;
+    for (const auto& bytes : line->written()) {
+        FrameDecoder decoder;
+        std::span<const std::uint8_t> view(bytes);
+        const auto packet = decoder.take(view);
+        if (packet->command != 0) continue;
+        found = true;
+        EXPECT_EQ(readLowLevelInit(packet->payload), (LowLevelInit{HighVoltage::V60, Measurement::Current}));
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
+    ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    for (const auto* wrong : {"channel=4", "channel=-1", "channel=1.5", "channel=nan", "channel=x", "connector=blue",
+                              "level=high", "measure=all", "voltage=40", "tty=", "speed=3", "channel=1&channel=2"}) {
+        const auto refused = open(std::string("sciencemode:?") + wrong);
+        ASSERT_FALSE(refused.has_value()) << wrong;
+        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+    }
+    EXPECT_TRUE(ports_->opened.empty());
+    ASSERT_TRUE(open("sciencemode:").has_value());
+    const auto second = driver_->open({"sciencemode", "", {}}, {}, OpenContext{clock_, 1, "1 kohm"}, devices_);
+    EXPECT_EQ(second.error().code, ErrorCode::InvalidArgument) << "a bench has one stimulator";
+}
+
+TEST_F(ScienceModeUri, OnlyLevelMidRepeats) {
+    RecordProperty("hazard", "H2");
+    const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    for (const bool mid : {false, true}) {
+        ASSERT_TRUE(open(mid ? "sciencemode:?level=mid" : "sciencemode:").has_value());
+        auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
+        const auto gate = wideGate(clock_, devices_.stimulator->traits());
+        EXPECT_EQ(repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.5)), Seconds(0.5)).has_value(), mid);
+    }
+    devices_ = {};
+    EXPECT_FALSE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));
+}
+
+TEST_F(ScienceModeUri, AReplugIntoAnotherSocketIsFoundByItsSerialNumber) {
+    const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    ASSERT_TRUE(open("sciencemode:").has_value());
+    line->unplug();
+    ports_->ports_.clear();
+    EXPECT_EQ(devices_.stimulator->status().error().code, ErrorCode::Device);
+    line->plug();
+    const auto stranger = ports_->add({"B7", "1-1", ""}, named("P24-000007"));
+    EXPECT_FALSE(devices_.stimulator->status().has_value()) << "the same socket, another device";
+    ports_->ports_ = {{"B7", "1-1", ""}};
+    EXPECT_FALSE(devices_.stimulator->status().has_value());
+    EXPECT_EQ(stranger->written().size(), 0U) << "it is not even asked";
+}
+
+// --- through a terminal ---------------------------------------------------------------------------------------------
+
+class ScienceModePty : public ScienceModeUri {
+protected:
+    void SetUp() override {
+        auto pty = EmulatedPty::open({}, clock_);
+        ASSERT_TRUE(pty.has_value()) << pty.error().message;
+        pty_ = std::move(*pty);
+    }
+    std::unique_ptr<EmulatedPty> pty_;
+};
+
+TEST_F(ScienceModePty, DeliversAndReadsBack) {
+    const auto opened = open("sciencemode:?tty=" + pty_->path());
+    ASSERT_TRUE(opened.has_value()) << opened.error().message;
+    EXPECT_TRUE(devices_.stimulator->identity().simulated) << "an emulated device is never taken for a real one";
+    for (int i = 0; i < 100; ++i) {
+        ASSERT_NO_FATAL_FAILURE(deliver(0.5 * (i + 1)));
+        const auto status = devices_.stimulator->status();
+        ASSERT_TRUE(status.has_value()) << status.error().message;
+        ASSERT_TRUE(status->impedance.has_value());
+        EXPECT_NEAR(status->impedance->value(), 1000, 20);
+    }
+    EXPECT_EQ(pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); }), 100U);
+}
+
+TEST_F(ScienceModePty, StopReachesTheDevice) {
+    RecordProperty("hazard", "H2");
+    ASSERT_TRUE(open("sciencemode:?level=mid&tty=" + pty_->path()).has_value());
+    auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
+    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    ASSERT_TRUE(repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.05)), Seconds(0.05)).has_value());
+    ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
+    devices_.stimulator->forceOff();
+    const auto status = devices_.stimulator->status();  // its ack comes behind the stops
+    ASSERT_TRUE(status.has_value()) << status.error().message;
+    EXPECT_FALSE(status->delivering);
+    EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
+}
+
+TEST_F(ScienceModePty, AHungUpTerminalIsADeviceThatIsGone) {
+    RecordProperty("hazard", "H2");
+    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    pty_.reset();
+    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    const auto gone = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(5), Seconds(2)));
+    ASSERT_FALSE(gone.has_value());
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_EQ(devices_.stimulator->status().error().code, ErrorCode::Device);
+    devices_.stimulator->forceOff();
+}
+
+TEST_F(ScienceModePty, RefusesWhatIsNoTerminal) {
+    EXPECT_EQ(open("sciencemode:?tty=/no/such/terminal").error().code, ErrorCode::NotFound);
+    EXPECT_EQ(open("sciencemode:?tty=/dev/null").error().code, ErrorCode::Io);
+}
+
+TEST_F(ScienceModePty, AReadWaitsNoLongerThanItIsAllowed) {
+    auto transport = TtyTransport::open(pty_->path());
+    ASSERT_TRUE(transport.has_value());
+    std::array<std::uint8_t, 16> into{};
+    for (const double s : {0.0, 0.03, -1.0, std::nan("")}) {
+        const Instant begin = clock_.now();
+        EXPECT_EQ((*transport)->read(into, Seconds(s)).error().code, ErrorCode::Timeout);
+        EXPECT_GE(clock_.now() - begin, s > 0 ? milliseconds(30) : milliseconds(0));
+        EXPECT_LT(clock_.now() - begin, milliseconds(1000));
+    }
+}
+
+TEST_F(ScienceModePty, UrgentMessagesAndFramesNeverMix) {
+    RecordProperty("hazard", "H2");
+    auto transport = TtyTransport::open(pty_->path());
+    ASSERT_TRUE(transport.has_value());
+    // Pauses between, or their acks alone would fill the line.
+    std::vector<std::jthread> stoppers;
+    for (int i = 0; i < 3; ++i) {
+        stoppers.emplace_back([&](const std::stop_token& stop) {
+            while (!stop.stop_requested()) {
+                (*transport)->writeUrgent(stopFrames().lowLevel.view());
+                std::this_thread::sleep_for(std::chrono::microseconds(300));
+            }
+        });
+    }
+    Exchange exchange(**transport, clock_);
+    for (int i = 0; i < 300; ++i) {
+        const auto answer = exchange.ask(Command::StimStatus, {}, Seconds(10));
+        ASSERT_TRUE(answer.has_value()) << answer.error().message;
+    }
+    stoppers.clear();
+    EXPECT_EQ(exchange.counts().junkBytes, 0U);
+    EXPECT_EQ(pty_->inspect([](auto& device, Instant) { return device.requests(Command::StimStatus); }), 300U);
+    EXPECT_GT(pty_->inspect([](auto& device, Instant) { return device.requests(Command::LowLevelStop); }), 0U);
+}
+
+}  // namespace
+}  // namespace tacto::test

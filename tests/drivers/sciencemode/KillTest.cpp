@@ -1,0 +1,95 @@
+// H2 end to end: another process repeats a train on the emulated stimulator through a terminal, in mid level, and is
+// killed or hung. The device lives here, as hardware would: what it puts out must end by itself.
+#include <array>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "drivers/sciencemode/EmulatedPty.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sciencemode;
+using std::chrono::milliseconds;
+
+class ScienceModeKill : public testing::Test {
+protected:
+    void SetUp() override {
+        RecordProperty("hazard", "H2");
+        auto pty = EmulatedPty::open({}, clock_);
+        ASSERT_TRUE(pty.has_value()) << pty.error().message;
+        pty_ = std::move(*pty);
+        std::array<int, 2> ends{};
+        ASSERT_EQ(pipe(ends.data()), 0);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+        posix_spawn_file_actions_addclose(&actions, ends[0]);
+        std::string program = TACTO_HOST_PROGRAM;
+        std::string terminal = pty_->path();
+        std::array<char*, 3> arguments{program.data(), terminal.data(), nullptr};
+        const int spawned = posix_spawn(&host_, program.c_str(), &actions, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        close(ends[1]);
+        ASSERT_EQ(spawned, 0);
+        char first = 0;
+        EXPECT_EQ(read(ends[0], &first, 1), 1) << "the host ended without delivering";
+        close(ends[0]);
+    }
+    void TearDown() override {
+        if (host_ <= 0) return;
+        kill(host_, SIGKILL);
+        waitpid(host_, nullptr, 0);
+    }
+
+    static void passTime(milliseconds duration) { std::this_thread::sleep_for(duration); }
+    [[nodiscard]] bool repeating() {
+        return pty_->inspect([](auto& device, Instant now) { return device.repeating(now); });
+    }
+    [[nodiscard]] Instant lastOutput() {
+        return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).back().end; });
+    }
+
+    SteadyClock clock_;
+    std::unique_ptr<EmulatedPty> pty_;
+    pid_t host_ = -1;
+};
+
+TEST_F(ScienceModeKill, OutputEndsWithin2SecondsOfAKill) {
+    passTime(milliseconds(1000));
+    ASSERT_TRUE(repeating());
+    kill(host_, SIGKILL);
+    const Instant killed = clock_.now();
+    passTime(milliseconds(2600));
+    EXPECT_FALSE(repeating());
+    EXPECT_LE(lastOutput() - killed, milliseconds(2000));
+    EXPECT_GE(lastOutput() - killed, milliseconds(1000)) << "nothing else ended it before";
+}
+
+TEST_F(ScienceModeKill, OutputEndsWithin2100MillisecondsOfAHangAndStaysOff) {
+    passTime(milliseconds(1000));
+    ASSERT_TRUE(repeating());
+    kill(host_, SIGSTOP);
+    const Instant hung = clock_.now();
+    passTime(milliseconds(2600));
+    EXPECT_FALSE(repeating());
+    EXPECT_LE(lastOutput() - hung, milliseconds(2100));
+    kill(host_, SIGCONT);
+    passTime(milliseconds(600));
+    EXPECT_FALSE(repeating()) << "a host that wakes up revives nothing";
+}
+
+TEST_F(ScienceModeKill, ControlRunWithKeepAliveGoesOnFor10Seconds) {
+    const Instant begun = clock_.now();
+    passTime(milliseconds(10'000));
+    EXPECT_TRUE(repeating());
+    EXPECT_GE(lastOutput() - begun, milliseconds(9'400));
+}
+
+}  // namespace
+}  // namespace tacto::test
