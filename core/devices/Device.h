@@ -21,6 +21,9 @@ struct DeviceIdentity {
     std::string serial;
     std::string firmware;
     bool simulated = false;
+    /// Of a listed device: why it cannot be opened now and what helps, one sentence; empty where it can.
+    std::string obstacle = {};
+    bool operator==(const DeviceIdentity&) const = default;
 };
 
 class Device {

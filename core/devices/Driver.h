@@ -45,7 +45,8 @@ class Driver {
 public:
     virtual ~Driver() = default;
     [[nodiscard]] virtual std::string_view scheme() const noexcept = 0;
-    /// What could be opened now. Never fails: what cannot be reached is not listed.
+    /// What is present now. Never fails: what cannot be reached is not listed; what is there and may not be opened
+    /// names its obstacle. May look at ports and files: not for a window's thread.
     [[nodiscard]] virtual std::vector<DeviceIdentity> list() const = 0;
     /// True when devices of this scheme can live on the virtual clock (simulated, or read from files).
     [[nodiscard]] virtual bool runsOnVirtualClock() const noexcept = 0;

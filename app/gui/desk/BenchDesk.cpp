@@ -33,8 +33,11 @@ struct BenchDesk::Live {
     bool recordingFailed = false;
 };
 
+// A socket is looked at that often; plugging in is not a thing of milliseconds.
+constexpr std::chrono::milliseconds kLookEvery(1000);
+
 BenchDesk::BenchDesk(MakeRegistry makeRegistry, QObject* parent)
-    : QObject(parent), makeRegistry_(std::move(makeRegistry)), thread_() {
+    : QObject(parent), makeRegistry_(std::move(makeRegistry)), watch_(makeRegistry_, kLookEvery), thread_() {
     qRegisterMetaType<std::shared_ptr<const Capture>>();
     qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
     qRegisterMetaType<OperatorQuestion>();
@@ -57,8 +60,6 @@ Telemetry BenchDesk::telemetry() const {
     const std::scoped_lock lock(benchMutex_);
     return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
 }
-
-std::vector<DeviceIdentity> BenchDesk::devices() const { return makeRegistry_().list(); }
 
 Result<bool> BenchDesk::allVirtual(const std::vector<DeviceUri>& uris) const {
     return makeRegistry_().allVirtual(uris);
@@ -325,8 +326,7 @@ void BenchDesk::openOnThread(const LiveOrder& order) {
         live->clock = std::make_shared<VirtualClock>();
     else
         live->clock = std::make_shared<SteadyClock>();
-    const std::set<Role> wanted{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
-    auto devices = registry.open(order.uris, wanted, OpenContext{*live->clock, order.seed, kDefaultLoad});
+    auto devices = registry.open(order.uris, order.needed, OpenContext{*live->clock, order.seed, kDefaultLoad});
     if (!devices) return give_up(devices.error());
     const auto files = prepareRunFiles("", "live");
     if (!files) return give_up(files.error());

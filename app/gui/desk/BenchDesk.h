@@ -19,6 +19,7 @@
 #include <mutex>
 #include <thread>
 
+#include "app/gui/desk/DeviceWatch.h"
 #include "app/gui/desk/OperatorDesk.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/BenchTap.h"
@@ -28,6 +29,8 @@ namespace tacto::gui {
 /// What to open for looking, driving by hand and replaying.
 struct LiveOrder {
     std::vector<DeviceUri> uris;
+    /// What the bench must have; sim: fills those of them that no other device does.
+    std::set<Role> needed{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
     Profile profile;
     double speed = 1;  ///< times real time; devices that can live on the virtual clock only
     std::uint64_t seed = 1;
@@ -86,7 +89,8 @@ public:
     /// The profile in force: of the open bench, else the one of the last order or the shipped one.
     [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
     [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
-    [[nodiscard]] std::vector<DeviceIdentity> devices() const;
+    /// What is present.
+    [[nodiscard]] DeviceWatch& watch() noexcept { return watch_; }
     /// Whether these are simulated devices and recordings only: nothing that can put out a current.
     /// Errors: as Registry::allVirtual().
     [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
@@ -147,6 +151,7 @@ private:
 
     const MakeRegistry makeRegistry_;
     OperatorDesk operator_;
+    DeviceWatch watch_;
 
     // The window's:
     Activity activity_ = Activity::Closed;

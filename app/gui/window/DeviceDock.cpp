@@ -15,6 +15,14 @@ QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsi
 
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
+constexpr int kObstacleRole = Qt::UserRole + 2;
+constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
+
+/// Not so a recording or a folder of captures, whose name somebody has to give.
+bool opensByItself(const DeviceIdentity& device) {
+    const auto uri = DeviceUri::parse(device.uri);
+    return device.obstacle.empty() && uri && !(uri->scheme != "sim" && uri->path.empty() && device.simulated);
+}
 
 }  // namespace
 
@@ -29,7 +37,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     tree_->setHeaderHidden(true);
     tree_->setWordWrap(true);
     tree_->setTextElideMode(Qt::ElideRight);
-    tree_->setToolTip(tr("What is present. Those in bold are open."));
+    tree_->setToolTip(tr("What is present. Those in bold are open. Tick those that shall make up the bench (Return)."));
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     tree_->setUniformRowHeights(false);
@@ -39,8 +47,9 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     layout->addWidget(facts_);
 
-    open_ = new QPushButton(tr("Open &simulated bench"), body);
-    open_->setToolTip(tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated."));
+    open_ = new QPushButton(body);
+    open_->setObjectName("openBench");
+    nameOpen();
     auto* flaws = new QPushButton(tr("&Faults…"), body);
     flaws->setToolTip(tr("A simulated bench with a source, a load and a fault of your choice."));
     auto* recording = new QPushButton(tr("Re&cording…"), body);
@@ -59,7 +68,13 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     layout->addStretch(1);
     setWidget(body);
 
-    connect(open_, &QPushButton::clicked, this, &DeviceDock::openSelected);
+    connect(open_, &QPushButton::clicked, this, &DeviceDock::openChosen);
+    // Space stops the output everywhere: Return ticks.
+    connect(tree_, &QTreeWidget::itemActivated, this, [](QTreeWidgetItem* item) {
+        if (item->data(0, kRoleRole).isValid())
+            item->setCheckState(0, item->checkState(0) == Qt::Checked ? Qt::Unchecked : Qt::Checked);
+    });
+    connect(tree_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) { choose(item); });
     connect(flaws, &QPushButton::clicked, this, &DeviceDock::simulatedBenchRequested);
     connect(recording, &QPushButton::clicked, this, &DeviceDock::recordingRequested);
     connect(check_, &QPushButton::clicked, this, &DeviceDock::checkRequested);
@@ -69,28 +84,37 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
         listed_.clear();
         list();
     });
-    connect(&hotPlug_, &QTimer::timeout, this, &DeviceDock::list);
-    hotPlug_.start(2000);
+    connect(&desk_.watch(), &DeviceWatch::changed, this, &DeviceDock::list);
     list();
     refresh(Telemetry{});
 }
 
 void DeviceDock::list() {
-    std::vector<DeviceIdentity> present = desk_.devices();
+    const auto& present = desk_.watch().devices();
     const auto open = desk_.open();
     std::vector<std::string> keys;
-    for (const auto& device : present) keys.push_back(device.uri);
+    for (const auto& device : present) keys.push_back(device.uri + device.obstacle);
     if (open) {
         for (const auto& device : open->about.devices) keys.push_back("open " + device.uri);
     }
     if (keys == listed_) return;
     listed_ = keys;
+    const auto before = chosen();
+    const QSignalBlocker quiet(tree_);
     tree_->clear();
-    const auto add = [&](const QString& name, const QString& role, const QString& uri, bool isOpen) {
-        auto* item = new QTreeWidgetItem(tree_, {name});
+    const auto add = [&](const QString& name, const QString& role, const QString& uri, bool isOpen,
+                         const DeviceIdentity* ready = nullptr, const QString& obstacle = {}) {
+        auto* item = new QTreeWidgetItem(tree_, {obstacle.isEmpty() ? name : "⚠ " + name});
+        item->setData(0, kObstacleRole, obstacle);
         item->setData(0, kUriRole, uri);
         item->setData(0, kOpenRole, isOpen);
         item->setToolTip(0, QString("%1: %2").arg(role, uri));
+        if (ready != nullptr) {
+            const auto was = before.find(ready->role);
+            item->setData(0, kRoleRole, int(ready->role));
+            item->setCheckState(0,
+                                was != before.end() && was->second.text() == ready->uri ? Qt::Checked : Qt::Unchecked);
+        }
         auto font = tree_->font();
         font.setBold(isOpen);
         item->setFont(0, font);
@@ -105,9 +129,10 @@ void DeviceDock::list() {
                                                      [&](const auto& one) { return one.name == device.name; });
         if (!alreadyOpen)
             add(QString::fromStdString(device.name), words(nameOf(device.role)), QString::fromStdString(device.uri),
-                false);
+                false, opensByItself(device) ? &device : nullptr, QString::fromStdString(device.obstacle));
     }
     if (tree_->topLevelItemCount() > 0) tree_->setCurrentItem(tree_->topLevelItem(0));
+    nameOpen();
     describe();
 }
 
@@ -138,14 +163,56 @@ void DeviceDock::describe() {
         }
     } else {
         lines << tr("Not open.");
+        if (const auto obstacle = item->data(0, kObstacleRole).toString(); !obstacle.isEmpty())
+            lines << obstacle.toHtmlEscaped();
     }
     facts_->setText(lines.join("<br>"));
 }
 
-void DeviceDock::openSelected() {
+std::map<Role, DeviceUri> DeviceDock::chosen() const {
+    std::map<Role, DeviceUri> ticked;
+    for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+        const auto* item = tree_->topLevelItem(i);
+        if (!item->data(0, kRoleRole).isValid() || item->checkState(0) != Qt::Checked) continue;
+        if (auto uri = DeviceUri::parse(item->data(0, kUriRole).toString().toStdString()))
+            ticked.emplace(static_cast<Role>(item->data(0, kRoleRole).toInt()), std::move(*uri));
+    }
+    return ticked;
+}
+
+/// One of a kind: the new one takes the place of the other.
+void DeviceDock::choose(QTreeWidgetItem* item) {
+    if (item->checkState(0) == Qt::Checked) {
+        const QSignalBlocker quiet(tree_);
+        for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+            auto* other = tree_->topLevelItem(i);
+            if (other != item && other->data(0, kRoleRole) == item->data(0, kRoleRole))
+                other->setCheckState(0, Qt::Unchecked);
+        }
+    }
+    nameOpen();
+}
+
+void DeviceDock::nameOpen() {
+    const auto ticked = chosen().size();
+    open_->setText(ticked == 0 ? tr("Open &simulated bench") : tr("&Open what is ticked (%1)").arg(ticked));
+    open_->setToolTip(ticked == 0
+                          ? tr("Opens a fingertip, a stimulator on 1 kΩ and an oscilloscope, all simulated.")
+                          : tr("Opens the ticked devices as one bench. Nothing is put out before it is armed."));
+}
+
+void DeviceDock::openChosen() {
     LiveOrder order;
-    order.uris.push_back(*DeviceUri::parse("sim:"));
     order.profile = desk_.profile();
+    if (const auto ticked = chosen(); ticked.empty()) {
+        order.uris.push_back(*DeviceUri::parse("sim:"));
+    } else {
+        order.needed.clear();
+        for (const auto& [role, uri] : ticked) {
+            order.needed.insert(role);
+            order.uris.push_back(uri);
+        }
+    }
     desk_.openLive(order);
 }
 

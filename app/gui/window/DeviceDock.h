@@ -7,8 +7,8 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
-#include <QTimer>
 #include <QTreeWidget>
+#include <map>
 
 #include "app/gui/desk/BenchDesk.h"
 
@@ -28,8 +28,12 @@ signals:
 
 private:
     void list();
+    void choose(QTreeWidgetItem* item);
     void describe();
-    void openSelected();
+    /// The roles of the devices that are ticked, with their URIs.
+    [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
+    void openChosen();
+    void nameOpen();
 
     BenchDesk& desk_;
     QTreeWidget* tree_;
@@ -37,7 +41,6 @@ private:
     QPushButton* open_;
     QPushButton* close_;
     QPushButton* check_;
-    QTimer hotPlug_;
     std::vector<std::string> listed_;
 };
 

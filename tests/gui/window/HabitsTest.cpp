@@ -6,6 +6,8 @@
 #include <QMimeData>
 #include <QSettings>
 #include <QTabWidget>
+#include <QTextBrowser>
+#include <QTreeWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/look/Look.h"
@@ -148,6 +150,33 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
     for (const auto& set : window.desk().limits().sets) EXPECT_THAT(words.toStdString(), HasSubstr(set.id));
     shot(*help, "help-limits");
     help->close();
+}
+
+TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
+    auto* list = window.findChild<QTreeWidget*>();
+    ASSERT_NE(list, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return list->topLevelItemCount() >= 3; }));
+    const auto tick = [&](const QString& name) {
+        for (int i = 0; i < list->topLevelItemCount(); ++i) {
+            auto* item = list->topLevelItem(i);
+            if (item->text(0) != name) continue;
+            ASSERT_TRUE(item->data(0, Qt::CheckStateRole).isValid()) << name.toStdString();
+            list->setCurrentItem(item);
+            list->setFocus();
+            QTest::keyClick(list, Qt::Key_Return);
+            EXPECT_EQ(item->checkState(0), Qt::Checked);
+        }
+    };
+    tick("simulated stimulator");
+    tick("simulated oscilloscope");
+    auto* opens = window.findChild<QPushButton*>("openBench");
+    EXPECT_TRUE(opens->text().contains("2")) << opens->text().toStdString();
+    click(*opens);
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    EXPECT_TRUE(window.desk().open()->streams.empty()) << "no fingertip was asked for";
+    EXPECT_TRUE(window.desk().open()->source.has_value());
+    arm();
+    deliver();
 }
 
 TEST_F(Habits, TheWindowIsAsItWasLeft) {
