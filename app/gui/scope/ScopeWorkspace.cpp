@@ -57,7 +57,8 @@ ScopeSettings ScopeWorkspace::settings() const { return acquisition_->settings()
 
 void ScopeWorkspace::setWatched(bool watched) {
     watched_ = watched;
-    benchChanged();
+    // What runs goes on running. And a dock says that it is hidden while the window, and the desk with it, goes.
+    if (watched) benchChanged();
 }
 
 void ScopeWorkspace::setMode(ScopeMode mode) {
