@@ -96,8 +96,12 @@ UsbBulkTransport::UsbBulkTransport(std::unique_ptr<Parts> parts) : parts_(std::m
 UsbBulkTransport::~UsbBulkTransport() {
     parts_->outbox.close();
     parts_->inbox.close();
-    if (parts_->lowersReady) {
-        // A device that is gone or does not answer cannot be told; there is nobody left to tell that.
+    const bool gone = [this] {
+        const std::lock_guard lock(parts_->line.mutex);
+        return parts_->line.gone;
+    }();
+    if (parts_->lowersReady && !gone) {
+        // A device that does not answer cannot be told, and there is nobody left to tell that.
         (void)setLineState(*parts_->device, *parts_->pair.communication, false, kFarewellPatience);
     }
 }

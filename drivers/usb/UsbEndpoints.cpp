@@ -58,6 +58,12 @@ Result<bool> takeEndpoints(const libusb_interface_descriptor& interface, std::st
                     interface.bInterfaceNumber, kInterfaceMost);
     }
     pair.interface = interface.bInterfaceNumber;
+    // libusb leaves the list out where the descriptors break off, and the number as the device said it.
+    if (interface.endpoint == nullptr && interface.bNumEndpoints > 0) {
+        return fail(ErrorCode::Device,
+                    "{}: interface {} says it has {} endpoints and describes none; their descriptors were expected",
+                    device, interface.bInterfaceNumber, interface.bNumEndpoints);
+    }
     for (const auto& endpoint : std::span{interface.endpoint, interface.bNumEndpoints}) {
         if ((endpoint.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) != LIBUSB_TRANSFER_TYPE_BULK) continue;
         const int number = endpoint.bEndpointAddress & LIBUSB_ENDPOINT_ADDRESS_MASK;

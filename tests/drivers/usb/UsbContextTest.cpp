@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+
+#include "drivers/usb/UsbContext.h"
+#include "tests/drivers/usb/UsbFixture.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class UsbContext_ : public UsbTest {};
+
+TEST_F(UsbContext_, ListsADeviceWithItsIdentityAndSocket) {
+    const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {}, 3);
+    ASSERT_TRUE(waitForDevices(1));
+    const auto info = context->devices().front();
+    EXPECT_EQ(info.vendor, 0x0483);
+    EXPECT_EQ(info.product, 0x5740);
+    EXPECT_EQ(info.serial, "P24-17");
+    EXPECT_EQ(info.maker, "Acme");
+    EXPECT_EQ(info.name, "Loopback");
+    EXPECT_EQ(info.path, "1-3");
+    EXPECT_TRUE(info.permitted);
+    EXPECT_EQ(info.obstacle(), "");
+    EXPECT_EQ(info.label(), "USB device 0483:5740 at 1-3 (serial P24-17)");
+}
+
+TEST_F(UsbContext_, FindsDevicesThatWereThereBeforeIt) {
+    const EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {});
+    const auto later = UsbContext::start();
+    ASSERT_TRUE(later) << later.error().message;
+    EXPECT_EQ((*later)->devices().size(), 1u);
+    EXPECT_TRUE((*later)->find({0x1209, 1}));
+}
+
+TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt) {
+    EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {});
+    ASSERT_TRUE(waitForDevices(1));
+    device.permit(false);
+    {
+        const UnprivilegedUser user(bed);
+        const auto list = context->devices();
+        ASSERT_EQ(list.size(), 1u);
+        EXPECT_FALSE(list.front().permitted);
+        EXPECT_EQ(list.front().serial, "P24-17");
+        EXPECT_THAT(list.front().obstacle(), HasSubstr("./dev install-rules"));
+        const auto found = context->find({0x0483, 0x5740});
+        ASSERT_FALSE(found);
+        EXPECT_EQ(found.error().code, ErrorCode::Io);
+        EXPECT_EQ(found.error().message, list.front().obstacle());
+        const auto opened = UsbBulkTransport::open(context, list.front(), {});
+        ASSERT_FALSE(opened);
+        EXPECT_EQ(opened.error().code, ErrorCode::Io);
+        EXPECT_THAT(opened.error().message, HasSubstr("./dev install-rules"));
+    }
+    // Permission comes without plugging: the same device, looked up again, can be opened.
+    device.permit(true);
+    const UnprivilegedUser user(bed);
+    const auto list = context->devices();
+    EXPECT_TRUE(list.front().permitted);
+    EXPECT_TRUE(UsbBulkTransport::open(context, list.front(), {}));
+}
+
+TEST_F(UsbContext_, TellsOfPluggingInBothDirections) {
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {}, 1, false);
+    const auto empty = context->generation();
+    EXPECT_TRUE(context->devices().empty());
+    auto waiting = std::async(std::launch::async, [&] { return context->waitForChange(empty, kLong); });
+    device.plug();
+    const auto plugged = waiting.get();
+    EXPECT_GT(plugged, empty);
+    ASSERT_EQ(context->devices().size(), 1u);
+    waiting = std::async(std::launch::async, [&] { return context->waitForChange(plugged, kLong); });
+    device.unplug();
+    EXPECT_GT(waiting.get(), plugged);
+    EXPECT_TRUE(context->devices().empty());
+}
+
+TEST_F(UsbContext_, AWaitWithoutAChangeEndsWithItsTime) {
+    const auto seen = context->generation();
+    const auto [now, took] = timed([&] { return context->waitForChange(seen, kShort); });
+    EXPECT_EQ(now, seen);
+    EXPECT_GE(took, kShort);
+}
+
+TEST_F(UsbContext_, FindsADeviceAgainBySerialInAnotherSocket) {
+    auto first = std::make_unique<EmulatedUsbDevice>(bed, vendorDevice(0x1209, 1, "B1"), UsbBehaviour{}, 1);
+    const EmulatedUsbDevice other(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
+    ASSERT_TRUE(waitForDevices(2));
+    const auto before = context->find({0x1209, 1, "B1"});
+    ASSERT_TRUE(before);
+    first.reset();
+    ASSERT_TRUE(waitForDevices(1));
+    EXPECT_EQ(context->find({0x1209, 1, "B1"}).error().code, ErrorCode::NotFound);
+    const EmulatedUsbDevice again(bed, vendorDevice(0x1209, 1, "B1"), {}, 4);
+    ASSERT_TRUE(waitForDevices(2));
+    const auto after = context->find(before->identity());
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->path, "1-4");
+    EXPECT_NE(after->address, before->address);
+}
+
+TEST_F(UsbContext_, ANameThatFitsTwoDevicesIsRefusedWithTheirSerialNumbers) {
+    const EmulatedUsbDevice first(bed, vendorDevice(0x1209, 1, "B1"), {}, 1);
+    const EmulatedUsbDevice second(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
+    ASSERT_TRUE(waitForDevices(2));
+    const auto found = context->find({0x1209, 1});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(found.error().message, HasSubstr("B1"));
+    EXPECT_THAT(found.error().message, HasSubstr("B2"));
+}
+
+TEST_F(UsbContext_, ADeviceThatWasReplacedSinceTheListWasMadeIsNotOpened) {
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {});
+    ASSERT_TRUE(waitForDevices(1));
+    const auto old = context->devices().front();
+    device.unplug();
+    ASSERT_TRUE(waitForDevices(0));
+    device.plug();
+    ASSERT_TRUE(waitForDevices(1));
+    const auto opened = UsbBulkTransport::open(context, old, {.function = UsbFunction::Vendor});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+}
+
+TEST_F(UsbContext_, WhatADeviceCallsItselfIsMadePrintable) {
+    auto rogue = vendorDevice(0x1209, 1, "B\x1b[31m1");
+    const EmulatedUsbDevice device(bed, rogue, {});
+    ASSERT_TRUE(waitForDevices(1));
+    EXPECT_EQ(context->devices().front().serial, "B?[31m1");
+}
+
+}  // namespace
+}  // namespace tacto::test

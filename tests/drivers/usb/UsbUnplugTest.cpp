@@ -1,0 +1,131 @@
+#include "tests/drivers/usb/UsbFixture.h"
+
+namespace tacto::test {
+namespace {
+
+/// What a waiting call may take to notice; the measured figure is under 2 ms without sanitizers.
+constexpr Seconds kNoticed{0.25};
+
+class UsbUnplug : public UsbTest {
+protected:
+    const UsbBulkOptions vendor{.function = UsbFunction::Vendor};
+};
+
+TEST_F(UsbUnplug, AWaitingReadReturnsAtOnce) {
+    RecordProperty("hazard", "H2");
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
+    const auto transport = open(device, vendor);
+    ASSERT_TRUE(transport);
+    std::chrono::steady_clock::time_point returned;
+    auto reading = std::async(std::launch::async, [&] {
+        std::array<std::uint8_t, 8> into{};
+        auto read = transport->read(into, kLong);
+        returned = std::chrono::steady_clock::now();
+        return read;
+    });
+    ASSERT_TRUE(device.waitForWaiting(kIn, 8));
+    const auto pulled = std::chrono::steady_clock::now();
+    device.unplug();
+    const auto read = reading.get();
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::Device);
+    EXPECT_LT(Seconds(returned - pulled), kNoticed);
+    RecordProperty("noticed_ms", std::to_string(Seconds(returned - pulled).count() * 1e3));
+}
+
+TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
+    RecordProperty("hazard", "H2");
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
+    const auto transport = open(device, vendor);
+    ASSERT_TRUE(transport);
+    device.hold(kOut, true);
+    auto writing = std::async(std::launch::async,
+                              [&] { return timed([&] { return transport->write(bytesOf("train"), kLong); }); });
+    ASSERT_TRUE(device.waitForWaiting(kOut, 1));
+    device.unplug();
+    const auto [written, took] = writing.get();
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::Device);
+    EXPECT_LT(took, kLong);
+    const auto [after, immediate] = timed([&] { return transport->write(bytesOf("more"), kLong); });
+    ASSERT_FALSE(after);
+    EXPECT_EQ(after.error().code, ErrorCode::Device);
+    EXPECT_LT(immediate, kNoticed);
+    transport->writeUrgent(bytesOf("stop"));  // nobody there: no harm
+}
+
+TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
+    const auto transport = open(device, vendor);
+    ASSERT_TRUE(transport);
+    device.send(kIn, bytesOf("last words"));
+    std::array<std::uint8_t, 4> first{};
+    ASSERT_EQ(transport->read(first, kLong).value(), 4u);
+    device.unplug();
+    EXPECT_EQ(readAll(*transport, 6), bytesOf(" words"));
+    EXPECT_EQ(transport->read(first, kLong).error().code, ErrorCode::Device);
+}
+
+TEST_F(UsbUnplug, TheSameDeviceIsFoundAgainAndWorks) {
+    EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {.onBytes = echo});
+    auto transport = open(device);
+    ASSERT_TRUE(transport);
+    const auto who = transport->info().identity();
+    device.unplug();
+    ASSERT_TRUE(waitForDevices(0));
+    device.plug();
+    ASSERT_TRUE(waitForDevices(1));
+    const auto found = context->find(who);
+    ASSERT_TRUE(found);
+    // The old transport may still be there while the new one works.
+    auto again = UsbBulkTransport::open(context, *found, {});
+    ASSERT_TRUE(again) << again.error().message;
+    ASSERT_TRUE((*again)->write(bytesOf("back"), kLong));
+    EXPECT_EQ(readAll(**again, 4), bytesOf("back"));
+    EXPECT_EQ(transport->write(bytesOf("old"), kLong).error().code, ErrorCode::Device);
+}
+
+TEST_F(UsbUnplug, ATransportIsDestroyedWithTransfersInFlight) {
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {});
+    for (int round = 0; round < 20; ++round) {
+        auto transport = open(device, vendor);
+        ASSERT_TRUE(transport);
+        device.hold(kOut, true);
+        transport->writeUrgent(bytesOf("stop"));
+        ASSERT_TRUE(device.waitForWaiting(kIn, 8));
+        ASSERT_TRUE(device.waitForWaiting(kOut, 1));
+        transport.reset();
+        device.hold(kOut, false);
+    }
+    EXPECT_TRUE(device.waitForReceived(0).empty());  // all of them were cancelled
+}
+
+TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
+    EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "S"), {.onBytes = echo});
+    for (int round = 0; round < 30; ++round) {
+        auto transport = open(device, vendor);
+        ASSERT_TRUE(transport);
+        // The session's thread works and the stop comes from another until the device is gone.
+        auto working = std::async(std::launch::async, [&] {
+            std::array<std::uint8_t, 64> into{};
+            for (;;) {
+                const auto written = transport->write(bytesOf("work"), kLong);
+                if (!written) return written.error().code;
+                const auto read = transport->read(into, kLong);
+                if (!read) return read.error().code;
+            }
+        });
+        const auto busy = static_cast<std::size_t>(round % 7) + 1;
+        ASSERT_GE(device.waitForReceived(busy).size(), busy);
+        transport->writeUrgent(bytesOf("stop"));
+        device.unplug();
+        transport->writeUrgent(bytesOf("stop"));
+        EXPECT_EQ(working.get(), ErrorCode::Device);
+        transport.reset();
+        ASSERT_TRUE(waitForDevices(0));
+        device.plug();
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test

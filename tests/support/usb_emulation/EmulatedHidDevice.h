@@ -1,0 +1,62 @@
+// EmulatedHidDevice.h - a USB HID device without hardware, for hidapi with either backend: as /dev/hidrawN, and as
+// the USB device behind it. Reports are as on the wire: with their number in front where the report descriptor
+// numbers them, without otherwise.
+//
+// As in the kernel, input reports go to hidraw while usbhid holds the interface, and to the USB endpoint while a
+// program (hidapi's libusb backend) has taken it away; hidraw keeps none while nobody has it open.
+//
+// Thread-safety: as EmulatedUsbDevice.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tests/support/usb_emulation/EmulatedUsbDevice.h"
+
+namespace tacto::test {
+
+struct HidBehaviour {
+    /// An output report; what is returned are input reports that answer it.
+    std::function<std::vector<UsbBytes>(std::span<const std::uint8_t>)> onReport = {};
+    /// The host asks for a feature report by number. Left out, or nothing: what the host set last, or a refusal.
+    std::function<std::optional<UsbBytes>(std::uint8_t)> onFeature = {};
+};
+
+class EmulatedHidDevice {
+public:
+    /// Plugged in at once, into port `port`; its node is /dev/hidraw<port - 1>.
+    EmulatedHidDevice(UsbTestbed& testbed, std::uint16_t vendor, std::uint16_t product, std::string serial,
+                      UsbBytes reportDescriptor, HidBehaviour behaviour, int port = 1);
+    ~EmulatedHidDevice();
+    EmulatedHidDevice(const EmulatedHidDevice&) = delete;
+    EmulatedHidDevice& operator=(const EmulatedHidDevice&) = delete;
+
+    void unplug();
+    void plug();
+    /// An input report that the device sends by itself.
+    void send(std::span<const std::uint8_t> report);
+
+    /// The next hidraw write takes so many bytes only, as counted by write().
+    void takeOnly(std::size_t bytes);
+    /// All hidraw writes fail with this errno until it is 0.
+    void refuseWrites(int error);
+    /// hidraw writes wait while held: a slow device.
+    void hold(bool held);
+
+    /// Waits until the device got so many output reports in all, and returns all of them; fewer after 5 s.
+    [[nodiscard]] std::vector<UsbBytes> waitForReports(std::size_t count) const;
+    /// Feature reports that the host set, in order.
+    [[nodiscard]] std::vector<UsbBytes> featuresSet() const;
+    /// The USB side, for its faults: stall, hold, takeOnly on endpoints 0x01 and 0x81.
+    [[nodiscard]] EmulatedUsbDevice& usb() noexcept;
+
+private:
+    struct Emulation;
+    std::unique_ptr<Emulation> emulation_;
+};
+
+}  // namespace tacto::test

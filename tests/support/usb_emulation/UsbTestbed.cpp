@@ -1,0 +1,57 @@
+#include "tests/support/usb_emulation/UsbTestbed.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+#include <sys/prctl.h>
+#include <umockdev.h>
+#include <unistd.h>
+
+namespace tacto::test {
+
+UsbTestbed::UsbTestbed() {
+    // umockdev_in_mock_environment() goes by a link count of /sys, which some containers do not have.
+    const char* preloaded = std::getenv("LD_PRELOAD");
+    if (preloaded == nullptr || std::string_view(preloaded).find("libumockdev-preload") == std::string_view::npos) {
+        throw std::runtime_error(
+            "no umockdev in this process: start it through tests/support/usb_emulation/"
+            "with-emulated-usb, as ctest does");
+    }
+    // umockdev sleeps 0 us after each system call that it answers; with the usual slack that is 50 us.
+    prctl(PR_SET_TIMERSLACK, 1UL);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGHUP, SIG_IGN);  // an unplugged device is a terminal that hangs up
+    testbed_ = umockdev_testbed_new();
+    // UnprivilegedUser must see it too.
+    std::filesystem::permissions(root(), std::filesystem::perms(0755));
+}
+
+UsbTestbed::~UsbTestbed() { g_object_unref(testbed_); }
+
+std::filesystem::path UsbTestbed::root() const {
+    gchar* text = umockdev_testbed_get_root_dir(testbed_);
+    std::filesystem::path path = text;
+    g_free(text);
+    return path;
+}
+
+namespace {
+constexpr uid_t kNobody = 65534;
+}
+
+UnprivilegedUser::UnprivilegedUser(const UsbTestbed& testbed) {
+    if (geteuid() != 0) return;
+    // umockdev's own sockets are not what permissions are about.
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(testbed.root() / "ioctl")) {
+        std::filesystem::permissions(entry, std::filesystem::perms(0777));
+    }
+    if (setresuid(kNobody, kNobody, 0) != 0) throw std::runtime_error("setresuid to nobody was refused");
+    changed_ = true;
+}
+
+UnprivilegedUser::~UnprivilegedUser() {
+    if (changed_ && setresuid(0, 0, 0) != 0) std::abort();
+}
+
+}  // namespace tacto::test

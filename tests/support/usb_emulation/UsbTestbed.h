@@ -1,0 +1,47 @@
+// UsbTestbed.h - a USB bus without hardware, for the process that makes it and those that it starts: umockdev answers
+// their system calls on /sys, /dev and udev. Made first in a test, before libusb or hidapi starts.
+//
+// Only in a program started through with-emulated-usb; elsewhere the constructor throws and says so.
+// Thread-safety: the test's own thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+struct _UMockdevTestbed;
+
+namespace tacto::test {
+
+class UsbTestbed {
+public:
+    UsbTestbed();
+    ~UsbTestbed();
+    UsbTestbed(const UsbTestbed&) = delete;
+    UsbTestbed& operator=(const UsbTestbed&) = delete;
+
+    [[nodiscard]] _UMockdevTestbed* get() const noexcept { return testbed_; }
+    /// Where the emulated /sys and /dev really are.
+    [[nodiscard]] std::filesystem::path root() const;
+    /// The next device address on the bus; a real bus too gives another one at each plug-in.
+    [[nodiscard]] std::uint8_t nextAddress() noexcept { return ++address_; }
+
+private:
+    _UMockdevTestbed* testbed_;
+    std::uint8_t address_ = 1;  // 1 is the root hub
+};
+
+/// While it lives, this process is a user without privileges, so that permissions count for root too. Other threads
+/// must not plug or unplug meanwhile.
+class UnprivilegedUser {
+public:
+    explicit UnprivilegedUser(const UsbTestbed& testbed);
+    ~UnprivilegedUser();
+    UnprivilegedUser(const UnprivilegedUser&) = delete;
+    UnprivilegedUser& operator=(const UnprivilegedUser&) = delete;
+
+private:
+    bool changed_ = false;
+};
+
+}  // namespace tacto::test
