@@ -79,8 +79,9 @@ PulseReading readPulse(const ChannelConfigAck& ack, const PulsePlan& plan, Volts
     } else if (ack.measurement == Measurement::Voltage) {
         if (*end >= kAtCompliance * compliance.value()) reading.electrode = ElectrodeState::Open;
         if (reading.electrode == ElectrodeState::Open) return reading;  // the current is not the commanded one
-        reading.impedance = Ohms(*end / (commanded * 1e-3));
-        reading.electrode = *reading.impedance < kTouching ? ElectrodeState::Short : ElectrodeState::Ok;
+        const Ohms impedance(*end / (commanded * 1e-3));
+        reading.electrode = impedance < kTouching ? ElectrodeState::Short : ElectrodeState::Ok;
+        if (*end > 0) reading.impedance = impedance;  // 0 is less than the last digit, not a measurement
     }
     return reading;
 }

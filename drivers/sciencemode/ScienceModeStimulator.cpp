@@ -23,6 +23,7 @@ Result<std::unique_ptr<ScienceModeStimulator>> ScienceModeStimulator::open(Conne
         const auto found = self.connect();
         if (!found) return failure(found);
         if (!wanted.empty() && found->id != wanted) {
+            self.disconnect();
             return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
         }
         self.identity_ = {std::move(uri),
@@ -31,6 +32,7 @@ Result<std::unique_ptr<ScienceModeStimulator>> ScienceModeStimulator::open(Conne
                           found->id,
                           fmt::format("{}, ScienceMode {}", found->firmware.text(), found->protocol.text()),
                           found->id.starts_with(kEmulatedId)};
+        self.endEverything();
         if (const auto ready = self.ensureLowLevel(self.offs_.load()); !ready) return failure(ready);
     }
     if (!clock.isVirtual()) self.thread_ = std::thread([&self] { self.run(); });
@@ -52,15 +54,17 @@ ScienceModeStimulator::~ScienceModeStimulator() {
         endEverything();  // waits for the acks: the bytes are out before the transport closes
 }
 
-Result<Identification> ScienceModeStimulator::connect() {
+void ScienceModeStimulator::disconnect() {
     exchange_.reset();
-    {
-        std::unique_ptr<Transport> old;
-        const std::scoped_lock urgent(urgent_);
-        old = std::move(transport_);
-    }
     gone_ = true;
     level_ = Level::None;
+    std::unique_ptr<Transport> old;  // closed after the lock is let go
+    const std::scoped_lock urgent(urgent_);
+    old = std::move(transport_);
+}
+
+Result<Identification> ScienceModeStimulator::connect() {
+    disconnect();
     auto transport = connect_();
     if (!transport) return failure(transport);
     {
@@ -68,9 +72,13 @@ Result<Identification> ScienceModeStimulator::connect() {
         transport_ = std::move(*transport);
     }
     exchange_ = std::make_unique<Exchange>(*transport_, clock_);
-    endEverything();
+    // Asked before anything else: it may be some other instrument's serial port.
     auto found = identify(*exchange_);
-    if (found && !exchange_->gone()) gone_ = false;
+    if (found) {
+        gone_ = false;
+    } else {
+        disconnect();  // not even a stop is for it
+    }
     return found;
 }
 
@@ -153,9 +161,10 @@ Result<StimulatorStatus> ScienceModeStimulator::status() {
                         found.error().message);
         }
         if (found->id != identity_.serial) {
-            gone_ = true;
+            disconnect();
             return fail(ErrorCode::Device, "stimulator {} answered where {} was expected", found->id, identity_.serial);
         }
+        endEverything();
     }
     return askStatus();
 }

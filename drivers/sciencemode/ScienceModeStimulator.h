@@ -107,7 +107,8 @@ private:
     ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock);
 
     // With io_ held:
-    [[nodiscard]] Result<Identification> connect();
+    void disconnect();
+    [[nodiscard]] Result<Identification> connect();  // and asks who is there, nothing else
     void endEverything();
     /// A request with a plain ack. A stop since `offs` is repeated behind it.
     [[nodiscard]] Result<void> command(Command command, const Payload& payload, std::uint64_t offs);

@@ -62,7 +62,7 @@ TEST(ScienceModeOpen, RefusesADeviceThatIsNotWhatItShouldBe) {
         const auto refused = opens(line, clock, wanted);
         ASSERT_FALSE(refused.has_value()) << id << major;
         EXPECT_EQ(refused.error().code, code) << refused.error().message;
-        EXPECT_EQ(line->pulses(), 0U);
+        EXPECT_LE(line->written().size(), 2U) << "it was asked who it is, and left alone";
     }
 }
 
