@@ -132,6 +132,14 @@ StateLook stateLook(InterlockState state) {
     return {QObject::tr("FAULTED"), "■", c.fault};
 }
 
+QString ageText(double seconds) {
+    if (!std::isfinite(seconds)) return "–";
+    if (seconds < 1) return QObject::tr("just now");
+    if (seconds < 120) return QObject::tr("%1 s ago").arg(int(seconds));
+    if (seconds < 7200) return QObject::tr("%1 min ago").arg(int(seconds / 60));
+    return QObject::tr("%1 h ago").arg(int(seconds / 3600));
+}
+
 QFont digits(QFont font, double scale) {
     if (font.pointSizeF() > 0) font.setPointSizeF(font.pointSizeF() * scale);
     font.setStyleHint(QFont::SansSerif);

@@ -67,6 +67,9 @@ void stylePlot(QCustomPlot& plot);
 /// "SIMULATED" across an axis rect, behind the data. Returns the item, to be hidden where nothing is simulated.
 QCPItemText* addWatermark(QCPAxisRect& axes);
 
+/// "just now", "2 s ago", "3 min ago"; "–" for NaN.
+[[nodiscard]] QString ageText(double seconds);
+
 /// A heading, and a quiet line of explanation that wraps.
 [[nodiscard]] QWidget* heading(const QString& text, QWidget* parent = nullptr);
 [[nodiscard]] QWidget* explanation(const QString& text, QWidget* parent = nullptr);

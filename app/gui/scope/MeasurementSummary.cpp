@@ -47,13 +47,6 @@ QString whyMissing(Reading reading, const ChannelMeasurement& channel) {
     return QObject::tr("The record holds one train. For an interval choose a longer record in the oscilloscope.");
 }
 
-QString ageText(double seconds) {
-    if (!(seconds >= 1)) return QObject::tr("now");
-    if (seconds < 120) return QObject::tr("%1 s ago").arg(static_cast<int>(seconds));
-    if (seconds < 7200) return QObject::tr("%1 min ago").arg(static_cast<int>(seconds / 60));
-    return QObject::tr("%1 h ago").arg(static_cast<int>(seconds / 3600));
-}
-
 QString titled(QString name) {
     if (!name.isEmpty()) name[0] = name[0].toUpper();
     return name;
@@ -146,7 +139,6 @@ void MeasurementSummary::lay(const std::vector<ChannelMeasurement>& measured) {
     for (const auto& m : measured) {
         Column column{QString::fromStdString(m.name), QString::fromStdString(m.unit), new QLabel(this), {}};
         const int at = static_cast<int>(columns_.size()) + 1;
-        column.title->setText(titled(column.name));
         column.title->setAlignment(Qt::AlignRight);
         grid_->addWidget(column.title, 0, at);
         for (std::size_t r = 0; r < kRows; ++r) {
@@ -230,25 +222,21 @@ void MeasurementSummary::changeEvent(QEvent* event) {
 }
 
 void MeasurementSummary::restyle() {
-    // The numbers are the data; what stands around them is quiet. A channel has its colour.
-    const auto paint = [](QLabel* label, const QColor& colour) {
-        QPalette palette;
-        palette.setColor(QPalette::WindowText, colour);
-        label->setPalette(palette);
-    };
+    // The numbers are the data; what stands around them is quiet. Roles and rich text follow a theme: a label's own
+    // palette is laid aside when the theme's style sheet comes.
+    for (auto* label : {head_, note_, impedanceName_}) label->setForegroundRole(QPalette::PlaceholderText);
+    for (auto* label : names_) label->setForegroundRole(QPalette::PlaceholderText);
     const auto& c = colours();
-    for (auto* label : {head_, note_, impedanceName_}) paint(label, c.quiet);
-    for (auto* label : names_) paint(label, c.quiet);
     for (auto& column : columns_) {
-        paint(column.title, column.unit == "A" ? c.current : c.voltage);
+        column.title->setText(
+            QString("<span style=\"color:%1\">%2</span>")
+                .arg((column.unit == "A" ? c.current : c.voltage).name(), titled(column.name).toHtmlEscaped()));
         for (auto* value : column.values) {
-            paint(value, c.text);
             value->setFont(digits(font()));
             // As wide as what may come: figures that jump cannot be read.
             value->setMinimumWidth(value->fontMetrics().horizontalAdvance("000.0 mm"));
         }
     }
-    paint(impedance_, c.text);
     impedance_->setFont(digits(font()));
 }
 

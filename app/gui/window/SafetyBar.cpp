@@ -43,14 +43,6 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
 
 }  // namespace
 
-QString ageText(double seconds) {
-    if (!std::isfinite(seconds)) return "–";
-    if (seconds < 1) return QObject::tr("just now");
-    if (seconds < 120) return QObject::tr("%1 s ago").arg(int(seconds));
-    if (seconds < 7200) return QObject::tr("%1 min ago").arg(int(seconds / 60));
-    return QObject::tr("%1 h ago").arg(int(seconds / 3600));
-}
-
 SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(desk) {
     setObjectName("safetyBar");
     setAccessibleName(tr("Safety bar"));

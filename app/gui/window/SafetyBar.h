@@ -55,7 +55,4 @@ private:
     InterlockState state_ = InterlockState::Disconnected;
 };
 
-/// "just now", "2 s ago", "3 min ago"; "–" for NaN.
-[[nodiscard]] QString ageText(double seconds);
-
 }  // namespace tacto::gui

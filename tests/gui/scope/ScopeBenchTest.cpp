@@ -122,7 +122,7 @@ TEST_F(Summary, ShowsTheLatestCapturesFiguresByChannel) {
     EXPECT_THAT(find<QLabel>(summary, "Charge of Voltage")->toolTip().toStdString(), HasSubstr("current channel"));
     EXPECT_NEAR(gui::impedanceOf(shown->measurement), 1000, 5);
     EXPECT_THAT(figure(summary, "Impedance").toStdString(), HasSubstr("kΩ"));
-    EXPECT_THAT(head(), AllOf(StartsWith("now"), HasSubstr("simulated")));
+    EXPECT_THAT(head(), AllOf(StartsWith("just now"), HasSubstr("simulated")));
     shot(summary, "summary");
     gui::applyTheme(gui::Theme::Dark);
     QCoreApplication::processEvents();

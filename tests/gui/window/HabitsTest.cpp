@@ -152,6 +152,25 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
     help->close();
 }
 
+TEST_F(Habits, AThemeChangesEverythingAtOnce) {
+    open();
+    arm();
+    deliver();
+    const auto* charge = window.findChild<QLabel*>("summaryHead");
+    ASSERT_NE(charge, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return charge->text().contains("simulated"); })) << "a capture was measured";
+    menuEntry("View", "Dark")->trigger();
+    QTest::qWait(100);
+    shot(window, "dark-while-measured");
+    for (const auto* label : window.findChildren<QLabel*>()) {
+        if (!label->isVisible() || label->text().isEmpty()) continue;
+        if (label->text().contains("color:")) continue;  // a channel's own, in rich text
+        EXPECT_GT(label->palette().color(label->foregroundRole()).lightness(), 120)
+            << "dark on dark: \"" << label->text().toStdString() << "\"";
+    }
+    menuEntry("View", "Light")->trigger();
+}
+
 TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
     auto* list = window.findChild<QTreeWidget*>();
     ASSERT_NE(list, nullptr);

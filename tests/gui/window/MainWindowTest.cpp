@@ -3,6 +3,7 @@
 #include <QDialog>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QPointer>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTabWidget>
@@ -148,6 +149,35 @@ TEST_F(Window, EveryControlHasAToolTipOrALabelOfItsOwn) {
                 << button->parent()->metaObject()->className();
         }
     }
+}
+
+/// Counts when a widget is hidden, and how often the desk was gone by then.
+class Witness final : public QObject {
+public:
+    explicit Witness(gui::BenchDesk& desk) : desk_(&desk) {}
+    int hidden = 0, late = 0;
+
+protected:
+    bool eventFilter(QObject*, QEvent* event) override {
+        if (event->type() != QEvent::Hide) return false;
+        ++hidden;
+        if (desk_.isNull()) ++late;
+        return false;
+    }
+
+private:
+    QPointer<gui::BenchDesk> desk_;
+};
+
+TEST(WindowsEnd, AWindowDeletedWhileShownHidesBeforeItsDeskIsGone) {
+    auto window = std::make_unique<gui::MainWindow>(simulatedRegistry);
+    window->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+    Witness witness(window->desk());
+    window->findChild<QTabWidget*>("livePage")->installEventFilter(&witness);
+    window.reset();
+    EXPECT_GE(witness.hidden, 1);
+    EXPECT_EQ(witness.late, 0);
 }
 
 TEST_F(Window, LooksRightInBothThemesAndSizes) {
