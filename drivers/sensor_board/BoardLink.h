@@ -1,0 +1,64 @@
+// BoardLink.h - questions to a board and the frames that come from it, over a Transport.
+//
+// ask() waits, within bounds: three attempts of 0.3 s, 64 KiB of whatever else comes. A board that floods the line with
+// noise, or says nothing, is refused in the end, never waited for.
+//
+// Thread-safety: none; one owner.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/base/Clock.h"
+#include "core/devices/Transport.h"
+#include "drivers/sensor_board/Messages.h"
+
+namespace tacto::sensorboard {
+
+class BoardLink {
+public:
+    static constexpr Seconds kAttempt{0.3};
+    static constexpr int kAttempts = 3;
+    static constexpr std::size_t kNoiseMost = 65536;
+
+    BoardLink(std::unique_ptr<Transport> transport, const Clock& clock)
+        : transport_(std::move(transport)), clock_(clock) {}
+
+    /// Sends a command and waits for its answer, which is valid until the next call. Other frames are passed over.
+    /// Errors: Timeout where nothing sound came; Device where only noise did, the board refused, or the line failed.
+    [[nodiscard]] Result<Frame> ask(Command command, Reply answer, std::span<const std::uint8_t> payload = {});
+
+    /// The next frame of what has been read; nothing when that is used up: see fill().
+    [[nodiscard]] std::optional<Frame> next() noexcept { return decoder_.take(pending_); }
+    /// Reads what has arrived; false when there is nothing. `timeout` 0 does not wait. Errors: Device.
+    [[nodiscard]] Result<bool> fill(Seconds timeout);
+    /// When fill() last got something, on the session's clock.
+    [[nodiscard]] Instant arrival() const noexcept { return arrival_; }
+    /// When ask() last sent something.
+    [[nodiscard]] Instant sent() const noexcept { return sent_; }
+
+    /// Tells the board to stop, without waiting for anything.
+    void stopUnheard() noexcept;
+
+    [[nodiscard]] const LineCounts& counts() const noexcept { return decoder_.counts(); }
+    [[nodiscard]] std::uint64_t dropped() const noexcept { return transport_->dropped(); }
+
+private:
+    [[nodiscard]] Result<std::optional<Frame>> await(Command command, Reply answer, std::uint8_t token);
+
+    const std::unique_ptr<Transport> transport_;
+    const Clock& clock_;
+    FrameDecoder decoder_;
+    std::array<std::uint8_t, 4096> buffer_{};
+    std::span<const std::uint8_t> pending_;
+    Instant arrival_{0};
+    Instant sent_{0};
+    std::uint8_t token_ = 0;
+    const std::vector<std::uint8_t> stop_ = encodeCommand(Command::Stop, 255);  // made before it is needed
+};
+
+/// "HELLO", for messages.
+[[nodiscard]] std::string_view nameOf(Command command) noexcept;
+
+}  // namespace tacto::sensorboard

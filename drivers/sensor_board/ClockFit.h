@@ -1,0 +1,104 @@
+// ClockFit.h - the board's time on the session's clock, and by how much the two run apart.
+//
+// What the host sees of a moment of the board is when its message arrived: the moment plus a delay that is never
+// negative, mostly short and now and then very long (a host that was busy). So the true line lies under all points,
+// and the lowest ones tell of it.
+//
+// Method: the lowest point of every 2 s of board time (as in Paxson, "On calibrating measurements of packet transit
+// times", SIGMETRICS 1998), over the last 10 minutes; of these the half nearest the line, three times over, so that the
+// line settles on the lower envelope (the line under all points of Moon, Skelly and Towsley, "Estimation and removal of
+// clock skew from network delay measurements", INFOCOM 1999); least squares through what is left. The uncertainty is
+// the spread of those points about the line over their extent in time, which bounds the slope of any line that misses
+// none of them by more than that spread. Before 16 s there is no drift to speak of: none is reported and none applied.
+// The offset is that of the shortest delay seen in the last minute: stamps are late by that delay, never early.
+//
+// Mapping: what is learnt is applied by turning the clock faster or slower by at most 0.5 %, so that stamps stay evenly
+// spaced. One thing is done at once: a message that arrived before its own moment, as mapped, shifts the mapping back,
+// for no sample is ever stamped ahead of now (hazard H7); such steps are counted.
+//
+// Thread-safety: none; one owner. Never allocates after construction.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/Units.h"
+
+namespace tacto::sensorboard {
+
+struct ClockReport {
+    /// How much faster than the host's clock the board's runs, parts per million; nothing before it is known.
+    std::optional<double> drift_ppm;
+    std::optional<double> uncertainty_ppm;  ///< of the drift: ± this
+    double span_s = 0;                      ///< board time that the estimate stands on
+    std::uint64_t steps = 0;                ///< times that the mapping was shifted back at once by 0.1 ms or more
+    double largestStep_s = 0;
+    double correction_s = 0;  ///< applied now: session time minus board time, less what it was at first
+};
+
+class ClockFit {
+public:
+    ClockFit();
+
+    /// Something that the board did or wrote at `device_us` (µs since its power-up) had arrived at `arrival`.
+    void observe(std::uint64_t device_us, Instant arrival);
+    /// Session time of a moment of the board, seconds. Meaningful after the first observe(); asked for moments not much
+    /// later than the last one observed and at most a second or so before it.
+    [[nodiscard]] double toSession(double device_us) const noexcept;
+    /// By how much `device_us`, as mapped, is later than its own message's arrival: above 0 only where the board's time
+    /// jumped, or a message was quicker than any before. Meaningful after the first observe().
+    [[nodiscard]] double early_s(std::uint64_t device_us, Instant arrival) const noexcept;
+    [[nodiscard]] bool started() const noexcept { return started_; }
+    [[nodiscard]] const ClockReport& report() const noexcept { return report_; }
+
+    static constexpr double kWindow_s = 2;
+    static constexpr std::size_t kWindows = 300;     ///< 10 minutes
+    static constexpr std::size_t kWindowsLeast = 8;  ///< before there is a drift
+    static constexpr double kSlewMost = 0.005;
+
+private:
+    struct Point {
+        double x;  // board seconds since the first observation
+        double y;  // arrival minus that
+    };
+    struct Knot {
+        double x;
+        double correction;
+    };
+    struct Line {
+        double slope = 0;
+        double uncertainty = 0;
+        double extent = 0;
+    };
+    void closeWindow();
+    [[nodiscard]] std::optional<Line> fit();
+    void place();
+    void follow(double x, double y);
+    [[nodiscard]] double correctionAt(double x) const noexcept;
+
+    bool started_ = false;
+    std::uint64_t first_us_ = 0;
+    double firstArrival_s_ = 0;
+
+    std::vector<Point> windows_;  // a ring of kWindows, oldest first from begin_
+    std::size_t begin_ = 0;
+    std::vector<Point> kept_;     // fit()'s own
+    std::vector<double> misses_;  // fit()'s own
+    Point lowest_{};              // of the window that is open
+    double windowEnds_ = 0;
+    double slope_ = 0;  // of y over x; minus the drift, nearly
+    double base_ = 0;   // y of the line at x = 0
+
+    static constexpr std::size_t kKnots = 32;
+    static constexpr double kKnotEvery_s = 0.05;
+    std::array<Knot, kKnots> knots_{};  // a ring, newest at newest_; corrections between them are interpolated
+    std::size_t newest_ = 0;
+    std::size_t knotCount_ = 0;
+    double rate_ = 0;  // of the correction, beyond the newest knot
+    ClockReport report_;
+};
+
+}  // namespace tacto::sensorboard

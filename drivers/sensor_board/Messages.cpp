@@ -1,0 +1,258 @@
+#include "drivers/sensor_board/Messages.h"
+
+#include <cmath>
+
+#include "drivers/sensor_board/Fields.h"
+
+namespace tacto::sensorboard {
+
+namespace {
+
+constexpr std::size_t kNameBytes = 24, kSerialBytes = 16, kFirmwareBytes = 16, kDateBytes = 10, kReferenceBytes = 24;
+constexpr std::uint32_t kRateMost_mhz = 1'000'000'000;  // 1 MHz
+
+std::optional<StreamKind> kindOf(std::uint8_t wire) noexcept {
+    switch (wire) {
+        case 0:
+            return StreamKind::Acceleration;
+        case 1:
+            return StreamKind::Force;
+        case 2:
+            return StreamKind::Taxels;
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<StreamUnit> unitOf(std::uint8_t wire) noexcept {
+    switch (wire) {
+        case 0:
+            return StreamUnit::Count;
+        case 1:
+            return StreamUnit::MetrePerSecondSquared;
+        case 2:
+            return StreamUnit::Newton;
+        case 3:
+            return StreamUnit::Pascal;
+        default:
+            return std::nullopt;
+    }
+}
+
+std::uint8_t wireOf(StreamKind kind) noexcept {
+    return kind == StreamKind::Acceleration ? 0 : kind == StreamKind::Force ? 1 : 2;
+}
+
+std::uint8_t wireOf(StreamUnit unit) noexcept {
+    switch (unit) {
+        case StreamUnit::MetrePerSecondSquared:
+            return 1;
+        case StreamUnit::Newton:
+            return 2;
+        case StreamUnit::Pascal:
+            return 3;
+        case StreamUnit::Count:
+            break;
+    }
+    return 0;
+}
+
+StreamUnit properUnit(StreamKind kind) noexcept {
+    return kind == StreamKind::Acceleration ? StreamUnit::MetrePerSecondSquared
+           : kind == StreamKind::Force      ? StreamUnit::Newton
+                                            : StreamUnit::Pascal;
+}
+
+struct Range {
+    std::size_t least, most;
+};
+Range columnsOf(StreamKind kind) noexcept {
+    return kind == StreamKind::Acceleration ? Range{1, 3} : kind == StreamKind::Force ? Range{1, 1} : Range{2, 16};
+}
+
+template <class... Args>
+tl::unexpected<Error> wrong(fmt::format_string<Args...> text, Args&&... args) {
+    return fail(ErrorCode::ParseError, text, std::forward<Args>(args)...);
+}
+
+}  // namespace
+
+std::string Refusal::text() const {
+    switch (reason) {
+        case 1:
+            return "it does not know this command";
+        case 2:
+            return "it has no such stream";
+        case 3:
+            return "it does not support this value";
+        case 4:
+            return "it does this only while stopped";
+        case 5:
+            return "its hardware failed";
+        default:
+            return fmt::format("for reason {}, which this version of the protocol does not have", reason);
+    }
+}
+
+std::uint8_t tokenOf(const Frame& frame) noexcept { return frame.payload.empty() ? std::uint8_t{0} : frame.payload[0]; }
+
+Result<BoardIdentity> readIdentity(const Frame& frame) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    BoardIdentity identity;
+    identity.lowestVersion = in.u8();
+    identity.highestVersion = in.u8();
+    identity.streams = in.u8();
+    identity.name = in.text(kNameBytes);
+    identity.serial = in.text(kSerialBytes);
+    identity.firmware = in.text(kFirmwareBytes);
+    if (!in.whole()) return wrong("its identity has {} bytes; 60 were expected", frame.payload.size());
+    if (identity.streams < 1 || identity.streams > kStreamsMost) {
+        return wrong("it says that it has {} streams; 1 to {} were expected", identity.streams, kStreamsMost);
+    }
+    if (identity.serial.empty())
+        return wrong("it has no serial number; 1 to {} characters were expected", kSerialBytes);
+    return identity;
+}
+
+Result<StreamConfiguration> readConfiguration(const Frame& frame) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    StreamConfiguration made;
+    made.stream = in.u8();
+    const auto flags = in.u8();
+    made.enabled = (flags & 1U) != 0;
+    const auto kind = in.u8(), unit = in.u8(), format = in.u8(), columns = in.u8();
+    made.rate_mhz = in.u32();
+    if (columns > kColumnsMost) return wrong("stream {} has {} columns; 1 to 16 were expected", made.stream, columns);
+    for (int i = 0; i < columns; ++i) {
+        Column column;
+        column.scale = in.f32();
+        column.offset = in.f32();
+        made.columns.push_back(column);
+    }
+    if (!in.whole()) {
+        return wrong("the configuration of stream {} has {} bytes; {} were expected", made.stream, frame.payload.size(),
+                     11 + 8 * columns);
+    }
+    if ((flags & ~1U) != 0) return wrong("stream {} has flags {:#x}; 0 or 1 was expected", made.stream, flags);
+    const auto known = kindOf(kind);
+    if (!known) return wrong("stream {} is of kind {}; 0, 1 or 2 was expected", made.stream, kind);
+    made.kind = *known;
+    const auto knownUnit = unitOf(unit);
+    if (!knownUnit || (*knownUnit != StreamUnit::Count && *knownUnit != properUnit(made.kind))) {
+        return wrong("its {} stream is in {}; {} or count was expected", nameOf(made.kind),
+                     knownUnit ? std::string(symbolOf(*knownUnit)) : fmt::format("unit {}", unit),
+                     symbolOf(properUnit(made.kind)));
+    }
+    made.unit = *knownUnit;
+    if (format != 1 && format != 2) {
+        return wrong("its {} stream has format {}; 1 (int16) or 2 (int32) was expected", nameOf(made.kind), format);
+    }
+    made.format = static_cast<SampleFormat>(format);
+    const auto range = columnsOf(made.kind);
+    if (columns < range.least || columns > range.most) {
+        return wrong("its {} stream has {} columns; {} to {} were expected", nameOf(made.kind), columns, range.least,
+                     range.most);
+    }
+    if (made.rate_mhz < 1000 || made.rate_mhz > kRateMost_mhz) {
+        return wrong("its {} stream has a rate of {} Hz; 1 Hz to 1 MHz was expected", nameOf(made.kind),
+                     made.rate_hz());
+    }
+    for (const auto& column : made.columns) {
+        if (!std::isfinite(column.scale) || column.scale == 0 || !std::isfinite(column.offset)) {
+            return wrong("its {} stream has the scale {} and offset {}; a finite scale other than 0 was expected",
+                         nameOf(made.kind), column.scale, column.offset);
+        }
+        if (made.unit == StreamUnit::Count && (column.scale != 1 || column.offset != 0)) {
+            return wrong("its {} stream counts with the scale {} and offset {}; 1 and 0 were expected",
+                         nameOf(made.kind), column.scale, column.offset);
+        }
+    }
+    return made;
+}
+
+Result<StreamCalibration> readCalibration(const Frame& frame) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    StreamCalibration made;
+    made.stream = in.u8();
+    made.calibrated = (in.u8() & 1U) != 0;
+    const auto columns = in.u8();
+    made.date = in.text(kDateBytes);
+    made.reference = in.text(kReferenceBytes);
+    if (columns < 1 || columns > kColumnsMost) {
+        return wrong("the calibration of stream {} has {} columns; 1 to 16 were expected", made.stream, columns);
+    }
+    for (int i = 0; i < columns; ++i) made.uncertainty.push_back(in.f32());
+    if (!in.whole()) {
+        return wrong("the calibration of stream {} has {} bytes; {} were expected", made.stream, frame.payload.size(),
+                     38 + 4 * columns);
+    }
+    for (const double u : made.uncertainty) {
+        if (u >= 0 && std::isfinite(u)) continue;
+        return wrong("the calibration of stream {} has an uncertainty of {}; 0 or more was expected", made.stream, u);
+    }
+    return made;
+}
+
+Result<BoardStatus> readStatus(const Frame& frame) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    BoardStatus status;
+    status.running = (in.u8() & 1U) != 0;
+    status.faultyStreams = in.u8();
+    status.time_us = in.u64();
+    status.samplesLost = in.u32();
+    status.blocksDropped = in.u32();
+    status.framesRefused = in.u32();
+    if (!in.whole()) return wrong("its status has {} bytes; 23 were expected", frame.payload.size());
+    return status;
+}
+
+Result<Refusal> readRefusal(const Frame& frame) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    Refusal refusal;
+    refusal.command = in.u8();
+    refusal.reason = in.u8();
+    if (!in.whole()) return wrong("its refusal has {} bytes; 3 were expected", frame.payload.size());
+    return refusal;
+}
+
+Result<std::uint64_t> readDone(const Frame& frame, Command command) {
+    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    const auto done = in.u8();
+    const auto time = in.u64();
+    if (!in.whole()) return wrong("its DONE has {} bytes; 10 were expected", frame.payload.size());
+    if (done != static_cast<std::uint8_t>(command)) {
+        return wrong("it says that it has done command {}; {} was expected", done, static_cast<int>(command));
+    }
+    return time;
+}
+
+std::optional<DataBlock> readBlock(const Frame& frame) noexcept {
+    FieldReader in(frame.payload);
+    DataBlock block;
+    block.stream = in.u8();
+    block.count = in.u8();
+    block.sequence = in.u32();
+    block.index = in.u32();
+    block.time_us = in.u64();
+    block.interval_ns = in.u32();
+    block.samples = in.rest();
+    if (block.count == 0 || block.samples.empty()) return std::nullopt;
+    return block;
+}
+
+std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration) {
+    std::vector<std::uint8_t> bytes{configuration.stream,
+                                    static_cast<std::uint8_t>(configuration.enabled ? 1 : 0),
+                                    wireOf(configuration.kind),
+                                    wireOf(configuration.unit),
+                                    static_cast<std::uint8_t>(configuration.format),
+                                    static_cast<std::uint8_t>(configuration.columns.size())};
+    putU32(bytes, configuration.rate_mhz);
+    for (const auto& column : configuration.columns) {
+        putF32(bytes, static_cast<float>(column.scale));
+        putF32(bytes, static_cast<float>(column.offset));
+    }
+    return bytes;
+}
+
+}  // namespace tacto::sensorboard

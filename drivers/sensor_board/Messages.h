@@ -1,0 +1,105 @@
+// Messages.h - what a board says, from payloads to values (PROTOCOL.md, sections 3 to 5). Pure: no I/O, no state.
+//
+// Nothing here trusts the board: a payload of the wrong length, a field out of its range, a scale that is no number or
+// a unit that does not go with the kind of stream is refused with one sentence.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Stream.h"
+#include "drivers/sensor_board/Wire.h"
+
+namespace tacto::sensorboard {
+
+inline constexpr std::size_t kStreamsMost = 8;
+inline constexpr std::size_t kColumnsMost = 16;
+
+struct BoardIdentity {
+    int lowestVersion = 0;  ///< of the protocol, that the board speaks
+    int highestVersion = 0;
+    std::size_t streams = 0;
+    std::string name;
+    std::string serial;
+    std::string firmware;
+};
+
+enum class SampleFormat : std::uint8_t { Int16 = 1, Int32 = 2 };
+[[nodiscard]] constexpr std::size_t bytesOf(SampleFormat format) noexcept {
+    return format == SampleFormat::Int16 ? 2 : 4;
+}
+
+/// What turns a raw number into a value: scale * raw + offset.
+struct Column {
+    double scale = 1;
+    double offset = 0;
+};
+
+struct StreamConfiguration {
+    std::uint8_t stream = 0;
+    bool enabled = false;
+    StreamKind kind = StreamKind::Acceleration;
+    StreamUnit unit = StreamUnit::Count;
+    SampleFormat format = SampleFormat::Int16;
+    std::uint32_t rate_mhz = 0;  ///< samples per second, in thousandths, as on the wire
+    std::vector<Column> columns;
+
+    [[nodiscard]] double rate_hz() const noexcept { return rate_mhz / 1000.0; }
+};
+
+struct StreamCalibration {
+    std::uint8_t stream = 0;
+    bool calibrated = false;
+    std::string date;                 ///< "2026-11-20"; empty where the board has none
+    std::string reference;            ///< certificate or procedure
+    std::vector<double> uncertainty;  ///< of each column's scale, relative, standard (k = 1)
+};
+
+struct BoardStatus {
+    bool running = false;
+    std::uint8_t faultyStreams = 0;  ///< bit i: the sensor of stream i does not answer
+    std::uint64_t time_us = 0;       ///< since power-up
+    std::uint32_t samplesLost = 0;
+    std::uint32_t blocksDropped = 0;
+    std::uint32_t framesRefused = 0;
+};
+
+/// `samples` points into the payload: count * columns numbers, still to be checked against the stream's.
+struct DataBlock {
+    std::uint8_t stream = 0;
+    std::uint8_t count = 0;
+    std::uint32_t sequence = 0;
+    std::uint32_t index = 0;
+    std::uint64_t time_us = 0;
+    std::uint32_t interval_ns = 0;
+    std::span<const std::uint8_t> samples;
+};
+
+struct Refusal {
+    std::uint8_t command = 0;
+    std::uint8_t reason = 0;
+    [[nodiscard]] std::string text() const;
+};
+
+/// The token of an answer; 0 for what was not asked for.
+[[nodiscard]] std::uint8_t tokenOf(const Frame& frame) noexcept;
+
+/// Errors, all: ParseError naming the field, its value and what was expected.
+[[nodiscard]] Result<BoardIdentity> readIdentity(const Frame& frame);
+[[nodiscard]] Result<StreamConfiguration> readConfiguration(const Frame& frame);
+[[nodiscard]] Result<StreamCalibration> readCalibration(const Frame& frame);
+[[nodiscard]] Result<BoardStatus> readStatus(const Frame& frame);
+[[nodiscard]] Result<Refusal> readRefusal(const Frame& frame);
+/// The time at which DONE was said, if it answers `command`.
+[[nodiscard]] Result<std::uint64_t> readDone(const Frame& frame, Command command);
+/// Never allocates. Nothing for a payload that is no block.
+[[nodiscard]] std::optional<DataBlock> readBlock(const Frame& frame) noexcept;
+
+/// The payload of SET_CONFIGURATION after its token.
+[[nodiscard]] std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration);
+
+}  // namespace tacto::sensorboard

@@ -1,0 +1,21 @@
+// UsbSensorBoards.h - sensor boards that are plugged in, found by VID:PID and product string, over libusb.
+//
+// Thread-safety: as SensorBoardPorts.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "drivers/sensor_board/SensorBoardDriver.h"
+#include "drivers/usb/UsbContext.h"
+
+namespace tacto {
+
+/// Opens a terminal for `tty=`; may be null.
+using OpenTerminal = std::function<Result<std::unique_ptr<Transport>>(const std::string& path)>;
+
+/// `context` may be null (no USB in this system): then only `tty=` opens anything.
+[[nodiscard]] std::shared_ptr<SensorBoardPorts> makeUsbSensorBoards(std::shared_ptr<UsbContext> context,
+                                                                    OpenTerminal openTerminal);
+
+}  // namespace tacto
