@@ -1,13 +1,35 @@
 #include "drivers/usb/UsbDevice.h"
 
 #include <algorithm>
-#include <cmath>
+#include <condition_variable>
 #include <libusb.h>
+#include <mutex>
 
 #include "drivers/usb/UsbError.h"
 #include "drivers/usb/UsbLine.h"
 
 namespace tacto {
+
+namespace {
+
+constexpr std::size_t kControlMost = 4096;  // usbfs takes a page at most
+
+/// The end of one transfer, for the thread that waits for it. libusb's own synchronous calls are not used: they may
+/// run everybody's callbacks in the calling thread.
+struct Ended {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool over = false;
+
+    static void LIBUSB_CALL callback(libusb_transfer* transfer) noexcept {
+        auto& self = *static_cast<Ended*>(transfer->user_data);
+        const std::lock_guard lock(self.mutex);
+        self.over = true;
+        self.changed.notify_all();  // under the lock: the waiting thread may destroy this right after
+    }
+};
+
+}  // namespace
 
 Result<std::shared_ptr<UsbDevice>> UsbDevice::open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info) {
     auto handle = context->openHandle(info);
@@ -50,20 +72,41 @@ Result<void> UsbDevice::claim(std::uint8_t interface) {
 
 Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout) {
     const auto what = fmt::format("request {:#04x}", request.request);
-    if (!deadlineAfter(timeout)) {
+    const auto deadline = deadlineAfter(timeout);
+    if (!deadline) {
         return fail(ErrorCode::InvalidArgument, "{}: the time-out of {} is {} s; {}", label_, what, timeout.count(),
                     kTimeoutRange);
     }
-    if (data.size() > 4096) {  // usbfs takes a page at most
-        return fail(ErrorCode::InvalidArgument, "{}: {} has {} bytes; at most 4096 were expected", label_, what,
-                    data.size());
+    if (data.size() > kControlMost) {
+        return fail(ErrorCode::InvalidArgument, "{}: {} has {} bytes; at most {} were expected", label_, what,
+                    data.size(), kControlMost);
     }
-    // To libusb 0 ms means for ever.
-    const auto milliseconds = static_cast<unsigned>(std::max(1.0, std::ceil(timeout.count() * 1e3)));
-    const int code = libusb_control_transfer(handle_, request.type, request.request, request.value, request.index,
-                                             data.data(), static_cast<std::uint16_t>(data.size()), milliseconds);
-    if (code < 0) return tl::unexpected(usbError(code, label_, what));
-    return static_cast<std::size_t>(code);
+    std::vector<std::uint8_t> bytes(LIBUSB_CONTROL_SETUP_SIZE + data.size());
+    libusb_fill_control_setup(bytes.data(), request.type, request.request, request.value, request.index,
+                              static_cast<std::uint16_t>(data.size()));
+    std::ranges::copy(data, bytes.begin() + LIBUSB_CONTROL_SETUP_SIZE);
+    const UsbTransferPtr transfer(libusb_alloc_transfer(0));
+    if (transfer == nullptr) return tl::unexpected(usbError(LIBUSB_ERROR_NO_MEM, label_, what));
+    Ended ended;
+    libusb_fill_control_transfer(transfer.get(), handle_, bytes.data(), &Ended::callback, &ended, 0);
+    if (const int code = libusb_submit_transfer(transfer.get()); code != 0) {
+        return tl::unexpected(usbError(code, label_, what));
+    }
+    std::unique_lock lock(ended.mutex);
+    if (!ended.changed.wait_until(lock, *deadline, [&] { return ended.over; })) {
+        lock.unlock();
+        libusb_cancel_transfer(transfer.get());
+        lock.lock();
+        ended.changed.wait(lock, [&] { return ended.over; });
+    }
+    if (transfer->status != LIBUSB_TRANSFER_COMPLETED) {
+        return tl::unexpected(usbTransferError(transfer->status, label_, what));
+    }
+    const std::size_t moved = std::min(data.size(), static_cast<std::size_t>(std::max(transfer->actual_length, 0)));
+    if ((request.type & LIBUSB_ENDPOINT_IN) != 0) {
+        std::copy_n(bytes.begin() + LIBUSB_CONTROL_SETUP_SIZE, moved, data.begin());
+    }
+    return moved;
 }
 
 Result<void> UsbDevice::controlOut(const UsbRequest& request, std::span<const std::uint8_t> data, Seconds timeout) {

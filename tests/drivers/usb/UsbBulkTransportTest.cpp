@@ -1,4 +1,4 @@
-#include <cmath>
+#include <atomic>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -68,7 +68,7 @@ TEST_F(UsbBulk, DataTerminalReadyIsLeftAloneWhereItIsNotAskedFor) {
 }
 
 TEST_F(UsbBulk, ADeviceWithoutLineCodingIsUsedOneThatRefusesReadyIsNot) {
-    std::uint8_t refused = 0x20;
+    std::atomic<std::uint8_t> refused = 0x20;
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"),
                                    {.onRequest = [&](const UsbSetup& setup, auto) -> std::optional<UsbBytes> {
                                        if (setup.request == refused) return std::nullopt;

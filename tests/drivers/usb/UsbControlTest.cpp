@@ -1,3 +1,4 @@
+#include <atomic>
 #include <gmock/gmock.h>
 
 #include "drivers/usb/UsbControl.h"
@@ -59,7 +60,7 @@ TEST_F(UsbControlTest, AnUrgentValueIsBehindTheOneInFlightAndAheadOfTheNext) {
 }
 
 TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
-    bool refuse = true;
+    std::atomic<bool> refuse = true;
     EmulatedUsbDevice device(bed, vibrator(), {.onRequest = [&](const UsbSetup&, auto) -> std::optional<UsbBytes> {
                                  if (refuse) return std::nullopt;
                                  return UsbBytes{};
@@ -88,15 +89,15 @@ TEST_F(UsbControlTest, ARequestForInputIsRefused) {
 }
 
 TEST_F(UsbControlTest, AnAnswerGivesTheBytesThatCameAndBabbleIsAFault) {
-    UsbBytes answer = bytesOf("vendor");
-    const EmulatedUsbDevice device(bed, vibrator(),
-                                   {.onRequest = [&](const UsbSetup&, auto) { return std::optional(answer); }});
+    std::atomic<std::size_t> length = 6;
+    const EmulatedUsbDevice device(
+        bed, vibrator(), {.onRequest = [&](const UsbSetup&, auto) { return std::optional(UsbBytes(length, 1)); }});
     ASSERT_TRUE(waitForDevices(1));
     const auto opened = UsbDevice::open(context, context->devices().front());
     ASSERT_TRUE(opened);
     std::array<std::uint8_t, 16> into{};
     EXPECT_EQ((*opened)->controlIn({.type = 0xC0, .request = 0x42}, into, kLong).value(), 6u);
-    answer = UsbBytes(40, 1);
+    length = 40;
     const auto babble = (*opened)->controlIn({.type = 0xC0, .request = 0x42}, into, kLong);
     ASSERT_FALSE(babble);
     EXPECT_EQ(babble.error().code, ErrorCode::Device);

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tests/support/usb_emulation/HidrawNode.h"
+#include "tests/support/usb_emulation/Published.h"
 
 namespace tacto::test {
 
@@ -74,7 +75,10 @@ struct EmulatedHidDevice::Emulation {
         on("client-connected", &Emulation::onConnected);
         on("client-vanished", &Emulation::onVanished);
     }
-    ~Emulation() { g_object_unref(handler); }
+    ~Emulation() {
+        takeOver();
+        g_object_unref(handler);
+    }
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
 
@@ -126,13 +130,14 @@ struct EmulatedHidDevice::Emulation {
 
 gboolean EmulatedHidDevice::Emulation::onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
     int error = 0;
-    const long result = static_cast<Emulation*>(user)->ioctl(client, error);
+    const long result = seen<Emulation>(user).ioctl(client, error);
+    publish();
     umockdev_ioctl_client_complete(client, result, error);
     return TRUE;
 }
 
 gboolean EmulatedHidDevice::Emulation::onRead(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     bool there = false;
     {
         const std::lock_guard lock(self.mutex);
@@ -143,7 +148,7 @@ gboolean EmulatedHidDevice::Emulation::onRead(UMockdevIoctlBase*, UMockdevIoctlC
 }
 
 gboolean EmulatedHidDevice::Emulation::onWrite(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     {
         const std::lock_guard lock(self.mutex);
         if (self.held && self.fifo) {
@@ -158,13 +163,13 @@ gboolean EmulatedHidDevice::Emulation::onWrite(UMockdevIoctlBase*, UMockdevIoctl
 }
 
 void EmulatedHidDevice::Emulation::onConnected(UMockdevIoctlBase*, UMockdevIoctlClient*, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     const std::lock_guard lock(self.mutex);
     ++self.readers;
 }
 
 void EmulatedHidDevice::Emulation::onVanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     const std::lock_guard lock(self.mutex);
     if (std::erase(self.waiting, client) > 0) g_object_unref(client);
     if (--self.readers == 0 && self.fifo) self.fifo->drain();
@@ -237,16 +242,20 @@ void EmulatedHidDevice::Emulation::write(UMockdevIoctlClient* client) {
         takeOnly.reset();
     }
     if (error != 0) {
+        publish();
         umockdev_ioctl_client_complete(client, -1, error);
         return;
     }
     // Byte 0 is the report's number; it goes over the wire only where reports have one.
     const auto answers = take(numbered ? bytes : bytes.subspan(std::min<std::size_t>(1, bytes.size())));
-    umockdev_ioctl_client_complete(client, taken, 0);
-    const std::lock_guard lock(mutex);
-    for (const auto& answer : answers) {
-        if (fifo && readers > 0) (void)fifo->put(answer);  // a full one drops, as the kernel's
+    {
+        const std::lock_guard lock(mutex);
+        for (const auto& answer : answers) {
+            if (fifo && readers > 0) (void)fifo->put(answer);  // a full one drops, as the kernel's
+        }
     }
+    publish();
+    umockdev_ioctl_client_complete(client, taken, 0);
 }
 
 // Both ways in ----------------------------------------------------------------------------------------------------
@@ -338,6 +347,7 @@ void EmulatedHidDevice::plug() {
     }
     auto* bed = e.testbed.get();
     GError* error = nullptr;
+    publish();
     umockdev_testbed_attach_ioctl(bed, e.node.c_str(), e.handler, &error);
     check(error);
     e.usb.plug();

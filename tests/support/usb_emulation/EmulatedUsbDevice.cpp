@@ -14,6 +14,7 @@
 #include <umockdev.h>
 #include <utility>
 
+#include "tests/support/usb_emulation/Published.h"
 #include "tests/support/usb_emulation/UsbNode.h"
 #include "tests/support/usb_emulation/UsbWire.h"
 
@@ -69,7 +70,10 @@ struct EmulatedUsbDevice::Emulation {
         g_signal_connect(handler, "client-connected", reinterpret_cast<GCallback>(&Emulation::onConnected), this);
         g_signal_connect(handler, "client-vanished", reinterpret_cast<GCallback>(&Emulation::onVanished), this);
     }
-    ~Emulation() { g_object_unref(handler); }
+    ~Emulation() {
+        takeOver();
+        g_object_unref(handler);
+    }
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
 
@@ -117,24 +121,25 @@ struct EmulatedUsbDevice::Emulation {
 };
 
 gboolean EmulatedUsbDevice::Emulation::onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     Answer answer;
     {
         std::unique_lock lock(self.mutex);
         answer = self.ioctl(lock, client);
     }
+    publish();
     umockdev_ioctl_client_complete(client, answer.result, answer.error);
     return TRUE;
 }
 
 void EmulatedUsbDevice::Emulation::onConnected(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     const std::lock_guard lock(self.mutex);
     self.connected.insert(client);
 }
 
 void EmulatedUsbDevice::Emulation::onVanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {
-    auto& self = *static_cast<Emulation*>(user);
+    auto& self = seen<Emulation>(user);
     const std::lock_guard lock(self.mutex);
     self.connected.erase(client);
     std::erase_if(self.claims, [&](const auto& claim) { return claim.second == client; });
@@ -370,6 +375,7 @@ void EmulatedUsbDevice::plug() {
         e.node = std::make_unique<UsbNode>(e.testbed.root() / e.path.substr(1), e.mode);
     }
     GError* error = nullptr;
+    publish();
     umockdev_testbed_attach_ioctl(e.testbed.get(), e.path.c_str(), e.handler, &error);
     check(error, "attaching an emulated USB device");
     const auto& d = e.description;

@@ -7,7 +7,8 @@
 // one with another address when it comes back.
 //
 // Thread-safety: all members any thread. `onBytes` and `onRequest` are called by whichever thread moves the bytes
-// (umockdev's, mostly), each one call at a time, with nothing locked; they must not wait for the host.
+// (umockdev's, mostly), each one call at a time, with nothing locked; they must not wait for the host, and what
+// they share with the test is atomic or locked.
 #pragma once
 
 #include <chrono>

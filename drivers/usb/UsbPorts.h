@@ -1,0 +1,26 @@
+// UsbPorts.h - the sockets that hold a device of one of these products, each a TransportPort.
+//
+// Thread-safety: as TransportPorts.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/devices/TransportPorts.h"
+#include "drivers/usb/UsbBulkTransport.h"
+
+namespace tacto {
+
+struct UsbProduct {
+    std::uint16_t vendor = 0;
+    std::uint16_t product = 0;
+    std::string name = {};  ///< the product string that it must have; empty: any
+};
+
+/// `context` may be null (no USB in this system): then there are none. A device without the function that `options`
+/// names is tried as a vendor-specific one.
+[[nodiscard]] std::shared_ptr<TransportPorts> makeUsbPorts(std::shared_ptr<UsbContext> context,
+                                                           std::vector<UsbProduct> products, UsbBulkOptions options);
+
+}  // namespace tacto
