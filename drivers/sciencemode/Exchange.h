@@ -49,7 +49,7 @@ public:
     [[nodiscard]] ExchangeCounts counts() const noexcept;
 
 private:
-    static constexpr std::size_t kGarbageMost = 256 * 1024;  ///< bytes read for one ack; USB gives 60 kB in 50 ms
+    static constexpr std::size_t kGarbageMost = 262'144;  ///< bytes read for one ack; USB gives 60 kB in 50 ms
 
     [[nodiscard]] Result<std::size_t> refill(Seconds left);
     [[nodiscard]] tl::unexpected<Error> silence(std::uint64_t junkBefore) const;

@@ -10,6 +10,11 @@ namespace {
 /// A pulse this much of a period late moves those after it, so that none follows too fast.
 constexpr double kGridSlack = 0.1;
 
+std::size_t midChannelOf(const StimulatorSettings& settings) noexcept {
+    const int channel = 4 * settings.connector + settings.channel;
+    return static_cast<std::size_t>(channel);
+}
+
 }  // namespace
 
 Result<void> ScienceModeStimulator::accepts(const ApprovedTrain& train) {
@@ -187,7 +192,7 @@ Result<void> ScienceModeStimulator::repeat(ApprovedTrain&& train, Seconds interv
     const auto points = planRepetition(consumed.train());
     if (!points) return failure(points);
     MidLevelUpdate update;
-    const auto index = static_cast<std::size_t>(4 * settings_.connector + settings_.channel);
+    const auto index = midChannelOf(settings_);
     update.channels[index] = MidLevelChannel{static_cast<int>(index), 0, interval, *points};
     const auto request = payloadOf(update);
     if (!request) return fail(ErrorCode::Device, "{}", request.error().message);
@@ -224,7 +229,7 @@ Result<void> ScienceModeStimulator::keepAlive() {
     if (ack->result != ResultCode::Ok && ack->result != ResultCode::Electrode) {
         return refusal(Command::CurrentData, ack->result);
     }
-    const auto index = static_cast<std::size_t>(4 * settings_.connector + settings_.channel);
+    const auto index = midChannelOf(settings_);
     const auto channel = ack->channels[index];
     {
         const std::scoped_lock state(state_);

@@ -161,7 +161,7 @@ TEST(ScienceModeExchangeBounds, NoiseWithoutAPauseEndsEvenIfTheClockStands) {
     const auto answer = exchange.ask(Command::StimStatus);
     ASSERT_FALSE(answer.has_value());
     EXPECT_THAT(answer.error().message, testing::HasSubstr("garbage"));
-    EXPECT_LE(noise.given, std::size_t{300 * 1024});
+    EXPECT_LE(noise.given, 300'000U);
 }
 
 TEST(ScienceModeStopFrames, AreReadyAndFitOneUrgentTransfer) {
