@@ -3,11 +3,14 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTest>
+#include <atomic>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "app/gui/desk/BenchDesk.h"
+#include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
@@ -140,6 +143,30 @@ TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
     EXPECT_TRUE(table->isRowHidden(0));
     search->clear();
     EXPECT_FALSE(table->isRowHidden(0));
+}
+
+TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
+    gui::Background background;
+    std::atomic<bool> let{false};
+    std::vector<std::string> order;  // of the threads, one after the other
+    bool first = false, second = false;
+    background.start(
+        [&](const gui::WorkPort&) -> Result<void> {  // deaf to cancel
+            while (!let) std::this_thread::yield();
+            order.emplace_back("first");
+            return {};
+        },
+        [&](const Result<void>&) { first = true; });
+    background.start(
+        [&](const gui::WorkPort&) -> Result<void> {
+            order.emplace_back("second");
+            return {};
+        },
+        [&](const Result<void>&) { second = true; });
+    let = true;  // not reached if start() waited
+    ASSERT_TRUE(comesTrue([&] { return second; }));
+    EXPECT_EQ(order, (std::vector<std::string>{"first", "second"}));
+    EXPECT_FALSE(first) << "nobody wants its result any more";
 }
 
 TEST_F(Recorded, TwoAreComparedOverEachOther) {
