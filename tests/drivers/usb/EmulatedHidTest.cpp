@@ -15,6 +15,7 @@ using testing::ElementsAre;
 
 #ifdef TACTO_HIDAPI_LIBUSB
 constexpr bool kHidraw = false;
+#define EmulatedHid EmulatedHidOverLibusb  // ctest wants each name once
 #else
 constexpr bool kHidraw = true;
 #endif
