@@ -1,0 +1,72 @@
+// UsbEmulation.h - the inside of an EmulatedUsbDevice: the kernel's side of its node (usbfs) and the device behind it.
+// UsbEmulation.cpp answers system calls, UsbControlPipe.cpp requests to endpoint 0, EmulatedUsbDevice.cpp the test.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <umockdev.h>
+
+#include "tests/support/usb_emulation/EmulatedUsbDevice.h"
+#include "tests/support/usb_emulation/UsbNode.h"
+#include "tests/support/usb_emulation/UsbWire.h"
+
+namespace tacto::test {
+
+struct EmulatedUsbDevice::Emulation {
+    Emulation(UsbTestbed& bed, UsbDescription described, UsbBehaviour behaves, int port);
+    ~Emulation();
+    Emulation(const Emulation&) = delete;
+    Emulation& operator=(const Emulation&) = delete;
+
+    static gboolean onIoctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
+    static void onConnected(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
+    static void onVanished(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
+
+    /// What an ioctl is answered with.
+    struct Answer {
+        long result = 0;
+        int error = 0;
+    };
+    static Answer refuse(int error) { return {-1, error}; }
+    Answer ioctl(std::unique_lock<std::mutex>& lock, UMockdevIoctlClient* client);
+    Answer submit(std::unique_lock<std::mutex>& lock, UMockdevIoctlData* argument, const void* client);
+    Answer claim(unsigned interface, const void* client);
+    Answer driverIoctl(UMockdevIoctlData* argument);
+    Answer clearHalt(unsigned endpoint);
+    void control(std::unique_lock<std::mutex>& lock, Urb urb);
+    std::optional<UsbBytes> standard(const UsbSetup& setup) const;
+    /// Moves what can move; calls the device with the lock let go.
+    void pump(std::unique_lock<std::mutex>& lock);
+    void showReapable() {
+        if (node) node->setReapable(wire.canReap());
+        changed.notify_all();
+    }
+
+    UsbTestbed& testbed;
+    const UsbDescription description;
+    const UsbBehaviour behaviour;
+    const std::string socket;
+    const std::string sysfs;
+
+    mutable std::mutex mutex;  // guards all below
+    mutable std::condition_variable changed;
+    UsbWire wire;
+    UMockdevIoctlBase* const handler;
+    std::unique_ptr<UsbNode> node;  // null: unplugged
+    std::string path;               // of the node, as "/dev/bus/usb/001/002"
+    unsigned mode = 0666;
+    bool kernelBound = false;
+    std::set<const void*> connected;  // open files of this plug-in; those of an earlier one stay dead
+    std::map<unsigned, const void*> claims;
+    std::set<unsigned> elsewhere;
+    bool controlHeld = false;
+    bool pumping = false;
+    std::vector<Urb> heldControls;
+    std::vector<UsbBytes> received;
+    std::vector<UsbSetup> requests;
+    int cleared = 0;
+};
+
+}  // namespace tacto::test
