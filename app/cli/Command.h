@@ -49,9 +49,6 @@ struct Command {
 /// The commands, in the order of the help.
 [[nodiscard]] const std::vector<Command>& commands();
 
-/// The drivers of this program, all of them, in one place (main.cpp).
-[[nodiscard]] Registry makeRegistry();
-
 /// The one positional argument. Errors: InvalidArgument naming what is missing or too much.
 [[nodiscard]] Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what);
 /// A number option. Errors: InvalidArgument naming option and text; missing without a default.
@@ -63,6 +60,6 @@ void printJson(const nlohmann::json& value);
 [[nodiscard]] Result<void> writeFile(const std::string& path, const std::string& content);
 
 // Defined one per file, in app/cli/<Name>Command.cpp.
-extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kAnalyze, kReport, kVerify;
+extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kAnalyze, kReport, kVerify, kHid;
 
 }  // namespace tacto::cli

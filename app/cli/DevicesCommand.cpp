@@ -1,41 +1,86 @@
+#include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/cli/Command.h"
+#include "app/cli/SignalStop.h"
+#include "app/run/AllDrivers.h"
 
 namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
+constexpr std::chrono::milliseconds kLookEvery(250);
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption({"json", "Prints one JSON value."});
+    parser.addOption({"watch", "Goes on until Ctrl+C: + what is plugged in, - what is unplugged."});
+}
+
+void print(const DeviceIdentity& device, const char* mark) {
+    fmt::print("{}{:<28} {:<13} {}{}\n", mark, device.uri, nameOf(device.role), device.name,
+               device.simulated ? "  (simulated)" : "");
+    if (!device.obstacle.empty()) fmt::print("    {}\n", device.obstacle);
+}
+
+nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
+    auto all = nlohmann::json::array();
+    for (const auto& device : found) {
+        all.push_back(
+            {{"uri", device.uri},
+             {"kind", nameOf(device.role)},
+             {"name", device.name},
+             {"serial", device.serial},
+             {"simulated", device.simulated},
+             {"obstacle", device.obstacle.empty() ? nlohmann::json(nullptr) : nlohmann::json(device.obstacle)}});
+    }
+    return all;
+}
+
+/// A device whose permission changed is another one: it goes and comes.
+void watch(const Registry& registry, std::vector<DeviceIdentity> known, const SignalStop& interrupts) {
+    const auto missing = [](const auto& from, const auto& in, const char* mark) {
+        for (const auto& device : from) {
+            if (std::ranges::find(in, device) == in.end()) print(device, mark);
+        }
+    };
+    while (!interrupts.signalled()) {
+        std::this_thread::sleep_for(kLookEvery);
+        auto now = registry.list();
+        missing(known, now, "- ");
+        missing(now, known, "+ ");
+        std::fflush(stdout);
+        known = std::move(now);
+    }
+}
 
 int run(const QCommandLineParser& parser) {
     if (!parser.positionalArguments().isEmpty()) {
         return usage(fmt::format("devices takes no argument, and \"{}\" is one",
                                  parser.positionalArguments().front().toStdString()));
     }
-    const auto found = makeRegistry().list();
+    if (parser.isSet("watch") && parser.isSet("json"))
+        return usage("devices --watch goes on and --json prints one value: give one of them");
+    const SignalStop interrupts;
+    const auto registry = allDrivers()();
+    const auto found = registry.list();
     if (parser.isSet("json")) {
-        auto all = nlohmann::json::array();
-        for (const auto& device : found) {
-            all.push_back({{"uri", device.uri},
-                           {"kind", nameOf(device.role)},
-                           {"name", device.name},
-                           {"serial", device.serial},
-                           {"simulated", device.simulated}});
-        }
-        printJson(all);
+        printJson(toJson(found));
         return kDone;
     }
-    for (const auto& device : found) {
-        fmt::print("{:<20} {:<13} {}{}\n", device.uri, nameOf(device.role), device.name,
-                   device.simulated ? "  (simulated)" : "");
+    for (const auto& device : found) print(device, parser.isSet("watch") ? "  " : "");
+    if (parser.isSet("watch")) {
+        std::fflush(stdout);
+        watch(registry, found, interrupts);
+    } else {
+        fmt::print(stderr, "sim: alone fills every role that a protocol still needs.\n");
     }
-    fmt::print(stderr, "sim: alone fills every role that a protocol still needs.\n");
     return kDone;
 }
 
 }  // namespace
 
-const Command kDevices{"devices", "[--json]", "What can be opened, as URIs", false, declare, run};
+const Command kDevices{"devices", "[--watch | --json]", "What can be opened, as URIs", false, declare, run};
 
 }  // namespace tacto::cli

@@ -8,6 +8,7 @@
 #include "app/cli/SignalStop.h"
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"
+#include "app/run/AllDrivers.h"
 #include "app/run/ProtocolRun.h"
 #include "app/scripting/ProtocolLibrary.h"
 
@@ -181,7 +182,7 @@ int run(const QCommandLineParser& parser) {
     const auto protocol = order->script.name;
     const auto seed = order->seed;
     const auto answers = order->settings.answers;
-    auto registry = makeRegistry();
+    auto registry = allDrivers()();
     auto prepared = ProtocolRun::prepare(std::move(*order), registry);
     if (!prepared) return failWith(prepared.error());
     auto& running = **prepared;

@@ -7,19 +7,8 @@
 #include <memory>
 
 #include "app/cli/Command.h"
-#include "drivers/replay/ReplayDrivers.h"
-#include "drivers/simulated/SimulatedDriver.h"
 
 namespace tacto::cli {
-
-// The only place that names concrete drivers.
-Registry makeRegistry() {
-    std::vector<std::unique_ptr<Driver>> drivers;
-    drivers.push_back(makeSimulatedDriver());
-    drivers.push_back(makeRecordingDriver());
-    drivers.push_back(makeCaptureDriver());
-    return Registry(std::move(drivers));
-}
 
 namespace {
 

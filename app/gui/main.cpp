@@ -4,21 +4,7 @@
 
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
-#include "drivers/replay/ReplayDrivers.h"
-#include "drivers/simulated/SimulatedDriver.h"
-
-namespace {
-
-// The only place that names concrete drivers.
-tacto::Registry makeRegistry() {
-    std::vector<std::unique_ptr<tacto::Driver>> drivers;
-    drivers.push_back(tacto::makeSimulatedDriver());
-    drivers.push_back(tacto::makeRecordingDriver());
-    drivers.push_back(tacto::makeCaptureDriver());
-    return tacto::Registry(std::move(drivers));
-}
-
-}  // namespace
+#include "app/run/AllDrivers.h"
 
 int main(int argc, char** argv) {
     QApplication application(argc, argv);
@@ -27,7 +13,7 @@ int main(int argc, char** argv) {
     QApplication::setApplicationDisplayName("Tactoscope");
     QApplication::setApplicationVersion(TACTOSCOPE_VERSION);
     QApplication::setDesktopFileName("io.github.tactoscope.Tactoscope");
-    tacto::gui::MainWindow window(makeRegistry);
+    tacto::gui::MainWindow window(tacto::allDrivers());
     window.show();
     if (!QSettings().value("tourDone").toBool()) window.beginTour();
     return QApplication::exec();

@@ -75,10 +75,10 @@ Result<Wanted> readUri(const DeviceUri& uri) {
 }
 
 /// Opens the port that was opened before, wherever it is plugged in now.
-Connect connectTo(std::shared_ptr<ScienceModePorts> ports, ScienceModePort port) {
+Connect connectTo(std::shared_ptr<TransportPorts> ports, TransportPort port) {
     return [ports = std::move(ports), port = std::move(port)]() -> Result<std::unique_ptr<Transport>> {
         const auto all = ports->list();
-        const auto found = std::ranges::find_if(all, [&](const ScienceModePort& other) {
+        const auto found = std::ranges::find_if(all, [&](const TransportPort& other) {
             return other.serial == port.serial && (!port.serial.empty() || other.place == port.place);
         });
         if (found == all.end()) {
@@ -92,7 +92,7 @@ Connect connectTo(std::shared_ptr<ScienceModePorts> ports, ScienceModePort port)
 
 class ScienceModeDriver final : public Driver {
 public:
-    explicit ScienceModeDriver(std::shared_ptr<ScienceModePorts> ports) : ports_(std::move(ports)) {}
+    explicit ScienceModeDriver(std::shared_ptr<TransportPorts> ports) : ports_(std::move(ports)) {}
 
     std::string_view scheme() const noexcept override { return "sciencemode"; }
     bool runsOnVirtualClock() const noexcept override { return false; }
@@ -131,8 +131,8 @@ private:
     }
 
     Opened openPort(const DeviceUri& uri, const Wanted& wanted, const OpenContext& context) const {
-        auto all = ports_ ? ports_->list() : std::vector<ScienceModePort>{};
-        const auto named = [&](const ScienceModePort& port) { return !uri.path.empty() && port.serial == uri.path; };
+        auto all = ports_ ? ports_->list() : std::vector<TransportPort>{};
+        const auto named = [&](const TransportPort& port) { return !uri.path.empty() && port.serial == uri.path; };
         // The one with that USB serial number before those that may have that identity.
         std::ranges::stable_partition(all, named);
         std::optional<Error> problem;
@@ -149,7 +149,7 @@ private:
         return fail(ErrorCode::NotFound, "device \"{}\": {}: none is plugged in (USB 0483:5740)", uri.text(), what);
     }
 
-    Opened tryPort(const ScienceModePort& port, const DeviceUri& uri, bool named, const Wanted& wanted,
+    Opened tryPort(const TransportPort& port, const DeviceUri& uri, bool named, const Wanted& wanted,
                    const OpenContext& context) const {
         if (!port.obstacle.empty()) return fail(ErrorCode::Io, "{}", port.obstacle);
         const std::string_view identity = named ? std::string_view{} : std::string_view(uri.path);
@@ -157,13 +157,13 @@ private:
                                            context.clock);
     }
 
-    const std::shared_ptr<ScienceModePorts> ports_;
+    const std::shared_ptr<TransportPorts> ports_;
 };
 
 }  // namespace
 }  // namespace sciencemode
 
-std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<ScienceModePorts> ports) {
+std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<TransportPorts> ports) {
     return std::make_unique<sciencemode::ScienceModeDriver>(std::move(ports));
 }
 

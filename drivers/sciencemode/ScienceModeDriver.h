@@ -12,32 +12,13 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "core/devices/Driver.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 
 namespace tacto {
 
-/// A place where such a device may be: the id 0483:5740 is any STM32 serial port's.
-struct ScienceModePort {
-    std::string serial;    ///< USB serial number; may be empty
-    std::string place;     ///< which socket, for messages and where there is no serial number
-    std::string obstacle;  ///< why it cannot be opened and what helps; empty where it can
-};
-
-/// Where such devices are looked for: USB in programs, anything in tests. One caller at a time, whichever thread: after
-/// an unplug the session's thread looks again.
-class ScienceModePorts {
-public:
-    virtual ~ScienceModePorts() = default;
-    [[nodiscard]] virtual std::vector<ScienceModePort> list() const = 0;
-    /// Errors: as the transport's own.
-    [[nodiscard]] virtual Result<std::unique_ptr<Transport>> open(const ScienceModePort& port) = 0;
-};
-
 /// `ports` may be null: then only `tty=` opens anything.
-[[nodiscard]] std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<ScienceModePorts> ports);
+[[nodiscard]] std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<TransportPorts> ports);
 
 }  // namespace tacto

@@ -8,8 +8,8 @@ namespace {
 
 class UsbPorts final : public TransportPorts {
 public:
-    UsbPorts(std::shared_ptr<UsbContext> context, std::vector<UsbProduct> products, const UsbBulkOptions& options)
-        : context_(std::move(context)), products_(std::move(products)), options_(options) {}
+    UsbPorts(UsbProvider usb, std::vector<UsbProduct> products, const UsbBulkOptions& options)
+        : usb_(std::move(usb)), products_(std::move(products)), options_(options) {}
 
     std::vector<TransportPort> list() const override {
         std::vector<TransportPort> found;
@@ -18,13 +18,15 @@ public:
     }
 
     Result<std::unique_ptr<Transport>> open(const TransportPort& port) override {
+        const auto usb = usb_();
+        if (!usb) return failure(usb);
         for (const auto& device : ours()) {
             if (device.path != port.place || device.serial != port.serial) continue;
             auto options = options_;
-            auto opened = UsbBulkTransport::open(context_, device, options);
+            auto opened = UsbBulkTransport::open(*usb, device, options);
             if (!opened && opened.error().code == ErrorCode::Unsupported && options.function != UsbFunction::Vendor) {
                 options.function = UsbFunction::Vendor;
-                opened = UsbBulkTransport::open(context_, device, options);
+                opened = UsbBulkTransport::open(*usb, device, options);
             }
             if (!opened) return failure(opened);
             return std::unique_ptr<Transport>(std::move(*opened));
@@ -35,8 +37,9 @@ public:
 private:
     std::vector<UsbDeviceInfo> ours() const {
         std::vector<UsbDeviceInfo> found;
-        if (!context_) return found;
-        for (auto& device : context_->devices()) {
+        const auto usb = usb_();
+        if (!usb) return found;
+        for (auto& device : (*usb)->devices()) {
             const bool wanted = std::ranges::any_of(products_, [&](const UsbProduct& product) {
                 return device.is({product.vendor, product.product}) &&
                        (product.name.empty() || device.name == product.name);
@@ -46,16 +49,16 @@ private:
         return found;
     }
 
-    const std::shared_ptr<UsbContext> context_;
+    const UsbProvider usb_;
     const std::vector<UsbProduct> products_;
     const UsbBulkOptions options_;
 };
 
 }  // namespace
 
-std::shared_ptr<TransportPorts> makeUsbPorts(std::shared_ptr<UsbContext> context, std::vector<UsbProduct> products,
+std::shared_ptr<TransportPorts> makeUsbPorts(UsbProvider usb, std::vector<UsbProduct> products,
                                              UsbBulkOptions options) {
-    return std::make_shared<UsbPorts>(std::move(context), std::move(products), options);
+    return std::make_shared<UsbPorts>(std::move(usb), std::move(products), options);
 }
 
 }  // namespace tacto

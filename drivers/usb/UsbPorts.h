@@ -9,6 +9,7 @@
 
 #include "core/devices/TransportPorts.h"
 #include "drivers/usb/UsbBulkTransport.h"
+#include "drivers/usb/UsbProvider.h"
 
 namespace tacto {
 
@@ -18,9 +19,9 @@ struct UsbProduct {
     std::string name = {};  ///< the product string that it must have; empty: any
 };
 
-/// `context` may be null (no USB in this system): then there are none. A device without the function that `options`
+/// Where USB does not start (a container) there are none. A device without the function that `options`
 /// names is tried as a vendor-specific one.
-[[nodiscard]] std::shared_ptr<TransportPorts> makeUsbPorts(std::shared_ptr<UsbContext> context,
-                                                           std::vector<UsbProduct> products, UsbBulkOptions options);
+[[nodiscard]] std::shared_ptr<TransportPorts> makeUsbPorts(UsbProvider usb, std::vector<UsbProduct> products,
+                                                           UsbBulkOptions options);
 
 }  // namespace tacto

@@ -17,22 +17,22 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 /// Sockets with emulated devices in them.
-class EmulatedPorts final : public ScienceModePorts {
+class EmulatedPorts final : public TransportPorts {
 public:
     explicit EmulatedPorts(const Clock& clock) : clock_(clock) {}
-    std::shared_ptr<EmulatedLine> add(ScienceModePort port, const EmulatedSettings& settings) {
+    std::shared_ptr<EmulatedLine> add(TransportPort port, const EmulatedSettings& settings) {
         auto line = std::make_shared<EmulatedLine>(clock_, nullptr, settings);
         lines_[port.place] = line;
         ports_.push_back(std::move(port));
         return line;
     }
-    std::vector<ScienceModePort> list() const override { return ports_; }
-    Result<std::unique_ptr<Transport>> open(const ScienceModePort& port) override {
+    std::vector<TransportPort> list() const override { return ports_; }
+    Result<std::unique_ptr<Transport>> open(const TransportPort& port) override {
         opened.push_back(port.place);
         return lines_.at(port.place)->connect();
     }
     std::vector<std::string> opened;
-    std::vector<ScienceModePort> ports_;
+    std::vector<TransportPort> ports_;
 
 private:
     const Clock& clock_;

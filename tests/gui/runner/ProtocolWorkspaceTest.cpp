@@ -223,7 +223,7 @@ TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAliv
     ASSERT_TRUE(comesTrue([this] { return says("verdict").contains("INDETERMINATE"); }, 60'000)) << "the next run runs";
 }
 
-TEST_F(Workspace, PausesAndResumes) {
+TEST_F(Workspace, InRealTimeItPausesAndResumes) {
     write("steps", R"js(protocol({ title: "S", purpose: "Steps.", needs: ["stimulator"], parameters: {} });
 function run(p) {
   bench.arm();

@@ -1,0 +1,25 @@
+#include "app/run/AllDrivers.h"
+
+#include "drivers/replay/ReplayDrivers.h"
+#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "drivers/usb/UsbPorts.h"
+
+namespace tacto {
+
+namespace {
+const UsbProduct kScienceMode{0x0483, 0x5740};  // any STM32 serial port's: the device is asked who it is
+}
+
+std::function<Registry()> allDrivers() {
+    return [usb = makeUsbProvider()] {
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        drivers.push_back(makeRecordingDriver());
+        drivers.push_back(makeCaptureDriver());
+        drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb, {kScienceMode}, {})));
+        return Registry(std::move(drivers));
+    };
+}
+
+}  // namespace tacto
