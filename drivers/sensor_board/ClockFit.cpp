@@ -9,9 +9,11 @@ namespace tacto::sensorboard {
 namespace {
 constexpr std::size_t kRecent = 30;  // windows, a minute, whose shortest delay gives the offset
 constexpr int kHalvings = 3;
-constexpr std::size_t kKeptLeast = 8;  // points that the halvings leave
+constexpr std::size_t kKeptLeast = 4;  // points that the halvings leave
+constexpr double kRamp_s = 8e-3;       // over which a shift is spread: a usual block of acceleration
 constexpr double kSettle_s = 1;        // time in which a correction is meant to be caught up
 constexpr double kStepLeast_s = 1e-4;  // a smaller shift is no step: under half a sample at 4 kHz
+constexpr double kCrystal = 100e-6;    // how far crystals are off, by their makers' tolerances
 constexpr double kFinest_s = 1e-6;     // the board's microsecond: no spread is taken to be less
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
@@ -29,7 +31,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival) {
         started_ = true;
         first_us_ = device_us;
         firstArrival_s_ = arrival_s;
-        windowEnds_ = kWindow_s;
+        windowEnds_ = kFirstWindow_s;
         knots_[0] = {0, 0};
         knotCount_ = 1;
     }
@@ -38,7 +40,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival) {
     const double y = arrival_s - firstArrival_s_ - x;
     if (x >= windowEnds_) {
         closeWindow();
-        windowEnds_ = x + kWindow_s;
+        windowEnds_ = x + (windows_.size() < kFirstWindows ? kFirstWindow_s : kWindow_s);
     }
     if (y - slope_ * x < lowest_.y - slope_ * lowest_.x) lowest_ = {x, y};
     // A shorter delay than any before counts at once, a longer one when its window ends.
@@ -57,9 +59,11 @@ void ClockFit::closeWindow() {
     }
     lowest_ = {0, kInfinite};
     if (const auto line = fit()) {
-        slope_ = line->slope;
+        // Applied as far as it is known better than what crystals are anyway.
+        const double known = kCrystal * kCrystal / (kCrystal * kCrystal + line->uncertainty * line->uncertainty);
+        slope_ = known * line->slope;
         // y = arrival - board: its slope s is 1 / (1 + drift) - 1.
-        const double drift = 1 / (1 + slope_) - 1;
+        const double drift = 1 / (1 + line->slope) - 1;
         report_.drift_ppm = drift * 1e6;
         report_.uncertainty_ppm = line->uncertainty * 1e6;
         report_.span_s = line->extent;
@@ -91,7 +95,7 @@ std::optional<ClockFit::Line> ClockFit::fit() {
             const auto [low, high] = std::ranges::minmax_element(kept_, {}, miss);
             const auto [begin, end] = std::ranges::minmax_element(kept_, {}, &Point::x);
             line.extent = end->x - begin->x;
-            line.uncertainty = std::max(miss(*high) - miss(*low), kFinest_s) / line.extent;
+            line.uncertainty = 2 * std::max(miss(*high) - miss(*low), kFinest_s) / line.extent;
             return line;
         }
         // The lower half stays: what is above the median came late.
@@ -115,22 +119,51 @@ void ClockFit::place() {
     if (!std::isfinite(base_)) base_ = 0;
 }
 
+void ClockFit::settle() noexcept {
+    knots_[newest_] = {knots_[newest_].x, base_ - kMargin_s + slope_ * knots_[newest_].x};
+    knotCount_ = 1;
+    rate_ = slope_;
+}
+
+void ClockFit::shiftBack(double x, double early) noexcept {
+    if (x < knots_[newest_].x) {  // a stream that lags behind the others
+        for (auto& knot : knots_) knot.correction -= early;
+        return;
+    }
+    // Spread over the samples of the block that has just come.
+    const double reached = correctionAt(x) - early;
+    const double begin = x - kRamp_s;
+    if (knots_[newest_].x > begin && knotCount_ > 1) {
+        knots_[newest_] = {begin, correctionAt(begin)};
+        // Time between knots stays in order, whatever was there.
+        const Knot& before = knots_[(newest_ + kKnots - 1) % kKnots];
+        if (before.x >= begin) knots_[newest_].x = (before.x + x) / 2;
+    } else {
+        pushKnot({begin, correctionAt(begin)});
+    }
+    pushKnot({x, reached});
+}
+
+void ClockFit::pushKnot(const Knot& knot) noexcept {
+    newest_ = (newest_ + 1) % kKnots;
+    knots_[newest_] = knot;
+    knotCount_ = std::min(knotCount_ + 1, kKnots);
+}
+
 void ClockFit::follow(double x, double y) {
     const Knot last = knots_[newest_];
     if (x >= last.x + kKnotEvery_s) {
-        const double line = base_ + slope_ * x;
+        const double line = base_ - kMargin_s + slope_ * x;
         // After a long silence there is nothing to keep even.
         const bool resumed = x - last.x > kSettle_s;
         const Knot reached{x, resumed ? line : last.correction + rate_ * (x - last.x)};
-        newest_ = (newest_ + 1) % kKnots;
-        knots_[newest_] = reached;
-        knotCount_ = std::min(knotCount_ + 1, kKnots);
+        pushKnot(reached);
         // On the line's own slope, plus what brings the mapping onto the line.
         const double behind = line - reached.correction;
         rate_ = std::clamp(slope_ + behind / kSettle_s, slope_ - kSlewMost, slope_ + kSlewMost);
     }
     if (const double early = correctionAt(x) - y; early > 0) {
-        for (auto& knot : knots_) knot.correction -= early;
+        shiftBack(x, early);
         report_.largestStep_s = std::max(report_.largestStep_s, early);
         if (early >= kStepLeast_s) ++report_.steps;
     }

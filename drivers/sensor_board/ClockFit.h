@@ -4,17 +4,19 @@
 // negative, mostly short and now and then very long (a host that was busy). So the true line lies under all points,
 // and the lowest ones tell of it.
 //
-// Method: the lowest point of every 2 s of board time (as in Paxson, "On calibrating measurements of packet transit
-// times", SIGMETRICS 1998), over the last 10 minutes; of these the half nearest the line, three times over, so that the
-// line settles on the lower envelope (the line under all points of Moon, Skelly and Towsley, "Estimation and removal of
-// clock skew from network delay measurements", INFOCOM 1999); least squares through what is left. The uncertainty is
-// the spread of those points about the line over their extent in time, which bounds the slope of any line that misses
-// none of them by more than that spread. Before 16 s there is no drift to speak of: none is reported and none applied.
-// The offset is that of the shortest delay seen in the last minute: stamps are late by that delay, never early.
+// Method: the lowest point of every 2 s of board time, and of every 0.25 s of the first four (as in Paxson, "On
+// calibrating measurements of packet transit times", SIGMETRICS 1998), over the last 10 minutes; of these the half
+// nearest the line, three times over, so that the line settles on the lower envelope (the line under all points of
+// Moon, Skelly and Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999);
+// least squares through what is left. The uncertainty is twice the spread of those points about the line over their
+// extent in time: the steepest and the flattest line that miss none of them by more than that spread differ from it by
+// so much. Before 2 s there is no drift to speak of: none is reported and none applied. The offset is that of the
+// shortest delay seen in the last minute, less kMargin_s: stamps are late by that delay, or early by the margin at
+// most, which makes data look older, never fresher.
 //
 // Mapping: what is learnt is applied by turning the clock faster or slower by at most 0.5 %, so that stamps stay evenly
-// spaced. One thing is done at once: a message that arrived before its own moment, as mapped, shifts the mapping back,
-// for no sample is ever stamped ahead of now (hazard H7); such steps are counted.
+// spaced. One thing is done at once: a message that arrived before its own moment, as mapped, shifts the mapping back
+// over its last 8 ms, for no sample is ever stamped ahead of now (hazard H7); such steps are counted.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once
@@ -51,13 +53,18 @@ public:
     /// By how much `device_us`, as mapped, is later than its own message's arrival: above 0 only where the board's time
     /// jumped, or a message was quicker than any before. Meaningful after the first observe().
     [[nodiscard]] double early_s(std::uint64_t device_us, Instant arrival) const noexcept;
+    /// Puts the mapping where it belongs by what has been observed, at once. For before the first sample.
+    void settle() noexcept;
     [[nodiscard]] bool started() const noexcept { return started_; }
     [[nodiscard]] const ClockReport& report() const noexcept { return report_; }
 
     static constexpr double kWindow_s = 2;
-    static constexpr std::size_t kWindows = 300;     ///< 10 minutes
+    static constexpr double kFirstWindow_s = 0.25;
+    static constexpr std::size_t kFirstWindows = 16;
+    static constexpr std::size_t kWindows = 300;     ///< 10 minutes, nearly
     static constexpr std::size_t kWindowsLeast = 8;  ///< before there is a drift
     static constexpr double kSlewMost = 0.005;
+    static constexpr double kMargin_s = 0.5e-3;
 
 private:
     struct Point {
@@ -77,6 +84,8 @@ private:
     [[nodiscard]] std::optional<Line> fit();
     void place();
     void follow(double x, double y);
+    void shiftBack(double x, double early) noexcept;
+    void pushKnot(const Knot& knot) noexcept;
     [[nodiscard]] double correctionAt(double x) const noexcept;
 
     bool started_ = false;

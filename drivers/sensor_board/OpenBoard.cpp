@@ -142,6 +142,7 @@ Result<void> SensorBoard::measureDelay() {
         current_.delayMost_s = std::min(current_.delayMost_s, toSeconds(link_.arrival() - link_.sent()));
         current_.board = *status;
     }
+    fit_.settle();
     return {};
 }
 

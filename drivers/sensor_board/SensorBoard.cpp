@@ -88,8 +88,8 @@ Result<void> SensorBoard::observe(std::uint64_t device_us) {
                     kJumpMost_s);
     }
     fit_.observe(device_us, link_.arrival());
-    const auto drift = fit_.report().drift_ppm;
-    if (drift && !(std::abs(*drift) <= kDriftMost_ppm)) {
+    const auto& drift = fit_.report().drift_ppm;
+    if (drift && !(std::abs(*drift) - *fit_.report().uncertainty_ppm <= kDriftMost_ppm)) {
         return fail(ErrorCode::Device, "its clock runs {:+.2f} % wrong; ± {} % at most was expected", *drift * 1e-4,
                     kDriftMost_ppm * 1e-4);
     }

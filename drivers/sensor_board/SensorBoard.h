@@ -36,7 +36,7 @@ struct SensorBoardReport {
     double drift_ppm = 0;  ///< how much faster than the session's clock the board's runs
     double driftUncertainty_ppm = 0;
     double driftSpan_s = 0;  ///< board time that the drift stands on
-    double delayMost_s = 0;  ///< shortest round trip seen at open: stamps are late by no more
+    double delayMost_s = 0;  ///< shortest round trip seen at open: stamps are late by no more, about
     std::uint64_t clockSteps = 0;
 };
 

@@ -30,19 +30,19 @@ struct tsb_identity {
     uint8_t lowest_version; /* of the protocol, that this board speaks */
     uint8_t highest_version;
     uint8_t streams; /* 1 to TSB_STREAMS_MOST; they are numbered from 0 */
-    const char *name;
-    const char *serial;
-    const char *firmware;
+    const char* name;
+    const char* serial;
+    const char* firmware;
 };
 
 /* One stream. A sample's value in `unit` is scale[column] * raw + offset[column]. */
 struct tsb_configuration {
     uint8_t stream;
-    uint8_t flags;   /* TSB_STREAM_ENABLED */
-    uint8_t kind;    /* enum tsb_kind */
-    uint8_t unit;    /* enum tsb_unit */
-    uint8_t format;  /* enum tsb_format */
-    uint8_t columns; /* 1 to TSB_COLUMNS_MOST */
+    uint8_t flags;     /* TSB_STREAM_ENABLED */
+    uint8_t kind;      /* enum tsb_kind */
+    uint8_t unit;      /* enum tsb_unit */
+    uint8_t format;    /* enum tsb_format */
+    uint8_t columns;   /* 1 to TSB_COLUMNS_MOST */
     uint32_t rate_mhz; /* samples per second, in thousandths */
     float scale[TSB_COLUMNS_MOST];
     float offset[TSB_COLUMNS_MOST];
@@ -52,24 +52,24 @@ struct tsb_calibration {
     uint8_t stream;
     uint8_t flags; /* TSB_STREAM_CALIBRATED */
     uint8_t columns;
-    const char *date;      /* "2026-11-20", or "" */
-    const char *reference; /* certificate or procedure, or "" */
+    const char* date;                    /* "2026-11-20", or "" */
+    const char* reference;               /* certificate or procedure, or "" */
     float uncertainty[TSB_COLUMNS_MOST]; /* of the scale, relative, standard (k = 1) */
 };
 
 struct tsb_status {
-    uint8_t flags;            /* TSB_STATUS_RUNNING */
-    uint8_t faulty_streams;   /* bit i: the sensor of stream i does not answer */
-    uint64_t time_us;         /* since power-up, when this was written */
-    uint32_t samples_lost;    /* that a sensor made and the board could not fetch, since START */
-    uint32_t blocks_dropped;  /* made, and thrown away because the host did not read, since START */
-    uint32_t frames_refused;  /* from the host: bad CRC, length or stuffing, since power-up */
+    uint8_t flags;           /* TSB_STATUS_RUNNING */
+    uint8_t faulty_streams;  /* bit i: the sensor of stream i does not answer */
+    uint64_t time_us;        /* since power-up, when this was written */
+    uint32_t samples_lost;   /* that a sensor made and the board could not fetch, since START */
+    uint32_t blocks_dropped; /* made, and thrown away because the host did not read, since START */
+    uint32_t frames_refused; /* from the host: bad CRC, length or stuffing, since power-up */
 };
 
 /* Consecutive samples of one stream. */
 struct tsb_block {
     uint8_t stream;
-    uint8_t count;        /* samples in this block, at least 1 */
+    uint8_t count; /* samples in this block, at least 1 */
     uint8_t columns;
     uint32_t sequence;    /* blocks of this stream since START, from 0, also those thrown away */
     uint32_t index;       /* samples of this stream since START, from 0, also those lost: of the first in here */
@@ -77,16 +77,16 @@ struct tsb_block {
     uint32_t interval_ns; /* between samples in here, as measured; nominal where the board itself triggers them */
 };
 
-size_t tsb_encode_identity(uint8_t *frame, uint8_t token, const struct tsb_identity *identity);
-size_t tsb_encode_configuration(uint8_t *frame, uint8_t token, const struct tsb_configuration *configuration);
-size_t tsb_encode_calibration(uint8_t *frame, uint8_t token, const struct tsb_calibration *calibration);
-size_t tsb_encode_done(uint8_t *frame, uint8_t token, uint8_t command, uint64_t time_us);
+size_t tsb_encode_identity(uint8_t* frame, uint8_t token, const struct tsb_identity* identity);
+size_t tsb_encode_configuration(uint8_t* frame, uint8_t token, const struct tsb_configuration* configuration);
+size_t tsb_encode_calibration(uint8_t* frame, uint8_t token, const struct tsb_calibration* calibration);
+size_t tsb_encode_done(uint8_t* frame, uint8_t token, uint8_t command, uint64_t time_us);
 /* `token` 0: not asked for. */
-size_t tsb_encode_status(uint8_t *frame, uint8_t token, const struct tsb_status *status);
-size_t tsb_encode_refused(uint8_t *frame, uint8_t token, uint8_t command, uint8_t reason);
+size_t tsb_encode_status(uint8_t* frame, uint8_t token, const struct tsb_status* status);
+size_t tsb_encode_refused(uint8_t* frame, uint8_t token, uint8_t command, uint8_t reason);
 /* `samples`: count * columns values, sample after sample. */
-size_t tsb_encode_int16(uint8_t *frame, const struct tsb_block *block, const int16_t *samples);
-size_t tsb_encode_int32(uint8_t *frame, const struct tsb_block *block, const int32_t *samples);
+size_t tsb_encode_int16(uint8_t* frame, const struct tsb_block* block, const int16_t* samples);
+size_t tsb_encode_int32(uint8_t* frame, const struct tsb_block* block, const int32_t* samples);
 /* How many samples fit into one block; 0 for what no block can carry. */
 uint8_t tsb_block_most(uint8_t columns, uint8_t format);
 
@@ -108,7 +108,7 @@ struct tsb_receiver {
 };
 
 /* Takes one byte. Returns 1 when it completed a sound command, which is then in `command`; else 0. */
-int tsb_receive(struct tsb_receiver *receiver, uint8_t byte, struct tsb_command *command);
+int tsb_receive(struct tsb_receiver* receiver, uint8_t byte, struct tsb_command* command);
 
 #ifdef __cplusplus
 }

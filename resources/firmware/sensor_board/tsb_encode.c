@@ -4,7 +4,7 @@
 
 static int columns_fit(uint8_t columns) { return columns >= 1U && columns <= TSB_COLUMNS_MOST; }
 
-size_t tsb_encode_identity(uint8_t *frame, uint8_t token, const struct tsb_identity *identity) {
+size_t tsb_encode_identity(uint8_t* frame, uint8_t token, const struct tsb_identity* identity) {
     struct tsb_writer writer;
     if (identity->streams < 1U || identity->streams > TSB_STREAMS_MOST) return 0;
     tsb_begin(&writer, frame, TSB_VERSION, TSB_IDENTITY);
@@ -18,7 +18,7 @@ size_t tsb_encode_identity(uint8_t *frame, uint8_t token, const struct tsb_ident
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_configuration(uint8_t *frame, uint8_t token, const struct tsb_configuration *configuration) {
+size_t tsb_encode_configuration(uint8_t* frame, uint8_t token, const struct tsb_configuration* configuration) {
     struct tsb_writer writer;
     uint8_t i;
     if (!columns_fit(configuration->columns)) return 0;
@@ -38,7 +38,7 @@ size_t tsb_encode_configuration(uint8_t *frame, uint8_t token, const struct tsb_
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_calibration(uint8_t *frame, uint8_t token, const struct tsb_calibration *calibration) {
+size_t tsb_encode_calibration(uint8_t* frame, uint8_t token, const struct tsb_calibration* calibration) {
     struct tsb_writer writer;
     uint8_t i;
     if (!columns_fit(calibration->columns)) return 0;
@@ -53,7 +53,7 @@ size_t tsb_encode_calibration(uint8_t *frame, uint8_t token, const struct tsb_ca
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_done(uint8_t *frame, uint8_t token, uint8_t command, uint64_t time_us) {
+size_t tsb_encode_done(uint8_t* frame, uint8_t token, uint8_t command, uint64_t time_us) {
     struct tsb_writer writer;
     tsb_begin(&writer, frame, TSB_VERSION, TSB_DONE);
     tsb_put_u8(&writer, token);
@@ -62,7 +62,7 @@ size_t tsb_encode_done(uint8_t *frame, uint8_t token, uint8_t command, uint64_t 
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_status(uint8_t *frame, uint8_t token, const struct tsb_status *status) {
+size_t tsb_encode_status(uint8_t* frame, uint8_t token, const struct tsb_status* status) {
     struct tsb_writer writer;
     tsb_begin(&writer, frame, TSB_VERSION, TSB_STATUS);
     tsb_put_u8(&writer, token);
@@ -75,7 +75,7 @@ size_t tsb_encode_status(uint8_t *frame, uint8_t token, const struct tsb_status 
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_refused(uint8_t *frame, uint8_t token, uint8_t command, uint8_t reason) {
+size_t tsb_encode_refused(uint8_t* frame, uint8_t token, uint8_t command, uint8_t reason) {
     struct tsb_writer writer;
     tsb_begin(&writer, frame, TSB_VERSION, TSB_REFUSED);
     tsb_put_u8(&writer, token);
@@ -91,7 +91,7 @@ uint8_t tsb_block_most(uint8_t columns, uint8_t format) {
 }
 
 /* Writes the head of a block; 0 where the block cannot be carried. */
-static int begin_block(struct tsb_writer *writer, uint8_t *frame, const struct tsb_block *block, uint8_t format) {
+static int begin_block(struct tsb_writer* writer, uint8_t* frame, const struct tsb_block* block, uint8_t format) {
     if (block->count < 1U || block->count > tsb_block_most(block->columns, format)) return 0;
     tsb_begin(writer, frame, TSB_VERSION, TSB_DATA);
     tsb_put_u8(writer, block->stream);
@@ -103,7 +103,7 @@ static int begin_block(struct tsb_writer *writer, uint8_t *frame, const struct t
     return 1;
 }
 
-size_t tsb_encode_int16(uint8_t *frame, const struct tsb_block *block, const int16_t *samples) {
+size_t tsb_encode_int16(uint8_t* frame, const struct tsb_block* block, const int16_t* samples) {
     struct tsb_writer writer;
     size_t i;
     const size_t values = (size_t)block->count * block->columns;
@@ -112,7 +112,7 @@ size_t tsb_encode_int16(uint8_t *frame, const struct tsb_block *block, const int
     return tsb_seal(&writer);
 }
 
-size_t tsb_encode_int32(uint8_t *frame, const struct tsb_block *block, const int32_t *samples) {
+size_t tsb_encode_int32(uint8_t* frame, const struct tsb_block* block, const int32_t* samples) {
     struct tsb_writer writer;
     size_t i;
     const size_t values = (size_t)block->count * block->columns;

@@ -1,11 +1,11 @@
 #include "tsb_board.h"
 
-#define HEAD 3U          /* version, type, token */
-#define RECORD 10U       /* a configuration without its columns */
-#define COLUMN_BYTES 8U  /* scale and offset */
+#define HEAD 3U         /* version, type, token */
+#define RECORD 10U      /* a configuration without its columns */
+#define COLUMN_BYTES 8U /* scale and offset */
 
 /* SET_CONFIGURATION after its token. Returns 0 when its length is not what its columns demand. */
-static int read_configuration(const uint8_t *bytes, size_t size, struct tsb_configuration *into) {
+static int read_configuration(const uint8_t* bytes, size_t size, struct tsb_configuration* into) {
     uint8_t i;
     if (size < RECORD) return 0;
     into->stream = bytes[0];
@@ -24,7 +24,7 @@ static int read_configuration(const uint8_t *bytes, size_t size, struct tsb_conf
     return 1;
 }
 
-static int read_command(const uint8_t *bytes, size_t size, struct tsb_command *command) {
+static int read_command(const uint8_t* bytes, size_t size, struct tsb_command* command) {
     command->type = bytes[1];
     command->token = bytes[2];
     command->stream = 0;
@@ -49,8 +49,8 @@ static int read_command(const uint8_t *bytes, size_t size, struct tsb_command *c
 }
 
 /* The frame in `receiver`, its delimiter seen. */
-static int read_frame(struct tsb_receiver *receiver, struct tsb_command *command) {
-    uint8_t *const bytes = receiver->bytes;
+static int read_frame(struct tsb_receiver* receiver, struct tsb_command* command) {
+    uint8_t* const bytes = receiver->bytes;
     const size_t raw = tsb_unstuff(bytes, receiver->used);
     if (raw < HEAD + TSB_CRC_BYTES || raw > TSB_RAW_MOST) return 0;
     if (tsb_get_u32(bytes + raw - TSB_CRC_BYTES) != tsb_crc32(bytes, raw - TSB_CRC_BYTES)) return 0;
@@ -58,7 +58,7 @@ static int read_frame(struct tsb_receiver *receiver, struct tsb_command *command
     return read_command(bytes, raw - TSB_CRC_BYTES, command);
 }
 
-int tsb_receive(struct tsb_receiver *receiver, uint8_t byte, struct tsb_command *command) {
+int tsb_receive(struct tsb_receiver* receiver, uint8_t byte, struct tsb_command* command) {
     int sound = 0;
     if (byte != 0) {
         if (receiver->used < TSB_FRAME_MOST - 1U) {

@@ -6,11 +6,11 @@ size_t tsb_format_bytes(uint8_t format) {
     return 0U;
 }
 
-uint32_t tsb_crc32(const uint8_t *bytes, size_t size) {
+uint32_t tsb_crc32(const uint8_t* bytes, size_t size) {
     /* Entry i: the reflected polynomial EDB88320 applied four times to i. */
-    static const uint32_t table[16] = {
-        0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU, 0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
-        0xEDB88320U, 0xF00F9344U, 0xD6D6A3E8U, 0xCB61B38CU, 0x9B64C2B0U, 0x86D3D2D4U, 0xA00AE278U, 0xBDBDF21CU};
+    static const uint32_t table[16] = {0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU, 0x76DC4190U, 0x6B6B51F4U,
+                                       0x4DB26158U, 0x5005713CU, 0xEDB88320U, 0xF00F9344U, 0xD6D6A3E8U, 0xCB61B38CU,
+                                       0x9B64C2B0U, 0x86D3D2D4U, 0xA00AE278U, 0xBDBDF21CU};
     uint32_t crc = 0xFFFFFFFFU;
     size_t i;
     for (i = 0; i < size; ++i) {
@@ -21,7 +21,7 @@ uint32_t tsb_crc32(const uint8_t *bytes, size_t size) {
     return crc ^ 0xFFFFFFFFU;
 }
 
-void tsb_begin(struct tsb_writer *writer, uint8_t *frame, uint8_t version, uint8_t type) {
+void tsb_begin(struct tsb_writer* writer, uint8_t* frame, uint8_t version, uint8_t type) {
     writer->frame = frame;
     writer->used = 0;
     writer->overflow = 0;
@@ -29,7 +29,7 @@ void tsb_begin(struct tsb_writer *writer, uint8_t *frame, uint8_t version, uint8
     tsb_put_u8(writer, type);
 }
 
-void tsb_put_u8(struct tsb_writer *writer, uint8_t value) {
+void tsb_put_u8(struct tsb_writer* writer, uint8_t value) {
     if (writer->used >= TSB_RAW_MOST) {
         writer->overflow = 1;
         return;
@@ -38,17 +38,17 @@ void tsb_put_u8(struct tsb_writer *writer, uint8_t value) {
     writer->frame[writer->used] = value;
 }
 
-void tsb_put_u16(struct tsb_writer *writer, uint16_t value) {
+void tsb_put_u16(struct tsb_writer* writer, uint16_t value) {
     tsb_put_u8(writer, (uint8_t)(value & 0xFFU));
     tsb_put_u8(writer, (uint8_t)((value >> 8U) & 0xFFU));
 }
 
-void tsb_put_u32(struct tsb_writer *writer, uint32_t value) {
+void tsb_put_u32(struct tsb_writer* writer, uint32_t value) {
     tsb_put_u16(writer, (uint16_t)(value & 0xFFFFU));
     tsb_put_u16(writer, (uint16_t)(value >> 16U));
 }
 
-void tsb_put_u64(struct tsb_writer *writer, uint64_t value) {
+void tsb_put_u64(struct tsb_writer* writer, uint64_t value) {
     tsb_put_u32(writer, (uint32_t)(value & 0xFFFFFFFFU));
     tsb_put_u32(writer, (uint32_t)(value >> 32U));
 }
@@ -59,13 +59,13 @@ union tsb_float_bits {
     uint32_t bits;
 };
 
-void tsb_put_f32(struct tsb_writer *writer, float value) {
+void tsb_put_f32(struct tsb_writer* writer, float value) {
     union tsb_float_bits both;
     both.value = value;
     tsb_put_u32(writer, both.bits);
 }
 
-void tsb_put_text(struct tsb_writer *writer, const char *text, size_t size) {
+void tsb_put_text(struct tsb_writer* writer, const char* text, size_t size) {
     size_t i;
     int ended = 0;
     for (i = 0; i < size; ++i) {
@@ -74,8 +74,8 @@ void tsb_put_text(struct tsb_writer *writer, const char *text, size_t size) {
     }
 }
 
-size_t tsb_seal(struct tsb_writer *writer) {
-    uint8_t *const frame = writer->frame;
+size_t tsb_seal(struct tsb_writer* writer) {
+    uint8_t* const frame = writer->frame;
     size_t code = 0; /* where the distance to the next zero goes */
     size_t i;
     tsb_put_u32(writer, tsb_crc32(frame + 1, writer->used));
@@ -90,7 +90,7 @@ size_t tsb_seal(struct tsb_writer *writer) {
     return i + 1;
 }
 
-size_t tsb_unstuff(uint8_t *bytes, size_t size) {
+size_t tsb_unstuff(uint8_t* bytes, size_t size) {
     size_t from = 0;
     size_t to = 0;
     while (from < size) {
@@ -108,11 +108,11 @@ size_t tsb_unstuff(uint8_t *bytes, size_t size) {
     return to;
 }
 
-uint32_t tsb_get_u32(const uint8_t *bytes) {
+uint32_t tsb_get_u32(const uint8_t* bytes) {
     return (uint32_t)bytes[0] | ((uint32_t)bytes[1] << 8U) | ((uint32_t)bytes[2] << 16U) | ((uint32_t)bytes[3] << 24U);
 }
 
-float tsb_get_f32(const uint8_t *bytes) {
+float tsb_get_f32(const uint8_t* bytes) {
     union tsb_float_bits both;
     both.bits = tsb_get_u32(bytes);
     return both.value;

@@ -19,8 +19,8 @@ extern "C" {
 #endif
 
 #define TSB_VERSION 1U
-#define TSB_RAW_MOST 254U    /* content with its CRC, before COBS */
-#define TSB_FRAME_MOST 256U  /* on the wire: code byte, content, delimiter; four full-speed packets */
+#define TSB_RAW_MOST 254U   /* content with its CRC, before COBS */
+#define TSB_FRAME_MOST 256U /* on the wire: code byte, content, delimiter; four full-speed packets */
 #define TSB_CRC_BYTES 4U
 #define TSB_COLUMNS_MOST 16U
 #define TSB_STREAMS_MOST 8U
@@ -67,33 +67,33 @@ size_t tsb_format_bytes(uint8_t format);
 
 /* CRC-32/ISO-HDLC: polynomial 04C11DB7, reflected, init FFFFFFFF, final xor FFFFFFFF; "123456789" gives CBF43926.
  * 64 bytes of table, two steps a byte. */
-uint32_t tsb_crc32(const uint8_t *bytes, size_t size);
+uint32_t tsb_crc32(const uint8_t* bytes, size_t size);
 
 /* A frame under construction. `used` counts the bytes after the one for COBS; too much sets `overflow`. */
 struct tsb_writer {
-    uint8_t *frame;
+    uint8_t* frame;
     uint16_t used;
     uint8_t overflow;
 };
 
 /* Begins a frame of `type` in `frame`, which has TSB_FRAME_MOST bytes. */
-void tsb_begin(struct tsb_writer *writer, uint8_t *frame, uint8_t version, uint8_t type);
-void tsb_put_u8(struct tsb_writer *writer, uint8_t value);
-void tsb_put_u16(struct tsb_writer *writer, uint16_t value);
-void tsb_put_u32(struct tsb_writer *writer, uint32_t value);
-void tsb_put_u64(struct tsb_writer *writer, uint64_t value);
-void tsb_put_f32(struct tsb_writer *writer, float value);
+void tsb_begin(struct tsb_writer* writer, uint8_t* frame, uint8_t version, uint8_t type);
+void tsb_put_u8(struct tsb_writer* writer, uint8_t value);
+void tsb_put_u16(struct tsb_writer* writer, uint16_t value);
+void tsb_put_u32(struct tsb_writer* writer, uint32_t value);
+void tsb_put_u64(struct tsb_writer* writer, uint64_t value);
+void tsb_put_f32(struct tsb_writer* writer, float value);
 /* `text` up to its end or `size` bytes, filled with zeros to `size`. */
-void tsb_put_text(struct tsb_writer *writer, const char *text, size_t size);
+void tsb_put_text(struct tsb_writer* writer, const char* text, size_t size);
 /* Appends the CRC, stuffs and delimits. Returns the bytes to send, at most TSB_FRAME_MOST; 0 when it did not fit. */
-size_t tsb_seal(struct tsb_writer *writer);
+size_t tsb_seal(struct tsb_writer* writer);
 
 /* Unstuffs `size` bytes in place, without their delimiter. Returns the bytes that remain, or 0 for bytes that are not
  * COBS. */
-size_t tsb_unstuff(uint8_t *bytes, size_t size);
+size_t tsb_unstuff(uint8_t* bytes, size_t size);
 
-uint32_t tsb_get_u32(const uint8_t *bytes);
-float tsb_get_f32(const uint8_t *bytes);
+uint32_t tsb_get_u32(const uint8_t* bytes);
+float tsb_get_f32(const uint8_t* bytes);
 
 #ifdef __cplusplus
 }

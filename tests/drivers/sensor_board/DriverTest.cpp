@@ -1,0 +1,136 @@
+// URIs to boards: found by serial number, parameters checked, obstacles told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/sensor_board/SensorBoardDriver.h"
+#include "tests/drivers/sensor_board/SensorBoardBench.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sensorboard;
+using testing::HasSubstr;
+
+/// Several emulated boards, one of which may not be opened, and a terminal.
+class Ports final : public SensorBoardPorts {
+public:
+    explicit Ports(VirtualClock& clock) {
+        for (const char* serial : {"TSB-1", "TSB-2"}) {
+            EmulatedBoardSettings settings;
+            settings.serial = serial;
+            lines.push_back(
+                std::make_shared<EmulatedBoardLine>(clock, &clock, settings, std::make_unique<CountingSignal>()));
+        }
+    }
+    std::vector<SensorBoardPort> list() const override {
+        std::vector<SensorBoardPort> found = extra;
+        for (const auto& line : lines) {
+            for (auto& port : line->list()) found.push_back(port);
+        }
+        return found;
+    }
+    Result<std::unique_ptr<Transport>> open(const SensorBoardPort& port) override {
+        ++opened;
+        return lines[port.serial == "TSB-1" ? 0 : 1]->connect();
+    }
+    Result<std::unique_ptr<Transport>> openTerminal(const std::string& path) override {
+        terminal = path;
+        return lines[1]->connect();
+    }
+
+    std::vector<std::shared_ptr<EmulatedBoardLine>> lines;
+    std::vector<SensorBoardPort> extra;
+    std::string terminal;
+    int opened = 0;
+};
+
+class SensorBoardDriverTest : public testing::Test {
+protected:
+    Result<void> open(const std::string& text) {
+        const auto uri = DeviceUri::parse(text);
+        EXPECT_TRUE(uri.has_value());
+        return driver_->open(*uri, {}, {clock_}, devices_);
+    }
+
+    VirtualClock clock_;
+    std::shared_ptr<Ports> ports_ = std::make_shared<Ports>(clock_);
+    std::unique_ptr<Driver> driver_ = makeSensorBoardDriver(ports_);
+    DeviceSet devices_;
+};
+
+TEST_F(SensorBoardDriverTest, ListsWhatIsPluggedInWithWhatIsInTheWay) {
+    ports_->extra.push_back({"TSB-9", "1-4", "USB device 1209:0001 may not be opened: run ./dev install-rules"});
+    const auto found = driver_->list();
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].uri, "board:TSB-9");
+    EXPECT_THAT(found[0].name, HasSubstr("install-rules"));
+    EXPECT_EQ(found[1].uri, "board:TSB-1");
+    EXPECT_EQ(found[1].role, Role::Sensor);
+    EXPECT_FALSE(driver_->runsOnVirtualClock());
+    EXPECT_EQ(driver_->scheme(), "board");
+}
+
+TEST_F(SensorBoardDriverTest, OpensTheFirstThatAnswersOrTheOneNamed) {
+    RecordProperty("hazard", "H4");
+    ASSERT_TRUE(open("board:").has_value());
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-1");
+    devices_.sensor.reset();
+    ASSERT_TRUE(open("board:TSB-2").has_value());
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
+    EXPECT_EQ(devices_.sensor->identity().uri, "board:TSB-2");
+}
+
+TEST_F(SensorBoardDriverTest, PassesOverABoardThatMayNotBeOpened) {
+    ports_->extra.push_back({"TSB-9", "1-4", "it may not be opened: run ./dev install-rules"});
+    ASSERT_TRUE(open("board:").has_value());
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-1");
+    devices_.sensor.reset();
+    const auto refused = open("board:TSB-9");
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Io);
+    EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
+}
+
+TEST_F(SensorBoardDriverTest, WhatIsNotThereIsNotFound) {
+    const auto refused = open("board:TSB-3");
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(refused.error().message,
+                HasSubstr("no such sensor board is plugged in (USB 1209:0001 \"Tactoscope sensor board\")"));
+    EXPECT_EQ(ports_->opened, 0);
+}
+
+TEST_F(SensorBoardDriverTest, ReadsItsParameters) {
+    ASSERT_TRUE(open("board:?rate=2kHz&slowrate=100").has_value());
+    EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
+    EXPECT_EQ(devices_.sensor->streams()[1].rate_hz, 100);
+    devices_.sensor.reset();
+    ASSERT_TRUE(open("board:?tty=/dev/pts/7").has_value());
+    EXPECT_EQ(ports_->terminal, "/dev/pts/7");
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
+}
+
+TEST_F(SensorBoardDriverTest, RefusesParametersThatItDoesNotTake) {
+    for (const auto& [uri, expected] : {std::pair{"board:?rate=50", "rate=50 is not accepted: 100 Hz to 20 kHz"},
+                                        {"board:?rate=nan", "100 Hz to 20 kHz"},
+                                        {"board:?slowrate=5", "slowrate=5 is not accepted: 20 Hz to 2 kHz"},
+                                        {"board:?tty=", "a terminal's path, as /dev/ttyACM0"},
+                                        {"board:?speed=1", "it takes rate, slowrate, tty"},
+                                        {"board:?rate=2000&rate=1000", "rate is given twice"}}) {
+        const auto refused = open(uri);
+        ASSERT_FALSE(refused.has_value()) << uri;
+        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(refused.error().message, HasSubstr(expected));
+    }
+    EXPECT_EQ(ports_->opened, 0);
+}
+
+TEST_F(SensorBoardDriverTest, ABenchHasOneSensor) {
+    ASSERT_TRUE(open("board:").has_value());
+    const auto refused = open("board:TSB-2");
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_THAT(refused.error().message, HasSubstr("a sensor is open already"));
+}
+
+}  // namespace
+}  // namespace tacto::test

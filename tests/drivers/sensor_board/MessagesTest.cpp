@@ -1,0 +1,175 @@
+// What a board may say of itself, and what is refused in one sentence.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/sensor_board/Fields.h"
+#include "drivers/sensor_board/Messages.h"
+#include "tests/drivers/sensor_board/Golden.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sensorboard;
+using Bytes = std::vector<std::uint8_t>;
+using testing::HasSubstr;
+
+/// The payload of a golden frame.
+Bytes payloadOf(std::string_view text) {
+    FrameDecoder decoder;
+    std::span<const std::uint8_t> bytes(golden(text));
+    const auto frame = decoder.take(bytes);
+    if (!frame) return {};
+    return {frame->payload.begin(), frame->payload.end()};
+}
+
+Frame frameOf(Reply reply, const Bytes& payload) { return {kVersion, static_cast<std::uint8_t>(reply), payload}; }
+
+/// A configuration payload with one byte other than in the golden one.
+std::string refusalOf(std::size_t at, std::uint8_t value) {
+    auto payload = payloadOf("CONFIGURATION");
+    payload[at] = value;
+    const auto read = readConfiguration(frameOf(Reply::Configuration, payload));
+    return read ? "" : read.error().message;
+}
+
+constexpr std::size_t kStreamAt = 1, kFlagsAt = 2, kKindAt = 3, kUnitAt = 4, kFormatAt = 5, kColumnsAt = 6, kRateAt = 7,
+                      kScaleAt = 11;
+
+TEST(SensorBoardMessages, ReadsTheGoldenDescriptions) {
+    const auto identity = readIdentity(frameOf(Reply::Identity, payloadOf("IDENTITY")));
+    ASSERT_TRUE(identity.has_value());
+    EXPECT_EQ(identity->name, "Golden board");
+    EXPECT_EQ(identity->serial, "G-0001");
+    EXPECT_EQ(identity->firmware, "1.2.3");
+    EXPECT_EQ(identity->streams, 3U);
+    EXPECT_EQ(identity->lowestVersion, 1);
+    EXPECT_EQ(identity->highestVersion, 1);
+
+    const auto configuration = readConfiguration(frameOf(Reply::Configuration, payloadOf("CONFIGURATION")));
+    ASSERT_TRUE(configuration.has_value());
+    EXPECT_TRUE(configuration->enabled);
+    EXPECT_EQ(configuration->kind, StreamKind::Acceleration);
+    EXPECT_EQ(configuration->unit, StreamUnit::MetrePerSecondSquared);
+    EXPECT_EQ(configuration->format, SampleFormat::Int16);
+    EXPECT_EQ(configuration->rate_hz(), 4000);
+    ASSERT_EQ(configuration->columns.size(), 3U);
+    EXPECT_EQ(configuration->columns[2].scale, 0.0048828125);
+
+    const auto calibration = readCalibration(frameOf(Reply::Calibration, payloadOf("CALIBRATION")));
+    ASSERT_TRUE(calibration.has_value());
+    EXPECT_TRUE(calibration->calibrated);
+    EXPECT_EQ(calibration->date, "2026-11-20");
+    EXPECT_EQ(calibration->reference, "CERT 17");
+    ASSERT_EQ(calibration->uncertainty.size(), 3U);
+    EXPECT_NEAR(calibration->uncertainty[1], 0.005, 1e-9);
+}
+
+TEST(SensorBoardMessages, ReadsTheGoldenStates) {
+    const auto done = readDone(frameOf(Reply::Done, payloadOf("DONE")), Command::Start);
+    ASSERT_TRUE(done.has_value());
+    EXPECT_EQ(*done, 1'000'000U);
+    EXPECT_FALSE(readDone(frameOf(Reply::Done, payloadOf("DONE")), Command::Stop).has_value());
+    const auto status = readStatus(frameOf(Reply::Status, payloadOf("STATUS")));
+    ASSERT_TRUE(status.has_value());
+    EXPECT_TRUE(status->running);
+    EXPECT_EQ(status->time_us, std::uint64_t{1} << 32U);
+    EXPECT_EQ(status->samplesLost, 3U);
+    EXPECT_EQ(status->blocksDropped, 2U);
+    EXPECT_EQ(status->framesRefused, 1U);
+    const auto refusal = readRefusal(frameOf(Reply::Refused, payloadOf("REFUSED")));
+    ASSERT_TRUE(refusal.has_value());
+    EXPECT_EQ(refusal->command, 3);
+    EXPECT_EQ(refusal->text(), "it does this only while stopped");
+}
+
+TEST(SensorBoardMessages, ReadsTheGoldenBlocks) {
+    const auto narrow = payloadOf("DATA: stream 0");
+    const auto block = readBlock(frameOf(Reply::Data, narrow));
+    ASSERT_TRUE(block.has_value());
+    EXPECT_EQ(block->count, 2);
+    EXPECT_EQ(block->sequence, 258U);
+    EXPECT_EQ(block->index, 8256U);
+    EXPECT_EQ(block->time_us, 5'000'000U);
+    EXPECT_EQ(block->interval_ns, 250'000U);
+    EXPECT_EQ(block->samples.size(), 12U);
+    const auto wide = payloadOf("DATA: stream 2");
+    ASSERT_TRUE(readBlock(frameOf(Reply::Data, wide)).has_value());
+    EXPECT_EQ(readBlock(frameOf(Reply::Data, wide))->index, 0xFFFFFFFFU);
+}
+
+TEST(SensorBoardMessages, RefusesEveryLengthButTheRightOne) {
+    RecordProperty("hazard", "H10");
+    const auto refuses = [](std::string_view text, auto&& read) {
+        const auto whole = payloadOf(text);
+        EXPECT_TRUE(read(whole)) << text;
+        auto longer = whole;
+        longer.push_back(0);
+        EXPECT_FALSE(read(longer)) << text;
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            EXPECT_FALSE(read(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))))
+                << text << ", " << size << " bytes";
+        }
+    };
+    refuses("IDENTITY", [](const Bytes& p) { return readIdentity(frameOf(Reply::Identity, p)).has_value(); });
+    refuses("CONFIGURATION",
+            [](const Bytes& p) { return readConfiguration(frameOf(Reply::Configuration, p)).has_value(); });
+    refuses("CALIBRATION", [](const Bytes& p) { return readCalibration(frameOf(Reply::Calibration, p)).has_value(); });
+    refuses("DONE", [](const Bytes& p) { return readDone(frameOf(Reply::Done, p), Command::Start).has_value(); });
+    refuses("STATUS", [](const Bytes& p) { return readStatus(frameOf(Reply::Status, p)).has_value(); });
+    refuses("REFUSED", [](const Bytes& p) { return readRefusal(frameOf(Reply::Refused, p)).has_value(); });
+}
+
+TEST(SensorBoardMessages, RefusesAConfigurationThatMakesNoSense) {
+    RecordProperty("hazard", "H4");
+    EXPECT_EQ(refusalOf(kStreamAt, 0), "");
+    EXPECT_THAT(refusalOf(kFlagsAt, 2), HasSubstr("flags 0x2; 0 or 1 was expected"));
+    EXPECT_THAT(refusalOf(kKindAt, 3), HasSubstr("of kind 3; 0, 1 or 2 was expected"));
+    EXPECT_THAT(refusalOf(kUnitAt, 3), HasSubstr("its acceleration stream is in Pa; m/s2 or count was expected"));
+    EXPECT_THAT(refusalOf(kUnitAt, 9), HasSubstr("in unit 9; m/s2 or count was expected"));
+    EXPECT_THAT(refusalOf(kFormatAt, 3), HasSubstr("format 3; 1 (int16) or 2 (int32) was expected"));
+    EXPECT_THAT(refusalOf(kKindAt, 1), HasSubstr("its force stream is in m/s2; N or count was expected"));
+    EXPECT_THAT(refusalOf(kColumnsAt, 200), HasSubstr("200 columns; 1 to 16 were expected"));
+    auto payload = payloadOf("CONFIGURATION");
+    std::fill_n(payload.begin() + kRateAt, 4, std::uint8_t{0});
+    EXPECT_THAT(readConfiguration(frameOf(Reply::Configuration, payload)).error().message,
+                HasSubstr("a rate of 0 Hz; 1 Hz to 1 MHz was expected"));
+    std::fill_n(payload.begin() + kRateAt, 4, std::uint8_t{0xFF});
+    EXPECT_FALSE(readConfiguration(frameOf(Reply::Configuration, payload)).has_value());
+}
+
+TEST(SensorBoardMessages, RefusesAScaleThatIsNoScale) {
+    RecordProperty("hazard", "H7");
+    for (const float scale : {0.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        auto payload = payloadOf("CONFIGURATION");
+        Bytes bytes;
+        putF32(bytes, scale);
+        std::ranges::copy(bytes, payload.begin() + kScaleAt);
+        const auto read = readConfiguration(frameOf(Reply::Configuration, payload));
+        ASSERT_FALSE(read.has_value()) << scale;
+        EXPECT_THAT(read.error().message, HasSubstr("a finite scale other than 0 was expected"));
+    }
+    EXPECT_THAT(refusalOf(kUnitAt, 0), HasSubstr("counts with the scale 0.0048828125")) << "a scale and no unit";
+}
+
+TEST(SensorBoardMessages, UncalibratedStreamsAreCounts) {
+    StreamConfiguration made{1, true, StreamKind::Taxels, StreamUnit::Count, SampleFormat::Int16, 200'000, {}};
+    made.columns.resize(8);
+    auto payload = configurationPayload(made);
+    payload.insert(payload.begin(), 1);  // token
+    const auto read = readConfiguration(frameOf(Reply::Configuration, payload));
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_EQ(read->unit, StreamUnit::Count);
+    EXPECT_EQ(read->kind, StreamKind::Taxels);
+    EXPECT_EQ(read->columns.size(), 8U);
+}
+
+TEST(SensorBoardMessages, TextsOfADeviceAreMadePrintable) {
+    RecordProperty("hazard", "H10");
+    auto payload = payloadOf("IDENTITY");
+    payload[4] = 0x1B;
+    payload[5] = 0xFF;
+    EXPECT_EQ(readIdentity(frameOf(Reply::Identity, payload))->name, "??lden board");
+}
+
+}  // namespace
+}  // namespace tacto::test

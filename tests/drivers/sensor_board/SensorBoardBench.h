@@ -1,0 +1,34 @@
+// SensorBoardBench.h - an emulated board on a virtual clock and the driver's device on it: the fixture of these tests.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/sensor_board/EmulatedBoardLine.h"
+#include "drivers/sensor_board/SensorBoard.h"
+
+namespace tacto::test {
+
+class SensorBoardBench {
+public:
+    /// Without a signal the board counts (CountingSignal).
+    explicit SensorBoardBench(sensorboard::EmulatedBoardSettings settings = {},
+                              std::unique_ptr<sensorboard::BoardSignal> signal = nullptr);
+
+    /// Opens the board; failing that, the test's failure says why.
+    void open(const SensorBoardSettings& settings = {});
+    [[nodiscard]] Result<std::unique_ptr<SensorBoard>> tryOpen(const SensorBoardSettings& settings = {});
+    /// Lets time pass and reads every `step`, adding to `blocks`. The first error ends it.
+    Result<void> run(Seconds duration, Seconds step = Seconds(0.002));
+
+    VirtualClock clock;
+    std::shared_ptr<sensorboard::EmulatedBoardLine> line;
+    std::unique_ptr<SensorBoard> board;
+    std::vector<SampleBlock> blocks;
+};
+
+/// Which step of a CountingSignal an acceleration sample shows.
+[[nodiscard]] std::int64_t stepOf(const SampleBlock& acceleration, std::size_t sample);
+
+}  // namespace tacto::test
