@@ -45,7 +45,7 @@ int usage(const std::string& sentence) {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,
-                                          kMeasure, kAnalyze,   kReport,  kVerify};
+                                          kMeasure, kAnalyze,   kReport,  kVerify,    kHid};
     return all;
 }
 

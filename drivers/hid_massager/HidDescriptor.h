@@ -1,0 +1,79 @@
+// HidDescriptor.h - reads a HID report descriptor: which controls a device has, and where each one stands in which
+// report. (HID 1.11 section 6.2.2; hidapi 0.13 of Debian 12 has no call for it.)
+//
+// Descriptors come from devices, so they are untrusted: all tables are bounded, and a descriptor that goes beyond them
+// or contradicts itself is refused.
+//
+// Positions are counted in a report as hidapi takes it: byte 0 is the report's number (0 where reports have none), so
+// that the first control stands at bit 8.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/Result.h"
+
+namespace tacto::hid {
+
+/// Usage page in the high half, usage in the low: 0x000E0023 is Intensity of the Haptics page.
+using Usage = std::uint32_t;
+[[nodiscard]] constexpr Usage usageOf(std::uint16_t page, std::uint16_t id) noexcept { return Usage{page} << 16 | id; }
+[[nodiscard]] constexpr std::uint16_t pageOf(Usage usage) noexcept { return static_cast<std::uint16_t>(usage >> 16); }
+[[nodiscard]] constexpr std::uint16_t idOf(Usage usage) noexcept { return static_cast<std::uint16_t>(usage); }
+
+enum class ReportKind { Input, Output, Feature };
+[[nodiscard]] const char* nameOf(ReportKind kind) noexcept;  // "input", "output", "feature"
+
+inline constexpr std::uint16_t kNoCollection = 0xFFFF;
+
+struct HidCollection {
+    Usage usage = 0;
+    std::uint8_t type = 0;                 ///< 0 physical, 1 application, 2 logical ...
+    std::uint16_t parent = kNoCollection;  ///< index, or kNoCollection
+};
+
+/// One control; padding is none.
+struct HidField {
+    ReportKind kind = ReportKind::Input;
+    std::uint8_t report = 0;  ///< its number; 0 where reports have none
+    Usage usage = 0;          ///< 0 in an array, whose values are usages themselves
+    std::uint32_t bit = 0;    ///< of the report, its number's byte included
+    std::uint8_t bits = 0;    ///< 1 to 32
+    std::int64_t min = 0;     ///< logical
+    std::int64_t max = 0;     ///< logical; ≥ min
+    bool array = false;
+    std::uint16_t collection = kNoCollection;  ///< the innermost one around it
+};
+
+struct HidDescriptor {
+    struct Report {
+        ReportKind kind = ReportKind::Input;
+        std::uint8_t number = 0;
+        std::uint32_t bits = 0;  ///< without its number
+    };
+    std::vector<HidCollection> collections;
+    std::vector<HidField> fields;
+    std::vector<Report> reports;
+
+    /// Bytes of a report with its number's byte, as hidapi writes it; nothing where there is no such report.
+    [[nodiscard]] std::optional<std::size_t> lengthOf(ReportKind kind, std::uint8_t number) const noexcept;
+    /// Whether `collection` is, or stands inside, one of this usage.
+    [[nodiscard]] bool isInside(std::uint16_t collection, Usage usage) const noexcept;
+    /// The innermost collection of this usage around `collection`, itself included; kNoCollection where none is.
+    [[nodiscard]] std::uint16_t enclosing(std::uint16_t collection, Usage usage) const noexcept;
+};
+
+inline constexpr std::size_t kDescriptorMost = 4096;  ///< bytes; as Linux's HID_MAX_DESCRIPTOR_SIZE
+inline constexpr std::size_t kFieldsMost = 4096;
+inline constexpr std::size_t kCollectionsMost = 512;
+inline constexpr std::uint32_t kReportBitsMost = 8 * 4096;
+
+/// Errors: ParseError naming the place and what is wrong there.
+[[nodiscard]] Result<HidDescriptor> parseHidDescriptor(std::span<const std::uint8_t> bytes);
+
+}  // namespace tacto::hid

@@ -1,0 +1,311 @@
+#include "drivers/hid_massager/HidDriver.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "drivers/hid_massager/Haptics.h"
+#include "drivers/hid_massager/HidMassager.h"
+#include "drivers/hid_massager/HidapiBackend.h"
+#include "drivers/hid_massager/MassagerTemplate.h"
+#include "drivers/hid_massager/TrancePort.h"
+
+namespace tacto::hid {
+
+namespace {
+
+/// What a URI asks for.
+struct Wanted {
+    std::string text;  ///< the URI, for messages
+    std::optional<std::uint16_t> vendor, product;
+    std::string serial, templateName, backend;
+};
+
+std::optional<std::uint16_t> hex16(std::string_view text) {
+    std::uint16_t value = 0;
+    const auto* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value, 16);
+    if (text.size() != 4 || read.ec != std::errc() || read.ptr != end) return std::nullopt;
+    return value;
+}
+
+Result<Wanted> readUri(const DeviceUri& uri) {
+    Wanted wanted;
+    wanted.text = uri.text();
+    if (!uri.path.empty()) {
+        const std::string_view path = uri.path;
+        wanted.vendor = hex16(path.substr(0, 4));
+        wanted.product = path.size() == 9 && path[4] == ':' ? hex16(path.substr(5)) : std::nullopt;
+        if (!wanted.vendor || !wanted.product) {
+            return fail(ErrorCode::InvalidArgument,
+                        "device \"{}\": \"{}\" is no vendor and product; two times four hexadecimal digits are "
+                        "accepted, as hid:054c:0ce6",
+                        wanted.text, uri.path);
+        }
+    }
+    for (const auto& [key, value] : uri.parameters) {
+        if (key == "serial") {
+            wanted.serial = value;
+        } else if (key == "template") {
+            wanted.templateName = value;
+        } else if (key == "backend") {
+            wanted.backend = value;
+        } else {
+            return fail(ErrorCode::InvalidArgument,
+                        "device \"{}\": there is no parameter \"{}\" (={}): it takes serial, template, backend",
+                        wanted.text, key, value);
+        }
+    }
+    return wanted;
+}
+
+std::string uriOf(std::uint16_t vendor, std::uint16_t product, const std::string& serial, const Wanted& wanted) {
+    DeviceUri uri{"hid", fmt::format("{:04x}:{:04x}", vendor, product), {}};
+    // A serial number that would break the URI is left out: the device is found by the rest.
+    if (!serial.empty() && serial.find_first_of("&=?") == std::string::npos) {
+        uri.parameters.emplace_back("serial", serial);
+    }
+    if (!wanted.templateName.empty()) uri.parameters.emplace_back("template", wanted.templateName);
+    if (!wanted.backend.empty()) uri.parameters.emplace_back("backend", wanted.backend);
+    return uri.text();
+}
+
+/// A device that can be a massager.
+struct Candidate {
+    std::string name;
+    std::string serial;
+    std::string label, obstacle;
+    std::uint16_t vendor = 0, product = 0;
+    std::optional<HidDeviceInfo> hid;
+    const MassagerTemplate* byTemplate = nullptr;  // else by its Haptics page
+    std::optional<UsbDeviceInfo> usb;              // a Trance Vibrator
+};
+
+class HidDriver final : public Driver {
+public:
+    explicit HidDriver(HidDriverParts parts) : parts_(std::move(parts)) {}
+
+    std::string_view scheme() const noexcept override { return "hid"; }
+    bool runsOnVirtualClock() const noexcept override { return false; }
+
+    std::vector<DeviceIdentity> list() const override {
+        // A template that cannot be read is told by open(); what the others describe is still listed.
+        const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
+        std::vector<DeviceIdentity> found;
+        for (const auto& one : candidates(*parts_.backends.front(), templates, nullptr)) {
+            auto name = one.obstacle.empty() ? one.name : one.name + ": " + one.obstacle;
+            found.push_back({uriOf(one.vendor, one.product, one.serial, {}),
+                             Role::Massager,
+                             std::move(name),
+                             one.serial,
+                             {},
+                             false});
+        }
+        return found;
+    }
+
+    Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
+                      DeviceSet& into) override {
+        const auto wanted = readUri(uri);
+        if (!wanted) return failure(wanted);
+        if (into.massager) {
+            return fail(ErrorCode::InvalidArgument,
+                        "device \"{}\": a massager is open already, and a bench has one of each", wanted->text);
+        }
+        const auto backend = backendOf(*wanted);
+        if (!backend) return failure(backend);
+        auto templates = loadMassagerTemplates(parts_.templates);
+        if (!templates) return failure(templates);
+        std::optional<MassagerTemplate> named;
+        if (!wanted->templateName.empty()) {
+            auto found = templateOf(*wanted, *templates);
+            if (!found) return failure(found);
+            named = std::move(*found);
+        }
+        const auto chosen = choose(*wanted, candidates(**backend, *templates, named ? &*named : nullptr, &*wanted));
+        if (!chosen) return failure(chosen);
+        if (!chosen->obstacle.empty()) {
+            return fail(ErrorCode::Io, "device \"{}\": {}", wanted->text, chosen->obstacle);
+        }
+        DeviceIdentity identity{uriOf(chosen->vendor, chosen->product, chosen->serial, *wanted),
+                                Role::Massager,
+                                chosen->name,
+                                chosen->serial,
+                                {},
+                                false};
+        auto opened = chosen->usb ? openTrance(*chosen, std::move(identity), context.clock)
+                                  : openHid(*chosen, *backend, std::move(identity), context.clock);
+        if (!opened) return fail(opened.error().code, "device \"{}\": {}", wanted->text, opened.error().message);
+        into.massager = std::move(*opened);
+        return {};
+    }
+
+private:
+    using Backend = std::shared_ptr<const HidBackend>;
+
+    Result<Backend> backendOf(const Wanted& wanted) const {
+        if (wanted.backend.empty()) return parts_.backends.front();
+        std::vector<std::string_view> names;
+        for (const auto& backend : parts_.backends) {
+            if (backend->name() == wanted.backend) return backend;
+            names.push_back(backend->name());
+        }
+        return fail(ErrorCode::InvalidArgument, "device \"{}\": there is no backend \"{}\"; there are {}", wanted.text,
+                    wanted.backend, fmt::join(names, ", "));
+    }
+
+    static Result<MassagerTemplate> templateOf(const Wanted& wanted, const std::vector<MassagerTemplate>& shipped) {
+        if (wanted.templateName.ends_with(".json")) return loadMassagerTemplate(wanted.templateName);
+        std::vector<std::string_view> names;
+        for (const auto& one : shipped) {
+            if (one.key == wanted.templateName) return one;
+            names.push_back(one.key);
+        }
+        return fail(ErrorCode::NotFound, "device \"{}\": there is no template \"{}\"; there are {}, or a file",
+                    wanted.text, wanted.templateName, fmt::join(names, ", "));
+    }
+
+    /// `named`: what describes the device that is asked for, whatever its identity.
+    std::vector<Candidate> candidates(const HidBackend& backend, const std::vector<MassagerTemplate>& templates,
+                                      const MassagerTemplate* named, const Wanted* wanted = nullptr) const {
+        std::vector<Candidate> found;
+        for (auto& info : backend.devices()) {
+            if (std::ranges::any_of(found, [&](const auto& one) { return one.hid->path == info.path; })) continue;
+            if (wanted != nullptr && wanted->vendor &&
+                (info.vendor != *wanted->vendor || info.product != *wanted->product)) {
+                continue;
+            }
+            Candidate one;
+            one.byTemplate = named;
+            for (const auto& other : templates) {
+                const auto* device = named == nullptr ? other.deviceOf(info.vendor, info.product) : nullptr;
+                if (device == nullptr) continue;
+                one.byTemplate = &other;
+                one.name = device->name;
+            }
+            if (one.byTemplate != nullptr) {
+                const auto usage = one.byTemplate->usage;
+                if (usage && info.usage != 0 && *usage != info.usage) continue;  // another collection of it
+            } else {
+                const auto descriptor = backend.descriptor(info);
+                if (!descriptor) continue;
+                const auto parsed = parseHidDescriptor(*descriptor);
+                if (!parsed || !findHaptics(*parsed)) continue;
+            }
+            if (one.name.empty()) one.name = info.name.empty() ? "haptic device" : info.name;
+            one.serial = info.serial;
+            one.label = info.label();
+            one.obstacle = info.obstacle();
+            one.vendor = info.vendor;
+            one.product = info.product;
+            one.hid = std::move(info);
+            found.push_back(std::move(one));
+        }
+        addTrance(found, wanted);
+        return found;
+    }
+
+    void addTrance(std::vector<Candidate>& found, const Wanted* wanted) const {
+        if (!parts_.usb) return;
+        if (wanted != nullptr && wanted->vendor &&
+            (*wanted->vendor != kTranceVendor || *wanted->product != kTranceProduct)) {
+            return;  // nor is USB started for it
+        }
+        const auto context = parts_.usb();
+        if (!context) return;
+        for (const auto& info : (*context)->devices()) {
+            if (info.vendor != kTranceVendor || info.product != kTranceProduct) continue;
+            Candidate one;
+            one.name = "Trance Vibrator";
+            one.serial = info.serial;
+            one.label = info.label();
+            one.obstacle = info.obstacle();
+            one.vendor = info.vendor;
+            one.product = info.product;
+            one.usb = info;
+            found.push_back(std::move(one));
+        }
+    }
+
+    static Result<Candidate> choose(const Wanted& wanted, std::vector<Candidate> found) {
+        if (!wanted.serial.empty()) std::erase_if(found, [&](const auto& one) { return one.serial != wanted.serial; });
+        if (found.size() == 1) return std::move(found.front());
+        if (found.empty()) {
+            return fail(ErrorCode::NotFound,
+                        "device \"{}\": no such vibration device is plugged in; one with a template or a haptic "
+                        "controller is expected",
+                        wanted.text);
+        }
+        std::vector<std::string> labels;
+        for (const auto& one : found) labels.push_back(one.label);
+        return fail(ErrorCode::InvalidArgument,
+                    "device \"{}\" could be {}: name one by vendor, product and serial=", wanted.text,
+                    fmt::join(labels, " or "));
+    }
+
+    static Result<std::unique_ptr<Massager>> openHid(const Candidate& chosen, const Backend& backend,
+                                                     DeviceIdentity identity, const Clock& clock) {
+        const auto descriptor = backend->descriptor(*chosen.hid);
+        if (!descriptor) return failure(descriptor);
+        const auto parsed = parseHidDescriptor(*descriptor);
+        if (!parsed) return fail(parsed.error().code, "{}: {}", chosen.label, parsed.error().message);
+        auto reports = chosen.byTemplate != nullptr ? chosen.byTemplate->reportsFor(*parsed)
+                                                    : readHaptics(*parsed, *backend, *chosen.hid);
+        if (!reports) return fail(reports.error().code, "{}: {}", chosen.label, reports.error().message);
+        // The descriptor is read again at each opening: the same socket may hold another device by then.
+        OpenPort again = [backend, wanted = *chosen.hid, expected = *descriptor]() -> Result<std::unique_ptr<HidPort>> {
+            for (const auto& info : backend->devices()) {
+                if (info.vendor != wanted.vendor || info.product != wanted.product || info.serial != wanted.serial ||
+                    info.usage != wanted.usage) {
+                    continue;
+                }
+                const auto now = backend->descriptor(info);
+                if (!now || *now != expected) continue;
+                return backend->open(info);
+            }
+            return fail(ErrorCode::NotFound, "{} is not plugged in", wanted.label());
+        };
+        auto opened = HidMassager::open(std::move(again), std::move(identity), std::move(*reports), clock);
+        if (!opened) return failure(opened);
+        return std::move(*opened);
+    }
+
+    static Result<VibrationReports> readHaptics(const HidDescriptor& descriptor, const HidBackend& backend,
+                                                const HidDeviceInfo& info) {
+        const auto controls = findHaptics(descriptor);
+        if (!controls) return failure(controls);
+        const auto port = backend.open(info);
+        if (!port) return failure(port);
+        std::vector<std::uint8_t> list(controls->listLength);
+        list[0] = controls->listReport;
+        const auto came = (*port)->feature(list);
+        if (!came) return failure(came);
+        list.resize(*came);
+        return hapticReports(*controls, list);
+    }
+
+    Result<std::unique_ptr<Massager>> openTrance(const Candidate& chosen, DeviceIdentity identity,
+                                                 const Clock& clock) const {
+        OpenPort again = [usb = parts_.usb, wanted = chosen.usb->identity()]() -> Result<std::unique_ptr<HidPort>> {
+            const auto context = usb();
+            if (!context) return failure(context);
+            const auto info = (*context)->find(wanted);
+            if (!info) return failure(info);
+            return TrancePort::open(*context, *info);
+        };
+        auto opened = HidMassager::open(std::move(again), std::move(identity), tranceReports(), clock);
+        if (!opened) return failure(opened);
+        return std::move(*opened);
+    }
+
+    const HidDriverParts parts_;
+};
+
+}  // namespace
+
+HidDriverParts systemHid(std::filesystem::path templates, UsbProvider usb) {
+    return {{hidrawBackend(), libusbHidBackend()}, std::move(templates), std::move(usb)};
+}
+
+std::unique_ptr<Driver> makeHidDriver(HidDriverParts parts) { return std::make_unique<HidDriver>(std::move(parts)); }
+
+}  // namespace tacto::hid

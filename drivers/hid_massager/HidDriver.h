@@ -1,0 +1,42 @@
+// HidDriver.h - vibration devices as massagers, by the scheme "hid".
+//
+//   hid:                                  the only one that is plugged in
+//   hid:054c:0ce6                         by vendor and product, as lsusb prints them
+//   hid:054c:0ce6?serial=1234             one of several
+//   hid:054c:0ce6?backend=libusb          hidapi over libusb instead of hidraw
+//   hid:1234:5678?template=dualsense      as this template says (its name, or a path to a file ending in .json)
+//   hid:0b49:064f                         the Trance Vibrator
+//
+// What a device takes is found in this order: `template=`, the template that names its vendor and product, the Haptics
+// page of its own report descriptor. A template must fit the device's descriptor, or the device is refused (H4).
+//
+// A device that is plugged in and may not be opened is listed with the sentence that helps.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/devices/Driver.h"
+#include "drivers/hid_massager/HidBackend.h"
+#include "drivers/usb/UsbContext.h"
+
+namespace tacto::hid {
+
+/// Gives the program's one USB context, started when first asked for. Errors: as UsbContext::start().
+using UsbProvider = std::function<Result<std::shared_ptr<UsbContext>>()>;
+
+struct HidDriverParts {
+    std::vector<std::shared_ptr<const HidBackend>> backends;  ///< the first is used unless `backend=` says otherwise
+    std::filesystem::path templates;                          ///< the folder resources/massagers
+    UsbProvider usb = {};                                     ///< for the Trance Vibrator; empty: none
+};
+
+/// hidapi over hidraw, and over libusb.
+[[nodiscard]] HidDriverParts systemHid(std::filesystem::path templates, UsbProvider usb);
+
+/// `parts` has at least one backend.
+[[nodiscard]] std::unique_ptr<Driver> makeHidDriver(HidDriverParts parts);
+
+}  // namespace tacto::hid

@@ -1,0 +1,211 @@
+#include "drivers/hid_massager/HidMassager.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tacto::hid {
+
+HidMassager::HidMassager(OpenPort open, DeviceIdentity identity, VibrationReports reports, const Clock& clock)
+    : open_(std::move(open)),
+      identity_(std::move(identity)),
+      reports_(std::move(reports)),
+      clock_(clock),
+      timer_(reports_.keepAlive, reports_.shortestWrite),
+      burst_(reports_.start),
+      sending_(reports_.start) {}
+
+Result<std::unique_ptr<HidMassager>> HidMassager::open(OpenPort open, DeviceIdentity identity, VibrationReports reports,
+                                                       const Clock& clock) {
+    if (auto sound = validate(reports); !sound) return failure(sound);
+    std::unique_ptr<HidMassager> made(new HidMassager(std::move(open), std::move(identity), std::move(reports), clock));
+    auto& self = *made;
+    if (auto connected = self.connect(); !connected) return failure(connected);
+    if (!clock.isVirtual()) self.thread_ = std::thread([&self] { self.run(); });
+    return made;
+}
+
+HidMassager::~HidMassager() {
+    forceOff();
+    {
+        const std::scoped_lock state(state_);
+        quitting_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) {
+        thread_.join();
+    } else {
+        serve(clock_.now());
+    }
+}
+
+Result<void> HidMassager::connect() {
+    std::unique_ptr<HidPort> old;
+    {
+        const std::scoped_lock urgent(urgent_);
+        old = std::move(port_);
+    }
+    old.reset();  // before the same device is opened again
+    auto port = open_();
+    if (!port) return failure(port);
+    {
+        const std::scoped_lock urgent(urgent_);
+        port_ = std::move(*port);
+    }
+    const Instant began = clock_.now();
+    const auto stopped = send(reports_.stop);
+    const std::scoped_lock state(state_);
+    timer_.askStop();
+    timer_.wrote(HidWrite::Stop, began, clock_.now(), stopped.has_value());
+    return stopped;
+}
+
+Result<void> HidMassager::send(std::span<const std::uint8_t> report) {
+    if (!port_) return fail(ErrorCode::Device, "{} is not open", identity_.name);
+    const auto taken = port_->write(report);
+    if (!taken) {
+        return fail(taken.error().code, "{} did not take a report: {}", identity_.name, taken.error().message);
+    }
+    if (*taken != report.size()) {
+        return fail(ErrorCode::Device, "{} took {} bytes of a report; {} were expected", identity_.name, *taken,
+                    report.size());
+    }
+    return {};
+}
+
+Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
+    const ApprovedBurst consumed = std::move(burst);
+    std::unique_lock lock(state_);
+    const auto offs = offs_;
+    if (fault_ && !std::exchange(faultTold_, true)) return tl::unexpected<Error>(*fault_);
+    // A write that an earlier call gave up may still be under way.
+    if (!changed_.wait_for(lock, kPatience, [&] { return !writing_; })) {
+        return fail(ErrorCode::Timeout, "{} is still taking the report before; within {:.0f} ms was expected",
+                    identity_.name, kPatience.count() * 1e3);
+    }
+    if (fault_) {
+        if (auto again = reconnect(lock); !again) return again;
+    }
+    if (const auto written = writeStart(reports_, consumed.burst().intensity, burst_); !written) {
+        return fail(ErrorCode::Device, "{} refused a burst: {}", identity_.name, written.error().message);
+    }
+    if (offs != offs_) return {};
+    job_ = Job{consumed.expires(), offs, std::nullopt};
+    timer_.askBurst(toInstant(consumed.burst().duration));
+    if (clock_.isVirtual()) {
+        lock.unlock();
+        serve(clock_.now());
+        lock.lock();
+    } else {
+        changed_.notify_all();
+        changed_.wait_for(lock, kPatience, [&] { return job_->done.has_value(); });
+    }
+    const auto done = std::exchange(job_, std::nullopt)->done;
+    if (done) return *done;
+    if (offs != offs_) return {};
+    timer_.askStop();  // behind the write, if one is under way
+    changed_.notify_all();
+    return fail(ErrorCode::Timeout, "{} did not take the report within {:.0f} ms", identity_.name,
+                kPatience.count() * 1e3);
+}
+
+Result<void> HidMassager::reconnect(std::unique_lock<std::mutex>& lock) {
+    writing_ = true;  // keeps the thread away from the port
+    lock.unlock();
+    const auto connected = connect();
+    lock.lock();
+    writing_ = false;
+    changed_.notify_all();
+    if (!connected) {
+        return fail(ErrorCode::Device, "{} is gone and could not be opened again: {}", identity_.name,
+                    connected.error().message);
+    }
+    fault_.reset();
+    return {};
+}
+
+void HidMassager::forceOff() noexcept {
+    {
+        const std::scoped_lock urgent(urgent_);
+        // The report follows all the same: it is what tells that the device took the stop.
+        if (port_) static_cast<void>(port_->stopNow());
+    }
+    {
+        const std::scoped_lock state(state_);
+        ++offs_;
+        timer_.askStop();
+    }
+    changed_.notify_all();
+}
+
+Instant HidMassager::serve(Instant now) noexcept {
+    std::unique_lock lock(state_);
+    for (;;) {
+        if (job_ && !job_->done && job_->offs != offs_) finish({});  // a stop came between: not sent
+        const auto due = timer_.next();
+        if (writing_ || due.what == HidWrite::Nothing) return Instant::max();
+        const bool farewell = quitting_ && due.what == HidWrite::Stop && !farewell_;
+        if (due.at > now && !farewell) return due.at;
+        serveOne(due.what, lock);
+        if (quitting_ && due.what == HidWrite::Stop) {
+            farewell_ = true;
+            return Instant::max();
+        }
+        now = std::max(now, clock_.now());
+    }
+}
+
+void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) noexcept {
+    const bool isBurst = what == HidWrite::Burst;
+    if (isBurst && job_ && !(clock_.now() <= job_->expires)) {
+        timer_.dropBurst();
+        return finish(fail(ErrorCode::Device, "{} refused a burst whose approval has expired", identity_.name));
+    }
+    std::ranges::copy(what == HidWrite::Stop ? reports_.stop : burst_, sending_.begin());
+    writing_ = true;
+    const auto offs = offs_;
+    lock.unlock();
+    const Instant began = clock_.now();
+    auto sent = send(sending_);
+    lock.lock();
+    writing_ = false;
+    // A stop that was asked for while this was under way stands behind it, also behind a stop.
+    timer_.wrote(what, began, clock_.now(), sent.has_value());
+    if (offs != offs_) timer_.askStop();
+    if (!sent) {
+        if (sent.error().code != ErrorCode::Timeout && !fault_) {
+            fault_ = sent.error();
+            faultTold_ = job_.has_value();
+        }
+        timer_.dropBurst();  // also one that waits behind a stop that failed
+    }
+    if (isBurst || !sent) finish(std::move(sent));
+    changed_.notify_all();
+}
+
+void HidMassager::finish(Result<void> result) noexcept {
+    if (job_ && !job_->done) job_->done = std::move(result);
+    changed_.notify_all();
+}
+
+bool HidMassager::vibrating() const {
+    const std::scoped_lock state(state_);
+    return timer_.vibrating();
+}
+
+void HidMassager::run() {
+    for (;;) {
+        serve(clock_.now());
+        std::unique_lock lock(state_);
+        // A last stop that the device did not take has nobody left who could be told.
+        if (quitting_ && (farewell_ || !timer_.stopDue())) return;
+        if (quitting_) continue;
+        const auto due = timer_.next();  // anew: something may have been asked since serve()
+        if (writing_ || due.what == HidWrite::Nothing) {
+            changed_.wait(lock);
+        } else if (const Instant now = clock_.now(); due.at > now) {
+            changed_.wait_for(lock, due.at - now);
+        }
+    }
+}
+
+}  // namespace tacto::hid

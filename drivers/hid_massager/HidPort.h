@@ -1,0 +1,39 @@
+// HidPort.h - reports to and from one open device: a HID device through either of hidapi's backends, a device that is
+// driven by a control request, a fake in tests. Destruction closes.
+//
+// Thread-safety: write() and feature() one caller at a time; stopNow() any thread, at any moment, also while write()
+// waits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "core/base/Result.h"
+
+namespace tacto::hid {
+
+class HidPort {
+public:
+    virtual ~HidPort() = default;
+
+    /// Sends an output report, its number in byte 0 (0: the device has none), and waits until the device has it; how
+    /// long that may take is the system's affair (hidraw: 5 s, libusb: 1 s). Returns how many bytes of `report` it
+    /// took. Errors: Device (gone, refused); Timeout where the system gave up waiting.
+    [[nodiscard]] virtual Result<std::size_t> write(std::span<const std::uint8_t> report) = 0;
+
+    /// Fetches the feature report whose number is in byte 0 of `report`; returns its bytes, that one included.
+    /// Errors: Device; Unsupported where there are no feature reports.
+    [[nodiscard]] virtual Result<std::size_t> feature(std::span<std::uint8_t> report) = 0;
+
+    /// Sends the stop without waiting and without allocating, where the system can do that; false where it cannot,
+    /// and then the stop report must be written.
+    [[nodiscard]] virtual bool stopNow() noexcept { return false; }
+};
+
+/// Makes a fresh port to the same device; called again to reconnect. Errors: NotFound, Io (not permitted), Device.
+using OpenPort = std::function<Result<std::unique_ptr<HidPort>>()>;
+
+}  // namespace tacto::hid

@@ -1,0 +1,190 @@
+// HidDescriptor and Haptics: where a device's controls stand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "drivers/hid_massager/Haptics.h"
+#include "tests/drivers/hid_massager/FakeHid.h"
+
+namespace tacto::test {
+namespace {
+
+using hid::parseHidDescriptor;
+using hid::ReportKind;
+using testing::HasSubstr;
+
+hid::HidDescriptor parsed(const Bytes& bytes) {
+    auto result = parseHidDescriptor(bytes);
+    EXPECT_TRUE(result) << result.error().message;
+    return result.value_or(hid::HidDescriptor{});
+}
+
+std::string refusal(const Bytes& bytes) {
+    const auto result = parseHidDescriptor(bytes);
+    EXPECT_FALSE(result);
+    if (result) return {};
+    EXPECT_EQ(result.error().code, ErrorCode::ParseError);
+    return result.error().message;
+}
+
+TEST(HidDescriptor, FindsEachControlWithItsReportOffsetSizeAndRange) {
+    RecordProperty("hazard", "H4");
+    const auto descriptor = parsed(hapticDescriptor());
+    const auto find = [&](ReportKind kind, hid::Usage usage) {
+        for (const auto& field : descriptor.fields) {
+            if (field.kind == kind && field.usage == usage) return field;
+        }
+        ADD_FAILURE() << "no usage " << usage;
+        return hid::HidField{};
+    };
+    const auto intensity = find(ReportKind::Output, 0x000E0023);
+    EXPECT_EQ(intensity.report, 1);
+    EXPECT_EQ(intensity.bit, 8u);
+    EXPECT_EQ(intensity.bits, 16);
+    EXPECT_EQ(intensity.min, 0);
+    EXPECT_EQ(intensity.max, 65535);
+    const auto trigger = find(ReportKind::Output, 0x000E0021);
+    EXPECT_EQ(trigger.bit, 24u);
+    EXPECT_EQ(trigger.bits, 8);
+    EXPECT_EQ(trigger.min, 1);
+    EXPECT_EQ(trigger.max, 4);
+    const auto fourth = find(ReportKind::Feature, 0x000A0004);
+    EXPECT_EQ(fourth.report, 2);
+    EXPECT_EQ(fourth.bit, 24u);
+    EXPECT_TRUE(descriptor.isInside(fourth.collection, 0x000E0010));
+    EXPECT_EQ(descriptor.lengthOf(ReportKind::Output, 1), 5u);
+    EXPECT_EQ(descriptor.lengthOf(ReportKind::Feature, 2), 9u);
+    EXPECT_EQ(descriptor.lengthOf(ReportKind::Output, 2), std::nullopt);
+}
+
+TEST(HidDescriptor, PaddingMovesWhatFollowsAndIsNoControl) {
+    // 3 bits constant, then a 5-bit control, then another report's control at its own beginning.
+    const auto descriptor =
+        parsed({0x06, 0x00, 0xFF, 0x09, 0x01, 0xA1, 0x01, 0x85, 0x01, 0x75, 0x03, 0x95, 0x01, 0x91, 0x01, 0x09, 0x02,
+                0x15, 0x00, 0x25, 0x1F, 0x75, 0x05, 0x91, 0x02, 0x85, 0x02, 0x09, 0x03, 0x75, 0x08, 0x91, 0x02, 0xC0});
+    ASSERT_EQ(descriptor.fields.size(), 2u);
+    EXPECT_EQ(descriptor.fields[0].bit, 11u);
+    EXPECT_EQ(descriptor.fields[0].bits, 5);
+    EXPECT_EQ(descriptor.fields[0].max, 31);
+    EXPECT_EQ(descriptor.fields[1].report, 2);
+    EXPECT_EQ(descriptor.fields[1].bit, 8u);
+}
+
+TEST(HidDescriptor, AMaximumIsUnsignedUnlessTheMinimumIsNegative) {
+    const auto range = [](Bytes middle) {
+        Bytes bytes{0x05, 0x0E, 0x09, 0x01, 0xA1, 0x01, 0x09, 0x23};
+        bytes.insert(bytes.end(), middle.begin(), middle.end());
+        bytes.insert(bytes.end(), {0x75, 0x08, 0x95, 0x01, 0x91, 0x02, 0xC0});
+        const auto field = parsed(bytes).fields.at(0);
+        return std::pair(field.min, field.max);
+    };
+    EXPECT_EQ(range({0x15, 0x00, 0x25, 0xFF}), (std::pair<std::int64_t, std::int64_t>(0, 255)));
+    EXPECT_EQ(range({0x15, 0x81, 0x25, 0x7F}), (std::pair<std::int64_t, std::int64_t>(-127, 127)));
+    EXPECT_EQ(range({0x15, 0x00, 0x27, 0xFF, 0xFF, 0xFF, 0xFF}),
+              (std::pair<std::int64_t, std::int64_t>(0, 4294967295)));
+}
+
+TEST(HidDescriptor, PushKeepsAndPopBringsBackTheGlobalItems) {
+    const auto descriptor =
+        parsed({0x05, 0x0E, 0x09, 0x01, 0xA1, 0x01, 0x15, 0x00, 0x25, 0x0F, 0x75, 0x04, 0x95, 0x01, 0xA4, 0x05,
+                0x01, 0x25, 0x7F, 0x75, 0x08, 0x09, 0x30, 0x91, 0x02, 0xB4, 0x09, 0x23, 0x91, 0x02, 0xC0});
+    ASSERT_EQ(descriptor.fields.size(), 2u);
+    EXPECT_EQ(descriptor.fields[0].usage, 0x00010030u);
+    EXPECT_EQ(descriptor.fields[1].usage, 0x000E0023u);
+    EXPECT_EQ(descriptor.fields[1].bits, 4);
+    EXPECT_EQ(descriptor.fields[1].max, 15);
+}
+
+TEST(HidDescriptor, WhatLiesOrGoesBeyondTheTablesIsRefused) {
+    RecordProperty("hazard", "H10");
+    EXPECT_THAT(refusal({}), HasSubstr("1 to 4096"));
+    EXPECT_THAT(refusal(Bytes(4097, 0)), HasSubstr("4097 bytes"));
+    EXPECT_THAT(refusal({0x26, 0xFF}), HasSubstr("byte 0: an item is cut off"));
+    EXPECT_THAT(refusal({0xFE, 0x05, 0x01, 0x00}), HasSubstr("long item"));
+    EXPECT_THAT(refusal({0xC0}), HasSubstr("not open"));
+    EXPECT_THAT(refusal({0xA1, 0x01}), HasSubstr("inside a collection"));
+    EXPECT_THAT(refusal({0xB4}), HasSubstr("pop"));
+    EXPECT_THAT(refusal({0x85, 0x00}), HasSubstr("report number 0"));
+    EXPECT_THAT(refusal({0x29, 0x04}), HasSubstr("minimum"));
+    EXPECT_THAT(refusal({0x19, 0x00, 0x2A, 0xFF, 0xFF}), HasSubstr("at most"));
+    EXPECT_THAT(refusal({0x15, 0x05, 0x25, 0x01, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02}), HasSubstr("empty"));
+    // 65535 controls of 65535 bits: no report is that long.
+    EXPECT_THAT(refusal({0x76, 0xFF, 0xFF, 0x96, 0xFF, 0xFF, 0x91, 0x02}), HasSubstr("longer"));
+    // Each within a report's length, all together too many.
+    Bytes many{0x75, 0x01, 0x96, 0xFF, 0x0F};
+    for (std::uint8_t report = 1; report < 6; ++report) many.insert(many.end(), {0x85, report, 0x91, 0x02});
+    EXPECT_THAT(refusal(many), HasSubstr("4096 controls"));
+    EXPECT_THAT(refusal(Bytes(33, 0xA0)), HasSubstr("inside each other"));
+    EXPECT_THAT(refusal(Bytes(17, 0xA4)), HasSubstr("pushes"));
+}
+
+TEST(HidDescriptor, AnyPrefixAndAnyChangedByteIsReadOrRefusedAndFieldsStayInsideTheirReports) {
+    RecordProperty("hazard", "H10");
+    constexpr unsigned kSeed = 11;
+    std::mt19937 random(kSeed);
+    const auto whole = hapticDescriptor();
+    int read = 0;
+    for (int round = 0; round < 20'000; ++round) {
+        Bytes bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(random() % (whole.size() + 1)));
+        for (int i = static_cast<int>(random() % 4); i > 0 && !bytes.empty(); --i) {
+            bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+        }
+        const auto result = parseHidDescriptor(bytes);
+        if (!result) continue;
+        ++read;
+        for (const auto& field : result->fields) {
+            const auto length = result->lengthOf(field.kind, field.report);
+            ASSERT_TRUE(length);
+            ASSERT_LE(field.bit + field.bits, 8 * *length) << "seed " << kSeed;
+        }
+    }
+    EXPECT_GT(read, 500);
+}
+
+TEST(Haptics, TheWaveformThatLastsIsTriggeredByItsOrdinalAndStoppedByTwo) {
+    RecordProperty("hazard", "H4");
+    const auto controls = hid::findHaptics(parsed(hapticDescriptor()));
+    ASSERT_TRUE(controls) << controls.error().message;
+    EXPECT_EQ(controls->report, 1);
+    EXPECT_EQ(controls->listReport, 2);
+    EXPECT_EQ(controls->listLength, 9u);
+    // Ordinal 3 is a click, 4 a rumble.
+    const auto reports = hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x05, 0x10, 50, 0, 0, 0});
+    ASSERT_TRUE(reports) << reports.error().message;
+    EXPECT_EQ(hid::startBytes(*reports, 1).value(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
+    EXPECT_EQ(hid::startBytes(*reports, 0.5).value(), (Bytes{1, 0x00, 0x80, 4, 0}));
+    EXPECT_EQ(reports->stop, (Bytes{1, 0, 0, 2, 0}));
+    // The other way round it is ordinal 3.
+    const auto swapped = hid::hapticReports(*controls, Bytes{2, 0x04, 0x10, 0x03, 0x10, 0, 0, 50, 0});
+    ASSERT_TRUE(swapped);
+    EXPECT_EQ(swapped->start[3], 3);
+}
+
+TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
+    const auto controls = hid::findHaptics(parsed(hapticDescriptor()));
+    ASSERT_TRUE(controls);
+    const auto clicks = hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0, 0, 0, 0});
+    ASSERT_FALSE(clicks);
+    EXPECT_EQ(clicks.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(clicks.error().message, testing::AllOf(HasSubstr("1003"), HasSubstr("1004")));
+    const auto cut = hid::hapticReports(*controls, Bytes{2, 0x04, 0x10});
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("9 were expected")));
+}
+
+TEST(Haptics, ADescriptorWithoutAControllerSaysWhatIsMissing) {
+    const auto none = hid::findHaptics(parsed(outputDescriptor(5, 32)));
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("0E:01"));
+    auto headless = hapticDescriptor();
+    // Its manual trigger under another usage.
+    for (std::size_t i = 0; i + 1 < headless.size(); ++i) {
+        if (headless[i] == 0x09 && headless[i + 1] == 0x21) headless[i + 1] = 0x22;
+    }
+    const auto half = hid::findHaptics(parsed(headless));
+    ASSERT_FALSE(half);
+    EXPECT_THAT(half.error().message, HasSubstr("0E:21"));
+}
+
+}  // namespace
+}  // namespace tacto::test

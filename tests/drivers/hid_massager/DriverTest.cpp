@@ -1,0 +1,163 @@
+// HidDriver: which device a URI names, and what it is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/hid_massager/HidDriver.h"
+#include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class HidDriverTest : public testing::Test {
+protected:
+    std::shared_ptr<FakeHidDevice> plug(std::uint16_t vendor, std::uint16_t product, std::string serial,
+                                        Bytes descriptor, hid::Usage usage = 0x00010005) {
+        const auto path = fmt::format("/dev/hidraw{}", hidraw->plugged.size());
+        hidraw->plugged.push_back(std::make_shared<FakeHidDevice>(
+            clock, hid::HidDeviceInfo{vendor, product, std::move(serial), "Pad", path, usage, true},
+            std::move(descriptor)));
+        return hidraw->plugged.back();
+    }
+    std::unique_ptr<Driver> driver() const {
+        return hid::makeHidDriver({{hidraw, libusb}, sourceDir() / "resources" / "massagers", {}});
+    }
+    Result<void> open(const std::string& uri) {
+        devices = {};
+        return driver()->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock}, devices);
+    }
+    std::string refusal(const std::string& uri, ErrorCode code) {
+        const auto opened = open(uri);
+        EXPECT_FALSE(opened) << uri;
+        if (opened) return {};
+        EXPECT_EQ(opened.error().code, code) << opened.error().message;
+        EXPECT_EQ(devices.massager, nullptr);
+        return opened.error().message;
+    }
+
+    const SteadyClock clock;
+    const std::shared_ptr<FakeHidBackend> hidraw = std::make_shared<FakeHidBackend>("hidraw");
+    const std::shared_ptr<FakeHidBackend> libusb = std::make_shared<FakeHidBackend>("libusb");
+    DeviceSet devices;
+};
+
+TEST_F(HidDriverTest, ADualSenseIsListedAndOpenedAndGetsItsOwnReport) {
+    const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
+    plug(0x046D, 0xC077, "", outputDescriptor(1, 8), 0x00010002);  // a mouse is no massager
+    const auto list = driver()->list();
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0].uri, "hid:054c:0ce6?serial=A1");
+    EXPECT_EQ(list[0].name, "DualSense");
+    EXPECT_EQ(list[0].role, Role::Massager);
+    EXPECT_FALSE(list[0].simulated);
+    ASSERT_TRUE(open(list[0].uri));
+    ASSERT_NE(devices.massager, nullptr);
+    EXPECT_EQ(devices.massager->identity().uri, list[0].uri);
+    SafetyGate gate(clock);
+    auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
+    ASSERT_TRUE(devices.massager->vibrate(std::move(*burst)));
+    Bytes expected{2, 3, 0, 0xFF, 0xFF};
+    expected.resize(48);
+    EXPECT_EQ(pad->last(), expected);
+    devices = {};
+    expected[3] = expected[4] = 0;
+    EXPECT_EQ(pad->last(), expected);
+}
+
+TEST_F(HidDriverTest, ADeviceWithAHapticsPageNeedsNoTemplate) {
+    RecordProperty("hazard", "H4");
+    const auto pad = plug(0x1234, 0x5678, "H", hapticDescriptor(), 0x000E0001);
+    pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});
+    ASSERT_EQ(driver()->list().size(), 1u);
+    const auto opened = open("hid:");
+    ASSERT_TRUE(opened) << opened.error().message;
+    SafetyGate gate(clock);
+    auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
+    ASSERT_TRUE(devices.massager->vibrate(std::move(*burst)));
+    EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
+    devices.massager->forceOff();
+    EXPECT_TRUE(pad->waitForLast({1, 0, 0, 2, 0}));
+}
+
+TEST_F(HidDriverTest, OneThatMayNotBeOpenedIsListedWithTheSentenceThatHelps) {
+    plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48))->setPermitted(false);
+    const auto list = driver()->list();
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_THAT(list[0].name, AllOf(HasSubstr("DualSense"), HasSubstr("./dev install-rules"), HasSubstr("hidraw0")));
+    EXPECT_THAT(refusal("hid:", ErrorCode::Io), HasSubstr("./dev install-rules"));
+}
+
+TEST_F(HidDriverTest, OfTwoTheSerialNumberChooses) {
+    RecordProperty("hazard", "H4");
+    plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
+    const auto second = plug(0x054C, 0x0CE6, "A2", outputDescriptor(2, 48));
+    EXPECT_THAT(refusal("hid:054c:0ce6", ErrorCode::InvalidArgument), AllOf(HasSubstr("A1"), HasSubstr("A2")));
+    ASSERT_TRUE(open("hid:054c:0ce6?serial=A2"));
+    EXPECT_EQ(second->openNow(), 1);
+    EXPECT_THAT(refusal("hid:054c:0ce6?serial=A3", ErrorCode::NotFound), HasSubstr("A3"));
+}
+
+TEST_F(HidDriverTest, ADeviceThatItsTemplateDoesNotFitIsRefused) {
+    RecordProperty("hazard", "H4");
+    const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 60));
+    EXPECT_THAT(refusal("hid:", ErrorCode::Unsupported), AllOf(HasSubstr("60 bytes"), HasSubstr("48 or 63")));
+    pad->setDescriptor({0x26});
+    EXPECT_THAT(refusal("hid:", ErrorCode::ParseError), HasSubstr("cut off"));
+    EXPECT_EQ(pad->openings(), 0);
+}
+
+TEST_F(HidDriverTest, AnotherDeviceInItsPlaceIsNotTakenForIt) {
+    RecordProperty("hazard", "H4");
+    const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
+    ASSERT_TRUE(open("hid:"));
+    SafetyGate gate(clock);
+    pad->unplug();
+    const auto burst = [&] {
+        return devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{1, Seconds(0.1)})));
+    };
+    EXPECT_FALSE(burst());
+    pad->setDescriptor(outputDescriptor(2, 63));
+    pad->plug();
+    EXPECT_FALSE(burst());
+    pad->setDescriptor(outputDescriptor(2, 48));
+    EXPECT_TRUE(burst());
+}
+
+TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
+    const auto pad = plug(0x1111, 0x2222, "X", outputDescriptor(5, 32), 0);
+    EXPECT_TRUE(driver()->list().empty());
+    EXPECT_THAT(refusal("hid:1111:2222?template=wheel", ErrorCode::NotFound),
+                AllOf(HasSubstr("wheel"), HasSubstr("dualsense")));
+    ASSERT_TRUE(open("hid:1111:2222?template=dualshock4"));
+    EXPECT_EQ(pad->openNow(), 1);
+    const auto file = (sourceDir() / "resources" / "massagers" / "dualshock4.json").string();
+    ASSERT_TRUE(open("hid:1111:2222?template=" + file));
+}
+
+TEST_F(HidDriverTest, TheBackendIsChosenByName) {
+    libusb->plugged.push_back(std::make_shared<FakeHidDevice>(
+        clock, hid::HidDeviceInfo{0x054C, 0x0CE6, "U", "Pad", "1-1:1.0", 0, true}, outputDescriptor(2, 48)));
+    EXPECT_THAT(refusal("hid:", ErrorCode::NotFound), HasSubstr("plugged in"));
+    ASSERT_TRUE(open("hid:?backend=libusb"));
+    EXPECT_EQ(devices.massager->identity().uri, "hid:054c:0ce6?serial=U&backend=libusb");
+    EXPECT_THAT(refusal("hid:?backend=serial", ErrorCode::InvalidArgument),
+                AllOf(HasSubstr("hidraw"), HasSubstr("libusb")));
+}
+
+TEST_F(HidDriverTest, WhatIsNoUriOfOursIsRefusedByName) {
+    EXPECT_THAT(refusal("hid:dualsense", ErrorCode::InvalidArgument),
+                AllOf(HasSubstr("dualsense"), HasSubstr("054c:0ce6")));
+    EXPECT_THAT(refusal("hid:054c:0ce6:9", ErrorCode::InvalidArgument), HasSubstr("four hexadecimal"));
+    EXPECT_THAT(refusal("hid:?motor=left", ErrorCode::InvalidArgument), AllOf(HasSubstr("motor"), HasSubstr("serial")));
+    plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
+    ASSERT_TRUE(open("hid:"));
+    const auto second = driver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices);
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, HasSubstr("open already"));
+}
+
+}  // namespace
+}  // namespace tacto::test

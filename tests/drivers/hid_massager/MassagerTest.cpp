@@ -1,0 +1,296 @@
+// HidMassager on a fake port, on the steady clock with its own thread: every way out, and a slow device told from a
+// broken one.
+#include <future>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "drivers/hid_massager/HidMassager.h"
+#include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Allocations.h"
+
+namespace tacto::test {
+namespace {
+
+using hid::HidMassager;
+using testing::HasSubstr;
+
+const Bytes kOn{5, 1, 0, 0, 255, 255, 0, 0};
+const Bytes kOff{5, 1, 0, 0, 0, 0, 0, 0};
+
+class HidMassagerTest : public testing::Test {
+protected:
+    void open(hid::VibrationReports reports = padReports()) {
+        auto opened = HidMassager::open([this] { return device.open(); }, identity, std::move(reports), clock);
+        ASSERT_TRUE(opened) << opened.error().message;
+        massager = std::move(*opened);
+    }
+    ApprovedBurst approved(double intensity = 1, Seconds duration = Seconds(1)) {
+        auto approval = gate.approve(VibrationBurst{intensity, duration});
+        EXPECT_TRUE(approval);
+        return std::move(*approval);
+    }
+    Result<void> vibrate(Seconds duration = Seconds(1)) { return massager->vibrate(approved(1, duration)); }
+
+    const SteadyClock clock;
+    SafetyGate gate{clock};
+    FakeHidDevice device{clock, {0x1234, 0x5678, "S", "Pad", "/dev/hidraw0", 0, true}, outputDescriptor(5, 8)};
+    const DeviceIdentity identity{"hid:1234:5678", Role::Massager, "Pad", "S", {}, false};
+    std::unique_ptr<HidMassager> massager;
+};
+
+TEST_F(HidMassagerTest, OpeningStopsFirst) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_EQ(device.writes().size(), 1u);
+    EXPECT_EQ(device.last(), kOff);
+    EXPECT_FALSE(massager->vibrating());
+}
+
+TEST_F(HidMassagerTest, ADeviceThatTakesNoStopIsNotOpened) {
+    RecordProperty("hazard", "H2");
+    device.refuse(true);
+    const auto opened = HidMassager::open([this] { return device.open(); }, identity, padReports(), clock);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::Device);
+    EXPECT_EQ(device.openNow(), 0);
+}
+
+TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
+    open();
+    ASSERT_TRUE(vibrate(Seconds(0.1)));
+    EXPECT_EQ(device.last(), kOn);
+    ASSERT_TRUE(device.waitForWrites(3));
+    const auto writes = device.writes();
+    EXPECT_EQ(writes[2].bytes, kOff);
+    const double lasted = toSeconds(writes[2].at - writes[1].at);
+    EXPECT_GE(lasted, 0.1 - 1e-6);
+    EXPECT_LE(lasted, 0.2);  // a loaded machine may be late
+}
+
+TEST_F(HidMassagerTest, KeepAliveRepeatsTheBurst) {
+    open(padReports(Seconds(0.02)));
+    ASSERT_TRUE(vibrate(Seconds(0.1)));
+    ASSERT_TRUE(device.waitForLast(kOff));
+    const auto writes = device.writes();
+    EXPECT_GE(writes.size(), 4u);
+    for (std::size_t i = 1; i + 1 < writes.size(); ++i) EXPECT_EQ(writes[i].bytes, kOn);
+}
+
+TEST_F(HidMassagerTest, ForceOffSendsTheStopFromAnyThreadAtOnce) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(vibrate());
+    const Instant before = clock.now();
+    std::async(std::launch::async, [&] { massager->forceOff(); }).get();
+    ASSERT_TRUE(device.waitForWrites(3));
+    EXPECT_EQ(device.last(), kOff);
+    EXPECT_LE(toSeconds(device.writes()[2].at - before), 0.1);
+    EXPECT_FALSE(massager->vibrating());
+}
+
+TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay) {
+    RecordProperty("hazard", "H2");
+    if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
+    open();
+    device.hold(true);
+    auto late = std::async(std::launch::async, [&] { return vibrate(); });
+    ASSERT_TRUE(device.waitForHeld());
+    const auto before = allocationsOfThisThread();
+    massager->forceOff();
+    massager->forceOff();
+    EXPECT_EQ(allocationsOfThisThread(), before);
+    EXPECT_EQ(device.writes().size(), 1u);  // it did not wait for the write
+    device.hold(false);
+    static_cast<void>(late.get());
+    EXPECT_TRUE(device.waitForLast(kOff));
+}
+
+TEST_F(HidMassagerTest, APortThatCanStopAtOnceIsAskedTo) {
+    RecordProperty("hazard", "H2");
+    open();
+    const Bytes urgent{0, 0};
+    device.setUrgentStop(urgent);
+    device.hold(true);
+    auto late = std::async(std::launch::async, [&] { return vibrate(); });
+    ASSERT_TRUE(device.waitForHeld());
+    massager->forceOff();
+    EXPECT_EQ(device.last(), urgent);  // though the write before is held
+    device.hold(false);
+    static_cast<void>(late.get());
+    EXPECT_TRUE(device.waitForLast(kOff));
+}
+
+TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
+    RecordProperty("hazard", "H2");
+    open();
+    device.hold(true);
+    const auto slow = vibrate();
+    ASSERT_FALSE(slow);
+    EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(slow.error().message, HasSubstr("50 ms"));
+    const auto again = vibrate();
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(again.error().message, HasSubstr("before"));
+    device.hold(false);
+    ASSERT_TRUE(device.waitForWrites(3));
+    EXPECT_EQ(device.writes()[1].bytes, kOn);  // the one that was held
+    EXPECT_EQ(device.writes()[2].bytes, kOff);
+    EXPECT_TRUE(vibrate());  // slow is not broken
+    EXPECT_EQ(device.openings(), 1);
+}
+
+TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
+    RecordProperty("hazard", "H2");
+    open();
+    device.takeOnly(3);
+    const auto cut = vibrate();
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ErrorCode::Device);
+    EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("8 were expected")));
+    ASSERT_TRUE(device.waitForWrites(2));
+    EXPECT_EQ(device.last(), kOff);
+    EXPECT_TRUE(vibrate());
+    EXPECT_EQ(device.openings(), 2);  // after a fault it is opened anew
+}
+
+TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
+    RecordProperty("hazard", "H2");
+    open();
+    device.refuse(true);
+    const auto refused = vibrate();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(refused.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("refused")));
+    device.refuse(false);
+    ASSERT_TRUE(device.waitForWrites(2));
+    EXPECT_EQ(device.last(), kOff);
+}
+
+TEST_F(HidMassagerTest, AStopThatFailsWhileNobodyAsksIsToldOnceAndSentWhenItCan) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(vibrate(Seconds(0.02)));
+    const int before = device.attempts();
+    device.refuse(true);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (device.attempts() < before + 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    ASSERT_GE(device.attempts(), before + 2);  // tried again by itself
+    const auto told = vibrate();
+    ASSERT_FALSE(told);
+    EXPECT_EQ(told.error().code, ErrorCode::Device);
+    device.refuse(false);
+    ASSERT_TRUE(device.waitForLast(kOff));
+    EXPECT_TRUE(vibrate());
+}
+
+TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
+    RecordProperty("hazard", "H2");
+    open();
+    device.hold(true);
+    massager->forceOff();
+    ASSERT_TRUE(device.waitForHeld());
+    auto behind = std::async(std::launch::async, [&] { return vibrate(); });
+    device.refuse(true);
+    device.hold(false);
+    const auto told = behind.get();
+    ASSERT_FALSE(told);
+    EXPECT_EQ(told.error().code, ErrorCode::Device);
+    device.refuse(false);
+    EXPECT_TRUE(device.waitForLast(kOff));
+}
+
+TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgain) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(vibrate());
+    device.unplug();
+    const auto gone = vibrate();
+    ASSERT_FALSE(gone);
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    const auto still = vibrate();
+    ASSERT_FALSE(still);
+    EXPECT_THAT(still.error().message, HasSubstr("could not be opened again"));
+    device.plug();
+    EXPECT_TRUE(vibrate());
+    const auto writes = device.writes();
+    ASSERT_GE(writes.size(), 4u);
+    EXPECT_EQ(writes[writes.size() - 2].bytes, kOff);  // stopped before it may vibrate again
+    EXPECT_EQ(writes.back().bytes, kOn);
+    EXPECT_EQ(device.openNow(), 1);
+}
+
+TEST_F(HidMassagerTest, ClosingInABurstStops) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(vibrate());
+    massager.reset();
+    EXPECT_EQ(device.last(), kOff);
+    EXPECT_EQ(device.openNow(), 0);
+}
+
+TEST_F(HidMassagerTest, ClosingWhileABurstIsUnderWayStopsBehindIt) {
+    RecordProperty("hazard", "H2");
+    open();
+    device.hold(true);
+    ASSERT_FALSE(vibrate());  // slow, and still under way
+    auto closing = std::async(std::launch::async, [&] { massager.reset(); });
+    ASSERT_TRUE(device.waitForHeld());
+    device.hold(false);
+    closing.get();
+    EXPECT_EQ(device.last(), kOff);
+}
+
+TEST_F(HidMassagerTest, ClosingADeviceThatIsGoneEnds) {
+    open();
+    ASSERT_TRUE(vibrate());
+    device.unplug();
+    massager.reset();
+    EXPECT_EQ(device.openNow(), 0);
+}
+
+TEST_F(HidMassagerTest, AStopBetweenApprovalAndWriteLeavesNothingVibrating) {
+    RecordProperty("hazard", "H2");
+    open();
+    std::atomic<bool> done{false};
+    std::thread stopper([&] {
+        while (!done) massager->forceOff();
+    });
+    for (int i = 0; i < 50; ++i) static_cast<void>(vibrate(Seconds(1)));
+    done = true;
+    stopper.join();
+    massager->forceOff();
+    EXPECT_TRUE(device.waitForLast(kOff));
+    EXPECT_FALSE(massager->vibrating());
+}
+
+TEST_F(HidMassagerTest, ReportsThatCannotBeAreRefusedBeforeAnythingIsOpened) {
+    auto reports = padReports();
+    reports.fields.clear();
+    EXPECT_FALSE(HidMassager::open([this] { return device.open(); }, identity, reports, clock));
+    EXPECT_EQ(device.openings(), 0);
+}
+
+TEST(HidMassagerVirtual, ServedByItsOwnerItKeepsTimeExactly) {
+    VirtualClock clock;
+    SafetyGate gate(clock);
+    FakeHidDevice device(clock, {}, {});
+    auto opened = HidMassager::open([&] { return device.open(); }, {}, padReports(Seconds(0), Seconds(0.01)), clock);
+    ASSERT_TRUE(opened);
+    auto& massager = **opened;
+    clock.advanceTo(std::chrono::milliseconds(100));
+    auto burst = gate.approve(VibrationBurst{1, Seconds(0.1)});
+    ASSERT_TRUE(massager.vibrate(std::move(*burst)));
+    EXPECT_EQ(massager.serve(clock.now()), Instant(std::chrono::milliseconds(200)));
+    clock.advanceTo(std::chrono::milliseconds(199));
+    massager.serve(clock.now());
+    EXPECT_EQ(device.last(), kOn);
+    clock.advanceTo(std::chrono::milliseconds(200));
+    EXPECT_EQ(massager.serve(clock.now()), Instant::max());
+    EXPECT_EQ(device.last(), kOff);
+    EXPECT_EQ(device.writes().back().at, Instant(std::chrono::milliseconds(200)));
+}
+
+}  // namespace
+}  // namespace tacto::test

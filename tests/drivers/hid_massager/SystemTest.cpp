@@ -1,0 +1,255 @@
+// The HID driver on the real hidapi, both backends in this one program, and the Trance Vibrator on the real libusb,
+// over emulated devices.
+#include <cerrno>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "drivers/hid_massager/HidDriver.h"
+#include "drivers/hid_massager/HidMassager.h"
+#include "drivers/hid_massager/HidapiBackend.h"
+#include "drivers/hid_massager/TrancePort.h"
+#include "tests/drivers/conformance/MassagerConformance.h"
+#include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Support.h"
+#include "tests/support/usb_emulation/EmulatedHidDevice.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr std::size_t kLength = 48;
+const UsbBytes kOn = [] {
+    UsbBytes report{2, 3, 0, 0xFF, 0xFF};
+    report.resize(kLength);
+    return report;
+}();
+const UsbBytes kOff = [] {
+    UsbBytes report{2, 3};
+    report.resize(kLength);
+    return report;
+}();
+
+std::unique_ptr<Driver> systemDriver(hid::UsbProvider usb = {}) {
+    return hid::makeHidDriver(hid::systemHid(sourceDir() / "resources" / "massagers", std::move(usb)));
+}
+
+class HidSystem : public testing::TestWithParam<const char*> {
+protected:
+    Result<void> open() {
+        return systemDriver()->open(DeviceUri::parse(fmt::format("hid:054c:0ce6?backend={}", GetParam())).value(), {},
+                                    OpenContext{clock}, devices);
+    }
+    Result<void> vibrate(double intensity, Seconds duration) {
+        auto burst = gate.approve(VibrationBurst{intensity, duration});
+        return devices.massager->vibrate(std::move(*burst));
+    }
+    bool isHidraw() const { return std::string_view(GetParam()) == "hidraw"; }
+
+    UsbTestbed bed;
+    const SteadyClock clock;
+    SafetyGate gate{clock};
+    DeviceSet devices;
+};
+
+TEST_P(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
+    RecordProperty("hazard", "H2");
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const auto opened = open();
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(devices.massager->identity().serial, "SN7");
+    ASSERT_TRUE(vibrate(1, Seconds(0.1)));
+    EXPECT_THAT(pad.waitForReports(3), testing::ElementsAre(kOff, kOn, kOff));
+    ASSERT_TRUE(vibrate(1, Seconds(1)));
+    devices = {};
+    const auto all = pad.waitForReports(5);
+    ASSERT_EQ(all.size(), 5u);
+    EXPECT_EQ(all.back(), kOff);
+}
+
+TEST_P(HidSystem, AShortWriteAndARefusalAreFaults) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    ASSERT_TRUE(open());
+    if (isHidraw())
+        pad.takeOnly(10);
+    else
+        pad.usb().takeOnly(0x01, 10);
+    const auto cut = vibrate(1, Seconds(0.1));
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ErrorCode::Device);
+    EXPECT_THAT(cut.error().message, AllOf(HasSubstr("10 bytes"), HasSubstr("48 were expected")));
+    ASSERT_TRUE(vibrate(1, Seconds(0.1)));  // opened anew
+    if (isHidraw())
+        pad.refuseWrites(EIO);
+    else
+        pad.usb().stall(0x01);
+    const auto refused = vibrate(1, Seconds(0.1));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+}
+
+TEST_P(HidSystem, ASlowDeviceIsATimeoutAndIsStopped) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    ASSERT_TRUE(open());
+    pad.hold(true);
+    pad.usb().hold(0x01, true);
+    const auto slow = vibrate(1, Seconds(1));
+    ASSERT_FALSE(slow);
+    EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
+    pad.hold(false);
+    pad.usb().hold(0x01, false);
+    const auto all = pad.waitForReports(3);
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all.back(), kOff);
+}
+
+TEST_P(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    ASSERT_TRUE(open());
+    ASSERT_TRUE(vibrate(1, Seconds(1)));
+    pad.unplug();
+    devices.massager->forceOff();
+    const auto gone = vibrate(1, Seconds(0.1));
+    ASSERT_FALSE(gone);
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    pad.plug();
+    // The libusb backend hears of it from its own monitor, a moment later.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    Result<void> again;
+    do {
+        again = vibrate(1, Seconds(0.1));
+    } while (!again && std::chrono::steady_clock::now() < deadline);
+    EXPECT_TRUE(again) << again.error().message;
+}
+
+TEST_P(HidSystem, WhoMayNotOpenItIsTold) {
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const auto backend = isHidraw() ? hid::hidrawBackend() : hid::libusbHidBackend();
+    ASSERT_EQ(backend->devices().size(), 1u);  // and libusb has started, which needs the testbed's own sockets
+    pad.usb().permit(false);
+    std::filesystem::permissions(bed.root() / "dev" / "hidraw0", std::filesystem::perms::owner_read);
+    const UnprivilegedUser user(bed);
+    const auto list = backend->devices();
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_FALSE(list[0].permitted);
+    EXPECT_THAT(list[0].obstacle(), HasSubstr("./dev install-rules"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, HidSystem, testing::Values("hidraw", "libusb"),
+                         [](const testing::TestParamInfo<const char*>& name) { return std::string(name.param); });
+
+class TranceTest : public testing::Test {
+protected:
+    hid::UsbProvider provider() {
+        return [this]() -> Result<std::shared_ptr<UsbContext>> {
+            if (!context) {
+                auto started = UsbContext::start();
+                if (!started) return failure(started);
+                context = *started;
+            }
+            return context;
+        };
+    }
+    void waitForDevice() {
+        const auto usb = provider()().value();
+        auto seen = usb->generation();
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (usb->devices().empty() && std::chrono::steady_clock::now() < deadline) {
+            seen = usb->waitForChange(seen, Seconds(1));
+        }
+    }
+    static std::vector<int> speeds(const EmulatedUsbDevice& device) {
+        std::vector<int> all;
+        for (const auto& setup : device.requests()) {
+            EXPECT_EQ(setup.type, 0x43);
+            EXPECT_EQ(setup.request, 1);
+            EXPECT_EQ(setup.length, 0);
+            all.push_back(setup.value);
+        }
+        return all;
+    }
+
+    UsbTestbed bed;
+    std::shared_ptr<UsbContext> context;
+    const SteadyClock clock;
+    SafetyGate gate{clock};
+    DeviceSet devices;
+};
+
+TEST_F(TranceTest, IsListedAndVibratesByItsOneRequest) {
+    RecordProperty("hazard", "H2");
+    const EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
+    waitForDevice();
+    const auto driver = systemDriver(provider());
+    const auto list = driver->list();
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0].uri, "hid:0b49:064f?serial=T1");
+    const auto opened = driver->open(DeviceUri::parse(list[0].uri).value(), {}, OpenContext{clock}, devices);
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(speeds(device), (std::vector<int>{0}));
+    ASSERT_TRUE(devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{0.5, Seconds(1)}))));
+    EXPECT_EQ(speeds(device), (std::vector<int>{0, 128}));
+    devices.massager->forceOff();
+    devices = {};
+    const auto all = speeds(device);
+    ASSERT_GE(all.size(), 3u);
+    for (std::size_t i = 2; i < all.size(); ++i) EXPECT_EQ(all[i], 0);
+}
+
+TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
+    RecordProperty("hazard", "H2");
+    EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
+    waitForDevice();
+    const auto driver = systemDriver(provider());
+    ASSERT_TRUE(driver->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices));
+    device.hold(0, true);
+    const auto slow = devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{1, Seconds(1)})));
+    ASSERT_FALSE(slow);
+    EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
+    const auto before = std::chrono::steady_clock::now();
+    devices.massager->forceOff();
+    EXPECT_LE(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(50));
+    device.hold(0, false);
+    devices = {};
+    EXPECT_EQ(speeds(device).back(), 0);
+}
+
+/// The conformance suite on the real hidapi.
+class SystemRig final : public MassagerRig {
+public:
+    explicit SystemRig(const char* backend) {
+        const auto opened = systemDriver()->open(DeviceUri::parse(fmt::format("hid:?backend={}", backend)).value(), {},
+                                                 OpenContext{clock_}, devices_);
+        if (!opened) throw std::runtime_error(opened.error().message);
+    }
+    Massager& device() override { return *devices_.massager; }
+    const Clock& clock() const override { return clock_; }
+    void wait(Seconds duration) override { std::this_thread::sleep_for(duration); }
+    std::optional<bool> vibrating() override {
+        const auto all = pad_.waitForReports(0);
+        return !all.empty() && all.back()[3] > 0;
+    }
+    bool unplug() override {
+        pad_.unplug();
+        return true;
+    }
+
+private:
+    UsbTestbed bed_;
+    EmulatedHidDevice pad_{bed_, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {}};
+    const SteadyClock clock_;
+    DeviceSet devices_;
+};
+
+INSTANTIATE_TEST_SUITE_P(HidSystem, MassagerConformance,
+                         testing::Values(MassagerKind{"Hidraw", [] { return std::make_unique<SystemRig>("hidraw"); }},
+                                         MassagerKind{"Libusb", [] { return std::make_unique<SystemRig>("libusb"); }}),
+                         [](const testing::TestParamInfo<MassagerKind>& kind) { return kind.param.name; });
+
+}  // namespace
+}  // namespace tacto::test

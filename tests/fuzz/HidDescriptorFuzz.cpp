@@ -1,0 +1,33 @@
+// Whatever a device says of itself is read or refused, every control lies inside its report, and haptic reports made of
+// it are valid (hazard H10). The input: one byte, how much of the rest is the descriptor (in 1/256); what remains is
+// the waveform list.
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "drivers/hid_massager/Haptics.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace tacto::hid;
+    if (size < 2) return 0;
+    const std::span<const std::uint8_t> rest(data + 1, size - 1);
+    const auto cut = rest.size() * (std::size_t{data[0]} + 1) / 256;
+    const auto descriptor = parseHidDescriptor(rest.first(cut));
+    if (!descriptor) {
+        if (descriptor.error().code != tacto::ErrorCode::ParseError || descriptor.error().message.empty()) std::abort();
+        return 0;
+    }
+    if (descriptor->fields.size() > kFieldsMost || descriptor->collections.size() > kCollectionsMost) std::abort();
+    for (const auto& field : descriptor->fields) {
+        const auto length = descriptor->lengthOf(field.kind, field.report);
+        if (!length || field.bits < 1 || field.bits > 32 || field.bit < 8) std::abort();
+        if (std::size_t{field.bit} + field.bits > 8 * *length || field.max < field.min) std::abort();
+        static_cast<void>(descriptor->isInside(field.collection, usageOf(0x0E, 0x01)));
+    }
+    const auto controls = findHaptics(*descriptor);
+    if (!controls) return 0;
+    const auto reports = hapticReports(*controls, rest.subspan(cut));
+    if (!reports) return 0;
+    if (!validate(*reports) || !startBytes(*reports, 0.5) || startBytes(*reports, 1.5)) std::abort();
+    return 0;
+}
