@@ -23,6 +23,7 @@ struct DeviceIdentity {
     bool simulated = false;
     /// Of a listed device: why it cannot be opened now and what helps, one sentence; empty where it can.
     std::string obstacle = {};
+    bool placeholder = false;  ///< listed as a kind: the path of `uri` has to be filled in
     bool operator==(const DeviceIdentity&) const = default;
 };
 

@@ -94,7 +94,8 @@ public:
     std::string_view scheme() const noexcept override { return "capture"; }
     bool runsOnVirtualClock() const noexcept override { return true; }
     std::vector<DeviceIdentity> list() const override {
-        return {{"capture:FOLDER", Role::Oscilloscope, "an oscilloscope from a folder of captures", "", "", false}};
+        return {{"capture:FOLDER", Role::Oscilloscope, "an oscilloscope from a folder of captures", "", "", false, "",
+                 true}};
     }
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,

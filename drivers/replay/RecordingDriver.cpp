@@ -84,7 +84,7 @@ public:
     std::string_view scheme() const noexcept override { return "recording"; }
     bool runsOnVirtualClock() const noexcept override { return true; }
     std::vector<DeviceIdentity> list() const override {
-        return {{"recording:PATH", Role::Sensor, "a recording replayed as a fingertip", "", "", false}};
+        return {{"recording:FOLDER", Role::Sensor, "a recording replayed as a fingertip", "", "", false, "", true}};
     }
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,

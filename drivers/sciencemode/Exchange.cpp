@@ -17,10 +17,12 @@ StopFrames makeStopFrames() {
         encodeFrame({static_cast<std::uint16_t>(Command::LowLevelStop), kLowStopNumber, {}}, frames.lowLevel);
     const auto mid =
         encodeFrame({static_cast<std::uint16_t>(Command::MidLevelStop), kMidStopNumber, {}}, frames.midLevel);
-    if (!low || !mid || frames.lowLevel.size > Transport::kUrgentMost ||
-        frames.midLevel.size > Transport::kUrgentMost) {
+    frames.bothSize = frames.lowLevel.size + frames.midLevel.size;
+    if (!low || !mid || frames.bothSize > frames.both.size()) {
         std::abort();  // a device that cannot be stopped must not be opened
     }
+    const auto end = std::ranges::copy(frames.lowLevel.view(), frames.both.begin()).out;
+    std::ranges::copy(frames.midLevel.view(), end);
     return frames;
 }
 

@@ -25,6 +25,10 @@ struct ExchangeCounts {
 struct StopFrames {
     FrameBytes lowLevel;
     FrameBytes midLevel;
+    /// The two behind each other: one message, since a transport keeps but the newest that waits.
+    std::array<std::uint8_t, Transport::kUrgentMost> both{};
+    std::size_t bothSize = 0;
+    [[nodiscard]] std::span<const std::uint8_t> everything() const noexcept { return {both.data(), bothSize}; }
 };
 [[nodiscard]] const StopFrames& stopFrames() noexcept;
 

@@ -54,6 +54,12 @@ void judgeBalance(const ChannelConfigAck& ack, const PulsePlan& plan, double ste
     into.imbalanceUncertainty = uncertainty;
 }
 
+SampledPulse samplesOf(const ChannelConfigAck& ack, Micros step) noexcept {
+    SampledPulse samples{ack.measurement, step, {}};
+    for (std::size_t i = 0; i < kSamples; ++i) samples.magnitudes[i] = static_cast<float>(sampleAt(ack, i));
+    return samples;
+}
+
 }  // namespace
 
 std::optional<Micros> sampleStep(const ChannelConfigAck& ack, const PulsePlan& plan) noexcept {
@@ -68,6 +74,7 @@ PulseReading readPulse(const ChannelConfigAck& ack, const PulsePlan& plan, Volts
     if (ack.result == ResultCode::Electrode) reading.electrode = ElectrodeState::Open;
     const auto step = sampleStep(ack, plan);
     const double commanded = plan.amplitude.value();
+    if (step) reading.samples = samplesOf(ack, *step);
     if (!step || !(commanded > 0)) return reading;  // an amplitude of 0 measures nothing
     const auto end = leadingEnd(ack, step->count(), plan.leading.count());
     if (!end) return reading;

@@ -23,6 +23,13 @@ namespace tacto::sciencemode {
 inline constexpr Ohms kTouching{20};           ///< less than any skin or bench load
 inline constexpr double kAtCompliance = 0.95;  ///< of the compliance: the source found no way for its current
 
+/// What the device sampled during a pulse. Magnitudes: it sends no sign, so both phases look alike.
+struct SampledPulse {
+    Measurement measurement = Measurement::Voltage;  ///< Voltage: V; Current: mA
+    Micros step{0};
+    std::array<float, kSamples> magnitudes{};
+};
+
 /// One pulse as the device measured it.
 struct PulseReading {
     ElectrodeState electrode = ElectrodeState::NotMeasured;
@@ -30,6 +37,7 @@ struct PulseReading {
     std::optional<Ohms> impedance;
     std::optional<double> imbalance;             ///< at least this; absent where magnitudes prove none
     std::optional<double> imbalanceUncertainty;  ///< 95 %: where the samples meet the edges
+    std::optional<SampledPulse> samples;         ///< what all this was read from
 };
 
 /// The step between samples, or nothing when the ack states none.

@@ -120,8 +120,7 @@ Result<void> ScienceModeStimulator::ensureLowLevel(std::uint64_t offs) {
 void ScienceModeStimulator::sendStop() noexcept {
     const std::scoped_lock urgent(urgent_);
     if (!transport_) return;
-    transport_->writeUrgent(stopFrames().lowLevel.view());
-    transport_->writeUrgent(stopFrames().midLevel.view());
+    transport_->writeUrgent(stopFrames().everything());
 }
 
 void ScienceModeStimulator::forceOff() noexcept {

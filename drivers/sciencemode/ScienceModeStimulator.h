@@ -88,6 +88,11 @@ public:
     Instant serve(Instant now) noexcept;
 
     [[nodiscard]] ExchangeCounts counts();
+    /// What the newest low-level pulse told, its samples among it; nothing measured before the first. Any thread.
+    [[nodiscard]] PulseReading lastReading() const {
+        const std::scoped_lock state(state_);
+        return reading_;
+    }
 
 private:
     /// A train of pulses that is being sent.

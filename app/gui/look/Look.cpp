@@ -77,6 +77,22 @@ void applyTheme(Theme wanted) {
     QApplication::setStyle(QStyleFactory::create("Fusion"));
     const auto palette = paletteOf(colours(), wanted == Theme::Dark);
     QApplication::setPalette(palette);
+    // Fusion draws outlines darker than the window, which a dark one swallows.
+    const auto boxes =
+        wanted == Theme::Dark
+            ? QString(
+                  "QCheckBox::indicator, QTreeView::indicator, QRadioButton::indicator, "
+                  "QGroupBox::indicator { width: 1em; height: 1em; border: 1px solid %1; "
+                  "background: %2; }"
+                  "QTreeView::indicator { width: 0.7em; height: 0.7em; }"
+                  "QRadioButton::indicator { border-radius: 0.5em; }"
+                  "QCheckBox::indicator:checked, QTreeView::indicator:checked, "
+                  "QRadioButton::indicator:checked, QGroupBox::indicator:checked "
+                  "{ background: %3; border-color: %3; }"
+                  "QCheckBox::indicator:disabled, QRadioButton::indicator:disabled "
+                  "{ border-color: %4; }")
+                  .arg(colours().quiet.name(), colours().base.name(), colours().accent.name(), colours().grid.name())
+            : QString();
     // Quiet: no icons in dialog buttons, flat bars, the workspaces as a list.
     qApp->setStyleSheet(QString("QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }"
                                 "QToolBar { background: %1; border: none; spacing: 2px; }"
@@ -86,7 +102,8 @@ void applyTheme(Theme wanted) {
                                 "QToolButton#workspaceButton:focus { border: 1px solid %3; }")
                             .arg(palette.color(QPalette::Window).name(), palette.color(QPalette::Midlight).name(),
                                  palette.color(QPalette::Highlight).name(),
-                                 palette.color(QPalette::HighlightedText).name()));
+                                 palette.color(QPalette::HighlightedText).name()) +
+                        boxes);
 }
 
 void applyTextSize(int percent) {

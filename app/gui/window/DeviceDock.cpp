@@ -19,10 +19,7 @@ constexpr int kObstacleRole = Qt::UserRole + 2;
 constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
 
 /// Not so a recording or a folder of captures, whose name somebody has to give.
-bool opensByItself(const DeviceIdentity& device) {
-    const auto uri = DeviceUri::parse(device.uri);
-    return device.obstacle.empty() && uri && !uri->path.empty();
-}
+bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty() && !device.placeholder; }
 
 }  // namespace
 

@@ -171,6 +171,7 @@ private:
 
 TEST(WindowsEnd, AWindowDeletedWhileShownHidesBeforeItsDeskIsGone) {
     auto window = std::make_unique<gui::MainWindow>(simulatedRegistry);
+    window->showWorkspace(0);
     window->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
     Witness witness(window->desk());
