@@ -1,6 +1,7 @@
 #include "drivers/sensor_board/BoardLink.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tacto::sensorboard {
 
@@ -29,15 +30,64 @@ std::string_view nameOf(Command command) noexcept {
     return "a command";
 }
 
+BoardLink::~BoardLink() {
+    ending_.store(true, std::memory_order_release);
+    if (thread_.joinable()) thread_.join();
+}
+
+void BoardLink::listen() {
+    if (clock_.isVirtual()) return;
+    ring_ = std::make_unique<SpscRing<Chunk>>(kChunks);
+    thread_ = std::thread([this] { run(); });
+}
+
+void BoardLink::run() noexcept {
+    Chunk chunk{};
+    while (!ending_.load(std::memory_order_acquire)) {
+        const auto got = transport_->read(chunk.bytes, kListenFor);
+        if (got) {
+            chunk.arrival = clock_.now();
+            chunk.size = static_cast<std::uint32_t>(std::min(*got, chunk.bytes.size()));
+            ring_->push(chunk);
+        } else if (got.error().code != ErrorCode::Timeout) {
+            broke_ = got.error().message;
+            broken_.store(true, std::memory_order_release);
+            return;
+        }
+    }
+}
+
+Result<bool> BoardLink::take() {
+    const bool broken = broken_.load(std::memory_order_acquire);  // asked first: what came before is taken now
+    if (const auto chunk = ring_->pop()) {
+        std::copy_n(chunk->bytes.begin(), chunk->size, buffer_.begin());
+        pending_ = std::span(buffer_).first(chunk->size);
+        arrival_ = chunk->arrival;
+        doubt_ = Seconds(0);
+        return true;
+    }
+    if (broken) return fail(ErrorCode::Device, "{}", broke_);
+    return false;
+}
+
 Result<bool> BoardLink::fill(Seconds timeout) {
+    if (ring_) return take();
     const auto got = transport_->read(buffer_, timeout);
+    const Instant before = std::exchange(looked_, clock_.now());
     if (!got) {
         if (got.error().code == ErrorCode::Timeout) return false;
         return fail(ErrorCode::Device, "{}", got.error().message);
     }
-    arrival_ = clock_.now();
+    arrival_ = looked_;
+    // Whoever waits sees it come.
+    doubt_ = timeout > Seconds(0) ? Seconds(0) : Seconds(arrival_ - before);
     pending_ = std::span(buffer_).first(std::min(*got, buffer_.size()));
     return true;
+}
+
+std::uint64_t BoardLink::dropped() const noexcept {
+    const auto chunks = ring_ ? ring_->dropped() : 0;
+    return transport_->dropped() + chunks * sizeof(Chunk::bytes);
 }
 
 Result<Frame> BoardLink::ask(Command command, Reply answer, std::span<const std::uint8_t> payload) {

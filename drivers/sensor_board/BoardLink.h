@@ -3,14 +3,20 @@
 // ask() waits, within bounds: three attempts of 0.3 s, 64 KiB of whatever else comes. A board that floods the line with
 // noise, or says nothing, is refused in the end, never waited for.
 //
-// Thread-safety: none; one owner.
+// listen() starts a thread that reads what comes, so that it is known when it came: a session looks every 2 ms at best,
+// and a busy one now and then. On a virtual clock nothing reads but fill(), and the doubt is said (doubt()).
+//
+// Thread-safety: none; one owner. The thread shares a ring and two flags with it.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "core/base/Clock.h"
+#include "core/base/SpscRing.h"
 #include "core/devices/Transport.h"
 #include "drivers/sensor_board/Messages.h"
 
@@ -24,6 +30,10 @@ public:
 
     BoardLink(std::unique_ptr<Transport> transport, const Clock& clock)
         : transport_(std::move(transport)), clock_(clock) {}
+    /// Waits for the thread: kListenFor at most.
+    ~BoardLink();
+    BoardLink(const BoardLink&) = delete;
+    BoardLink& operator=(const BoardLink&) = delete;
 
     /// Sends a command and waits for its answer, which is valid until the next call. Other frames are passed over.
     /// Errors: Timeout where nothing sound came; Device where only noise did, the board refused, or the line failed.
@@ -31,10 +41,15 @@ public:
 
     /// The next frame of what has been read; nothing when that is used up: see fill().
     [[nodiscard]] std::optional<Frame> next() noexcept { return decoder_.take(pending_); }
-    /// Reads what has arrived; false when there is nothing. `timeout` 0 does not wait. Errors: Device.
+    /// From now on a thread reads; ask() must not be called any more. Nothing on a virtual clock.
+    void listen();
+    /// Reads what has arrived; false when there is nothing. `timeout` 0 does not wait; ignored while a thread listens,
+    /// when nothing waits. Errors: Device.
     [[nodiscard]] Result<bool> fill(Seconds timeout);
     /// When fill() last got something, on the session's clock.
     [[nodiscard]] Instant arrival() const noexcept { return arrival_; }
+    /// How much earlier that may have come.
+    [[nodiscard]] Seconds doubt() const noexcept { return doubt_; }
     /// When ask() last sent something.
     [[nodiscard]] Instant sent() const noexcept { return sent_; }
 
@@ -42,9 +57,21 @@ public:
     void stopUnheard() noexcept;
 
     [[nodiscard]] const LineCounts& counts() const noexcept { return decoder_.counts(); }
-    [[nodiscard]] std::uint64_t dropped() const noexcept { return transport_->dropped(); }
+    /// Bytes that were not read in time.
+    [[nodiscard]] std::uint64_t dropped() const noexcept;
 
 private:
+    /// What one read of the thread brought: a full-speed packet or a few.
+    struct Chunk {
+        Instant arrival;
+        std::uint32_t size;
+        std::array<std::uint8_t, 500> bytes;
+    };
+    static constexpr std::size_t kChunks = 512;  ///< seconds of a board's stream
+    static constexpr Seconds kListenFor{0.05};   ///< at a time
+
+    void run() noexcept;
+    [[nodiscard]] Result<bool> take();
     [[nodiscard]] Result<std::optional<Frame>> await(Command command, Reply answer, std::uint8_t token);
 
     const std::unique_ptr<Transport> transport_;
@@ -53,6 +80,13 @@ private:
     std::array<std::uint8_t, 4096> buffer_{};
     std::span<const std::uint8_t> pending_;
     Instant arrival_{0};
+    Instant looked_{0};
+    Seconds doubt_{0};
+    std::unique_ptr<SpscRing<Chunk>> ring_;  // while a thread listens
+    std::atomic<bool> ending_{false};
+    std::atomic<bool> broken_{false};
+    std::string broke_;  // why; written once, before broken_ is set
+    std::thread thread_;
     Instant sent_{0};
     std::uint8_t token_ = 0;
     const std::vector<std::uint8_t> stop_ = encodeCommand(Command::Stop, 255);  // made before it is needed

@@ -7,11 +7,13 @@
 namespace tacto::sensorboard {
 
 namespace {
-constexpr std::size_t kRecent = 30;  // windows, a minute, whose shortest delay gives the offset
+constexpr std::size_t kRecent = 15;  // windows, half a minute, whose shortest delay gives the offset
 constexpr int kHalvings = 3;
 constexpr std::size_t kKeptLeast = 4;  // points that the halvings leave
 constexpr double kRamp_s = 8e-3;       // over which a shift is spread: a usual block of acceleration
 constexpr double kSettle_s = 1;        // time in which a correction is meant to be caught up
+constexpr double kDoubtMost_s = 5e-3;  // a host that was busy for longer says nothing of how often it looks
+constexpr double kDoubtOver = 64;      // messages: some 0.2 s
 constexpr double kStepLeast_s = 1e-4;  // a smaller shift is no step: under half a sample at 4 kHz
 constexpr double kCrystal = 100e-6;    // how far crystals are off, by their makers' tolerances
 constexpr double kFinest_s = 1e-6;     // the board's microsecond: no spread is taken to be less
@@ -21,11 +23,12 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 ClockFit::ClockFit() {
     windows_.reserve(kWindows);
     kept_.reserve(kWindows);
+    wider_.reserve(kWindows);
     misses_.reserve(kWindows);
     lowest_.y = kInfinite;
 }
 
-void ClockFit::observe(std::uint64_t device_us, Instant arrival) {
+void ClockFit::observe(std::uint64_t device_us, Instant arrival, Seconds doubt) {
     const double arrival_s = toSeconds(arrival);
     if (!started_) {
         started_ = true;
@@ -43,6 +46,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival) {
         windowEnds_ = x + (windows_.size() < kFirstWindows ? kFirstWindow_s : kWindow_s);
     }
     if (y - slope_ * x < lowest_.y - slope_ * lowest_.x) lowest_ = {x, y};
+    doubt_s_ += (std::min(doubt.count(), kDoubtMost_s) - doubt_s_) / kDoubtOver;
     // A shorter delay than any before counts at once, a longer one when its window ends.
     base_ = std::min(base_, y - slope_ * x);
     follow(x, y);
@@ -59,8 +63,9 @@ void ClockFit::closeWindow() {
     }
     lowest_ = {0, kInfinite};
     if (const auto line = fit()) {
-        // Applied as far as it is known better than what crystals are anyway.
-        const double known = kCrystal * kCrystal / (kCrystal * kCrystal + line->uncertainty * line->uncertainty);
+        // Applied as far as it is known better than what crystals are anyway; a bound is some four standard deviations.
+        const double deviation = line->uncertainty / 4;
+        const double known = kCrystal * kCrystal / (kCrystal * kCrystal + deviation * deviation);
         slope_ = known * line->slope;
         // y = arrival - board: its slope s is 1 / (1 + drift) - 1.
         const double drift = 1 / (1 + line->slope) - 1;
@@ -74,6 +79,7 @@ void ClockFit::closeWindow() {
 std::optional<ClockFit::Line> ClockFit::fit() {
     if (windows_.size() < kWindowsLeast) return std::nullopt;
     kept_.assign(windows_.begin(), windows_.end());
+    wider_ = kept_;
     Line line;
     for (int round = 0;; ++round) {
         double meanX = 0, meanY = 0;
@@ -92,13 +98,15 @@ std::optional<ClockFit::Line> ClockFit::fit() {
         line.slope = xy / xx;
         const auto miss = [&](const Point& p) { return p.y - meanY - line.slope * (p.x - meanX); };
         if (round == kHalvings || kept_.size() / 2 < kKeptLeast) {
-            const auto [low, high] = std::ranges::minmax_element(kept_, {}, miss);
+            const auto [low, high] = std::ranges::minmax_element(wider_, {}, miss);
             const auto [begin, end] = std::ranges::minmax_element(kept_, {}, &Point::x);
             line.extent = end->x - begin->x;
-            line.uncertainty = 2 * std::max(miss(*high) - miss(*low), kFinest_s) / line.extent;
+            const double spread = std::max(miss(*high) - miss(*low), kFinest_s) + doubt_s_;
+            line.uncertainty = 2 * spread / line.extent;
             return line;
         }
         // The lower half stays: what is above the median came late.
+        wider_ = kept_;
         misses_.clear();
         for (const auto& p : kept_) misses_.push_back(miss(p));
         const auto middle = misses_.begin() + static_cast<std::ptrdiff_t>(misses_.size() / 2);
@@ -119,8 +127,10 @@ void ClockFit::place() {
     if (!std::isfinite(base_)) base_ = 0;
 }
 
+double ClockFit::margin() const noexcept { return std::max(kMargin_s, 1.1 * doubt_s_); }
+
 void ClockFit::settle() noexcept {
-    knots_[newest_] = {knots_[newest_].x, base_ - kMargin_s + slope_ * knots_[newest_].x};
+    knots_[newest_] = {knots_[newest_].x, base_ - margin() + slope_ * knots_[newest_].x};
     knotCount_ = 1;
     rate_ = slope_;
 }
@@ -153,7 +163,7 @@ void ClockFit::pushKnot(const Knot& knot) noexcept {
 void ClockFit::follow(double x, double y) {
     const Knot last = knots_[newest_];
     if (x >= last.x + kKnotEvery_s) {
-        const double line = base_ - kMargin_s + slope_ * x;
+        const double line = base_ - margin() + slope_ * x;
         // After a long silence there is nothing to keep even.
         const bool resumed = x - last.x > kSettle_s;
         const Knot reached{x, resumed ? line : last.correction + rate_ * (x - last.x)};

@@ -8,11 +8,15 @@
 // calibrating measurements of packet transit times", SIGMETRICS 1998), over the last 10 minutes; of these the half
 // nearest the line, three times over, so that the line settles on the lower envelope (the line under all points of
 // Moon, Skelly and Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999);
-// least squares through what is left. The uncertainty is twice the spread of those points about the line over their
-// extent in time: the steepest and the flattest line that miss none of them by more than that spread differ from it by
-// so much. Before 2 s there is no drift to speak of: none is reported and none applied. The offset is that of the
-// shortest delay seen in the last minute, less kMargin_s: stamps are late by that delay, or early by the margin at
-// most, which makes data look older, never fresher.
+// least squares through what is left. Its uncertainty is twice the spread about the line, plus how much earlier a
+// message may have come than it was seen, over the extent in time: the steepest and the flattest line that miss none of
+// the points by more than that spread differ from it by so much. The spread is that of the points of one halving
+// before, for the lowest few lie together by choice. Before 2 s there is no drift to speak of: none is reported and
+// none applied; while its uncertainty is not small beside 100 ppm, only a part of it is.
+//
+// The offset is that of the shortest delay seen in the last half minute, less a margin: stamps are late by that delay,
+// or early by the margin at most, which makes data look older, never fresher. The margin is kMargin_s, or what a
+// message may have come earlier than it was seen, if that is more.
 //
 // Mapping: what is learnt is applied by turning the clock faster or slower by at most 0.5 %, so that stamps stay evenly
 // spaced. One thing is done at once: a message that arrived before its own moment, as mapped, shifts the mapping back
@@ -45,8 +49,9 @@ class ClockFit {
 public:
     ClockFit();
 
-    /// Something that the board did or wrote at `device_us` (µs since its power-up) had arrived at `arrival`.
-    void observe(std::uint64_t device_us, Instant arrival);
+    /// Something that the board did or wrote at `device_us` (µs since its power-up) was seen at `arrival`. `doubt`: how
+    /// much earlier it may have come, where the line is only looked at now and then.
+    void observe(std::uint64_t device_us, Instant arrival, Seconds doubt = Seconds(0));
     /// Session time of a moment of the board, seconds. Meaningful after the first observe(); asked for moments not much
     /// later than the last one observed and at most a second or so before it.
     [[nodiscard]] double toSession(double device_us) const noexcept;
@@ -87,6 +92,7 @@ private:
     void shiftBack(double x, double early) noexcept;
     void pushKnot(const Knot& knot) noexcept;
     [[nodiscard]] double correctionAt(double x) const noexcept;
+    [[nodiscard]] double margin() const noexcept;
 
     bool started_ = false;
     std::uint64_t first_us_ = 0;
@@ -95,11 +101,13 @@ private:
     std::vector<Point> windows_;  // a ring of kWindows, oldest first from begin_
     std::size_t begin_ = 0;
     std::vector<Point> kept_;     // fit()'s own
+    std::vector<Point> wider_;    // fit()'s own: one halving before
     std::vector<double> misses_;  // fit()'s own
     Point lowest_{};              // of the window that is open
     double windowEnds_ = 0;
-    double slope_ = 0;  // of y over x; minus the drift, nearly
-    double base_ = 0;   // y of the line at x = 0
+    double doubt_s_ = 0;  // smoothed
+    double slope_ = 0;    // of y over x; minus the drift, nearly
+    double base_ = 0;     // y of the line at x = 0
 
     static constexpr std::size_t kKnots = 32;
     static constexpr double kKnotEvery_s = 0.05;

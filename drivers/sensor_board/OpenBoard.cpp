@@ -40,6 +40,7 @@ Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport
     if (!ready) {
         return fail(ready.error().code, "sensor board \"{}\": {}", settings.uri, ready.error().message);
     }
+    board->link_.listen();
     board->lastSound_ = clock.now();
     board->soundFrames_ = board->link_.counts().frames;
     board->bytesThen_ = board->link_.counts().bytes;

@@ -87,7 +87,7 @@ Result<void> SensorBoard::observe(std::uint64_t device_us) {
         return fail(ErrorCode::Device, "its clock jumped ahead by {:.3g} s; {} s at most were expected", early,
                     kJumpMost_s);
     }
-    fit_.observe(device_us, link_.arrival());
+    fit_.observe(device_us, link_.arrival(), link_.doubt());
     const auto& drift = fit_.report().drift_ppm;
     if (drift && !(std::abs(*drift) - *fit_.report().uncertainty_ppm <= kDriftMost_ppm)) {
         return fail(ErrorCode::Device, "its clock runs {:+.2f} % wrong; ± {} % at most was expected", *drift * 1e-4,

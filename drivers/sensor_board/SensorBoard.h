@@ -2,9 +2,9 @@
 // that speaks the sensor board protocol (resources/firmware/sensor_board/PROTOCOL.md).
 //
 // open() asks who the board is, refuses a wrong version of the protocol, wrong units or garbage in one sentence, reads
-// configuration and calibration, measures the line's delay and starts the streams. read() takes what has arrived and
-// never waits. Samples carry the board's own time stamps, mapped to the session's clock (ClockFit.h); what is lost is
-// counted and stays a gap in them.
+// configuration and calibration, measures the line's delay and starts the streams. On a steady clock a thread listens,
+// so that the moment of arrival is known; read() takes what has arrived and never waits. Samples carry the board's own
+// time stamps, mapped to the session's clock (ClockFit.h); what is lost is counted and stays a gap in them.
 //
 // Errors of read() are lasting: after one the board must be opened anew. They are: the line failed (unplugged);
 // kGarbageBytes of noise and no sound frame for kGarbageTime; a board that began again, whose clock jumped by more than
@@ -30,7 +30,7 @@ struct SensorBoardReport {
     std::array<sensorboard::StreamCounts, sensorboard::kStreamsMost> streams;  ///< by SensorBoard::streams()
     sensorboard::LineCounts line;
     sensorboard::BoardStatus board;  ///< the last STATUS
-    std::uint64_t dropped = 0;       ///< bytes that the host did not read in time
+    std::uint64_t dropped = 0;       ///< bytes that the host did not read in time, about
     std::uint64_t foreign = 0;       ///< sound frames of another version, of no known stream, or not well formed
     bool driftKnown = false;
     double drift_ppm = 0;  ///< how much faster than the session's clock the board's runs
