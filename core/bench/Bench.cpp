@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/bench/DeviceThread.h"
+#include "core/bench/MassagerSession.h"
 #include "core/bench/ScopeSession.h"
 #include "core/session/SessionWriter.h"
 
@@ -36,6 +37,7 @@ struct Bench::State {
     Heartbeat heartbeat;
     std::unique_ptr<SessionRecorder> recorder;
     std::unique_ptr<StimulatorSession> stimulator;
+    std::unique_ptr<MassagerSession> massager;  // only without a stimulator: one output at a time
     std::unique_ptr<SensorSession> sensor;
     std::unique_ptr<ScopeSession> scope;
     std::unique_ptr<ControlLoop> loop;
@@ -51,10 +53,10 @@ struct Bench::State {
 
     // Virtual clock only:
     Instant nextTick{0};
-    Instant stimulatorDue{0};
+    Instant outputDue{0};
 
     // Steady clock only. Last: they end first.
-    std::unique_ptr<DeviceThread> stimulatorThread, sensorThread, scopeThread, loopThread;
+    std::unique_ptr<DeviceThread> outputThread, sensorThread, scopeThread, loopThread;
 
     explicit State(BenchConfig given)
         : config(std::move(given)),
@@ -69,18 +71,31 @@ struct Bench::State {
         off("the bench closes");  // whatever the loop's last step may have handed over
         scopeThread.reset();
         sensorThread.reset();
-        stimulatorThread.reset();
-        if (stimulator) stimulator->forceOff();
+        outputThread.reset();
+        outputsOff();
         if (loop) loop->noteState(config.clock->now());
         recorder.reset();
+    }
+
+    void outputsOff() noexcept {
+        if (stimulator) stimulator->forceOff();
+        if (massager)
+            massager->forceOff();
+        else if (config.devices.massager)
+            config.devices.massager->forceOff();
+    }
+    /// Virtual clock: whichever output there is.
+    Instant serveOutput(Instant now) noexcept { return stimulator ? stimulator->serve(now) : massager->serve(now); }
+    [[nodiscard]] bool hasOutput() const noexcept { return stimulator || massager; }
+    [[nodiscard]] bool outputBusy() const noexcept {
+        return (stimulator && !stimulator->idle()) || (massager && !massager->idle());
     }
 
     /// Disarmed first: see ControlLoop::mayPost().
     void off(const char* why) noexcept {
         interlock.disarm(why);
         gate.latchStop();
-        if (stimulator) stimulator->forceOff();
-        if (config.devices.massager) config.devices.massager->forceOff();
+        outputsOff();
         if (loop) loop->drive({});
         driving.store(DriveSource::Off, std::memory_order_release);
     }
@@ -123,6 +138,9 @@ Result<void> Bench::State::open() {
 
     ControlLoop::Parts parts{*config.clock, gate,    interlock, heartbeat, config.mode,
                              nullptr,       nullptr, 0,         {},        config.tap};
+    const auto wake = [this] {
+        if (outputThread) outputThread->wake();
+    };
     if (config.session != nullptr) {
         if (sensor) {
             for (const auto& stream : sensor->device().streams()) {
@@ -141,25 +159,24 @@ Result<void> Bench::State::open() {
     }
     if (config.devices.stimulator) {
         stimulator =
-            std::make_unique<StimulatorSession>(*config.devices.stimulator, gate, heartbeat, *config.clock, [this] {
-                if (stimulatorThread) stimulatorThread->wake();
-            });
+            std::make_unique<StimulatorSession>(*config.devices.stimulator, gate, heartbeat, *config.clock, wake);
         parts.stimulator = stimulator.get();
+    } else if (config.devices.massager) {
+        massager = std::make_unique<MassagerSession>(*config.devices.massager, gate, heartbeat, *config.clock, wake);
+        parts.massager = massager.get();
     }
     if (config.devices.oscilloscope) scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope);
     loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
     if (const auto connected = interlock.connect(); !connected) return connected;
-    nextTick = stimulatorDue = config.clock->now();
+    nextTick = outputDue = config.clock->now();
     if (virtualClock == nullptr) startThreads();
     return {};
 }
 
 void Bench::State::startThreads() {
     const auto& clock = *config.clock;
-    if (stimulator) {
-        stimulatorThread =
-            std::make_unique<DeviceThread>(clock, [this](Instant now) { return stimulator->serve(now); });
-    }
+    if (hasOutput())
+        outputThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return serveOutput(now); });
     if (sensor)
         sensorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return sensor->serve(now); });
     if (scope) scopeThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return scope->serve(now); });
@@ -173,15 +190,15 @@ void Bench::State::startThreads() {
 
 /// Virtual clock: moves time to the next thing that happens, at most to `until`, and does it.
 void Bench::State::turn(Instant until) noexcept {
-    const Instant next = std::min(until, stimulator ? std::min(nextTick, stimulatorDue) : nextTick);
+    const Instant next = std::min(until, hasOutput() ? std::min(nextTick, outputDue) : nextTick);
     virtualClock->advanceTo(next);
     const Instant now = virtualClock->now();
-    if (stimulator && now >= stimulatorDue) stimulatorDue = stimulator->serve(now);
+    if (hasOutput() && now >= outputDue) outputDue = serveOutput(now);
     if (now < nextTick) return;
     nextTick = now + ControlLoop::kPeriod;
     if (sensor) sensor->serve(now);
     loop->step(now);
-    if (stimulator && !stimulator->idle()) stimulatorDue = stimulator->serve(now);
+    if (outputBusy()) outputDue = serveOutput(now);
     if (scope && scope->active()) scope->serve(now);
 }
 
@@ -249,7 +266,9 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     const auto leading = segmentsOf(check, source.gap).items[0];
     auto& evidence = command.evidence;
     evidence.limitsLoaded = !config.limits.empty();
-    evidence.deviceIdentified = config.devices.stimulator && !config.devices.stimulator->identity().name.empty();
+    const Device* output = config.devices.stimulator.get();
+    if (output == nullptr) output = config.devices.massager.get();
+    evidence.deviceIdentified = output != nullptr && !output->identity().name.empty();
     evidence.operatorConfirmed = request.operatorConfirmed;
     evidence.needsImpedance = config.devices.stimulator != nullptr;
     evidence.readsBack = source.readsBack;
@@ -270,7 +289,7 @@ Bench::~Bench() = default;
 
 Result<void> Bench::arm(const ArmRequest& request) {
     auto& s = *state_;
-    if (!s.config.devices.stimulator) return fail(ErrorCode::Unsupported, "not armed: no stimulator is open");
+    if (!s.hasOutput()) return fail(ErrorCode::Unsupported, "not armed: no stimulator and no massager is open");
     const auto load = parseLoad(request.load);
     if (!load) return failure(load);
     if (const auto well = s.health(); !well) return well;
@@ -340,7 +359,7 @@ Result<void> Bench::resetFault() {
             if (s.virtualClock != nullptr) {
                 s.stimulator->serve(s.config.clock->now());
             } else {
-                s.stimulatorThread->wake();
+                s.outputThread->wake();
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
         }
@@ -354,7 +373,7 @@ Result<void> Bench::resetFault() {
 Result<void> Bench::drive(DriveSource source, double roughness, double pressure) {
     auto& s = *state_;
     if (source == DriveSource::Sensor && !s.sensor) {
-        return fail(ErrorCode::Unsupported, "no fingertip sensor is open to drive the stimulator");
+        return fail(ErrorCode::Unsupported, "no fingertip sensor is open to drive the output");
     }
     if (source == DriveSource::Manual) {
         for (const auto& [name, value] : {std::pair("R", roughness), std::pair("P", pressure)}) {

@@ -108,7 +108,10 @@ void ControlLoop::step(Instant now) noexcept {
     if (arming_ && !checkPosted_) beginCheck(now);
     watchForSilence(now);
     updateWish(now);
-    sendTrain(now);
+    if (parts_.massager != nullptr)
+        sendBurst(now);
+    else
+        sendTrain(now);
     publish(now);
 }
 
@@ -267,8 +270,11 @@ void ControlLoop::tapSamples() noexcept {
 }
 
 void ControlLoop::judgeReports() noexcept {
-    if (parts_.stimulator == nullptr) return;
-    while (const auto report = parts_.stimulator->takeReport()) judge(*report);
+    if (parts_.stimulator != nullptr) {
+        while (const auto report = parts_.stimulator->takeReport()) judge(*report);
+    } else if (parts_.massager != nullptr) {
+        while (const auto report = parts_.massager->takeReport()) judgeBurst(*report);
+    }
 }
 
 void ControlLoop::recordOutcome(const TrainReport& report, const char* name) noexcept {
@@ -316,6 +322,21 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
                     now);
     }
     if (parts_.stimulator->device().traits().readsBack && mayPost(report.isCheck)) judgeImpedance(report);
+}
+
+void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
+    const Instant now = report.statusAt;
+    if (parts_.tap != nullptr) parts_.tap->trains.push(report);
+    if (report.outcome == TrainOutcome::LoopSilent) {
+        if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
+        return;
+    }
+    const bool delivered = report.outcome == TrainOutcome::Delivered;
+    recordOutcome(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
+    if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
+    if (!delivered) return;
+    ++shown_.trainsDelivered;
+    shown_.intensity = report.amplitude;
 }
 
 void ControlLoop::judgeImpedance(const TrainReport& report) noexcept {
@@ -419,11 +440,7 @@ void ControlLoop::sendTrain(Instant now) noexcept {
     }
     auto planned = planner_->plan(now, impedance_);
     if (!planned) return refused(now, planned.error().message);
-    if (parts_.interlock.state() == InterlockState::Armed) {
-        if (const auto begun = parts_.interlock.beginDelivery(); !begun) return;
-        seenState_ = InterlockState::Delivering;
-    }
-    if (!mayPost(false)) return;
+    if (!beginDelivery()) return;
     if (parts_.recorder != nullptr) {
         parts_.recorder->command(planned->onset, "train",
                                  {{"amplitude_v", planned->command.amplitude.value()},
@@ -434,6 +451,33 @@ void ControlLoop::sendTrain(Instant now) noexcept {
                                   {"rounded_by", planned->rounding.amplitude}});
     }
     post(std::move(planned->approved), planned->onset, false);
+}
+
+void ControlLoop::sendBurst(Instant now) noexcept {
+    if (!parts_.massager->idle()) return;
+    const auto due = planner_->due();
+    if (!due || *due >= now + kPeriod || !mayPost(false)) return;
+    auto planned = planner_->planBurst(now);
+    if (!planned) return refused(now, planned.error().message);
+    if (!beginDelivery()) return;
+    if (parts_.recorder != nullptr) {
+        parts_.recorder->command(planned->onset, "burst",
+                                 {{"amplitude_v", planned->command.amplitude.value()},
+                                  {"interval_s", planned->command.interval.count()},
+                                  {"roughness", shown_.roughness},
+                                  {"pressure", shown_.pressure},
+                                  {"intensity", planned->approved.burst().intensity}});
+    }
+    parts_.massager->post(std::move(planned->approved), planned->onset, planned->command.interval);
+}
+
+/// False when a stop came in between.
+bool ControlLoop::beginDelivery() noexcept {
+    if (parts_.interlock.state() == InterlockState::Armed) {
+        if (const auto begun = parts_.interlock.beginDelivery(); !begun) return false;
+        seenState_ = InterlockState::Delivering;
+    }
+    return mayPost(false);
 }
 
 void ControlLoop::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
@@ -455,6 +499,7 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) n
     parts_.interlock.fault(cause, reason);
     parts_.gate.latchStop();
     if (parts_.stimulator != nullptr) parts_.stimulator->forceOff();
+    if (parts_.massager != nullptr) parts_.massager->forceOff();
     faults_.fetch_add(1, std::memory_order_acq_rel);
     if (parts_.recorder != nullptr) parts_.recorder->event(now, "fault", {}, reason);
     noteState(now);

@@ -16,6 +16,7 @@
 #include "core/base/Latest.h"
 #include "core/bench/BenchTap.h"
 #include "core/bench/FingerInput.h"
+#include "core/bench/MassagerSession.h"
 #include "core/bench/StimulatorSession.h"
 #include "core/bench/Telemetry.h"
 #include "core/bench/TrainPlanner.h"
@@ -51,7 +52,8 @@ public:
         SessionRecorder* recorder;      ///< may be null
         int frameStream;                ///< of the recorder, for roughness frames
         std::vector<int> sensorStreams;
-        BenchTap* tap = nullptr;  ///< may be null: nobody looks
+        BenchTap* tap = nullptr;              ///< may be null: nobody looks
+        MassagerSession* massager = nullptr;  ///< in place of a stimulator, else null
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
@@ -89,6 +91,7 @@ private:
     void tapSamples() noexcept;
     void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
+    void judgeBurst(const TrainReport& report) noexcept;
     void judgeImpedance(const TrainReport& report) noexcept;
     void recordOutcome(const TrainReport& report, const char* name) noexcept;
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
@@ -96,6 +99,8 @@ private:
     void watchForSilence(Instant now) noexcept;
     void updateWish(Instant now) noexcept;
     void sendTrain(Instant now) noexcept;
+    void sendBurst(Instant now) noexcept;
+    [[nodiscard]] bool beginDelivery() noexcept;
     void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
     void refused(Instant now, std::string_view why) noexcept;
     void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;

@@ -44,6 +44,7 @@ struct Telemetry {
 
     double amplitude_v = NAN;  ///< command A of the encoder
     double interval_s = NAN;   ///< command T of the encoder
+    double intensity = NAN;    ///< of the last burst of a massager in place of the electrodes, 0..1
     double nextTrain_s = NAN;  ///< due time; NaN when none is pending
 
     double impedance_ohm = NAN;  ///< last measured |Z|
@@ -51,9 +52,9 @@ struct Telemetry {
     double imbalance = NAN;             ///< of the last pulse: |net charge| / phase charge
     double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
-    std::uint64_t trainsDelivered = 0;
-    std::uint64_t trainsRefused = 0;  ///< by the limits
-    std::uint64_t trainsSkipped = 0;  ///< for stale or missing sensor data
+    std::uint64_t trainsDelivered = 0;  ///< or bursts
+    std::uint64_t trainsRefused = 0;    ///< by the limits
+    std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data
     FixedText<200> lastRefusal;
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< found in the sensor streams

@@ -38,11 +38,25 @@ void TrainPlanner::wantNothing() noexcept {
     scheduler_.off();
 }
 
+Command TrainPlanner::begin(Instant onset) {
+    if (last_) command_ = encoder_.limited(*last_, *wanted_, Seconds(onset - lastOnset_));
+    scheduler_.trainAt(onset);
+    return *command_;
+}
+
+Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
+    const Instant onset = std::max(scheduler_.due().value_or(now), now);
+    const Command command = begin(onset);
+    auto approved = gate_.approve(VibrationBurst{.intensity = encoder_.massagerIntensity(command.amplitude)});
+    if (!approved) return failure(approved);
+    last_ = command;
+    lastOnset_ = onset;
+    return PlannedBurst{std::move(*approved), onset, command};
+}
+
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
     const Instant onset = std::max(scheduler_.due().value_or(now), now);
-    if (last_) command_ = encoder_.limited(*last_, *wanted_, Seconds(onset - lastOnset_));
-    const Command command = *command_;
-    scheduler_.trainAt(onset);
+    const Command command = begin(onset);
     const auto train = trainFor(source_.drive, encoder_.profile(), command.amplitude, impedance);
     if (!train) return failure(train);
     const auto rounded = roundToDevice(*train, gridOf(source_));

@@ -20,6 +20,12 @@ struct PlannedTrain {
     RoundedTrain rounding;  ///< and how far the device's step took it from that
 };
 
+struct PlannedBurst {
+    ApprovedBurst approved;
+    Instant onset;
+    Command command;  ///< what was asked for, in volts
+};
+
 class TrainPlanner {
 public:
     /// `profile` has passed validate(); `gate` outlives the planner.
@@ -40,7 +46,13 @@ public:
     /// interval later. Errors: as trainFor(), roundToDevice() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
+    /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().
+    [[nodiscard]] Result<PlannedBurst> planBurst(Instant now);
+
 private:
+    /// The command of the train that begins now, booked in the schedule.
+    [[nodiscard]] Command begin(Instant onset);
+
     const Encoder encoder_;
     const SourceTraits source_;
     SafetyGate& gate_;

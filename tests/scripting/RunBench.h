@@ -26,7 +26,8 @@ namespace tacto::test {
 class RunBench {
 public:
     explicit RunBench(bool virtualTime = true, std::string device = "sim:", std::uint64_t seed = 1,
-                      bool recorded = false) {
+                      bool recorded = false,
+                      std::set<Role> needed = {Role::Sensor, Role::Stimulator, Role::Oscilloscope}) {
         if (virtualTime) {
             clock_ = std::make_shared<VirtualClock>();
         } else {
@@ -38,10 +39,7 @@ public:
         std::vector<DeviceUri> uris = {DeviceUri::parse(device).value()};
         if (device != "sim:") uris.push_back(DeviceUri::parse("sim:").value());
         BenchConfig config;
-        config.devices =
-            registry
-                .open(uris, {Role::Sensor, Role::Stimulator, Role::Oscilloscope}, OpenContext{*clock_, seed, "1 kohm"})
-                .value();
+        config.devices = registry.open(uris, needed, OpenContext{*clock_, seed, "1 kohm"}).value();
         config.clock = clock_;
         config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
         if (recorded) {

@@ -27,16 +27,17 @@ std::vector<std::string> shippedNames() {
 }
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
-    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "separability"}));
+    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "massager", "separability"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
-    RunBench rig(true, "sim:", 1, true);
+    const auto declared = readDeclaration(shipped().find(GetParam()).value()).value();
+    RunBench rig(true, "sim:", 1, true, {declared.needs.begin(), declared.needs.end()});
     std::map<std::string, std::string> settings;
     if (GetParam() == "separability") settings["repeats"] = "2";
-    if (GetParam() == "live") settings["duration"] = "5";
+    if (GetParam() != "separability") settings["duration"] = "5";
     const auto outcome = runShipped(rig, GetParam(), settings);
     EXPECT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_TRUE(rig.outputOff());

@@ -76,6 +76,8 @@ void CommandPanel::show(const Telemetry& t, bool stale) {
     amplitude_->setText(quantityText(t.amplitude_v, "V", 3) + (asks ? origin : QString()));
     interval_->setText(quantityText(t.interval_s, "s", 3) +
                        (asks ? tr(" (%1 a minute)").arg(QString::number(60 / t.interval_s, 'f', 0)) : QString()));
+    if (std::isfinite(t.intensity) && asks)
+        amplitude_->setText(tr("%1 % strong%2").arg(QString::number(100 * t.intensity, 'f', 0), origin));
     const double amps = t.amplitude_v / t.impedance_ohm;
     current_->setText(
         std::isfinite(amps)

@@ -29,19 +29,23 @@ ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QD
     setWindowTitle(tr("Arm the output"));
     setAttribute(Qt::WA_DeleteOnClose);
     const auto open = desk.open();
-    readsBack_ = !open || !open->source || open->source->readsBack;
+    readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
 
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(heading(tr("Arm the output on a bench load"), this));
+    const bool massager = open && !open->source;
+    layout->addWidget(heading(massager ? tr("Arm the massager") : tr("Arm the output on a bench load"), this));
     layout->addWidget(explanation(
-        tr("One small pulse measures the load first. From then on trains are delivered as the drive says, each judged "
-           "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
+        massager ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
+                 : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
+                      "each judged "
+                      "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
         this));
     auto* form = new QFormLayout;
     load_ = new QLineEdit(load, this);
     load_->setToolTip(tr("What is connected, as \"1 kohm\" or \"200 ohm + 10 kohm || 50 nF\"."));
     form->addRow(tr("Declared &load"), load_);
     layout->addLayout(form);
+    form->setRowVisible(load_, !massager);
     trouble_ = new QLabel(this);
     trouble_->setWordWrap(true);
     auto red = trouble_->palette();

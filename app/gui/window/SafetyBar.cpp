@@ -191,7 +191,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     }
     QString name = tr("no stimulator");
     for (const auto& device : open->about.devices) {
-        if (device.role == "stimulator") name = QString::fromStdString(device.name);
+        if (device.role == "stimulator" || (device.role == "massager" && !open->source)) name = QString::fromStdString(device.name);
     }
     device_->setText(open->simulated() ? tr("%1 · simulated").arg(name) : name);
     load_->setText(
