@@ -1,0 +1,91 @@
+// The board in real time: a thread listens, the session's thread reads, the window's thread asks how it goes.
+#include <atomic>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "core/acquisition/StreamHealth.h"
+#include "drivers/sensor_board/EmulatedBoardLine.h"
+#include "drivers/sensor_board/SensorBoard.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sensorboard;
+
+class SensorBoardRealTime : public testing::Test {
+protected:
+    void SetUp() override {
+        line_ = std::make_shared<EmulatedBoardLine>(clock_, nullptr, EmulatedBoardSettings{},
+                                                    std::make_unique<CountingSignal>());
+        auto transport = line_->connect();
+        ASSERT_TRUE(transport.has_value());
+        auto opened = SensorBoard::open(std::move(*transport), {}, clock_);
+        ASSERT_TRUE(opened.has_value()) << opened.error().message;
+        board_ = std::move(*opened);
+    }
+    /// Reads every 2 ms, as a session does, until `enough`, 20 s at most. The first error ends it.
+    template <class Enough>
+    Result<void> readUntil(Enough&& enough) {
+        for (const Instant end = clock_.now() + std::chrono::seconds(20); clock_.now() < end && !enough();) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            const auto begin = clock_.now();
+            if (auto read = board_->read(blocks_); !read) return read;
+            longest_ = std::max(longest_, clock_.now() - begin);
+            for (const auto& block : blocks_) {
+                if (block.samples() == 0) continue;
+                EXPECT_LE(block.t_s.back(), toSeconds(clock_.now()) + 1e-6);
+            }
+        }
+        return {};
+    }
+
+    SteadyClock clock_;
+    std::shared_ptr<EmulatedBoardLine> line_;
+    std::unique_ptr<SensorBoard> board_;
+    std::vector<SampleBlock> blocks_{3};
+    Instant longest_{0};
+};
+
+TEST_F(SensorBoardRealTime, NothingIsLostAndNothingIsStampedAhead) {
+    RecordProperty("hazard", "H7");
+    std::atomic<bool> ending{false};
+    std::thread window([&] {
+        while (!ending.load()) {
+            EXPECT_LE(board_->report().streams[0].lostBlocks, 0U);
+            std::this_thread::yield();
+        }
+    });
+    EXPECT_TRUE(readUntil([&] { return blocks_[0].samples() >= 8000; }).has_value());
+    ending = true;
+    window.join();
+    ASSERT_GE(blocks_[0].samples(), 8000U);
+    const auto report = board_->report();
+    EXPECT_EQ(report.streams[0].lostBlocks + report.streams[1].lostBlocks + report.streams[2].lostBlocks, 0U);
+    EXPECT_EQ(report.line.bad(), 0U);
+    EXPECT_EQ(report.dropped, 0U);
+    // A machine that is busy may delay a thread, not reorder what it reads.
+    EXPECT_TRUE(std::is_sorted(blocks_[0].t_s.begin(), blocks_[0].t_s.end()));
+}
+
+TEST_F(SensorBoardRealTime, AnUnpluggedBoardIsAnErrorAfterWhatCameBefore) {
+    RecordProperty("hazard", "H7");
+    ASSERT_TRUE(readUntil([&] { return blocks_[0].samples() >= 400; }).has_value());
+    line_->unplug();
+    const auto begin = clock_.now();
+    const auto gone = readUntil([] { return false; });
+    ASSERT_FALSE(gone.has_value());
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_NE(gone.error().message.find("unplugged"), std::string::npos);
+    EXPECT_LT(clock_.now() - begin, std::chrono::seconds(1));
+}
+
+TEST_F(SensorBoardRealTime, GoesAtOnceAndTellsTheBoardToStop) {
+    ASSERT_TRUE(readUntil([&] { return blocks_[0].samples() >= 400; }).has_value());
+    const auto begin = clock_.now();
+    board_.reset();
+    EXPECT_LT(clock_.now() - begin, std::chrono::seconds(1));
+    EXPECT_FALSE(line_->inspect([](EmulatedBoard& board, Instant) { return board.running(); }));
+}
+
+}  // namespace
+}  // namespace tacto::test
