@@ -22,4 +22,6 @@ std::function<Registry()> allDrivers() {
     };
 }
 
+std::shared_ptr<TransportPorts> scienceModePorts() { return makeUsbPorts(makeUsbProvider(), {kScienceMode}, {}); }
+
 }  // namespace tacto

@@ -6,10 +6,14 @@
 #include <functional>
 
 #include "core/devices/Driver.h"
+#include "core/devices/TransportPorts.h"
 
 namespace tacto {
 
 /// Registries of everything this version can open.
 [[nodiscard]] std::function<Registry()> allDrivers();
+
+/// The sockets that may hold a ScienceMode stimulator, for looking at one without opening it as a device.
+[[nodiscard]] std::shared_ptr<TransportPorts> scienceModePorts();
 
 }  // namespace tacto

@@ -6,8 +6,7 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr double kSampleUnit = 0.01;  // mA or V
-constexpr double kCoverage = 1.96;    // 95 %
+constexpr double kCoverage = 1.96;  // 95 %
 /// A measured current below this share of the commanded one found no way.
 constexpr double kNoCurrent = 0.1;
 

@@ -20,6 +20,7 @@
 
 namespace tacto::sciencemode {
 
+inline constexpr double kSampleUnit = 0.01;    ///< V or mA: the last digit of a sample
 inline constexpr Ohms kTouching{20};           ///< less than any skin or bench load
 inline constexpr double kAtCompliance = 0.95;  ///< of the compliance: the source found no way for its current
 

@@ -90,6 +90,51 @@ Connect connectTo(std::shared_ptr<TransportPorts> ports, TransportPort port) {
     };
 }
 
+/// What `attempt(port, identity)` makes of the first port where it succeeds. `identity` is the one that the device must
+/// have; empty: any. Errors: NotFound where there is no port; else the first attempt's, in a sentence of its own.
+template <class Attempt>
+auto firstThatAnswers(const DeviceUri& uri, const TransportPorts* ports, Attempt attempt)
+    -> decltype(attempt(TransportPort{}, std::string_view{})) {
+    auto all = ports != nullptr ? ports->list() : std::vector<TransportPort>{};
+    const auto named = [&](const TransportPort& port) { return !uri.path.empty() && port.serial == uri.path; };
+    // The one with that USB serial number before those that may have that identity.
+    std::ranges::stable_partition(all, named);
+    std::optional<Error> problem;
+    for (const auto& port : all) {
+        Error reason{ErrorCode::Io, port.obstacle};
+        if (port.obstacle.empty()) {
+            auto made = attempt(port, named(port) ? std::string_view{} : std::string_view(uri.path));
+            if (made) return made;
+            reason = made.error();
+        }
+        // The first reason is told, but what a port of the right serial number says before all others.
+        if (!problem || named(port)) problem = std::move(reason);
+        if (named(port)) break;
+    }
+    const auto what =
+        uri.path.empty() ? std::string("no stimulator answers") : fmt::format("no stimulator \"{}\" answers", uri.path);
+    if (problem) return fail(problem->code, "device \"{}\": {}: {}", uri.text(), what, problem->message);
+    return fail(ErrorCode::NotFound, "device \"{}\": {}: none is plugged in (USB 0483:5740)", uri.text(), what);
+}
+
+/// Asks who is there, then how it is.
+Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string place, std::string_view wanted,
+                     const Clock& clock) {
+    if (!opened) return failure(opened);
+    Exchange exchange(**opened, clock);
+    auto found = identify(exchange);
+    if (!found) return failure(found);
+    if (!wanted.empty() && found->id != wanted) {
+        return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
+    }
+    const auto answer = exchange.ask(Command::StimStatus);
+    if (!answer) return failure(answer);
+    const auto status = readStimStatusAck(*answer);
+    if (!status) return failure(status);
+    if (status->result != ResultCode::Ok) return refusal(Command::StimStatus, status->result);
+    return Sighting{std::move(*found), std::move(place), *status};
+}
+
 class ScienceModeDriver final : public Driver {
 public:
     explicit ScienceModeDriver(std::shared_ptr<TransportPorts> ports) : ports_(std::move(ports)) {}
@@ -131,36 +176,30 @@ private:
     }
 
     Opened openPort(const DeviceUri& uri, const Wanted& wanted, const OpenContext& context) const {
-        auto all = ports_ ? ports_->list() : std::vector<TransportPort>{};
-        const auto named = [&](const TransportPort& port) { return !uri.path.empty() && port.serial == uri.path; };
-        // The one with that USB serial number before those that may have that identity.
-        std::ranges::stable_partition(all, named);
-        std::optional<Error> problem;
-        for (const auto& port : all) {
-            auto opened = tryPort(port, uri, named(port), wanted, context);
-            if (opened) return opened;
-            // The first reason is told, but what a port of the right serial number says before all others.
-            if (!problem || named(port)) problem = opened.error();
-            if (named(port)) break;
-        }
-        const auto what = uri.path.empty() ? std::string("no stimulator answers")
-                                           : fmt::format("no stimulator \"{}\" answers", uri.path);
-        if (problem) return fail(problem->code, "device \"{}\": {}: {}", uri.text(), what, problem->message);
-        return fail(ErrorCode::NotFound, "device \"{}\": {}: none is plugged in (USB 0483:5740)", uri.text(), what);
-    }
-
-    Opened tryPort(const TransportPort& port, const DeviceUri& uri, bool named, const Wanted& wanted,
-                   const OpenContext& context) const {
-        if (!port.obstacle.empty()) return fail(ErrorCode::Io, "{}", port.obstacle);
-        const std::string_view identity = named ? std::string_view{} : std::string_view(uri.path);
-        return ScienceModeStimulator::open(connectTo(ports_, port), uri.text(), identity, wanted.settings,
-                                           context.clock);
+        return firstThatAnswers(uri, ports_.get(), [&](const TransportPort& port, std::string_view identity) {
+            return ScienceModeStimulator::open(connectTo(ports_, port), uri.text(), identity, wanted.settings,
+                                               context.clock);
+        });
     }
 
     const std::shared_ptr<TransportPorts> ports_;
 };
 
 }  // namespace
+
+Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock& clock) {
+    if (uri.scheme != "sciencemode") {
+        return fail(ErrorCode::InvalidArgument, "device \"{}\" is no ScienceMode stimulator; sciencemode: is expected",
+                    uri.text());
+    }
+    const auto wanted = readUri(uri);
+    if (!wanted) return failure(wanted);
+    if (wanted->terminal) return ask(TtyTransport::open(*wanted->terminal), *wanted->terminal, uri.path, clock);
+    return firstThatAnswers(uri, ports, [&](const TransportPort& port, std::string_view identity) {
+        return ask(ports->open(port), port.place, identity, clock);
+    });
+}
+
 }  // namespace sciencemode
 
 std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<TransportPorts> ports) {

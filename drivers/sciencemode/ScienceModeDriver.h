@@ -15,10 +15,28 @@
 
 #include "core/devices/Driver.h"
 #include "core/devices/TransportPorts.h"
+#include "drivers/sciencemode/ScienceModeStimulator.h"
 
 namespace tacto {
 
 /// `ports` may be null: then only `tty=` opens anything.
 [[nodiscard]] std::unique_ptr<Driver> makeScienceModeDriver(std::shared_ptr<TransportPorts> ports);
+
+namespace sciencemode {
+
+/// A device that was asked who and how it is, and nothing else.
+struct Sighting {
+    Identification identification;
+    std::string place;  ///< the socket or the terminal behind which it answered
+    StimStatusAck status;
+    [[nodiscard]] bool simulated() const { return identification.id.starts_with(kEmulatedId); }
+};
+
+/// Looks at the device that `uri` names and changes nothing about what it does: opening one ends that. `ports` may be
+/// null. Errors: InvalidArgument for another scheme or a parameter that is not accepted; NotFound, Io, Device, Timeout
+/// as opening it.
+[[nodiscard]] Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock& clock);
+
+}  // namespace sciencemode
 
 }  // namespace tacto

@@ -80,6 +80,23 @@ TEST(ScienceModeReadBack, AnOpenElectrodeIsSeenEvenIfTheDeviceCallsItFine) {
     }
 }
 
+TEST(ScienceModeReadBack, TheSamplesAreKeptAsMagnitudesInTheirUnit) {
+    const auto volts = reading(5, Load::resistor(Ohms(1000)));
+    ASSERT_TRUE(volts.samples.has_value());
+    EXPECT_EQ(volts.samples->measurement, Measurement::Voltage);
+    EXPECT_EQ(volts.samples->step, Micros(4));
+    EXPECT_FLOAT_EQ(volts.samples->magnitudes[0], 5);
+    EXPECT_FLOAT_EQ(volts.samples->magnitudes[60], 0) << "the gap";
+    EXPECT_FLOAT_EQ(volts.samples->magnitudes[80], 5) << "the second phase: the sign is lost";
+    EXPECT_EQ(reading(5, Load::resistor(Ohms(1000)), Measurement::Voltage, 200, true).samples->step, Micros(4));
+    const auto current = reading(5, Load::resistor(Ohms(1000)), Measurement::Current);
+    ASSERT_TRUE(current.samples.has_value());
+    EXPECT_EQ(current.samples->measurement, Measurement::Current);
+    EXPECT_FLOAT_EQ(current.samples->magnitudes[0], 5);
+    EXPECT_FALSE(reading(5, Load::resistor(Ohms(1000)), Measurement::None).samples.has_value());
+    EXPECT_TRUE(reading(5, Load::openCircuit()).samples.has_value()) << "what an open electrode looks like";
+}
+
 TEST(ScienceModeReadBack, CurrentGivesTheAmplitudeAndNoImpedance) {
     const auto read = reading(5, Load::resistor(Ohms(1000)), Measurement::Current);
     EXPECT_EQ(read.electrode, ElectrodeState::Ok);

@@ -1,0 +1,46 @@
+#include "app/cli/Confirmation.h"
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fmt/format.h>
+#include <poll.h>
+#include <string>
+#include <termios.h>
+#include <unistd.h>
+
+#include "core/base/Text.h"
+
+namespace tacto::cli {
+
+namespace {
+constexpr int kLook_ms = 50;
+constexpr std::size_t kLineMost = 256;
+}  // namespace
+
+bool canAsk() { return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0; }
+
+Answer askFor(std::string_view word, std::string_view prompt, Seconds within, const SignalStop& interrupts) {
+    using std::chrono::steady_clock;
+    const auto deadline = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(within);
+    static_cast<void>(tcflush(STDIN_FILENO, TCIFLUSH));  // only what is typed after the question is an answer
+    fmt::print(stderr, "{}", prompt);
+    std::fflush(stderr);
+    std::string line;
+    while (!interrupts.signalled()) {
+        if (steady_clock::now() >= deadline) return Answer::TooLate;
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (poll(&input, 1, kLook_ms) <= 0) continue;
+        std::array<char, kLineMost> chunk{};
+        const auto got = read(STDIN_FILENO, chunk.data(), chunk.size());
+        if (got <= 0 || line.size() > kLineMost) return interrupts.signalled() ? Answer::Signalled : Answer::Otherwise;
+        line.append(chunk.data(), static_cast<std::size_t>(got));
+        if (const auto end = line.find('\n'); end != std::string::npos) {
+            if (interrupts.signalled()) break;
+            return trimmed(std::string_view(line).substr(0, end)) == word ? Answer::Confirmed : Answer::Otherwise;
+        }
+    }
+    return Answer::Signalled;
+}
+
+}  // namespace tacto::cli

@@ -1,0 +1,23 @@
+// Confirmation.h - a word typed on a terminal before something dangerous: the second of two steps (H12).
+//
+// Thread-safety: the main thread only.
+#pragma once
+
+#include <string_view>
+
+#include "app/cli/SignalStop.h"
+#include "core/base/Units.h"
+
+namespace tacto::cli {
+
+/// Whether somebody can be asked: input and messages are a terminal.
+[[nodiscard]] bool canAsk();
+
+enum class Answer { Confirmed, Otherwise, TooLate, Signalled };
+
+/// Forgets what was typed before, prints `prompt` on stderr and waits for one line. Confirmed only for `word` itself.
+/// Returns within 50 ms of a signal.
+[[nodiscard]] Answer askFor(std::string_view word, std::string_view prompt, Seconds within,
+                            const SignalStop& interrupts);
+
+}  // namespace tacto::cli

@@ -1,0 +1,24 @@
+// ScienceModePulse.h - `sciencemode pulse`: one pulse into a bench load, with its read-back drawn and saved.
+//
+// Thread-safety: the main thread only.
+#pragma once
+
+#include <QCommandLineParser>
+#include <array>
+
+#include "core/base/Result.h"
+#include "core/devices/DeviceUri.h"
+
+namespace tacto::cli {
+
+inline constexpr std::array<const char*, 6> kPulseOptions{"current", "width", "gap", "load", "yes-bench-load", "out"};
+
+void declarePulse(QCommandLineParser& parser);
+
+/// --device, or sciencemode:. Errors: InvalidArgument for what is no URI or names another kind of device.
+[[nodiscard]] Result<DeviceUri> scienceModeUri(const QCommandLineParser& parser);
+
+/// The whole command; the value is its exit code.
+[[nodiscard]] int pulse(const QCommandLineParser& parser);
+
+}  // namespace tacto::cli

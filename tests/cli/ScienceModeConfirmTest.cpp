@@ -1,0 +1,89 @@
+// sciencemode pulse at a terminal: the second of two steps is a typed one, and until then nothing is delivered.
+#include <csignal>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/sciencemode/EmulatedPty.h"
+#include "tests/cli/TerminalCli.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class ScienceModeConfirm : public testing::Test {
+protected:
+    ScienceModeConfirm() { RecordProperty("hazard", "H12"); }
+    [[nodiscard]] Words words() const {
+        return {"sciencemode", "pulse", "--current", "5",    "--width",  "200",
+                "--gap",       "100",   "--load",    "1000", "--device", "sciencemode:?tty=" + pty_->path()};
+    }
+    [[nodiscard]] std::size_t putOut() const {
+        return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
+    }
+    static constexpr const char* kQuestion = "anything else delivers nothing: ";
+
+    const SteadyClock clock_;
+    const Desk desk_;
+    const std::unique_ptr<sciencemode::EmulatedPty> pty_ = *sciencemode::EmulatedPty::open({}, clock_);
+};
+
+TEST_F(ScienceModeConfirm, TheTypedWordDelivers) {
+    TerminalCli cli(desk_, words());
+    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    EXPECT_THAT(cli.screen(), HasSubstr("EMU0000001 (simulated)"));
+    EXPECT_THAT(cli.screen(), HasSubstr("5 mA, 200 us a phase, 100 us between"));
+    EXPECT_THAT(cli.screen(), HasSubstr("bench load of 1 kohm"));
+    EXPECT_EQ(putOut(), 0U) << "before it was confirmed";
+    cli.type("bench load\n");
+    EXPECT_EQ(cli.wait(), 0) << cli.screen();
+    EXPECT_EQ(putOut(), 2U);
+    EXPECT_THAT(cli.screen(), HasSubstr("verdict  pass"));
+}
+
+TEST_F(ScienceModeConfirm, AnythingElseDeliversNothing) {
+    for (const auto* typed : {"\n", "y\n", "yes\n", "bench\n", "bench loads\n", "Bench load\n", "\x04"}) {
+        TerminalCli cli(desk_, words());
+        ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+        cli.type(typed);
+        EXPECT_EQ(cli.wait(), 4) << typed << cli.screen();
+        EXPECT_THAT(cli.screen(), HasSubstr("not confirmed: nothing was delivered"));
+    }
+    EXPECT_EQ(putOut(), 0U);
+}
+
+TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
+    TerminalCli cli(desk_, words());
+    cli.type("bench load\n");
+    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    cli.type("no\n");
+    EXPECT_EQ(cli.wait(), 4) << cli.screen();
+    EXPECT_EQ(putOut(), 0U);
+}
+
+TEST_F(ScienceModeConfirm, CtrlCWhileItWaitsDeliversNothing) {
+    RecordProperty("hazard", "H2");
+    TerminalCli cli(desk_, words());
+    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    cli.type("bench load\x03");
+    EXPECT_EQ(cli.wait(), 4) << cli.screen();
+    EXPECT_THAT(cli.screen(), HasSubstr("stopped by the operator"));
+    EXPECT_EQ(putOut(), 0U);
+    EXPECT_GE(pty_->inspect([](auto& device, Instant) { return device.requests(sciencemode::Command::LowLevelStop); }),
+              2U)
+        << "the output was not switched off on the way out";
+}
+
+TEST_F(ScienceModeConfirm, ADrawingIsAsWideAsItsTerminal) {
+    TerminalCli cli(desk_, words(), 50);
+    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    cli.type("bench load\n");
+    ASSERT_EQ(cli.wait(), 0) << cli.screen();
+    const auto axis = cli.screen().find("+---");
+    ASSERT_NE(axis, std::string::npos);
+    const auto begin = cli.screen().rfind('\n', axis) + 1;
+    EXPECT_EQ(cli.screen().find('\n', axis) - begin, 50U);
+}
+
+}  // namespace
+}  // namespace tacto::test

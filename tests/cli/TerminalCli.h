@@ -1,0 +1,37 @@
+// TerminalCli.h - runs the built tactoscope-cli at a terminal, as a person does: what is typed is its input, Ctrl+C is
+// a signal, and what it prints is what stands on the screen.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <sys/types.h>
+
+#include "tests/cli/RunCli.h"
+
+namespace tacto::test {
+
+class TerminalCli {
+public:
+    /// Starts the program in `desk`'s folder, at a terminal of `columns`.
+    TerminalCli(const Desk& desk, const Words& words, unsigned short columns = 80);
+    ~TerminalCli();
+    TerminalCli(const TerminalCli&) = delete;
+    TerminalCli& operator=(const TerminalCli&) = delete;
+
+    /// Reads the screen until `text` stands on it. False when the program ended first, or after 20 s.
+    [[nodiscard]] bool waitFor(std::string_view text);
+    void type(std::string_view keys);
+    /// Reads the screen to its end and returns the exit code; a signal's number, negative, when that ended it; -9 when
+    /// it had to be killed after 20 s.
+    [[nodiscard]] int wait();
+    /// All that was printed, without the terminal's carriage returns.
+    [[nodiscard]] const std::string& screen() const { return screen_; }
+
+private:
+    [[nodiscard]] bool readSome(int within_ms);
+    pid_t pid_ = -1;
+    int master_ = -1;
+    std::string screen_;
+};
+
+}  // namespace tacto::test
