@@ -1,0 +1,137 @@
+// A whole bench on a stimulator that is plugged in: found, driven, unplugged in the middle, found again.
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "core/bench/Bench.h"
+#include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
+#include "core/session/SessionWriter.h"
+#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/usb/UsbPorts.h"
+#include "tests/drivers/sciencemode/EmulatedOnUsb.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class ScienceModeOnUsb : public testing::Test {
+protected:
+    [[nodiscard]] Registry registry() {
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb_, {{0x0483, 0x5740}}, {})));
+        return Registry(std::move(drivers));
+    }
+    /// As long as a person would wait for it.
+    template <class Condition>
+    [[nodiscard]] static bool comes(Condition condition, std::chrono::milliseconds within = 5s) {
+        const auto end = std::chrono::steady_clock::now() + within;
+        while (!condition()) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for(5ms);
+        }
+        return true;
+    }
+    void open() {
+        ASSERT_TRUE(comes([&] { return registry().list().size() == 1; }));
+        auto drivers = registry();
+        auto devices = drivers.open(std::vector{*DeviceUri::parse("sciencemode:")}, {Role::Stimulator},
+                                    OpenContext{*clock_, 1, "1 kohm"});
+        ASSERT_TRUE(devices) << devices.error().message;
+        SessionAbout about;
+        about.protocol = "test";
+        session_ = SessionWriter::create(folder_.path() / "run.tacto", about, *clock_).value();
+        BenchConfig config;
+        config.devices = std::move(*devices);
+        config.clock = clock_;
+        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+        config.session = session_.get();
+        auto bench = Bench::create(std::move(config));
+        ASSERT_TRUE(bench) << bench.error().message;
+        bench_ = std::move(*bench);
+    }
+    [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
+
+    UsbTestbed bed_;
+    std::shared_ptr<SteadyClock> clock_ = std::make_shared<SteadyClock>();
+    EmulatedOnUsb device_{bed_, *clock_};
+    UsbProvider usb_ = makeUsbProvider();
+    const ScratchDir folder_;
+    std::unique_ptr<SessionWriter> session_;
+    std::unique_ptr<Bench> bench_;
+};
+
+TEST_F(ScienceModeOnUsb, IsFoundAndDrivenThroughTheRealLibusb) {
+    RecordProperty("hazard", "H4");
+    open();
+    const auto& identity = bench_->devices().stimulator->identity();
+    EXPECT_TRUE(identity.simulated) << "an emulated device says so";
+    const auto armed = arm();
+    ASSERT_TRUE(armed) << armed.error().message;
+    EXPECT_EQ(device_.pulses(), 1U) << "the impedance check";
+    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 50);
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(2.2));
+    ASSERT_TRUE(waited) << waited.error().message;
+    EXPECT_GE(bench_->telemetry().trainsDelivered, 4U);
+    const auto currents = device_.inspect([](auto& device, Instant now) {
+        std::vector<double> all;
+        for (const auto& pulse : device.pulses(now)) all.push_back(pulse.points.items[0].current.value());
+        return all;
+    });
+    EXPECT_DOUBLE_EQ(currents.front(), 0.5) << "the check is the smallest pulse";
+    EXPECT_NEAR(currents.back(), 40, 2) << "40 V over the measured |Z|, never volts";
+}
+
+TEST_F(ScienceModeOnUsb, StopSilencesItAtOnce) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    bench_->stop("test");
+    std::this_thread::sleep_for(50ms);
+    const auto pulses = device_.pulses();
+    std::this_thread::sleep_for(1500ms);
+    EXPECT_EQ(device_.pulses(), pulses);
+    EXPECT_GT(
+        device_.inspect([](auto& device, Instant) { return device.requests(sciencemode::Command::LowLevelStop); }), 0U);
+}
+
+TEST_F(ScienceModeOnUsb, UnpluggedInMidDeliveryFaultsKeepsTheSessionAndComesBackAfterAReset) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    device_.unplug();
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted) << waited.error().message;
+    EXPECT_FALSE(bench_->resetFault()) << "the cause is still there";
+    EXPECT_TRUE(comes([&] { return registry().list().empty(); }));
+
+    device_.plug();
+    ASSERT_TRUE(comes([&] { return registry().list().size() == 1; }));
+    const auto before = device_.pulses();
+    std::this_thread::sleep_for(700ms);
+    EXPECT_EQ(device_.pulses(), before) << "nothing goes on by itself";
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
+    ASSERT_TRUE(comes([&] { return bench_->resetFault().has_value(); })) << "explicitly, found by its identity";
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
+    const auto armed = arm();
+    ASSERT_TRUE(armed) << armed.error().message;
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    EXPECT_GT(device_.pulses(), before);
+
+    bench_.reset();
+    ASSERT_TRUE(session_->close());
+    const auto verified = verifySession(folder_.path() / "run.tacto");
+    ASSERT_TRUE(verified) << verified.error().message;
+    EXPECT_EQ(verified->status, SessionStatus::Intact);
+}
+
+}  // namespace
+}  // namespace tacto::test
