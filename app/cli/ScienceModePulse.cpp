@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "app/cli/BenchPulse.h"
 #include "app/cli/Command.h"
 #include "app/cli/Confirmation.h"
-#include "app/cli/TextPlot.h"
+#include "app/cli/PulseText.h"
 #include "app/cli/Verdicts.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/Shipped.h"
-#include "core/analysis/ResultJson.h"
-#include "core/base/Text.h"
 #include "core/measure/CaptureFile.h"
 #include "drivers/sciencemode/PulsePlan.h"
 
@@ -22,9 +18,6 @@ namespace tacto::cli {
 
 namespace {
 
-using nlohmann::json;
-using sciencemode::Measurement;
-using sciencemode::SampledPulse;
 using sciencemode::ScienceModeStimulator;
 
 constexpr const char* kWord = "bench load";
@@ -94,11 +87,6 @@ Result<DeviceSet> openDevice(const DeviceUri& uri, const Clock& clock) {
     return registry.open({&uri, 1}, {Role::Stimulator}, OpenContext{clock});
 }
 
-std::string describe(const PulseTrain& train) {
-    return fmt::format("{:g} mA, {:g} us a phase, {:g} us between", std::get<Milliamps>(train.amplitude).value(),
-                       train.phaseWidth.count(), train.interPhaseGap.count());
-}
-
 /// The exit code when the operator does not want it, or is not there.
 std::optional<int> confirm(const PulseOrder& order, const Stimulator& device, const SignalStop& interrupts) {
     const auto& who = device.identity();
@@ -123,110 +111,6 @@ std::optional<int> confirm(const PulseOrder& order, const Stimulator& device, co
     }
     fmt::print(stderr, "\ntactoscope-cli: {}: nothing was delivered\n", why);
     return kStopped;
-}
-
-const char* unitOf(const SampledPulse& samples) noexcept {
-    return samples.measurement == Measurement::Voltage ? "V" : "mA";
-}
-const char* quantityOf(const SampledPulse& samples) noexcept {
-    return samples.measurement == Measurement::Voltage ? "voltage magnitude" : "current magnitude";
-}
-
-Capture captureOf(const SampledPulse& samples, bool simulated) {
-    const bool volts = samples.measurement == Measurement::Voltage;
-    const double unit = volts ? 1 : 1e-3;  // captures are in V and A
-    CaptureChannel channel;
-    channel.name = volts ? "voltage_magnitude" : "current_magnitude";
-    channel.unit = volts ? "V" : "A";
-    for (const float value : samples.magnitudes) channel.samples.push_back(static_cast<float>(value * unit));
-    channel.lsb = sciencemode::kSampleUnit * unit;
-    Capture capture;
-    capture.rate_hz = 1e6 / samples.step.count();
-    capture.trigger_s = std::numeric_limits<double>::quiet_NaN();
-    capture.simulated = simulated;
-    capture.channels.push_back(std::move(channel));
-    return capture;
-}
-
-const char* nameOf(ElectrodeState state) noexcept {
-    switch (state) {
-        case ElectrodeState::NotMeasured:
-            return "not measured";
-        case ElectrodeState::Ok:
-            return "ok";
-        case ElectrodeState::Open:
-            return "open";
-        case ElectrodeState::Short:
-            return "short";
-    }
-    return "not measured";
-}
-
-json toJson(const PulseFinding& finding) {
-    json samples = nullptr;
-    if (finding.samples) {
-        samples = {{"quantity", quantityOf(*finding.samples)},
-                   {"unit", unitOf(*finding.samples)},
-                   {"step_s", Seconds(finding.samples->step).count()},
-                   {"samples", finding.samples->magnitudes}};
-    }
-    return {{"current_ma", finding.current.value()},
-            {"electrode", nameOf(finding.electrode)},
-            {"impedance_ohm", finding.impedance ? json(finding.impedance->value()) : json(nullptr)},
-            {"read_back", std::move(samples)}};
-}
-
-json toJson(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIdentity& device,
-            const std::string& file) {
-    const auto& train = order.order().pulse;
-    const auto range = order.expected();
-    return {{"verdict", outcome.verdict},
-            {"reasons", outcome.reasons},
-            {"simulated", device.simulated},
-            {"id", device.serial},
-            {"current_ma", std::get<Milliamps>(train.amplitude).value()},
-            {"width_us", train.phaseWidth.count()},
-            {"gap_us", train.interPhaseGap.count()},
-            {"load", order.order().load.text()},
-            {"declared_ohm", range.nominal.value()},
-            {"accepted_ohm", {{"low", range.low.value()}, {"high", range.high.value()}}},
-            {"delivered", outcome.pulse.has_value()},
-            {"check", toJson(outcome.check)},
-            {"pulse", outcome.pulse ? toJson(*outcome.pulse) : json(nullptr)},
-            {"file", file.empty() ? json(nullptr) : json(file)}};
-}
-
-/// As wide as the terminal, at most 80 columns.
-int plotColumns() {
-    winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kColumnsMost;
-    return std::min<int>(size.ws_col, kColumnsMost);
-}
-
-void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIdentity& device,
-           const std::string& file) {
-    const auto& finding = outcome.last();
-    const auto range = order.expected();
-    const auto ohms = [](Ohms value) { return formatQuantity(value.value(), "ohm", 4); };
-    if (finding.samples) {
-        TextPlot plot;
-        plot.title =
-            fmt::format("{} ({}): the device sends no sign", quantityOf(*finding.samples), unitOf(*finding.samples));
-        plot.xTitle = outcome.pulse ? "time (us)" : "time (us), check pulse";
-        plot.step = finding.samples->step.count();
-        plot.values = finding.samples->magnitudes;
-        plot.mark = order.order().pulse.phaseWidth.count();
-        if (finding.impedance) plot.markText = fmt::format("|Z| {}", ohms(*finding.impedance));
-        fmt::print("{}\n", draw(plot, plotColumns()));
-    }
-    fmt::print("  stimulator  {}\n  pulse       {}{}\n", device.serial, describe(order.order().pulse),
-               outcome.pulse ? "" : ": not sent");
-    fmt::print("  |Z|         {} at the end of the leading phase\n",
-               finding.impedance ? ohms(*finding.impedance) : "not measured");
-    fmt::print("  declared    {}: {} to {} is accepted\n", ohms(range.nominal), ohms(range.low), ohms(range.high));
-    if (!file.empty()) fmt::print("  file        {}\n", file);
-    if (device.simulated) fmt::print("  SIMULATED: no number here was measured on hardware.\n");
-    printVerdict(outcome.verdict, outcome.reasons);
 }
 
 }  // namespace
