@@ -90,6 +90,36 @@ TEST_F(ScienceModeUri, FindsADeviceByItsUsbSerialOrItsIdentity) {
     EXPECT_EQ(devices_.stimulator, nullptr);
 }
 
+TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
+    ports_->add({"A1", "1-1", "1-1 may not be opened"}, named("P24-000001"));
+    const auto line = ports_->add({"A2", "1-2", ""}, named("P24-000002"));
+    ASSERT_TRUE(open("sciencemode:?level=mid").has_value());
+    auto* repeating = dynamic_cast<RepeatingStimulator*>(devices_.stimulator.get());
+    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    ASSERT_TRUE(repeating->repeat(approve(*gate, clock_, biphasic(5), Seconds(2)), Seconds(2)).has_value());
+    const auto stops = [&] {
+        return line->inspect([](auto& device, Instant) {
+            return device.requests(Command::LowLevelStop) + device.requests(Command::MidLevelStop) +
+                   device.requests(Command::LowLevelInit);
+        });
+    };
+    const auto before = stops();
+    for (const auto* text : {"sciencemode:", "sciencemode:P24-000002", "sciencemode:A2"}) {
+        const auto seen = lookAt(*DeviceUri::parse(text), ports_.get(), clock_);
+        ASSERT_TRUE(seen.has_value()) << seen.error().message;
+        EXPECT_EQ(seen->identification.id, "P24-000002");
+        EXPECT_EQ(seen->place, "1-2");
+        EXPECT_FALSE(seen->simulated());
+        EXPECT_EQ(seen->status.status, Stimulation::MidLevelRunning);
+    }
+    EXPECT_EQ(stops(), before);
+    const auto denied = lookAt(*DeviceUri::parse("sciencemode:A1"), ports_.get(), clock_);
+    ASSERT_FALSE(denied.has_value());
+    EXPECT_THAT(denied.error().message, HasSubstr("may not be opened"));
+    EXPECT_EQ(lookAt(*DeviceUri::parse("sciencemode:"), nullptr, clock_).error().code, ErrorCode::NotFound);
+    EXPECT_EQ(lookAt(*DeviceUri::parse("sim:"), ports_.get(), clock_).error().code, ErrorCode::InvalidArgument);
+}
+
 TEST_F(ScienceModeUri, SaysWhyNothingCouldBeOpened) {
     EXPECT_THAT(open("sciencemode:").error().message, HasSubstr("none is plugged in"));
     ports_->add({"A1", "1-1", "may not be opened by you: run ./dev install-rules"}, named("P24-000001"));
