@@ -95,9 +95,16 @@ void decode(std::span<const std::uint8_t> input) {
     for (int i = 0; i < 4; ++i) static_cast<void>(exchange.ask(Command::StimStatus));
 }
 
+/// Its dead-man is a fortieth of the real one's: what an update lets it play until then costs the time of an input.
+EmulatedSettings shortSettings() {
+    EmulatedSettings settings;
+    settings.deadMan = Seconds(0.05);
+    return settings;
+}
+
 /// Requests with sound frames: a length, a command and a payload each, with time between.
 void request(std::span<const std::uint8_t> input) {
-    EmulatedStimulator device;
+    EmulatedStimulator device(shortSettings());
     Instant now{0};
     std::array<std::uint8_t, 2048> answers{};
     while (input.size() >= 3) {

@@ -1,0 +1,68 @@
+#include "tests/fuzz/Mutation.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tacto::fuzz {
+namespace {
+
+/// The ends of ranges: 0, 1, the largest signed and unsigned, what starts a ScienceMode frame, what stuffs it.
+constexpr std::array<std::uint8_t, 10> kTelling{0x00, 0x01, 0x7F, 0x80, 0xFE, 0xFF, 0xF0, 0x0F, 0x81, 0x55};
+
+enum class Change { Flip, Replace, Insert, Delete, Truncate, Repeat, Splice, Count };
+
+std::ptrdiff_t at(std::size_t index) noexcept { return static_cast<std::ptrdiff_t>(index); }
+
+/// 0 to `size`, both included.
+std::size_t place(std::size_t size, Random& random) noexcept { return random.below(size + 1); }
+
+std::uint8_t anyByte(Random& random) noexcept {
+    if (random.below(2) == 0) return kTelling[random.below(kTelling.size())];
+    return static_cast<std::uint8_t>(random.below(256));
+}
+
+void insert(Bytes& input, Random& random) {
+    Bytes added(1 + random.below(8));
+    for (auto& byte : added) byte = anyByte(random);
+    input.insert(input.begin() + at(place(input.size(), random)), added.begin(), added.end());
+}
+
+void repeat(Bytes& input, Random& random) {
+    const auto from = random.below(input.size());
+    const auto length = std::min<std::size_t>(1 + random.below(32), input.size() - from);
+    const Bytes part(input.begin() + at(from), input.begin() + at(from + length));
+    for (auto times = 1 + random.below(8); times > 0; --times) {
+        input.insert(input.begin() + at(from), part.begin(), part.end());
+    }
+}
+
+void splice(Bytes& input, const Bytes& other, Random& random) {
+    input.resize(place(input.size(), random));
+    input.insert(input.end(), other.begin() + at(place(other.size(), random)), other.end());
+}
+
+void change(Bytes& input, const std::vector<Bytes>& corpus, Random& random) {
+    const auto kind = static_cast<Change>(random.below(static_cast<std::uint64_t>(Change::Count)));
+    if (kind == Change::Splice) return splice(input, corpus[random.below(corpus.size())], random);
+    if (kind == Change::Insert || input.empty()) return insert(input, random);
+    const auto where = random.below(input.size());
+    if (kind == Change::Flip) input[where] ^= static_cast<std::uint8_t>(1U << random.below(8));
+    if (kind == Change::Replace) input[where] = anyByte(random);
+    if (kind == Change::Truncate) input.resize(where);
+    if (kind == Change::Repeat) repeat(input, random);
+    if (kind == Change::Delete) {
+        const auto length = std::min<std::size_t>(1 + random.below(8), input.size() - where);
+        input.erase(input.begin() + at(where), input.begin() + at(where + length));
+    }
+}
+
+}  // namespace
+
+Bytes mutated(const std::vector<Bytes>& corpus, Random& random) {
+    Bytes input = corpus[random.below(corpus.size())];
+    for (auto changes = 1 + random.below(8); changes > 0; --changes) change(input, corpus, random);
+    if (input.size() > kFileMost) input.resize(kFileMost);
+    return input;
+}
+
+}  // namespace tacto::fuzz

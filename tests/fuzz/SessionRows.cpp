@@ -1,0 +1,78 @@
+// What a row of a session file says of its samples, and the samples themselves: read or refused, whatever the bytes
+// (hazard H10). SessionFuzz reads whole files, at the speed of SQLite; this is what Tactoscope itself decodes of them.
+// The input: one byte for which kind of row; one byte, how much of the rest is the row's JSON (in 1/256); what remains
+// is its data.
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+#include "core/session/AboutJson.h"
+#include "core/session/CaptureBlob.h"
+#include "core/session/Chunk.h"
+#include "core/session/JsonFields.h"
+
+namespace {
+
+using namespace tacto;
+using Data = std::span<const std::byte>;
+
+void require(bool held) {
+    if (!held) std::abort();
+}
+
+void chunk(std::string_view text, Data data) {
+    const auto head = parseChunkHead(text);
+    if (!head) {
+        require(head.error().code == ErrorCode::ParseError);
+        return;
+    }
+    const auto again = parseChunkHead(toJsonText(*head));
+    require(again && again->samples == head->samples && again->crc == head->crc);
+    SampleBlock block;
+    for (const std::size_t columns : {1U, 3U}) {
+        const auto stamps = head->line ? std::size_t{0} : data.size() / (columns + 1) / 8 * 8;
+        if (!unpackChunk(*head, columns, data.first(stamps), data.subspan(stamps), block)) continue;
+        require(block.samples() == head->samples && block.values.size() == columns * head->samples);
+    }
+}
+
+void capture(std::string_view text, Data data) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_discarded()) return;
+    const auto read = unpackCapture(json, data);
+    if (!read) {
+        require(read.error().code == ErrorCode::ParseError && !read.error().message.empty());
+        return;
+    }
+    for (const auto& channel : read->channels) require(channel.samples.size() == read->samples());
+    if (read->channels.empty()) return;
+    const auto packed = packSamples(*read);
+    const auto again = unpackCapture(describe(*read, packed), packed.data);
+    require(again && again->samples() == read->samples() && again->channels.size() == read->channels.size());
+}
+
+void about(std::string_view text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_discarded()) return;
+    require(lineOf(json).find('\n') == std::string::npos);
+    // As text, where NaN is null and so equal to itself.
+    const auto once = reproducible(aboutFrom(json));
+    require(lineOf(reproducible(aboutFrom(toJson(aboutFrom(json))))) == lineOf(once));
+    const auto stream = toJson(streamFrom(json));
+    require(lineOf(toJson(streamFrom(stream))) == lineOf(stream));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size < 2) return 0;
+    const std::span<const std::uint8_t> rest(data + 2, size - 2);
+    const auto cut = (rest.size() * (std::size_t{data[1]} + 1) + 255) / 256;
+    const std::string_view text(reinterpret_cast<const char*>(rest.data()), cut);
+    if (data[0] % 3 == 0) chunk(text, std::as_bytes(rest.subspan(cut)));
+    if (data[0] % 3 == 1) capture(text, std::as_bytes(rest.subspan(cut)));
+    if (data[0] % 3 == 2) about(text);
+    return 0;
+}

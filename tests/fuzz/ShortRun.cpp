@@ -1,0 +1,170 @@
+// The short run of a fuzz target in the ordinary builds, without clang:
+//   fuzzed_<Target> CORPUS_FOLDER [--inputs N] [--seconds S] [--seed K]
+//   fuzzed_<Target> FILE          one input again
+// Runs every file of the folder, then N (200000) inputs made of them, until S (3) seconds are over.
+//
+// The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
+// way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
+// fuzzed_<Target>.crash beside the program, and the run fails.
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/fuzz/Mutation.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+using tacto::fuzz::Bytes;
+
+/// One input that takes longer hangs. A sound one takes milliseconds, also under a sanitizer on a busy machine.
+constexpr unsigned kInputMost_s = 20;
+constexpr int kMisused = 2;
+
+struct Options {
+    std::filesystem::path inputs;
+    std::uint64_t count = 200'000;
+    std::uint64_t seconds = 3;
+    std::uint64_t seed = 1;
+};
+
+/// What the running process leaves behind.
+struct Shared {
+    std::uint64_t corpus;
+    std::uint64_t mutated;
+    std::size_t size;
+    std::uint8_t input[tacto::fuzz::kFileMost];
+};
+
+std::optional<Options> optionsFrom(int count, char** words) {
+    if (count < 2 || count % 2 != 0) return std::nullopt;
+    Options options;
+    options.inputs = words[1];
+    for (int i = 2; i < count; i += 2) {
+        const std::string_view name = words[i];
+        const std::string_view text = words[i + 1];
+        std::uint64_t* const into = name == "--inputs"    ? &options.count
+                                    : name == "--seconds" ? &options.seconds
+                                    : name == "--seed"    ? &options.seed
+                                                          : nullptr;
+        if (into == nullptr) return std::nullopt;
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), *into);
+        if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+    }
+    return options;
+}
+
+/// The file, or every file of the folder by name. A folder without one is a mistake: nothing would be tested.
+std::vector<Bytes> corpusAt(const std::filesystem::path& where) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(where, error)) files.push_back(where);
+    for (std::filesystem::directory_iterator entry(where, error), end; !error && entry != end; entry.increment(error)) {
+        if (entry->is_regular_file(error)) files.push_back(entry->path());
+    }
+    std::ranges::sort(files);
+    std::vector<Bytes> corpus;
+    for (const auto& file : files) {
+        std::ifstream stream(file, std::ios::binary);
+        corpus.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+        if (!stream || corpus.back().size() > tacto::fuzz::kFileMost) {
+            std::fprintf(stderr, "%s: cannot be read, or has more than %zu bytes\n", file.c_str(),
+                         tacto::fuzz::kFileMost);
+            std::exit(kMisused);
+        }
+    }
+    return corpus;
+}
+
+void run(const Bytes& input, Shared& shared) {
+    shared.size = input.size();
+    std::ranges::copy(input, shared.input);
+    ::alarm(kInputMost_s);
+    // A copy of its exact size, so that a sanitizer sees a byte read behind the end.
+    const Bytes exact(input);
+    LLVMFuzzerTestOneInput(exact.data(), exact.size());
+    ::alarm(0);
+}
+
+/// The process that may die.
+void runAll(const std::vector<Bytes>& corpus, const Options& options, Shared& shared) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
+    for (const auto& input : corpus) {
+        run(input, shared);
+        ++shared.corpus;
+    }
+    if (!std::filesystem::is_directory(options.inputs)) return;
+    tacto::Random random(options.seed, "fuzz");
+    while (shared.mutated < options.count && std::chrono::steady_clock::now() < end) {
+        run(tacto::fuzz::mutated(corpus, random), shared);
+        ++shared.mutated;
+    }
+}
+
+/// Fails the run: says what happened, and where the input is.
+int keep(const Shared& shared, int status, const std::filesystem::path& program) {
+    auto file = program;
+    file += ".crash";
+    std::ofstream(file, std::ios::binary | std::ios::trunc)
+        .write(reinterpret_cast<const char*>(shared.input), static_cast<std::streamsize>(shared.size));
+    std::string how = "ended the process with status " + std::to_string(WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) how = std::string("died: ") + strsignal(WTERMSIG(status));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+        how = "took longer than " + std::to_string(kInputMost_s) + " s";
+    }
+    std::fprintf(stderr, "After %llu files and %llu inputs made of them: an input of %zu bytes %s.\nAgain: %s %s\n",
+                 static_cast<unsigned long long>(shared.corpus), static_cast<unsigned long long>(shared.mutated),
+                 shared.size, how.c_str(), program.c_str(), file.c_str());
+    return EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto options = optionsFrom(argc, argv);
+    if (!options) {
+        std::fprintf(stderr, "Usage: %s CORPUS_FOLDER|FILE [--inputs N] [--seconds S] [--seed K]\n", argv[0]);
+        return kMisused;
+    }
+    const auto corpus = corpusAt(options->inputs);
+    if (corpus.empty()) {
+        std::fprintf(stderr, "%s: expected a file, or a folder with at least one\n", options->inputs.c_str());
+        return kMisused;
+    }
+    void* const memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) {
+        std::perror("mmap");
+        return kMisused;
+    }
+    auto& shared = *static_cast<Shared*>(memory);
+    const pid_t child = ::fork();
+    if (child < 0) {
+        std::perror("fork");
+        return kMisused;
+    }
+    if (child == 0) {
+        runAll(corpus, *options, shared);
+        std::exit(EXIT_SUCCESS);  // not _exit: leaks are looked for here
+    }
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) return keep(shared, status, argv[0]);
+    std::printf("%llu files, %llu inputs made of them (seed %llu)\n", static_cast<unsigned long long>(shared.corpus),
+                static_cast<unsigned long long>(shared.mutated), static_cast<unsigned long long>(options->seed));
+    return EXIT_SUCCESS;
+}
