@@ -1,5 +1,8 @@
 #include "app/run/AllDrivers.h"
 
+#include "app/scripting/ProtocolLibrary.h"
+#include "drivers/hid_massager/HidDriver.h"
+#include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
@@ -9,7 +12,8 @@ namespace tacto {
 
 namespace {
 const UsbProduct kScienceMode{0x0483, 0x5740};  // any STM32 serial port's: the device is asked who it is
-}
+const UsbProduct kPulsePal{kPulsePalVendor, kPulsePalProduct};
+}  // namespace
 
 std::function<Registry()> allDrivers() {
     return [usb = makeUsbProvider()] {
@@ -18,6 +22,10 @@ std::function<Registry()> allDrivers() {
         drivers.push_back(makeRecordingDriver());
         drivers.push_back(makeCaptureDriver());
         drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb, {kScienceMode}, {})));
+        drivers.push_back(makePulsePalDriver(makeUsbPorts(usb, {kPulsePal}, {.dataTerminalReady = true})));
+        if (const auto resources = resourcesFolder()) {
+            drivers.push_back(hid::makeHidDriver(hid::systemHid(*resources / "massagers", usb)));
+        }
         return Registry(std::move(drivers));
     };
 }

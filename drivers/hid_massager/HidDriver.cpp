@@ -92,13 +92,10 @@ public:
         const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
         std::vector<DeviceIdentity> found;
         for (const auto& one : candidates(*parts_.backends.front(), templates, nullptr)) {
-            auto name = one.obstacle.empty() ? one.name : one.name + ": " + one.obstacle;
-            found.push_back({uriOf(one.vendor, one.product, one.serial, {}),
-                             Role::Massager,
-                             std::move(name),
-                             one.serial,
-                             {},
-                             false});
+            DeviceIdentity identity{
+                uriOf(one.vendor, one.product, one.serial, {}), Role::Massager, one.name, one.serial, {}, false};
+            identity.obstacle = one.obstacle;
+            found.push_back(std::move(identity));
         }
         return found;
     }

@@ -14,18 +14,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/devices/Driver.h"
 #include "drivers/hid_massager/HidBackend.h"
-#include "drivers/usb/UsbContext.h"
+#include "drivers/usb/UsbProvider.h"
 
 namespace tacto::hid {
-
-/// Gives the program's one USB context, started when first asked for. Errors: as UsbContext::start().
-using UsbProvider = std::function<Result<std::shared_ptr<UsbContext>>()>;
 
 struct HidDriverParts {
     std::vector<std::shared_ptr<const HidBackend>> backends;  ///< the first is used unless `backend=` says otherwise

@@ -89,6 +89,29 @@ TEST_F(HidMassagerTest, ForceOffSendsTheStopFromAnyThreadAtOnce) {
     EXPECT_FALSE(massager->vibrating());
 }
 
+TEST_F(HidMassagerTest, AStopIsWithTheDeviceInLessThanTenMilliseconds) {
+    RecordProperty("hazard", "H2");
+    open();
+    std::vector<double> stops, bursts;
+    for (int i = 0; i < 200; ++i) {
+        const Instant asked = clock.now();
+        ASSERT_TRUE(vibrate());
+        bursts.push_back(toSeconds(device.writes().back().at - asked));
+        const auto before = device.writes().size();
+        const Instant called = clock.now();
+        massager->forceOff();
+        ASSERT_TRUE(device.waitForWrites(before + 1));
+        ASSERT_EQ(device.last(), kOff);
+        stops.push_back(toSeconds(device.writes().back().at - called));
+    }
+    std::ranges::sort(stops);
+    std::ranges::sort(bursts);
+    RecordProperty("stop_median_us", static_cast<int>(stops[100] * 1e6));
+    RecordProperty("stop_p99_us", static_cast<int>(stops[197] * 1e6));
+    RecordProperty("burst_median_us", static_cast<int>(bursts[100] * 1e6));
+    EXPECT_LE(stops[197], 0.01);
+}
+
 TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay) {
     RecordProperty("hazard", "H2");
     if (!countsAllocations()) GTEST_SKIP() << kNotCounted;

@@ -32,7 +32,7 @@ const UsbBytes kOff = [] {
     return report;
 }();
 
-std::unique_ptr<Driver> systemDriver(hid::UsbProvider usb = {}) {
+std::unique_ptr<Driver> systemDriver(UsbProvider usb = {}) {
     return hid::makeHidDriver(hid::systemHid(sourceDir() / "resources" / "massagers", std::move(usb)));
 }
 
@@ -145,18 +145,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, HidSystem, testing::Values("hidraw", "libusb"
 
 class TranceTest : public testing::Test {
 protected:
-    hid::UsbProvider provider() {
-        return [this]() -> Result<std::shared_ptr<UsbContext>> {
-            if (!context) {
-                auto started = UsbContext::start();
-                if (!started) return failure(started);
-                context = *started;
-            }
-            return context;
-        };
-    }
     void waitForDevice() {
-        const auto usb = provider()().value();
+        const auto usb = provider().value();
         auto seen = usb->generation();
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
         while (usb->devices().empty() && std::chrono::steady_clock::now() < deadline) {
@@ -175,7 +165,8 @@ protected:
     }
 
     UsbTestbed bed;
-    std::shared_ptr<UsbContext> context;
+    const UsbProvider provider = makeUsbProvider();
+    std::shared_ptr<UsbContext> context = provider().value();  // kept, so that it is one for the whole test
     const SteadyClock clock;
     SafetyGate gate{clock};
     DeviceSet devices;
@@ -185,7 +176,7 @@ TEST_F(TranceTest, IsListedAndVibratesByItsOneRequest) {
     RecordProperty("hazard", "H2");
     const EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
     waitForDevice();
-    const auto driver = systemDriver(provider());
+    const auto driver = systemDriver(provider);
     const auto list = driver->list();
     ASSERT_EQ(list.size(), 1u);
     EXPECT_EQ(list[0].uri, "hid:0b49:064f?serial=T1");
@@ -205,7 +196,7 @@ TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
     waitForDevice();
-    const auto driver = systemDriver(provider());
+    const auto driver = systemDriver(provider);
     ASSERT_TRUE(driver->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices));
     device.hold(0, true);
     const auto slow = devices.massager->vibrate(std::move(*gate.approve(VibrationBurst{1, Seconds(1)})));

@@ -1,0 +1,87 @@
+// PulsePalDriver: which device a URI names.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/pulsepal/PulsePalDriver.h"
+#include "tests/drivers/pulsepal/PulsePalLine.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class PulsePalDriverTest : public testing::Test {
+protected:
+    std::shared_ptr<PulsePalLine> plug(const std::string& serial, const std::string& obstacle = "") {
+        auto line = std::make_shared<PulsePalLine>(clock, &clock);
+        ports->plugged.push_back({{serial, fmt::format("1-{}", ports->plugged.size() + 1), obstacle}, line});
+        return line;
+    }
+    Result<void> open(const std::string& uri) {
+        devices = {};
+        return makePulsePalDriver(ports)->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock}, devices);
+    }
+    std::string refusal(const std::string& uri, ErrorCode code) {
+        const auto opened = open(uri);
+        EXPECT_FALSE(opened) << uri;
+        if (opened) return {};
+        EXPECT_EQ(opened.error().code, code) << opened.error().message;
+        return opened.error().message;
+    }
+
+    VirtualClock clock;
+    const std::shared_ptr<PulsePalPorts> ports = std::make_shared<PulsePalPorts>();
+    DeviceSet devices;
+};
+
+TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
+    plug("A1");
+    plug("");
+    const auto list = makePulsePalDriver(ports)->list();
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].uri, "pulsepal:A1");
+    EXPECT_EQ(list[1].uri, "pulsepal:1-2");
+    EXPECT_EQ(list[0].role, Role::Stimulator);
+    for (const auto& identity : list) {
+        const auto opened = open(identity.uri + "?channel=2");
+        ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(devices.stimulator->identity().uri, identity.uri + "?channel=2");
+        EXPECT_FALSE(devices.stimulator->identity().serial.empty());
+    }
+    EXPECT_FALSE(makePulsePalDriver(ports)->runsOnVirtualClock());
+}
+
+TEST_F(PulsePalDriverTest, WhatCannotBeOpenedIsRefusedByName) {
+    EXPECT_THAT(refusal("pulsepal:", ErrorCode::NotFound), HasSubstr("2341:003e"));
+    plug("A1");
+    plug("A2", "A2 is there, but this user may not open it: run \"./dev install-rules\" once.");
+    EXPECT_THAT(refusal("pulsepal:", ErrorCode::InvalidArgument), AllOf(HasSubstr("A1"), HasSubstr("A2")));
+    EXPECT_THAT(refusal("pulsepal:A2", ErrorCode::Io), HasSubstr("./dev install-rules"));
+    EXPECT_THAT(makePulsePalDriver(ports)->list().at(1).obstacle, HasSubstr("./dev install-rules"));
+    EXPECT_THAT(refusal("pulsepal:A3", ErrorCode::NotFound), HasSubstr("A3"));
+    EXPECT_THAT(refusal("pulsepal:A1?channel=5", ErrorCode::InvalidArgument), HasSubstr("1, 2, 3 or 4"));
+    EXPECT_THAT(refusal("pulsepal:A1?channel=1.5", ErrorCode::InvalidArgument), HasSubstr("1, 2, 3 or 4"));
+    EXPECT_THAT(refusal("pulsepal:A1?output=1", ErrorCode::InvalidArgument),
+                AllOf(HasSubstr("output"), HasSubstr("channel")));
+    ASSERT_TRUE(open("pulsepal:A1"));
+    const auto second =
+        makePulsePalDriver(ports)->open(DeviceUri::parse("pulsepal:A1").value(), {}, OpenContext{clock}, devices);
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, HasSubstr("open already"));
+}
+
+TEST_F(PulsePalDriverTest, ThePluggedInDeviceOfTheSameSerialNumberIsFoundInAnotherSocket) {
+    RecordProperty("hazard", "H4");
+    const auto line = plug("A1");
+    plug("A2");
+    ASSERT_TRUE(open("pulsepal:A1"));
+    line->unplug();
+    EXPECT_FALSE(devices.stimulator->status());
+    line->plug();
+    ports->plugged.front().first.place = "1-7";
+    EXPECT_TRUE(devices.stimulator->status());
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,109 @@
+// The Pulse Pal driver on the real libusb, over an emulated CDC-ACM device with the emulated firmware behind it.
+#include <gtest/gtest.h>
+#include <mutex>
+
+#include "drivers/pulsepal/PulsePalDriver.h"
+#include "tests/drivers/pulsepal/PulsePalLine.h"
+#include "tests/drivers/usb/UsbFixture.h"
+
+namespace tacto::test {
+namespace {
+
+class PulsePalUsb : public UsbTest {
+protected:
+    /// The firmware needs cycles to answer; each transfer is given its own.
+    UsbBytes carry(std::span<const std::uint8_t> bytes) {
+        const std::scoped_lock lock(mutex);
+        time = std::max(time, clock.now());
+        device.receive(bytes, time);
+        time += Instant(std::chrono::milliseconds(1));
+        UsbBytes answer(256);
+        answer.resize(device.transmit(answer, time));
+        return answer;
+    }
+    UsbBehaviour behaviour() {
+        return {.onBytes = [this](auto bytes) { return carry(bytes); },
+                .onRequest = [this](const UsbSetup& setup, auto) -> std::optional<UsbBytes> {
+                    const std::scoped_lock lock(mutex);
+                    if (setup.request == 0x22) device.setReady((setup.value & 1) != 0);
+                    return UsbBytes{};
+                }};
+    }
+    pulsepal::Connect connector(bool ready) {
+        return [this, ready]() -> Result<std::unique_ptr<Transport>> {
+            const auto info = context->find({kPulsePalVendor, kPulsePalProduct});
+            if (!info) return failure(info);
+            auto opened = UsbBulkTransport::open(context, *info, {.dataTerminalReady = ready});
+            if (!opened) return failure(opened);
+            return std::move(*opened);
+        };
+    }
+
+    const SteadyClock clock;
+    std::mutex mutex;
+    Instant time{0};
+    pulsepal::EmulatedPulsePal device;
+};
+
+TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
+    RecordProperty("hazard", "H2");
+    const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
+    ASSERT_TRUE(waitForDevices(1));
+    auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
+    ASSERT_TRUE(opened) << opened.error().message;
+    SafetyGate gate(clock);
+    LimitRow row;
+    row.quantity = Quantity::PeakVoltage;
+    row.max = 500;
+    row.source = "test";
+    GateSetup setup;
+    setup.source = (*opened)->traits();
+    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    setup.limits.push_back({});
+    setup.limits.back().id = setup.limits.back().title = "test";
+    setup.limits.back().rows.push_back(row);
+    ASSERT_TRUE(gate.configure(setup));
+    TrainRequest request;
+    request.train = pulseTrain(5, 100);
+    request.onset = clock.now();
+    const auto before = std::chrono::steady_clock::now();
+    const auto delivered = (*opened)->deliver(std::move(*gate.approve(request)));
+    const Seconds took = std::chrono::steady_clock::now() - before;
+    ASSERT_TRUE(delivered) << delivered.error().message;
+    RecordProperty("deliver_us", static_cast<int>(took.count() * 1e6));
+    EXPECT_TRUE((*opened)->status().value().delivering);
+    (*opened)->forceOff();
+    EXPECT_FALSE((*opened)->status().value().delivering);
+    opened->reset();
+    const std::scoped_lock lock(mutex);
+    EXPECT_FALSE(device.active(time));
+    EXPECT_EQ(device.commands(0x4D), 1u);
+    EXPECT_EQ(device.commands(0x51), 1u);
+}
+
+TEST_F(PulsePalUsb, WithoutDtrItIsNotHeard) {
+    const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
+    ASSERT_TRUE(waitForDevices(1));
+    const auto opened = pulsepal::PulsePalStimulator::open(connector(false), "pulsepal:PP1", "PP1", 1, clock);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
+}
+
+TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
+    RecordProperty("hazard", "H2");
+    EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
+    ASSERT_TRUE(waitForDevices(1));
+    auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
+    ASSERT_TRUE(opened) << opened.error().message;
+    usb.unplug();
+    const auto gone = (*opened)->status();
+    ASSERT_FALSE(gone);
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    usb.plug();
+    ASSERT_TRUE(waitForDevices(1));
+    const auto back = (*opened)->status();
+    EXPECT_TRUE(back) << back.error().message;
+}
+
+}  // namespace
+}  // namespace tacto::test
