@@ -74,6 +74,11 @@ struct Bench::State {
         outputThread.reset();
         outputsOff();
         if (loop) loop->noteState(config.clock->now());
+        if (recorder && stimulator && stimulator->longestKeepAliveGap() > Instant(0)) {
+            recorder->event(config.clock->now(), "keep-alive",
+                            {{"longest_gap_s", toSeconds(stimulator->longestKeepAliveGap())}},
+                            "the longest time between two keep-alives of the stimulator's dead-man switch");
+        }
         recorder.reset();
     }
 

@@ -142,6 +142,7 @@ std::optional<Result<void>> StimulatorSession::health() {
 
 void StimulatorSession::feedDeadMan(Instant now) noexcept {
     if (!heartbeat_.alive(clock_.now())) {
+        keptAliveAt_.reset();
         // The loop is silent: whatever the device still does on its own has to end. Said once, for the loop to find
         // when it comes back.
         if (!std::exchange(silenced_, true) && everServed_) {
@@ -159,6 +160,12 @@ void StimulatorSession::feedDeadMan(Instant now) noexcept {
     const auto deadMan = device_.traits().deadMan;
     if (deadMan.count() <= 0 || now < keepAliveDue_) return;
     keepAliveDue_ = now + toInstant(deadMan / 8);
+    const Instant sent = clock_.now();
+    if (keptAliveAt_) {
+        const auto gap = (sent - *keptAliveAt_).count();
+        if (gap > longestGap_.load(std::memory_order_relaxed)) longestGap_.store(gap, std::memory_order_relaxed);
+    }
+    keptAliveAt_ = sent;
     if (const auto kept = device_.keepAlive(); !kept) {
         device_.forceOff();
         TrainReport lost;

@@ -40,6 +40,12 @@ public:
     /// Nothing while unanswered; then success when the device answers and delivers nothing, else why not.
     [[nodiscard]] std::optional<Result<void>> health();
 
+    /// The longest time between two keep-alives of a device with a dead-man switch, while the loop was alive. Any
+    /// thread.
+    [[nodiscard]] Instant longestKeepAliveGap() const noexcept {
+        return Instant(longestGap_.load(std::memory_order_relaxed));
+    }
+
     /// Does what is due and returns when it wants to be called again.
     Instant serve(Instant now) noexcept;
 
@@ -69,12 +75,14 @@ private:
     std::optional<Pending> pending_;
     SpscRing<TrainReport> reports_{16};
     std::atomic<bool> healthAsked_{false};
+    std::atomic<Instant::rep> longestGap_{0};
     std::optional<Result<void>> health_;  // guarded by mailbox_
 
     // The device thread's own:
     std::optional<TrainReport> awaitingStatus_;
     Instant statusDue_{0};
     Instant keepAliveDue_{0};
+    std::optional<Instant> keptAliveAt_;
     bool silenced_ = false;    // the heartbeat was found dead and the output switched off
     bool everServed_ = false;  // the heartbeat was once alive
 };

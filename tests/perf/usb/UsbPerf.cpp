@@ -1,0 +1,164 @@
+// How soon an approved train is in libusb's hands, and how late a keep-alive gets while both cores are busy: the real
+// libusb on an emulated stimulator. Started through with-emulated-usb.
+//
+// Baseline of the latency: the same bytes written to the transport without driver, gate or protocol.
+#include <algorithm>
+#include <fmt/format.h>
+#include <thread>
+
+#include "core/bench/StimulatorSession.h"
+#include "core/safety/SafetyGate.h"
+#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/usb/UsbPorts.h"
+#include "tests/drivers/sciencemode/EmulatedOnUsb.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+using Steady = std::chrono::steady_clock;
+
+constexpr int kTrains = 200;
+constexpr auto kUnderLoad = 10s;
+
+/// The ports of the bus, and the transport that was opened last.
+class WatchedPorts final : public TransportPorts {
+public:
+    explicit WatchedPorts(std::shared_ptr<TransportPorts> ports) : ports_(std::move(ports)) {}
+    std::vector<TransportPort> list() const override { return ports_->list(); }
+    Result<std::unique_ptr<Transport>> open(const TransportPort& port) override {
+        auto opened = ports_->open(port);
+        if (opened) transport = dynamic_cast<UsbBulkTransport*>(opened->get());
+        return opened;
+    }
+    UsbBulkTransport* transport = nullptr;
+
+private:
+    const std::shared_ptr<TransportPorts> ports_;
+};
+
+double microseconds(Steady::duration d) { return std::chrono::duration<double, std::micro>(d).count(); }
+
+void print(const char* what, std::vector<double> us, const char* goal) {
+    std::ranges::sort(us);
+    fmt::print("{:<58} median {:7.1f} us   99 % {:7.1f} us   {}\n", what, us[us.size() / 2], us[us.size() * 99 / 100],
+               goal);
+}
+
+GateSetup setupFor(const SourceTraits& source) {
+    GateSetup setup;
+    setup.source = source;
+    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    setup.limits = loadLimitSets(test::sourceDir() / "resources" / "limits").value();
+    return setup;
+}
+
+TrainRequest requestFor(Instant now) {
+    TrainRequest request;
+    request.train.amplitude = Milliamps(5);
+    request.interval = Seconds(0.5);
+    request.onset = now;
+    return request;
+}
+
+/// From the gate's approval to the last byte in libusb.
+void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& gate, const Clock& clock) {
+    std::vector<double> whole, bare;
+    for (int i = 0; i < kTrains; ++i) {
+        auto approved = gate.approve(requestFor(clock.now()));
+        if (!approved) {
+            fmt::print("the gate refuses: {}\n", approved.error().message);
+            return;
+        }
+        const auto begin = Steady::now();
+        if (const auto sent = device.deliver(std::move(*approved)); !sent) {
+            fmt::print("not delivered: {}\n", sent.error().message);
+            return;
+        }
+        whole.push_back(microseconds(transport.submittedAt() - begin));
+        std::this_thread::sleep_for(12ms);  // the pulse ends, and a period of 10 ms is over
+        static_cast<void>(device.status());
+    }
+    auto& wire = const_cast<UsbBulkTransport&>(transport);
+    const std::array<std::uint8_t, 24> bytes{};  // no frame: the device drops them
+    for (int i = 0; i < kTrains; ++i) {
+        const auto begin = Steady::now();
+        if (!wire.write(bytes, Seconds(1))) return;
+        bare.push_back(microseconds(wire.submittedAt() - begin));
+        std::this_thread::sleep_for(2ms);
+    }
+    print("approved train to libusb", whole, "goal: median under 200 us");
+    print("  baseline: the bytes alone to libusb", bare, "");
+}
+
+/// Mid level repeats by itself while it is fed; the loop beats, both cores are busy.
+void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
+    auto* repeating = dynamic_cast<RepeatingStimulator*>(&device);
+    if (repeating == nullptr) return;
+    Heartbeat heartbeat;
+    StimulatorSession session(device, gate, heartbeat, clock, {});
+    std::atomic<bool> quit{false};
+    std::vector<std::thread> busy;
+    for (unsigned i = 0; i < 2 * std::max(1U, std::thread::hardware_concurrency()); ++i) {
+        busy.emplace_back([&quit, x = 1.0]() mutable {
+            while (!quit) x = x * 1.0000001 + 1e-9;
+        });
+    }
+    std::thread loop([&] {
+        while (!quit) {
+            heartbeat.beat(clock.now());
+            std::this_thread::sleep_for(5ms);
+        }
+    });
+    std::this_thread::sleep_for(50ms);
+    auto approved = gate.approve(requestFor(clock.now()));
+    const auto begun = approved ? repeating->repeat(std::move(*approved), Seconds(0.5)) : Result<void>(failure(approved));
+    const auto end = Steady::now() + kUnderLoad;
+    while (begun && Steady::now() < end) {
+        const auto next = session.serve(clock.now());
+        std::this_thread::sleep_for(std::min(next - clock.now(), Instant(20ms)));
+    }
+    const auto worst = session.longestKeepAliveGap();
+    quit = true;
+    loop.join();
+    for (auto& thread : busy) thread.join();
+    device.forceOff();
+    if (!begun) {
+        fmt::print("not repeated: {}\n", begun.error().message);
+        return;
+    }
+    fmt::print("{:<58} {:.0f} ms in {} s   goal: never above 500 ms; a dead-man of 2000 ms\n",
+               fmt::format("longest time between keep-alives, {} busy threads", busy.size()),
+               std::chrono::duration<double, std::milli>(worst).count(), kUnderLoad.count());
+}
+
+int run() {
+    test::UsbTestbed bed;
+    SteadyClock clock;
+    test::EmulatedOnUsb plugged(bed, clock);
+    auto ports = std::make_shared<WatchedPorts>(makeUsbPorts(makeUsbProvider(), {{0x0483, 0x5740}}, {}));
+    for (int i = 0; i < 500 && ports->list().empty(); ++i) std::this_thread::sleep_for(10ms);
+    auto driver = makeScienceModeDriver(ports);
+    DeviceSet devices;
+    const auto opened = driver->open(*DeviceUri::parse("sciencemode:?level=mid"), {Role::Stimulator},
+                                     OpenContext{clock, 1, "1 kohm"}, devices);
+    if (!opened) {
+        fmt::print(stderr, "{}\n", opened.error().message);
+        return 1;
+    }
+    SafetyGate gate(clock);
+    if (const auto configured = gate.configure(setupFor(devices.stimulator->traits())); !configured) {
+        fmt::print(stderr, "{}\n", configured.error().message);
+        return 1;
+    }
+    fmt::print("USB, emulated by umockdev\n");
+    latency(*devices.stimulator, *ports->transport, gate, clock);
+    keepAlive(*devices.stimulator, gate, clock);
+    return 0;
+}
+
+}  // namespace
+}  // namespace tacto
+
+int main() { return tacto::run(); }
