@@ -23,6 +23,8 @@ namespace tacto {
 struct CaptureReading {
     Capture capture;                    ///< trigger_s is NaN
     std::vector<std::string> warnings;  ///< sentences: what was tolerated, with line numbers
+    std::string formatId;               ///< which format it was: set by CaptureFormats::read()
+    std::string formatName;             ///< likewise, for people
 };
 
 /// A field that is empty or says nan is a missing sample: dropped (with a warning where values were lost) at the end

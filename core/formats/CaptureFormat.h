@@ -1,0 +1,82 @@
+// CaptureFormat.h - what a kind of capture file is to the program: recognised, read, perhaps written.
+//
+// Each dialect of a format is a format of its own ("csv-rigol", "csv"), so that what was recognised can be shown and
+// another can be named in its place. Readers stream: what they hold is the samples and a buffer, never the file.
+//
+// Thread-safety: a format is immutable; its functions may be called from any threads at once. progress() is called on
+// the thread that reads.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Units.h"
+#include "core/measure/CaptureFile.h"
+
+namespace tacto {
+
+/// What the user knows better than the file. Empty = as the file says.
+/// A channel is named by its name in the file (capitals ignored) or by its number: of the column in a table, of the
+/// channel elsewhere, from 1.
+struct ReadOptions {
+    std::string format;                          ///< id of a format; empty: recognised from the file
+    std::size_t skipRows = 0;                    ///< lines at the beginning of a text that are passed over
+    std::vector<std::string> columns;            ///< the channels to keep, in this order
+    std::string timeColumn;                      ///< the column that holds the times
+    std::map<std::string, std::string> units;    ///< channel -> the unit of its numbers: "mV", "A"
+    std::map<std::string, double> probeFactors;  ///< channel -> its numbers are multiplied by this
+    std::optional<Hertz> rate;                   ///< for files without times; replaces a rate that the file states
+};
+
+/// How a long reading is watched and ended.
+struct ReadWatch {
+    std::function<void(double fraction)> progress;  ///< 0 to 1, rising; may be empty
+    std::stop_token stop;
+};
+
+/// Reports `fraction` and looks at the stop: a reader calls it after each chunk (at most a few MB apart).
+/// Errors: Stopped when a stop was requested.
+[[nodiscard]] Result<void> keepReading(const ReadWatch& watch, double fraction, std::string_view file);
+
+/// What recognises() is shown: the file's beginning, at most kHeadBytes of it.
+constexpr std::size_t kHeadBytes = 64 * 1024;
+
+class CaptureFormat {
+public:
+    virtual ~CaptureFormat() = default;
+
+    /// Short and stable, for --format and JSON: "csv-rigol".
+    [[nodiscard]] virtual std::string_view id() const noexcept = 0;
+    /// For people: "Rigol CSV".
+    [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+    /// Of its files, lower case with the dot: {".csv", ".txt"}. The first is the usual one.
+    [[nodiscard]] virtual std::vector<std::string_view> suffixes() const = 0;
+
+    /// Whether a file of this name that begins with `head` is one of these. Never reads the file.
+    [[nodiscard]] virtual bool recognises(const std::filesystem::path& path, std::string_view head) const = 0;
+
+    /// Errors: NotFound, Io; ParseError naming file, place (line or byte) and what was expected; InvalidArgument for an
+    /// option that the file cannot honour; Stopped. What was read until then is dropped.
+    [[nodiscard]] virtual Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,
+                                                      const ReadWatch& watch) const = 0;
+
+    [[nodiscard]] virtual bool canWrite() const noexcept { return false; }
+    /// Replaces the file. Errors: InvalidArgument for a capture that the format cannot hold (no samples, no rate,
+    /// channels of unequal length), Io, Unsupported where canWrite() is false.
+    [[nodiscard]] virtual Result<void> write(const std::filesystem::path& path, const Capture& capture) const;
+
+protected:
+    CaptureFormat() = default;
+    CaptureFormat(const CaptureFormat&) = default;
+    CaptureFormat& operator=(const CaptureFormat&) = default;
+};
+
+}  // namespace tacto

@@ -1,0 +1,87 @@
+#include "core/formats/CaptureFormats.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/ranges.h>
+
+#include "core/formats/ByteFile.h"
+
+namespace tacto {
+
+namespace {
+
+std::string suffixOf(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+std::vector<std::string_view> suffixesOf(const std::vector<std::unique_ptr<CaptureFormat>>& formats,
+                                         bool writableOnly) {
+    std::vector<std::string_view> all;
+    for (const auto& format : formats) {
+        if (writableOnly && !format->canWrite()) continue;
+        for (const auto suffix : format->suffixes()) {
+            if (std::ranges::find(all, suffix) == all.end()) all.push_back(suffix);
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+void CaptureFormats::add(std::unique_ptr<CaptureFormat> format) { formats_.push_back(std::move(format)); }
+
+std::vector<std::string_view> CaptureFormats::suffixes() const { return suffixesOf(formats_, false); }
+std::vector<std::string_view> CaptureFormats::writableSuffixes() const { return suffixesOf(formats_, true); }
+
+bool CaptureFormats::knowsSuffix(const std::filesystem::path& path) const {
+    const auto known = suffixes();
+    return std::ranges::find(known, suffixOf(path)) != known.end();
+}
+
+Result<const CaptureFormat*> CaptureFormats::formatOf(const std::filesystem::path& path,
+                                                      const ReadOptions& options) const {
+    std::vector<std::string_view> ids;
+    std::vector<std::string_view> names;
+    for (const auto& format : formats_) {
+        if (!options.format.empty() && format->id() == options.format) return format.get();
+        ids.push_back(format->id());
+        names.push_back(format->name());
+    }
+    if (!options.format.empty()) {
+        return fail(ErrorCode::InvalidArgument, "format '{}' is not known; {} are", options.format,
+                    fmt::join(ids, ", "));
+    }
+    const auto head = readHead(path);
+    if (!head) return failure(head);
+    for (const auto& format : formats_) {
+        if (format->recognises(path, *head)) return format.get();
+    }
+    return fail(ErrorCode::ParseError, "{}: the format is not recognised; known are {}", path.string(),
+                fmt::join(names, ", "));
+}
+
+Result<CaptureReading> CaptureFormats::read(const std::filesystem::path& path, const ReadOptions& options,
+                                            const ReadWatch& watch) const {
+    const auto format = formatOf(path, options);
+    if (!format) return failure(format);
+    auto reading = (*format)->read(path, options, watch);
+    if (reading) {
+        reading->formatId = (*format)->id();
+        reading->formatName = (*format)->name();
+    }
+    return reading;
+}
+
+Result<void> CaptureFormats::write(const std::filesystem::path& path, const Capture& capture) const {
+    const auto suffix = suffixOf(path);
+    for (const auto& format : formats_) {
+        const auto its = format->suffixes();
+        if (format->canWrite() && std::ranges::find(its, suffix) != its.end()) return format->write(path, capture);
+    }
+    return fail(ErrorCode::InvalidArgument, "{}: captures are not written as '{}'; {} are the suffixes that are",
+                path.string(), suffix, fmt::join(writableSuffixes(), ", "));
+}
+
+}  // namespace tacto
