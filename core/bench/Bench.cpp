@@ -8,6 +8,7 @@
 
 #include "core/bench/DeviceThread.h"
 #include "core/bench/MassagerSession.h"
+#include "core/bench/ReportRecord.h"
 #include "core/bench/ScopeSession.h"
 #include "core/session/SessionWriter.h"
 
@@ -79,7 +80,20 @@ struct Bench::State {
                             {{"longest_gap_s", toSeconds(stimulator->longestKeepAliveGap())}},
                             "the longest time between two keep-alives of the stimulator's dead-man switch");
         }
+        if (const auto* reporting = recorder ? reportingDevice(Role::Sensor) : nullptr) {
+            recordReport(*recorder, config.clock->now(), reporting->deviceReport(),
+                         "what the fingertip sensor and its line were like, when the bench closed");
+        }
         recorder.reset();
+    }
+
+    [[nodiscard]] const ReportingDevice* reportingDevice(Role role) const noexcept {
+        const auto& devices = config.devices;
+        const Device* device = role == Role::Sensor         ? static_cast<const Device*>(devices.sensor.get())
+                               : role == Role::Stimulator   ? static_cast<const Device*>(devices.stimulator.get())
+                               : role == Role::Oscilloscope ? static_cast<const Device*>(devices.oscilloscope.get())
+                                                            : static_cast<const Device*>(devices.massager.get());
+        return dynamic_cast<const ReportingDevice*>(device);
     }
 
     void outputsOff() noexcept {
@@ -119,6 +133,8 @@ struct Bench::State {
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
     [[nodiscard]] Result<void> health() const;
+    template <class Session>
+    [[nodiscard]] Result<void> askAgain(Session& session, DeviceThread* thread, Instant within, const char* who);
     /// A train driven by hand was refused since the caller last heard of one.
     [[nodiscard]] bool refusedByHand() const noexcept {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
@@ -171,6 +187,7 @@ Result<void> Bench::State::open() {
         parts.massager = massager.get();
     }
     if (config.devices.oscilloscope) scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope);
+    parts.sensorReport = reportingDevice(Role::Sensor);
     loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
     if (const auto connected = interlock.connect(); !connected) return connected;
     nextTick = outputDue = config.clock->now();
@@ -350,26 +367,39 @@ void Bench::resume() noexcept {
     state_->waitChanged.notify_all();
 }
 
+/// Asks one device's session how its device is, and waits for the answer.
+template <class Session>
+Result<void> Bench::State::askAgain(Session& session, DeviceThread* thread, Instant within, const char* who) {
+    static_cast<void>(session.health());  // an old answer
+    session.askHealth();
+    std::optional<Result<void>> answer;
+    const Instant until = config.clock->now() + within;
+    while (!(answer = session.health()) && config.clock->now() < until) {
+        if (virtualClock != nullptr) {
+            session.serve(config.clock->now());
+        } else {
+            thread->wake();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    if (!answer) return fail(ErrorCode::NotArmed, "the fault is still there: the {} does not answer", who);
+    if (!*answer) return fail(ErrorCode::NotArmed, "the fault is still there: {}", answer->error().message);
+    return {};
+}
+
 Result<void> Bench::resetFault() {
     auto& s = *state_;
     if (s.interlock.state() != InterlockState::Faulted) return {};
     // Looked at again: a device that answers and delivers nothing is well; what its load is, the next check tells.
     if (s.stimulator) {
         constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);
-        static_cast<void>(s.stimulator->health());  // an old answer
-        s.stimulator->askHealth();
-        std::optional<Result<void>> answer;
-        const Instant until = s.config.clock->now() + kAnswerWithin;
-        while (!(answer = s.stimulator->health()) && s.config.clock->now() < until) {
-            if (s.virtualClock != nullptr) {
-                s.stimulator->serve(s.config.clock->now());
-            } else {
-                s.outputThread->wake();
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            }
-        }
-        if (!answer) return fail(ErrorCode::NotArmed, "the fault is still there: the stimulator does not answer");
-        if (!*answer) return fail(ErrorCode::NotArmed, "the fault is still there: {}", answer->error().message);
+        const auto well = s.askAgain(*s.stimulator, s.outputThread.get(), kAnswerWithin, "stimulator");
+        if (!well) return well;
+    }
+    if (s.sensor) {
+        constexpr Instant kOpenWithin = std::chrono::seconds(3);
+        if (const auto well = s.askAgain(*s.sensor, s.sensorThread.get(), kOpenWithin, "fingertip sensor"); !well)
+            return well;
     }
     for (int cause = 0; cause < kFaultCauseCount; ++cause) s.interlock.causeGone(static_cast<FaultCause>(cause));
     return s.interlock.reset();
@@ -503,6 +533,10 @@ Telemetry Bench::telemetry() const {
     auto seen = state_->loop->telemetry();
     seen.state = state_->interlock.state();  // a stop shows before the loop's next step
     return seen;
+}
+std::optional<DeviceReport> Bench::deviceReport(Role role) const noexcept {
+    const auto* reporting = state_->reportingDevice(role);
+    return reporting != nullptr ? std::optional(reporting->deviceReport()) : std::nullopt;
 }
 DeviceSet& Bench::devices() noexcept { return state_->config.devices; }
 std::uint64_t Bench::faults() const noexcept { return state_->loop->faults(); }

@@ -5,7 +5,7 @@
 // moves only inside them. On the steady clock the loop and one session thread per device run by
 // themselves and the same calls wait. The step code is the same.
 //
-// Thread-safety: stop(), pause(), resume() and telemetry() from any thread; everything else has one
+// Thread-safety: stop(), pause(), resume(), telemetry() and deviceReport() from any thread; everything else has one
 // caller (a script's thread, or the program).
 #pragma once
 
@@ -59,7 +59,8 @@ public:
     void clearStop() noexcept;
     void pause() noexcept;
     void resume() noexcept;
-    /// Leaves Faulted. Errors: NotArmed while the cause persists.
+    /// Leaves Faulted. A device that was unplugged is looked for again, by identity, which may take two seconds.
+    /// Errors: NotArmed while the cause persists.
     [[nodiscard]] Result<void> resetFault();
 
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
@@ -97,6 +98,8 @@ public:
     [[nodiscard]] Telemetry telemetry() const;
     /// Faults since the bench was made. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept;
+    /// What the device of that role reports on itself; nothing where there is none, or it reports nothing. Any thread.
+    [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const noexcept;
     [[nodiscard]] DeviceSet& devices() noexcept;
     [[nodiscard]] OutputMode mode() const noexcept;
     [[nodiscard]] const Clock& clock() const noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bench/ReportRecord.h"
 #include "core/safety/TrainCheck.h"
 
 namespace tacto {
@@ -14,6 +15,8 @@ namespace {
 /// a train that is not the one delivered.
 constexpr double kMostDelivered = 1.20;
 constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
+constexpr Instant kReportLook = std::chrono::milliseconds(100);
+constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
 
 FaultCause causeOf(TrainFinding finding) noexcept {
     switch (finding) {
@@ -104,6 +107,7 @@ void ControlLoop::step(Instant now) noexcept {
     takeCommands(now);
     noteState(now);
     readFinger(now);
+    watchSensor(now);
     judgeReports();
     if (arming_ && !checkPosted_) beginCheck(now);
     watchForSilence(now);
@@ -249,6 +253,26 @@ void ControlLoop::readFinger(Instant now) noexcept {
     shown_.samplesLost = finger_->session().samplesLost();
     shown_.sensorFinished = finger_->session().finished();
     shown_.gaps = finger_->gaps();
+}
+
+/// A sensor that is gone ends the output, whatever drives it: somebody pulled a plug at the finger.
+void ControlLoop::watchSensor(Instant now) noexcept {
+    if (!finger_) return;
+    const auto& session = finger_->session();
+    if (const auto failures = session.failures(); std::exchange(sensorFailuresSeen_, failures) != failures) {
+        trip(FaultCause::DeviceFault, fmt::format("the fingertip sensor failed: {}", session.error().view()), now);
+    }
+    noteLosses(now);
+}
+
+void ControlLoop::noteLosses(Instant now) noexcept {
+    if (parts_.sensorReport == nullptr || parts_.recorder == nullptr || now < lossesDue_) return;
+    const auto report = parts_.sensorReport->deviceReport();
+    lossesDue_ = now + kReportLook;
+    if (report.losses <= lossesNoted_) return;
+    lossesNoted_ = report.losses;
+    lossesDue_ = now + kReportEvery;
+    recordReport(*parts_.recorder, now, report, "something was lost between the fingertip sensor and this program");
 }
 
 void ControlLoop::tapSamples() noexcept {

@@ -20,6 +20,7 @@
 #include "core/bench/StimulatorSession.h"
 #include "core/bench/Telemetry.h"
 #include "core/bench/TrainPlanner.h"
+#include "core/devices/DeviceReport.h"
 #include "core/safety/Interlock.h"
 #include "core/session/SessionRecorder.h"
 
@@ -52,8 +53,9 @@ public:
         SessionRecorder* recorder;      ///< may be null
         int frameStream;                ///< of the recorder, for roughness frames
         std::vector<int> sensorStreams;
-        BenchTap* tap = nullptr;              ///< may be null: nobody looks
-        MassagerSession* massager = nullptr;  ///< in place of a stimulator, else null
+        BenchTap* tap = nullptr;                        ///< may be null: nobody looks
+        MassagerSession* massager = nullptr;            ///< in place of a stimulator, else null
+        const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
@@ -88,6 +90,8 @@ private:
     void beginCheck(Instant now) noexcept;
     void finishArming(Result<void> result) noexcept;
     void readFinger(Instant now) noexcept;
+    void watchSensor(Instant now) noexcept;
+    void noteLosses(Instant now) noexcept;
     void tapSamples() noexcept;
     void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
@@ -125,6 +129,9 @@ private:
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;
+    std::uint64_t sensorFailuresSeen_ = 0;
+    std::uint64_t lossesNoted_ = 0;
+    Instant lossesDue_{0};  // not before then
     std::optional<Ohms> impedance_;
     Instant impedanceAt_{0};
     Instant postedEnd_{0};  // when the train in the session ends

@@ -1,19 +1,23 @@
 #include "core/bench/SensorSession.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "core/devices/Reconnecting.h"
 
 namespace tacto {
 
 namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
+constexpr Instant kLookEvery = std::chrono::milliseconds(100);  // whether somebody asks for a device that failed
 constexpr double kRingSeconds = 1;
 }  // namespace
 
 Result<std::unique_ptr<SensorSession>> SensorSession::create(TactileSensor& device) {
     for (const auto& stream : device.streams()) {
         if (stream.channels == 0 || stream.channels > kMaxChannels) {
-            return fail(ErrorCode::Unsupported, "stream \"{}\" of {} has {} channels; 1 to {} are supported",
-                        stream.name, device.identity().name, stream.channels, kMaxChannels);
+            return tacto::fail(ErrorCode::Unsupported, "stream \"{}\" of {} has {} channels; 1 to {} are supported",
+                               stream.name, device.identity().name, stream.channels, kMaxChannels);
         }
     }
     return std::unique_ptr<SensorSession>(new SensorSession(device));
@@ -33,13 +37,21 @@ SensorSession::SensorSession(TactileSensor& device) : device_(device) {
 }
 
 Instant SensorSession::serve(Instant now) noexcept {
-    if (failed()) return now + std::chrono::milliseconds(100);
+    if (healthAsked_.exchange(false, std::memory_order_acq_rel)) answerHealth();
+    if (failed()) return now + kLookEvery;
     for (auto& block : blocks_) block.clear();
     if (const auto read = device_.read(blocks_); !read) {
-        error_ = std::string_view(read.error().message);
-        failed_.store(true, std::memory_order_release);
-        return now + kReadEvery;
+        fail(read.error().message);
+        failures_.fetch_add(1, std::memory_order_acq_rel);
+        return now + kLookEvery;
     }
+    hand();
+    if (device_.finished()) finished_.store(true, std::memory_order_release);
+    return now + kReadEvery;
+}
+
+/// Puts what was read into the rings.
+void SensorSession::hand() noexcept {
     for (std::size_t s = 0; s < streams_.size(); ++s) {
         const auto& block = blocks_[s];
         const auto channels = streams_[s].channels;
@@ -54,8 +66,40 @@ Instant SensorSession::serve(Instant now) noexcept {
             },
             streams_[s].ring);
     }
-    if (device_.finished()) finished_.store(true, std::memory_order_release);
-    return now + kReadEvery;
+}
+
+void SensorSession::fail(std::string_view why) noexcept {
+    const std::scoped_lock lock(told_);
+    error_ = why;
+    failed_.store(true, std::memory_order_release);
+}
+
+Result<void> SensorSession::recover() {
+    if (auto* lost = dynamic_cast<Reconnecting*>(&device_)) {
+        if (auto again = lost->reconnect(); !again) return again;
+    }
+    for (auto& block : blocks_) block.clear();
+    return device_.read(blocks_);
+}
+
+void SensorSession::answerHealth() noexcept {
+    Result<void> answer;
+    if (failed()) {
+        answer = recover();
+        if (answer) {
+            hand();
+            failed_.store(false, std::memory_order_release);
+        } else {
+            fail(answer.error().message);
+        }
+    }
+    const std::scoped_lock lock(told_);
+    health_ = std::move(answer);
+}
+
+std::optional<Result<void>> SensorSession::health() {
+    const std::scoped_lock lock(told_);
+    return std::exchange(health_, std::nullopt);
 }
 
 void SensorSession::collect(std::span<SampleBlock> blocks) noexcept {
@@ -82,6 +126,9 @@ std::uint64_t SensorSession::samplesLost() const noexcept {
     return lost;
 }
 
-FixedText<160> SensorSession::error() const noexcept { return failed() ? error_ : FixedText<160>{}; }
+FixedText<160> SensorSession::error() const noexcept {
+    const std::scoped_lock lock(told_);
+    return failed() ? error_ : FixedText<160>{};
+}
 
 }  // namespace tacto

@@ -1,6 +1,8 @@
 // SensorSession.h - the only caller of a fingertip: reads it and hands its samples to the control loop
 // through one ring per stream (overflow drops the oldest and counts).
 //
+// A device that failed is left alone until somebody asks how it is: then it is looked for again, by identity.
+//
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); collect()
 // has one caller, the control loop; the rest any thread.
 #pragma once
@@ -8,6 +10,8 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -33,8 +37,15 @@ public:
 
     /// Samples lost because the loop did not collect for a second.
     [[nodiscard]] std::uint64_t samplesLost() const noexcept;
-    /// True once the device failed; why is in error().
+    /// True from when the device failed until it answers again; why is in error().
     [[nodiscard]] bool failed() const noexcept { return failed_.load(std::memory_order_acquire); }
+    /// Times that the device failed while it was read.
+    [[nodiscard]] std::uint64_t failures() const noexcept { return failures_.load(std::memory_order_acquire); }
+    /// Asks a device that failed to be opened again: for leaving a fault. Answered by the next serve(), which may wait
+    /// for the device.
+    void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
+    /// Nothing while unanswered; then success when the device answers, else why not.
+    [[nodiscard]] std::optional<Result<void>> health();
     [[nodiscard]] FixedText<160> error() const noexcept;
     /// True when the device has no more samples and all were collected.
     [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
@@ -54,13 +65,21 @@ private:
     };
 
     explicit SensorSession(TactileSensor& device);
+    void answerHealth() noexcept;
+    [[nodiscard]] Result<void> recover();
+    void fail(std::string_view why) noexcept;
+    void hand() noexcept;
 
     TactileSensor& device_;
     std::vector<Stream> streams_;      // Constant after construction
     std::vector<SampleBlock> blocks_;  // the device thread's
     std::atomic<bool> failed_{false};
+    std::atomic<std::uint64_t> failures_{0};
     std::atomic<bool> finished_{false};
-    FixedText<160> error_;  // written once, before failed_ is set
+    std::atomic<bool> healthAsked_{false};
+    mutable std::mutex told_;  // guards what follows; held for a copy only
+    FixedText<160> error_;
+    std::optional<Result<void>> health_;
 };
 
 }  // namespace tacto

@@ -243,7 +243,12 @@ void SessionRecorder::command(Instant at, const char* name, std::initializer_lis
 
 void SessionRecorder::event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
                             std::string_view text) noexcept {
-    state_->take(noteOf(RecordKind::Event, at, kind, {fields.begin(), fields.size()}, text));
+    event(at, kind, std::span(fields.begin(), fields.size()), text);
+}
+
+void SessionRecorder::event(Instant at, const char* kind, std::span<const RecordField> fields,
+                            std::string_view text) noexcept {
+    state_->take(noteOf(RecordKind::Event, at, kind, fields, text));
 }
 
 Result<void> SessionRecorder::drain() {

@@ -57,6 +57,7 @@ public:
     /// `kind` must live for ever. On its own thread the recorder commits it at once; wait for that with drain().
     void event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
                std::string_view text = {}) noexcept;
+    void event(Instant at, const char* kind, std::span<const RecordField> fields, std::string_view text) noexcept;
 
     /// Waits until everything recorded before is committed. Errors: as SessionWriter::failed(); Timeout after 5 s.
     [[nodiscard]] Result<void> drain();
