@@ -1,9 +1,13 @@
-// SyntheticPulses.h - records whose every edge is known to a fraction of a sample: trapezoids evaluated where the
-// samples lie, so that the truth needs no algorithm.
+// SyntheticPulses.h - records whose every edge is known to a fraction of a sample: pulses evaluated where the samples
+// lie, so that the truth needs no algorithm.
+//
+// A phase is the difference of two equal step responses, width_s apart: its charge is level times width and its 50 %
+// points are width_s apart whatever the edges look like, once they have settled (see MeasurementGrid.h, truthOf()).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/base/Random.h"
@@ -19,7 +23,58 @@ struct SyntheticPhase {
     double edge_s = 2e-6;
     double droop = 0;      ///< fraction lost over the width, in a straight line
     double overshoot = 0;  ///< fraction, decaying with a tenth of the width
+    // At most one of these, instead of straight edges:
+    double tau_s = 0;    ///< exponential edges, as over a resistor and a capacitor side by side
+    double ringing = 0;  ///< first overshoot of a damped oscillation, a fraction
+    double ringingPeriod_s = 20e-6;
 };
+
+/// How a phase's edges rise: from 0 to 1, through 0.5 at time 0.
+class StepResponse {
+public:
+    explicit StepResponse(const SyntheticPhase& p) : edge_s_(p.edge_s), tau_s_(p.tau_s) {
+        if (p.ringing > 0) {
+            const double log = -std::log(p.ringing);
+            const double zeta = log / std::hypot(std::numbers::pi, log);
+            omega_ = 2 * std::numbers::pi / p.ringingPeriod_s;
+            sigma_ = omega_ * zeta / std::sqrt(1 - zeta * zeta);
+            double early = 0, late = 0.5 * p.ringingPeriod_s;
+            for (int k = 0; k < 60; ++k) {
+                const double middle = 0.5 * (early + late);
+                (ringing(middle) < 0.5 ? early : late) = middle;
+            }
+            delay_s_ = early;
+        } else if (tau_s_ > 0) {
+            delay_s_ = tau_s_ * std::numbers::ln2;
+        }
+    }
+    [[nodiscard]] double at(double since) const {
+        if (omega_ > 0) return ringing(since + delay_s_);
+        if (tau_s_ > 0) return since + delay_s_ > 0 ? 1 - std::exp(-(since + delay_s_) / tau_s_) : 0;
+        return std::clamp(since / edge_s_ + 0.5, 0.0, 1.0);
+    }
+    /// From the 50 % point back to where it is still 0, and on to where it differs from 1 by less than 1e-12.
+    [[nodiscard]] double before_s() const { return omega_ > 0 || tau_s_ > 0 ? delay_s_ : 0.5 * edge_s_; }
+    [[nodiscard]] double after_s() const { return omega_ > 0 ? 28 / sigma_ : tau_s_ > 0 ? 28 * tau_s_ : 0.5 * edge_s_; }
+
+private:
+    [[nodiscard]] double ringing(double t) const {
+        if (!(t > 0)) return 0;
+        return 1 - std::exp(-sigma_ * t) * (std::cos(omega_ * t) + sigma_ / omega_ * std::sin(omega_ * t));
+    }
+    double edge_s_;
+    double tau_s_;
+    double omega_ = 0;
+    double sigma_ = 0;
+    double delay_s_ = 0;
+};
+
+inline double valueAt(const SyntheticPhase& p, const StepResponse& step, double t) {
+    const double since = t - p.onset_s;
+    const double shape =
+        1 - p.droop * (since / p.width_s - 0.6) + (since > 0 ? p.overshoot * std::exp(-since / (0.03 * p.width_s)) : 0);
+    return p.level * shape * (step.at(since) - step.at(since - p.width_s));
+}
 
 struct SyntheticRecord {
     double rate_hz = 2e6;
@@ -29,18 +84,32 @@ struct SyntheticRecord {
     double noise = 0;
     double lsb = 0;
     unsigned seed = 1;
+    double slope_per_s = 0;  ///< drift, about the record's middle
+    double hum = 0;          ///< amplitude of a sine at hum_hz
+    double hum_hz = 50;
+    double hum_rad = 0;  ///< its phase at time 0
+    double range = 0;    ///< samples are cut to ± this, and the channel declares it; 0 = unlimited and unknown
 };
 
-inline double valueAt(const SyntheticPhase& p, double t) {
-    const double since = t - p.onset_s;
-    const double up = std::clamp(since / p.edge_s + 0.5, 0.0, 1.0);
-    const double down = std::clamp((since - p.width_s) / p.edge_s + 0.5, 0.0, 1.0);
-    const double shape =
-        1 - p.droop * (since / p.width_s - 0.6) + (since > 0 ? p.overshoot * std::exp(-since / (0.03 * p.width_s)) : 0);
-    return p.level * shape * (up - down);
-}
-
 inline Capture recordOf(const std::vector<SyntheticPhase>& phases, const SyntheticRecord& r = {}) {
+    std::vector<double> values(r.samples);
+    const double middle = r.start_s + 0.5 * static_cast<double>(r.samples) / r.rate_hz;
+    const auto timeOf = [&](std::size_t i) { return r.start_s + static_cast<double>(i) / r.rate_hz; };
+    for (std::size_t i = 0; i < r.samples; ++i) {
+        values[i] = r.offset + r.slope_per_s * (timeOf(i) - middle);
+        if (r.hum > 0) values[i] += r.hum * std::sin(2 * std::numbers::pi * r.hum_hz * timeOf(i) + r.hum_rad);
+    }
+    for (const auto& phase : phases) {
+        const StepResponse step(phase);
+        const double last = static_cast<double>(r.samples);
+        const auto sampleAt = [&](double t) {
+            return static_cast<std::size_t>(std::clamp((t - r.start_s) * r.rate_hz, 0.0, last));
+        };
+        const std::size_t end = std::min(r.samples, sampleAt(phase.onset_s + phase.width_s + step.after_s()) + 2);
+        for (std::size_t i = sampleAt(phase.onset_s - step.before_s()); i < end; ++i) {
+            values[i] += valueAt(phase, step, timeOf(i));
+        }
+    }
     Capture capture;
     capture.rate_hz = r.rate_hz;
     capture.start_s = r.start_s;
@@ -48,12 +117,13 @@ inline Capture recordOf(const std::vector<SyntheticPhase>& phases, const Synthet
     channel.name = "voltage";
     channel.unit = "V";
     channel.lsb = r.lsb;
+    channel.low = -r.range;
+    channel.high = r.range;
+    channel.samples.reserve(r.samples);
     Random random(r.seed, "record");
-    for (std::size_t i = 0; i < r.samples; ++i) {
-        const double t = r.start_s + static_cast<double>(i) / r.rate_hz;
-        double v = r.offset;
-        for (const auto& phase : phases) v += valueAt(phase, t);
+    for (double v : values) {
         if (r.noise > 0) v += r.noise * random.normal();
+        if (r.range > 0) v = std::clamp(v, -r.range, r.range);
         if (r.lsb > 0) v = r.lsb * std::round(v / r.lsb);
         channel.samples.push_back(static_cast<float>(v));
     }
