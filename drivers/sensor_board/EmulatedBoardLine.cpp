@@ -85,13 +85,13 @@ void EmulatedBoardLine::plug() {
     ++session_;
 }
 
-std::vector<SensorBoardPort> EmulatedBoardLine::list() const {
+std::vector<TransportPort> EmulatedBoardLine::list() const {
     const std::scoped_lock lock(mutex_);
     if (!plugged_) return {};
     return {{serial_, "emulated", ""}};
 }
 
-Result<std::unique_ptr<Transport>> EmulatedBoardLine::open(const SensorBoardPort& /*port*/) { return connect(); }
+Result<std::unique_ptr<Transport>> EmulatedBoardLine::open(const TransportPort& /*port*/) { return connect(); }
 
 Result<std::unique_ptr<Transport>> EmulatedBoardLine::openTerminal(const std::string& path) {
     return fail(ErrorCode::Unsupported, "an emulated line opens no terminals, and tty={} is one", path);

@@ -29,8 +29,8 @@ public:
     void plug();
 
     /// The one board, while it is plugged in.
-    [[nodiscard]] std::vector<SensorBoardPort> list() const override;
-    [[nodiscard]] Result<std::unique_ptr<Transport>> open(const SensorBoardPort& port) override;
+    [[nodiscard]] std::vector<TransportPort> list() const override;
+    [[nodiscard]] Result<std::unique_ptr<Transport>> open(const TransportPort& port) override;
     /// Errors: Unsupported, always.
     [[nodiscard]] Result<std::unique_ptr<Transport>> openTerminal(const std::string& path) override;
 

@@ -41,7 +41,7 @@ struct SensorBoardReport {
 };
 
 struct SensorBoardSettings {
-    std::string uri = "board:";      ///< for its identity
+    std::string uri = "sensor:";     ///< for its identity
     std::string serial = {};         ///< the board that it must be; empty: any
     double accelerationRate_hz = 0;  ///< 0: as the board is configured
     double slowRate_hz = 0;          ///< of taxels and force; 0: as the board is configured

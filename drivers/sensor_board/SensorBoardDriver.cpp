@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/base/Text.h"
-#include "drivers/sensor_board/SensorBoard.h"
+#include "drivers/sensor_board/PluggedBoard.h"
 
 namespace tacto {
 namespace sensorboard {
@@ -57,19 +57,40 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     return wanted;
 }
 
+using Opened = Result<std::unique_ptr<SensorBoard>>;
+
+Opened tryPort(SensorBoardPorts& ports, const TransportPort& port, const Wanted& wanted, const Clock& clock) {
+    if (!port.obstacle.empty()) return fail(ErrorCode::Io, "{}", port.obstacle);
+    auto transport = ports.open(port);
+    if (!transport) return failure(transport);
+    return SensorBoard::open(std::move(*transport), wanted.settings, clock);
+}
+
+Opened openPort(SensorBoardPorts& ports, const Wanted& wanted, const Clock& clock) {
+    std::optional<Error> problem;
+    for (const auto& port : ports.list()) {
+        if (!wanted.settings.serial.empty() && port.serial != wanted.settings.serial) continue;
+        auto opened = tryPort(ports, port, wanted, clock);
+        if (opened) return opened;
+        if (!problem) problem = opened.error();
+    }
+    if (problem) return tl::unexpected<Error>(*problem);
+    return fail(ErrorCode::NotFound, "device \"{}\": no such sensor board is plugged in (USB {:04x}:{:04x} \"{}\")",
+                wanted.settings.uri, kSensorBoardVendor, kSensorBoardProduct, kSensorBoardName);
+}
+
 class SensorBoardDriver final : public Driver {
 public:
     explicit SensorBoardDriver(std::shared_ptr<SensorBoardPorts> ports) : ports_(std::move(ports)) {}
 
-    std::string_view scheme() const noexcept override { return "board"; }
+    std::string_view scheme() const noexcept override { return "sensor"; }
     bool runsOnVirtualClock() const noexcept override { return false; }
 
     std::vector<DeviceIdentity> list() const override {
         std::vector<DeviceIdentity> found;
         for (const auto& port : ports_->list()) {
-            auto name =
-                port.obstacle.empty() ? std::string("sensor board") : fmt::format("sensor board: {}", port.obstacle);
-            found.push_back({"board:" + port.serial, Role::Sensor, std::move(name), port.serial, "", false});
+            found.push_back(
+                {"sensor:" + port.serial, Role::Sensor, "sensor board", port.serial, "", false, port.obstacle});
         }
         return found;
     }
@@ -80,48 +101,33 @@ public:
             return fail(ErrorCode::InvalidArgument,
                         "device \"{}\": a sensor is open already, and a bench has one of each", uri.text());
         }
-        const auto wanted = readUri(uri);
-        if (!wanted) return failure(wanted);
-        auto opened = wanted->terminal ? openTerminal(*wanted, context) : openPort(*wanted, context);
+        auto opened = openSensorBoard(ports_, uri, context.clock);
         if (!opened) return failure(opened);
-        into.sensor = std::move(*opened);
+        into.sensor = std::make_unique<PluggedBoard>(
+            std::move(*opened), [ports = ports_, uri, &clock = context.clock](const std::string& serial) {
+                auto same = uri;
+                same.path = serial;
+                return openSensorBoard(ports, same, clock);
+            });
         return {};
     }
 
 private:
-    using Opened = Result<std::unique_ptr<SensorBoard>>;
-
-    Opened openTerminal(const Wanted& wanted, const OpenContext& context) const {
-        auto transport = ports_->openTerminal(*wanted.terminal);
-        if (!transport) return failure(transport);
-        return SensorBoard::open(std::move(*transport), wanted.settings, context.clock);
-    }
-
-    Opened openPort(const Wanted& wanted, const OpenContext& context) const {
-        std::optional<Error> problem;
-        for (const auto& port : ports_->list()) {
-            if (!wanted.settings.serial.empty() && port.serial != wanted.settings.serial) continue;
-            auto opened = tryPort(port, wanted, context);
-            if (opened) return opened;
-            if (!problem) problem = opened.error();
-        }
-        if (problem) return tl::unexpected<Error>(*problem);
-        return fail(ErrorCode::NotFound, "device \"{}\": no such sensor board is plugged in (USB {:04x}:{:04x} \"{}\")",
-                    wanted.settings.uri, kSensorBoardVendor, kSensorBoardProduct, kSensorBoardName);
-    }
-
-    Opened tryPort(const SensorBoardPort& port, const Wanted& wanted, const OpenContext& context) const {
-        if (!port.obstacle.empty()) return fail(ErrorCode::Io, "{}", port.obstacle);
-        auto transport = ports_->open(port);
-        if (!transport) return failure(transport);
-        return SensorBoard::open(std::move(*transport), wanted.settings, context.clock);
-    }
-
     const std::shared_ptr<SensorBoardPorts> ports_;
 };
 
 }  // namespace
 }  // namespace sensorboard
+
+Result<std::unique_ptr<SensorBoard>> openSensorBoard(const std::shared_ptr<SensorBoardPorts>& ports,
+                                                     const DeviceUri& uri, const Clock& clock) {
+    const auto wanted = sensorboard::readUri(uri);
+    if (!wanted) return failure(wanted);
+    if (!wanted->terminal) return sensorboard::openPort(*ports, *wanted, clock);
+    auto transport = ports->openTerminal(*wanted->terminal);
+    if (!transport) return failure(transport);
+    return SensorBoard::open(std::move(*transport), wanted->settings, clock);
+}
 
 std::unique_ptr<Driver> makeSensorBoardDriver(std::shared_ptr<SensorBoardPorts> ports) {
     return std::make_unique<sensorboard::SensorBoardDriver>(std::move(ports));

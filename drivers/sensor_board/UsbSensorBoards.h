@@ -7,15 +7,14 @@
 #include <memory>
 
 #include "drivers/sensor_board/SensorBoardDriver.h"
-#include "drivers/usb/UsbContext.h"
+#include "drivers/usb/UsbProvider.h"
 
 namespace tacto {
 
 /// Opens a terminal for `tty=`; may be null.
 using OpenTerminal = std::function<Result<std::unique_ptr<Transport>>(const std::string& path)>;
 
-/// `context` may be null (no USB in this system): then only `tty=` opens anything.
-[[nodiscard]] std::shared_ptr<SensorBoardPorts> makeUsbSensorBoards(std::shared_ptr<UsbContext> context,
-                                                                    OpenTerminal openTerminal);
+/// Where USB does not start (a container) only `tty=` opens anything.
+[[nodiscard]] std::shared_ptr<SensorBoardPorts> makeUsbSensorBoards(UsbProvider usb, OpenTerminal openTerminal);
 
 }  // namespace tacto

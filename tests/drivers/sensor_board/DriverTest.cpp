@@ -22,14 +22,14 @@ public:
                 std::make_shared<EmulatedBoardLine>(clock, &clock, settings, std::make_unique<CountingSignal>()));
         }
     }
-    std::vector<SensorBoardPort> list() const override {
-        std::vector<SensorBoardPort> found = extra;
+    std::vector<TransportPort> list() const override {
+        std::vector<TransportPort> found = extra;
         for (const auto& line : lines) {
             for (auto& port : line->list()) found.push_back(port);
         }
         return found;
     }
-    Result<std::unique_ptr<Transport>> open(const SensorBoardPort& port) override {
+    Result<std::unique_ptr<Transport>> open(const TransportPort& port) override {
         ++opened;
         return lines[port.serial == "TSB-1" ? 0 : 1]->connect();
     }
@@ -39,7 +39,7 @@ public:
     }
 
     std::vector<std::shared_ptr<EmulatedBoardLine>> lines;
-    std::vector<SensorBoardPort> extra;
+    std::vector<TransportPort> extra;
     std::string terminal;
     int opened = 0;
 };
@@ -62,37 +62,38 @@ TEST_F(SensorBoardDriverTest, ListsWhatIsPluggedInWithWhatIsInTheWay) {
     ports_->extra.push_back({"TSB-9", "1-4", "USB device 1209:0001 may not be opened: run ./dev install-rules"});
     const auto found = driver_->list();
     ASSERT_EQ(found.size(), 3U);
-    EXPECT_EQ(found[0].uri, "board:TSB-9");
-    EXPECT_THAT(found[0].name, HasSubstr("install-rules"));
-    EXPECT_EQ(found[1].uri, "board:TSB-1");
+    EXPECT_EQ(found[0].uri, "sensor:TSB-9");
+    EXPECT_THAT(found[0].obstacle, HasSubstr("install-rules"));
+    EXPECT_EQ(found[1].obstacle, "");
+    EXPECT_EQ(found[1].uri, "sensor:TSB-1");
     EXPECT_EQ(found[1].role, Role::Sensor);
     EXPECT_FALSE(driver_->runsOnVirtualClock());
-    EXPECT_EQ(driver_->scheme(), "board");
+    EXPECT_EQ(driver_->scheme(), "sensor");
 }
 
 TEST_F(SensorBoardDriverTest, OpensTheFirstThatAnswersOrTheOneNamed) {
     RecordProperty("hazard", "H4");
-    ASSERT_TRUE(open("board:").has_value());
+    ASSERT_TRUE(open("sensor:").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-1");
     devices_.sensor.reset();
-    ASSERT_TRUE(open("board:TSB-2").has_value());
+    ASSERT_TRUE(open("sensor:TSB-2").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
-    EXPECT_EQ(devices_.sensor->identity().uri, "board:TSB-2");
+    EXPECT_EQ(devices_.sensor->identity().uri, "sensor:TSB-2");
 }
 
 TEST_F(SensorBoardDriverTest, PassesOverABoardThatMayNotBeOpened) {
     ports_->extra.push_back({"TSB-9", "1-4", "it may not be opened: run ./dev install-rules"});
-    ASSERT_TRUE(open("board:").has_value());
+    ASSERT_TRUE(open("sensor:").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-1");
     devices_.sensor.reset();
-    const auto refused = open("board:TSB-9");
+    const auto refused = open("sensor:TSB-9");
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::Io);
     EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
 }
 
 TEST_F(SensorBoardDriverTest, WhatIsNotThereIsNotFound) {
-    const auto refused = open("board:TSB-3");
+    const auto refused = open("sensor:TSB-3");
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
     EXPECT_THAT(refused.error().message,
@@ -101,22 +102,22 @@ TEST_F(SensorBoardDriverTest, WhatIsNotThereIsNotFound) {
 }
 
 TEST_F(SensorBoardDriverTest, ReadsItsParameters) {
-    ASSERT_TRUE(open("board:?rate=2kHz&slowrate=100").has_value());
+    ASSERT_TRUE(open("sensor:?rate=2kHz&slowrate=100").has_value());
     EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
     EXPECT_EQ(devices_.sensor->streams()[1].rate_hz, 100);
     devices_.sensor.reset();
-    ASSERT_TRUE(open("board:?tty=/dev/pts/7").has_value());
+    ASSERT_TRUE(open("sensor:?tty=/dev/pts/7").has_value());
     EXPECT_EQ(ports_->terminal, "/dev/pts/7");
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
 }
 
 TEST_F(SensorBoardDriverTest, RefusesParametersThatItDoesNotTake) {
-    for (const auto& [uri, expected] : {std::pair{"board:?rate=50", "rate=50 is not accepted: 100 Hz to 20 kHz"},
-                                        {"board:?rate=nan", "100 Hz to 20 kHz"},
-                                        {"board:?slowrate=5", "slowrate=5 is not accepted: 20 Hz to 2 kHz"},
-                                        {"board:?tty=", "a terminal's path, as /dev/ttyACM0"},
-                                        {"board:?speed=1", "it takes rate, slowrate, tty"},
-                                        {"board:?rate=2000&rate=1000", "rate is given twice"}}) {
+    for (const auto& [uri, expected] : {std::pair{"sensor:?rate=50", "rate=50 is not accepted: 100 Hz to 20 kHz"},
+                                        {"sensor:?rate=nan", "100 Hz to 20 kHz"},
+                                        {"sensor:?slowrate=5", "slowrate=5 is not accepted: 20 Hz to 2 kHz"},
+                                        {"sensor:?tty=", "a terminal's path, as /dev/ttyACM0"},
+                                        {"sensor:?speed=1", "it takes rate, slowrate, tty"},
+                                        {"sensor:?rate=2000&rate=1000", "rate is given twice"}}) {
         const auto refused = open(uri);
         ASSERT_FALSE(refused.has_value()) << uri;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
@@ -126,8 +127,8 @@ TEST_F(SensorBoardDriverTest, RefusesParametersThatItDoesNotTake) {
 }
 
 TEST_F(SensorBoardDriverTest, ABenchHasOneSensor) {
-    ASSERT_TRUE(open("board:").has_value());
-    const auto refused = open("board:TSB-2");
+    ASSERT_TRUE(open("sensor:").has_value());
+    const auto refused = open("sensor:TSB-2");
     ASSERT_FALSE(refused.has_value());
     EXPECT_THAT(refused.error().message, HasSubstr("a sensor is open already"));
 }

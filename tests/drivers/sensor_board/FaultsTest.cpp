@@ -285,7 +285,7 @@ TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
     EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
     EXPECT_EQ(
         refused.error().message,
-        "sensor board \"board:\": it speaks versions 2 to 3 of the sensor board protocol; version 1 was expected");
+        "sensor board \"sensor:\": it speaks versions 2 to 3 of the sensor board protocol; version 1 was expected");
 }
 
 TEST(SensorBoardFaults, WrongUnitsAreRefused) {
@@ -296,13 +296,13 @@ TEST(SensorBoardFaults, WrongUnitsAreRefused) {
     const auto refused = bench.tryOpen();
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().message,
-              "sensor board \"board:\": its acceleration stream is in Pa; m/s2 or count was expected");
+              "sensor board \"sensor:\": its acceleration stream is in Pa; m/s2 or count was expected");
 }
 
 TEST(SensorBoardFaults, AnotherBoardThanTheOneNamedIsRefused) {
     RecordProperty("hazard", "H4");
     SensorBoardBench bench;
-    const auto refused = bench.tryOpen({"board:TSB-7", "TSB-7"});
+    const auto refused = bench.tryOpen({"sensor:TSB-7", "TSB-7"});
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
     EXPECT_THAT(refused.error().message, HasSubstr("its serial number is \"EMU-0001\"; \"TSB-7\" was expected"));

@@ -15,9 +15,9 @@ using namespace sensorboard;
 
 TEST(SensorBoard, SaysWhatItIs) {
     SensorBoardBench bench;
-    bench.open({"board:EMU-0001", "EMU-0001"});
+    bench.open({"sensor:EMU-0001", "EMU-0001"});
     const auto& identity = bench.board->identity();
-    EXPECT_EQ(identity.uri, "board:EMU-0001");
+    EXPECT_EQ(identity.uri, "sensor:EMU-0001");
     EXPECT_EQ(identity.role, Role::Sensor);
     EXPECT_EQ(identity.name, "emulated sensor board");
     EXPECT_EQ(identity.serial, "EMU-0001");

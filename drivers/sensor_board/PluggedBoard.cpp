@@ -1,0 +1,46 @@
+#include "drivers/sensor_board/PluggedBoard.h"
+
+#include <algorithm>
+
+#include "drivers/sensor_board/BoardReport.h"
+
+namespace tacto::sensorboard {
+
+PluggedBoard::PluggedBoard(std::unique_ptr<SensorBoard> board, Open open)
+    : identity_(board->identity()),
+      streams_(board->streams().begin(), board->streams().end()),
+      open_(std::move(open)),
+      board_(std::move(board)) {
+    report_.write(board_->report());
+}
+
+Result<void> PluggedBoard::read(std::span<SampleBlock> blocks) {
+    if (!board_) return fail(ErrorCode::Device, "{} {} is not open", identity_.name, identity_.serial);
+    auto taken = board_->read(blocks);
+    report_.write(together(before_, board_->report()));
+    return taken;
+}
+
+Result<void> PluggedBoard::reconnect() {
+    if (board_) {
+        before_ = together(before_, board_->report());
+        board_.reset();  // before the same device is opened again
+    }
+    auto opened = open_(identity_.serial);
+    if (!opened) return failure(opened);
+    const auto& found = **opened;
+    const auto same = [](const StreamInfo& a, const StreamInfo& b) {
+        return a.kind == b.kind && a.unit == b.unit && a.channels == b.channels && a.rate_hz == b.rate_hz;
+    };
+    if (!std::ranges::equal(found.streams(), streams_, same)) {
+        return fail(ErrorCode::Device,
+                    "{} {} came back with other streams than it had; close the bench and open it again", identity_.name,
+                    identity_.serial);
+    }
+    board_ = std::move(*opened);
+    return {};
+}
+
+DeviceReport PluggedBoard::deviceReport() const noexcept { return rowsOf(report_.read()); }
+
+}  // namespace tacto::sensorboard

@@ -1,0 +1,88 @@
+// A board on a serial port: the emulated one behind a pseudo-terminal, opened as `sensor:?tty=`, in real time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/devices/DeviceReport.h"
+#include "drivers/sciencemode/TtyTransport.h"
+#include "drivers/sensor_board/UsbSensorBoards.h"
+#include "tests/drivers/sensor_board/BoardOnPty.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+class SensorBoardOnTerminal : public testing::Test {
+protected:
+    Result<void> open(const std::string& parameters) {
+        devices_ = {};
+        return driver_->open(*DeviceUri::parse("sensor:" + parameters), {}, {clock_}, devices_);
+    }
+    /// Reads every 2 ms, as a session does, until `enough` or for 10 s. The first error ends it.
+    template <class Enough>
+    Result<void> readUntil(Enough enough) {
+        blocks_.assign(devices_.sensor->streams().size(), {});
+        const auto end = std::chrono::steady_clock::now() + 10s;
+        while (!enough() && std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(2ms);
+            if (auto read = devices_.sensor->read(blocks_); !read) return read;
+        }
+        return {};
+    }
+
+    SteadyClock clock_;
+    // The USB that there may be has no part in this.
+    std::unique_ptr<Driver> driver_ = makeSensorBoardDriver(
+        makeUsbSensorBoards([] { return fail(ErrorCode::Io, "no USB here"); }, sciencemode::TtyTransport::open));
+    DeviceSet devices_;
+    std::vector<SampleBlock> blocks_;
+};
+
+TEST_F(SensorBoardOnTerminal, IsOpenedByThePathAndStreams) {
+    sensorboard::EmulatedBoardSettings settings;
+    settings.serial = "TSB-0003";
+    BoardOnPty board(clock_, settings);
+    const auto opened = open("?rate=2kHz&tty=" + board.path());
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-0003");
+    EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
+    const auto read = readUntil([&] { return blocks_[0].samples() >= 1000; });
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_GE(blocks_[0].samples(), 1000U);
+    EXPECT_EQ(dynamic_cast<ReportingDevice&>(*devices_.sensor).deviceReport().losses, 0U);
+    devices_ = {};
+    EXPECT_TRUE(open("TSB-0003?tty=" + board.path())) << "closed and opened again";
+}
+
+TEST_F(SensorBoardOnTerminal, AnotherBoardThanTheOneNamedIsRefused) {
+    RecordProperty("hazard", "H4");
+    BoardOnPty board(clock_);
+    const auto refused = open("TSB-0009?tty=" + board.path());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(refused.error().message, HasSubstr("its serial number is \"EMU-0001\"; \"TSB-0009\" was expected"));
+}
+
+TEST_F(SensorBoardOnTerminal, TheOtherEndGoingIsAnErrorOfRead) {
+    RecordProperty("hazard", "H7");
+    auto board = std::make_unique<BoardOnPty>(clock_);
+    const auto path = board->path();
+    ASSERT_TRUE(open("?tty=" + path));
+    ASSERT_TRUE(readUntil([&] { return blocks_[0].samples() >= 200; }));
+    board.reset();
+    const auto gone = readUntil([] { return false; });
+    ASSERT_FALSE(gone);
+    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_THAT(gone.error().message, HasSubstr(path));
+}
+
+TEST_F(SensorBoardOnTerminal, WhereNothingIsNothingIsFound) {
+    const auto refused = open("?tty=/dev/pts/98765");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+    EXPECT_TRUE(driver_->list().empty());
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,189 @@
+// A bench with a sensor board over the real libusb, in real time: what is lost is counted, shown and kept; a board that
+// is unplugged ends the output, and comes back after a reset.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/bench/Bench.h"
+#include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
+#include "core/session/SessionWriter.h"
+#include "drivers/sensor_board/UsbSensorBoards.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/drivers/sensor_board/BoardOnUsb.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace std::chrono_literals;
+using sensorboard::FingerSignal;
+using testing::HasSubstr;
+
+sensorboard::EmulatedBoardSettings named(const std::string& serial) {
+    sensorboard::EmulatedBoardSettings settings;
+    settings.serial = serial;
+    return settings;
+}
+
+class SensorBoardBenchOnUsb : public testing::Test {
+protected:
+    [[nodiscard]] Registry registry() {
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        drivers.push_back(makeSensorBoardDriver(makeUsbSensorBoards(usb_, nullptr)));
+        return Registry(std::move(drivers));
+    }
+    template <class Condition>
+    [[nodiscard]] static bool comes(Condition condition) {
+        const auto end = std::chrono::steady_clock::now() + 5s;
+        while (!condition()) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for(5ms);
+        }
+        return true;
+    }
+    [[nodiscard]] bool present() {
+        const auto devices = registry().list();
+        return std::ranges::any_of(devices, [](const auto& device) { return device.uri == "sensor:TSB-0001"; });
+    }
+    void open() {
+        ASSERT_TRUE(comes([&] { return present(); }));
+        auto drivers = registry();
+        auto devices = drivers.open(std::vector{*DeviceUri::parse("sensor:"), *DeviceUri::parse("sim:")},
+                                    {Role::Sensor, Role::Stimulator}, OpenContext{*clock_, 1, "1 kohm"});
+        ASSERT_TRUE(devices) << devices.error().message;
+        session_ = SessionWriter::create(file(), SessionAbout{}, *clock_).value();
+        BenchConfig config;
+        config.devices = std::move(*devices);
+        config.clock = clock_;
+        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+        config.session = session_.get();
+        auto bench = Bench::create(std::move(config));
+        ASSERT_TRUE(bench) << bench.error().message;
+        bench_ = std::move(*bench);
+    }
+    void deliver() {
+        const auto armed = bench_->arm(ArmRequest{"1 kohm", true, true});
+        ASSERT_TRUE(armed) << armed.error().message;
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
+        ASSERT_TRUE(comes([&] { return bench_->telemetry().trainsDelivered > 0; }));
+    }
+    [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "run.tacto"; }
+    /// The bodies of all events of a kind, once the bench is closed.
+    [[nodiscard]] std::vector<nlohmann::json> eventsOf(const std::string& kind) {
+        bench_.reset();
+        EXPECT_TRUE(session_->close());
+        const auto reader = SessionReader::open(file());
+        EXPECT_TRUE(reader);
+        std::vector<nlohmann::json> found;
+        const auto events = reader->events();
+        EXPECT_TRUE(events);
+        for (const auto& event : *events) {
+            if (event.name == kind) found.push_back(event.body);
+        }
+        return found;
+    }
+    [[nodiscard]] double reported(std::string_view key) const {
+        const auto report = bench_->deviceReport(Role::Sensor);
+        if (!report) return std::nan("");
+        for (const auto& row : report->rows()) {
+            if (row.key == key) return row.value;
+        }
+        return std::nan("");
+    }
+
+    UsbTestbed bed_;
+    std::shared_ptr<SteadyClock> clock_ = std::make_shared<SteadyClock>();
+    BoardOnUsb device_{bed_, *clock_, named("TSB-0001"), BoardInterface::Serial, 1, [](Instant now) {
+                           return std::make_unique<FingerSignal>(sim::FingerSettings{}, now);
+                       }};
+    UsbProvider usb_ = makeUsbProvider();
+    const ScratchDir folder_;
+    std::unique_ptr<SessionWriter> session_;
+    std::unique_ptr<Bench> bench_;
+};
+
+TEST_F(SensorBoardBenchOnUsb, WhatIsLostIsCountedInTheStreamsAndKeptInTheSession) {
+    RecordProperty("hazard", "H7");
+    open();
+    ASSERT_TRUE(comes([&] { return reported("samples") > 500; }));
+    EXPECT_EQ(bench_->telemetry().gaps, 0U);
+    device_.board().inspect([](auto& board, Instant) { board.dropNext(0); });
+    ASSERT_TRUE(comes([&] { return bench_->telemetry().gaps == 1; })) << "a gap is never bridged";
+    EXPECT_EQ(reported("frames_lost"), 1);
+    EXPECT_EQ(reported("samples_lost"), 32);
+    // The control loop looks every 100 ms.
+    ASSERT_TRUE(bench_->wait(Seconds(0.3)));
+
+    const auto reports = eventsOf("device report");
+    ASSERT_EQ(reports.size(), 2U) << "when it happened, and at the end";
+    EXPECT_THAT(reports[0]["text"].get<std::string>(), HasSubstr("lost"));
+    EXPECT_EQ(reports[0]["samples_lost"], 32);
+    EXPECT_EQ(reports[1]["samples_lost"], 32);
+    EXPECT_EQ(reports[1]["gaps"], 1);
+    EXPECT_EQ(reports[1]["crc_errors"], 0);
+    EXPECT_TRUE(reports[1].contains("drift_ppm"));
+    EXPECT_GT(reports[1]["samples"], reports[0]["samples"]);
+}
+
+TEST_F(SensorBoardBenchOnUsb, ALineThatGoesOnLosingDoesNotFillTheSession) {
+    open();
+    device_.board().inspect([](auto& board, Instant) { board.spoil({.drop = 0.3, .flip = 0.3}); });
+    ASSERT_TRUE(comes([&] { return reported("crc_errors") > 20; }));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    const auto reports = eventsOf("device report");
+    ASSERT_EQ(reports.size(), 2U);
+    EXPECT_GT(reports[1]["crc_errors"], reports[0]["crc_errors"]);
+}
+
+TEST_F(SensorBoardBenchOnUsb, UnpluggedItEndsTheOutputAndPluggedInAgainItIsFoundAfterAReset) {
+    RecordProperty("hazard", "H2");
+    open();
+    deliver();
+    device_.unplug();
+    ASSERT_TRUE(comes([&] { return bench_->telemetry().state == InterlockState::Faulted; }));
+    EXPECT_THAT(std::string(bench_->telemetry().reason.view()), HasSubstr("fingertip sensor failed"));
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    const auto waited = bench_->wait(Seconds(1));
+    ASSERT_FALSE(waited);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+    const auto refused = bench_->resetFault();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("no such sensor board is plugged in"));
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
+
+    const double before = reported("samples");
+    device_.plug();
+    ASSERT_TRUE(comes([&] { return present(); }));
+    std::this_thread::sleep_for(300ms);
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted) << "nothing goes on by itself";
+    const auto reset = bench_->resetFault();
+    ASSERT_TRUE(reset) << reset.error().message;
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
+    ASSERT_TRUE(comes([&] { return reported("samples") > before + 500; })) << "and its report goes on counting";
+    EXPECT_TRUE(comes([&] { return bench_->telemetry().sensorAge_s < 0.1; }));
+    deliver();
+
+    const auto faults = eventsOf("fault");
+    ASSERT_EQ(faults.size(), 1U);
+    const auto verified = verifySession(file());
+    ASSERT_TRUE(verified) << verified.error().message;
+    EXPECT_EQ(verified->status, SessionStatus::Intact);
+}
+
+TEST_F(SensorBoardBenchOnUsb, AnotherBoardInItsPlaceIsNotTaken) {
+    RecordProperty("hazard", "H4");
+    open();
+    device_.unplug();
+    ASSERT_TRUE(comes([&] { return bench_->telemetry().state == InterlockState::Faulted; }));
+    BoardOnUsb other(bed_, *clock_, named("TSB-0002"), BoardInterface::Serial, 2);
+    ASSERT_TRUE(comes([&] { return registry().list().size() > 1; }));
+    const auto refused = bench_->resetFault();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("sensor:TSB-0001"));
+    EXPECT_FALSE(other.board().inspect([](auto& board, Instant) { return board.running(); }));
+}
+
+}  // namespace
+}  // namespace tacto::test
