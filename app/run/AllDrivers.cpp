@@ -5,6 +5,8 @@
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/sciencemode/TtyTransport.h"
+#include "drivers/sensor_board/UsbSensorBoards.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/usb/UsbPorts.h"
 
@@ -23,6 +25,7 @@ std::function<Registry()> allDrivers() {
         drivers.push_back(makeCaptureDriver());
         drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb, {kScienceMode}, {})));
         drivers.push_back(makePulsePalDriver(makeUsbPorts(usb, {kPulsePal}, {.dataTerminalReady = true})));
+        drivers.push_back(makeSensorBoardDriver(makeUsbSensorBoards(usb, sciencemode::TtyTransport::open)));
         if (const auto resources = resourcesFolder()) {
             drivers.push_back(hid::makeHidDriver(hid::systemHid(*resources / "massagers", usb)));
         }
@@ -31,5 +34,9 @@ std::function<Registry()> allDrivers() {
 }
 
 std::shared_ptr<TransportPorts> scienceModePorts() { return makeUsbPorts(makeUsbProvider(), {kScienceMode}, {}); }
+
+std::shared_ptr<SensorBoardPorts> sensorBoardPorts() {
+    return makeUsbSensorBoards(makeUsbProvider(), sciencemode::TtyTransport::open);
+}
 
 }  // namespace tacto

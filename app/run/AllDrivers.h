@@ -10,10 +10,15 @@
 
 namespace tacto {
 
+class SensorBoardPorts;
+
 /// Registries of everything this version can open.
 [[nodiscard]] std::function<Registry()> allDrivers();
 
 /// The sockets that may hold a ScienceMode stimulator, for looking at one without opening it as a device.
 [[nodiscard]] std::shared_ptr<TransportPorts> scienceModePorts();
+
+/// Where sensor boards may be, for looking at one without a bench.
+[[nodiscard]] std::shared_ptr<SensorBoardPorts> sensorBoardPorts();
 
 }  // namespace tacto

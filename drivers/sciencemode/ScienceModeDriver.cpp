@@ -146,9 +146,9 @@ public:
         std::vector<DeviceIdentity> found;
         if (!ports_) return found;
         for (const auto& port : ports_->list()) {
-            auto name = port.obstacle.empty() ? std::string("ScienceMode stimulator, or another STM32 serial port")
-                                              : fmt::format("ScienceMode stimulator? {}", port.obstacle);
-            found.push_back({"sciencemode:" + port.serial, Role::Stimulator, std::move(name), port.serial, "", false});
+            found.push_back({"sciencemode:" + port.serial, Role::Stimulator,
+                             "ScienceMode stimulator, or another STM32 serial port", port.serial, "", false,
+                             port.obstacle});
         }
         return found;
     }

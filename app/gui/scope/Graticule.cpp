@@ -58,8 +58,8 @@ void GraticuleTicker::generate(const QCPRange& range, const QLocale&, QChar, int
 RecordGround::RecordGround(QCPAxis* keyAxis) : QCPLayerable(keyAxis->parentPlot(), "grid"), keys_(keyAxis) {}
 
 void RecordGround::draw(QCPPainter* painter) {
-    if (records_.empty()) return;
     const QRectF area(keys_->axisRect()->rect());
+    if (records_.empty() || area.isEmpty()) return;  // empty: not laid out yet
     const auto range = keys_->range();
     const auto x = [&](double key) {
         return std::clamp(area.left() + (key - range.lower) / range.size() * area.width(), area.left(), area.right());

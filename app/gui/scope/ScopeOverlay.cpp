@@ -112,6 +112,7 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
 }
 
 void ScopeOverlay::draw(QCPPainter* painter) {
+    if (area().isEmpty()) return;  // not laid out yet
     painter->setFont(font());
     drawMarks(*painter);
     drawNote(*painter);

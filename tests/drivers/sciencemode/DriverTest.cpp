@@ -129,7 +129,7 @@ TEST_F(ScienceModeUri, SaysWhyNothingCouldBeOpened) {
     EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
     const auto listed = driver_->list();
     ASSERT_EQ(listed.size(), 1U);
-    EXPECT_THAT(listed[0].name, HasSubstr("install-rules"));
+    EXPECT_THAT(listed[0].obstacle, HasSubstr("install-rules"));
     EXPECT_EQ(listed[0].uri, "sciencemode:A1");
 }
 

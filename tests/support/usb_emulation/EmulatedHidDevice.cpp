@@ -25,12 +25,19 @@ void check(GError* error) {
 
 EmulatedHidDevice::EmulatedHidDevice(UsbTestbed& testbed, std::uint16_t vendor, std::uint16_t product,
                                      std::string serial, UsbBytes reportDescriptor, HidBehaviour behaviour, int port)
-    : emulation_(std::make_unique<Emulation>(testbed, vendor, product, std::move(serial), std::move(reportDescriptor),
+    : emulation_(std::make_shared<Emulation>(testbed, vendor, product, std::move(serial), std::move(reportDescriptor),
                                              std::move(behaviour), port)) {
+    Emulation::connectTo(emulation_);
     plug();
 }
 
-EmulatedHidDevice::~EmulatedHidDevice() { unplug(); }
+EmulatedHidDevice::~EmulatedHidDevice() {
+    unplug();
+    auto* handler = emulation_->handler;
+    publish();
+    emulation_.reset();
+    g_object_unref(handler);
+}
 
 void EmulatedHidDevice::plug() {
     auto& e = *emulation_;

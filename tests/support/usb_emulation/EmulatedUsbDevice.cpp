@@ -25,11 +25,18 @@ void check(GError* error, const char* what) {
 
 EmulatedUsbDevice::EmulatedUsbDevice(UsbTestbed& testbed, UsbDescription description, UsbBehaviour behaviour, int port,
                                      bool plugged)
-    : emulation_(std::make_unique<Emulation>(testbed, std::move(description), std::move(behaviour), port)) {
+    : emulation_(std::make_shared<Emulation>(testbed, std::move(description), std::move(behaviour), port)) {
+    Emulation::connectTo(emulation_);
     if (plugged) plug();
 }
 
-EmulatedUsbDevice::~EmulatedUsbDevice() { unplug(); }
+EmulatedUsbDevice::~EmulatedUsbDevice() {
+    unplug();
+    auto* handler = emulation_->handler;
+    publish();
+    emulation_.reset();
+    g_object_unref(handler);
+}
 
 void EmulatedUsbDevice::plug() {
     auto& e = *emulation_;

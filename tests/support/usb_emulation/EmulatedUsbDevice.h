@@ -90,7 +90,7 @@ public:
 
 private:
     struct Emulation;
-    std::unique_ptr<Emulation> emulation_;
+    std::shared_ptr<Emulation> emulation_;  // also umockdev's, as long as a client has the node open
 };
 
 }  // namespace tacto::test

@@ -9,15 +9,17 @@
 
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 #include "tests/support/usb_emulation/HidrawNode.h"
+#include "tests/support/usb_emulation/Published.h"
 
 namespace tacto::test {
 
 struct EmulatedHidDevice::Emulation {
     Emulation(UsbTestbed& bed, std::uint16_t vendorId, std::uint16_t productId, std::string serialNumber,
               UsbBytes reportDescriptor, HidBehaviour behaves, int port);
-    ~Emulation();
+    ~Emulation() { takeOver(); }
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
+    static void connectTo(const std::shared_ptr<Emulation>& self);
 
     static gboolean onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user);
     static gboolean onRead(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user);
@@ -46,7 +48,7 @@ struct EmulatedHidDevice::Emulation {
     const HidBehaviour behaviour;
     const std::string node;
     const int minor;
-    UMockdevIoctlBase* const handler;
+    UMockdevIoctlBase* const handler;  // the device's: it keeps this
 
     mutable std::mutex mutex;  // guards all below but usb
     mutable std::condition_variable changed;

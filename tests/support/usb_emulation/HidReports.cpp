@@ -45,20 +45,17 @@ EmulatedHidDevice::Emulation::Emulation(UsbTestbed& bed, std::uint16_t vendorId,
       usb(bed, hidDevice(vendor, product, serial, descriptor.size()),
           {[this](auto bytes) { return fromUsb(bytes); },
            [this](const auto& setup, auto data) { return request(setup, data); }},
-          port, false) {
-    const auto on = [this](const char* signal, auto callback) {
-        g_signal_connect(handler, signal, reinterpret_cast<GCallback>(callback), this);
+          port, false) {}
+
+void EmulatedHidDevice::Emulation::connectTo(const std::shared_ptr<Emulation>& self) {
+    const auto on = [&self](const char* signal, auto callback) {
+        connect(self->handler, signal, reinterpret_cast<GCallback>(callback), self);
     };
     on("handle-ioctl", &Emulation::onIoctl);
     on("handle-read", &Emulation::onRead);
     on("handle-write", &Emulation::onWrite);
     on("client-connected", &Emulation::onConnected);
     on("client-vanished", &Emulation::onVanished);
-}
-
-EmulatedHidDevice::Emulation::~Emulation() {
-    takeOver();
-    g_object_unref(handler);
 }
 
 std::vector<UsbBytes> EmulatedHidDevice::Emulation::take(std::span<const std::uint8_t> report) {

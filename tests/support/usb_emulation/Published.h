@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
+#include <umockdev.h>
 
 namespace tacto::test {
 
@@ -14,11 +16,22 @@ inline void publish() noexcept { publications.fetch_add(1, std::memory_order_acq
 /// The other side takes it over.
 inline void takeOver() noexcept { (void)publications.load(std::memory_order_acquire); }
 
+/// Has `callback` answer a signal of umockdev's. What is behind it lives as long as the handler, which whoever still
+/// has the node open keeps: a test may be done with a device before the program is.
+template <class T>
+void connect(UMockdevIoctlBase* handler, const char* signal, GCallback callback, const std::shared_ptr<T>& emulation) {
+    const auto release = [](void* user, GClosure*) {
+        takeOver();
+        delete static_cast<std::shared_ptr<T>*>(user);
+    };
+    g_signal_connect_data(handler, signal, callback, new std::shared_ptr<T>(emulation), release, GConnectFlags{});
+}
+
 /// The object behind the pointer that umockdev hands back.
 template <class T>
 [[nodiscard]] T& seen(void* user) noexcept {
     takeOver();
-    return *static_cast<T*>(user);
+    return **static_cast<std::shared_ptr<T>*>(user);
 }
 
 }  // namespace tacto::test

@@ -35,15 +35,12 @@ EmulatedUsbDevice::Emulation::Emulation(UsbTestbed& bed, UsbDescription describe
       socket(fmt::format("1-{}", port)),
       sysfs(fmt::format("/sys/devices/pci0000:00/usb1/{}", socket)),
       wire(endpointsOf(description)),
-      handler(umockdev_ioctl_base_new()) {
-    g_signal_connect(handler, "handle-ioctl", reinterpret_cast<GCallback>(&Emulation::onIoctl), this);
-    g_signal_connect(handler, "client-connected", reinterpret_cast<GCallback>(&Emulation::onConnected), this);
-    g_signal_connect(handler, "client-vanished", reinterpret_cast<GCallback>(&Emulation::onVanished), this);
-}
+      handler(umockdev_ioctl_base_new()) {}
 
-EmulatedUsbDevice::Emulation::~Emulation() {
-    takeOver();
-    g_object_unref(handler);
+void EmulatedUsbDevice::Emulation::connectTo(const std::shared_ptr<Emulation>& self) {
+    connect(self->handler, "handle-ioctl", reinterpret_cast<GCallback>(&Emulation::onIoctl), self);
+    connect(self->handler, "client-connected", reinterpret_cast<GCallback>(&Emulation::onConnected), self);
+    connect(self->handler, "client-vanished", reinterpret_cast<GCallback>(&Emulation::onVanished), self);
 }
 
 gboolean EmulatedUsbDevice::Emulation::onIoctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer user) {

@@ -9,6 +9,7 @@
 #include <umockdev.h>
 
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
+#include "tests/support/usb_emulation/Published.h"
 #include "tests/support/usb_emulation/UsbNode.h"
 #include "tests/support/usb_emulation/UsbWire.h"
 
@@ -16,9 +17,10 @@ namespace tacto::test {
 
 struct EmulatedUsbDevice::Emulation {
     Emulation(UsbTestbed& bed, UsbDescription described, UsbBehaviour behaves, int port);
-    ~Emulation();
+    ~Emulation() { takeOver(); }
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
+    static void connectTo(const std::shared_ptr<Emulation>& self);
 
     static gboolean onIoctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
     static void onConnected(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
@@ -53,9 +55,9 @@ struct EmulatedUsbDevice::Emulation {
     mutable std::mutex mutex;  // guards all below
     mutable std::condition_variable changed;
     UsbWire wire;
-    UMockdevIoctlBase* const handler;
-    std::unique_ptr<UsbNode> node;  // null: unplugged
-    std::string path;               // of the node, as "/dev/bus/usb/001/002"
+    UMockdevIoctlBase* const handler;  // the device's: it keeps this
+    std::unique_ptr<UsbNode> node;     // null: unplugged
+    std::string path;                  // of the node, as "/dev/bus/usb/001/002"
     unsigned mode = 0666;
     bool kernelBound = false;
     std::set<const void*> connected;  // open files of this plug-in; those of an earlier one stay dead
