@@ -7,6 +7,7 @@
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
+#include "drivers/sigrok/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/usb/UsbPorts.h"
 
@@ -23,6 +24,7 @@ std::function<Registry()> allDrivers() {
         drivers.push_back(makeSimulatedDriver());
         drivers.push_back(makeRecordingDriver());
         drivers.push_back(makeCaptureDriver());
+        drivers.push_back(makeSigrokDriver(usb));
         drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb, {kScienceMode}, {})));
         drivers.push_back(makePulsePalDriver(makeUsbPorts(usb, {kPulsePal}, {.dataTerminalReady = true})));
         drivers.push_back(makeSensorBoardDriver(makeUsbSensorBoards(usb, sciencemode::TtyTransport::open)));

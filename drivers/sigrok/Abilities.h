@@ -1,0 +1,47 @@
+// Abilities.h - what a libsigrok device lets one set, as plain values. What is not in here is not offered.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tacto::sigrok_driver {
+
+/// libsigrok gives times and voltages as fractions, and takes back only those.
+struct Fraction {
+    std::uint64_t p = 0;
+    std::uint64_t q = 1;
+    [[nodiscard]] double value() const noexcept { return static_cast<double>(p) / static_cast<double>(q); }
+    bool operator==(const Fraction&) const = default;
+};
+
+struct ChannelAbilities {
+    std::string name;
+    std::vector<Fraction> voltsPerDivision;  ///< empty: the range cannot be set
+    std::vector<std::uint64_t> probes;       ///< empty: cannot be set
+    bool coupling = false;                   ///< can be set to DC
+};
+
+struct Abilities {
+    std::string driver;
+    std::string vendor, model, serial, firmware;
+    std::vector<ChannelAbilities> channels;   ///< the analog ones
+    std::vector<Fraction> timebases;          ///< seconds per division; empty: it streams
+    int divisions = 10;                       ///< across the screen
+    std::vector<std::string> triggerSources;  ///< empty: cannot be set
+    bool triggerSlope = false, triggerLevel = false, triggerPosition = false;
+    bool frameLimit = false, sampleLimit = false;
+    std::vector<std::string> dataSources;   ///< "Live", "Memory", ...; empty: cannot be set
+    double rateMin_hz = 0, rateMax_hz = 0;  ///< where the sampling rate can be set
+    double rateStep_hz = 0;                 ///< 0: only those listed
+    std::vector<double> rates_hz;           ///< where it is one of a list
+    /// Samples of a whole record from all channels together; 0 unknown. See RecordPlan.h.
+    std::size_t memory = 0;
+
+    [[nodiscard]] bool streams() const noexcept { return timebases.empty(); }
+};
+
+}  // namespace tacto::sigrok_driver

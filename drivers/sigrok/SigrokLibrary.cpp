@@ -1,0 +1,59 @@
+#include "drivers/sigrok/SigrokLibrary.h"
+
+#include <chrono>
+
+namespace tacto::sigrok_driver {
+
+SigrokLog& sigrokLog() noexcept {
+    thread_local SigrokLog log;
+    return log;
+}
+
+Result<std::shared_ptr<SigrokLibrary>> SigrokLibrary::get() {
+    static std::mutex mutex;
+    static std::weak_ptr<SigrokLibrary> running;
+    const std::scoped_lock lock(mutex);
+    if (auto library = running.lock()) return library;
+    auto context = guarded("libsigrok does not start", [] {
+        Glib::init();
+        auto created = sigrok::Context::create();
+        created->set_log_level(sigrok::LogLevel::WARN);
+        created->set_log_callback([](const sigrok::LogLevel* level, std::string message) {
+            if (level == nullptr || level->id() > SR_LOG_ERR) return;
+            SigrokLog& log = sigrokLog();
+            ++log.errors;
+            log.last = std::move(message);
+        });
+        return created;
+    });
+    if (!context) return fail(ErrorCode::Io, "{}", context.error().message);
+    std::shared_ptr<SigrokLibrary> library(new SigrokLibrary(std::move(*context)));
+    running = library;
+    return library;
+}
+
+Result<std::unique_lock<std::timed_mutex>> SigrokLibrary::calls() {
+    std::unique_lock lock(calls_, std::chrono::seconds(5));
+    if (!lock.owns_lock()) {
+        return fail(ErrorCode::Timeout, "libsigrok has been busy with another instrument for 5 s; try again");
+    }
+    return lock;
+}
+
+Error currentError(std::string_view what, unsigned before) noexcept {
+    std::string text;
+    try {
+        throw;
+    } catch (const Glib::Exception& error) {  // no std::exception in this glibmm
+        text = error.what();
+    } catch (const std::exception& error) {
+        text = error.what();
+    } catch (...) {
+        text = "an unknown exception";
+    }
+    const SigrokLog& log = sigrokLog();
+    if (log.errors != before) text += " (" + log.last + ")";
+    return {ErrorCode::Device, fmt::format("{}: {}", what, text)};
+}
+
+}  // namespace tacto::sigrok_driver
