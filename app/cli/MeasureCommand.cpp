@@ -3,6 +3,7 @@
 #include "app/cli/Command.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
+#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 

@@ -19,7 +19,7 @@
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
-#include "core/measure/CaptureFile.h"
+#include "core/measure/Capture.h"
 
 namespace tacto {
 
@@ -45,6 +45,13 @@ struct ReadWatch {
 /// Reports `fraction` and looks at the stop: a reader calls it after each chunk (at most a few MB apart).
 /// Errors: Stopped when a stop was requested.
 [[nodiscard]] Result<void> keepReading(const ReadWatch& watch, double fraction, std::string_view file);
+
+struct CaptureReading {
+    Capture capture;                    ///< samples in V and A; trigger_s is NaN where the file does not say
+    std::vector<std::string> warnings;  ///< sentences: what was tolerated or guessed, with line numbers
+    std::string formatId;               ///< which format it was: set by CaptureFormats::read()
+    std::string formatName;             ///< likewise, for people
+};
 
 /// What recognises() is shown: the file's beginning, at most kHeadBytes of it.
 constexpr std::size_t kHeadBytes = 64 * 1024;

@@ -28,6 +28,15 @@ std::vector<std::string_view> suffixesOf(const std::vector<std::unique_ptr<Captu
     return all;
 }
 
+std::string_view behindLines(std::string_view text, std::size_t lines) {
+    for (; lines > 0; --lines) {
+        const auto end = text.find('\n');
+        if (end == std::string_view::npos) return {};
+        text.remove_prefix(end + 1);
+    }
+    return text;
+}
+
 }  // namespace
 
 void CaptureFormats::add(std::unique_ptr<CaptureFormat> format) { formats_.push_back(std::move(format)); }
@@ -55,8 +64,9 @@ Result<const CaptureFormat*> CaptureFormats::formatOf(const std::filesystem::pat
     }
     const auto head = readHead(path);
     if (!head) return failure(head);
+    const auto looked = behindLines(*head, options.skipRows);
     for (const auto& format : formats_) {
-        if (format->recognises(path, *head)) return format.get();
+        if (format->recognises(path, looked)) return format.get();
     }
     return fail(ErrorCode::ParseError, "{}: the format is not recognised; known are {}", path.string(),
                 fmt::join(names, ", "));

@@ -1,5 +1,4 @@
-// ChannelOptions.h - columns, units and probe factors of ReadOptions on what a reader found: the same for every format
-// whose channels have names.
+// ChannelOptions.h - columns, units and probe factors of ReadOptions on what a file holds: the same for every format.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -10,19 +9,37 @@ namespace tacto {
 
 /// A unit as oscilloscopes spell it ("mV", "Volt", "µA", "second") in terms of V, A or s.
 struct SpelledUnit {
-    std::string_view unit;  ///< "V", "A" or "s"; "" for a bare number
-    double factor = 1;      ///< the number times this is in `unit`
+    std::string_view unit;  ///< "V", "A", "s"; "" for a bare number
+    double factor = 1;      ///< a number in the spelled unit times this is in `unit`
 };
-/// Capitals ignored (no oscilloscope writes megavolts). Nothing for an unknown one.
+/// Capitals ignored: no oscilloscope writes megavolts. Nothing for an unknown one.
 [[nodiscard]] std::optional<SpelledUnit> spelledUnit(std::string_view text);
 
-/// Keeps and orders the channels, replaces their units and multiplies by probe factors. Channels come in as the file
-/// has them, numbered from 1, their samples in the unit V, A or "" they name; --unit CH=mV says that the file's numbers
-/// are millivolts, whatever the file said, so `fileFactor` of each channel is what its numbers were multiplied by.
-/// Errors: InvalidArgument naming the option, its value and the channels there are, for a channel that is not there or
-/// twice, an unknown unit, or a probe factor that is 0 or not finite; for a time column (a format with one handles that
-/// itself and passes an empty one).
-[[nodiscard]] Result<void> applyChannelOptions(Capture& capture, std::vector<double> fileFactors,
-                                               const ReadOptions& options);
+/// One channel as the file has it, and then as it will be read.
+struct ChannelPlan {
+    std::string name;
+    std::size_t number = 0;   ///< by which options name it: of the column or the channel, from 1
+    std::string unit;         ///< "V", "A" or ""
+    double factor = 1;        ///< the file's numbers times this are in `unit`
+    std::string unknownUnit;  ///< what the file says and nobody understands; empty once an option says better
+};
+
+/// Keeps and orders the channels by options.columns, replaces units and multiplies by probe factors.
+/// Errors: InvalidArgument naming the option, its value and the channels there are: a channel that is not there, one
+/// named twice, an unknown unit, a probe factor that is 0 or not finite. ParseError for a unit that stays unknown.
+[[nodiscard]] Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
+                                                            const ReadOptions& options, std::string_view file);
+
+/// The same on channels that were read already, numbered from 1. `plans` say what their numbers were multiplied by;
+/// they are as many as the channels and in their order. Range, resolution and tolerances follow.
+/// Errors: as planChannels(); InvalidArgument for a time column or rows to skip, which only tables have.
+[[nodiscard]] Result<void> applyChannelOptions(Capture& capture, std::vector<ChannelPlan> plans,
+                                               const ReadOptions& options, std::string_view file);
+
+/// The rate that --sample-rate asks for. Errors: InvalidArgument unless it is finite and above 0.
+[[nodiscard]] Result<double> rateFrom(const ReadOptions& options);
+
+/// In lower case, trimmed: how names are compared.
+[[nodiscard]] std::string folded(std::string_view text);
 
 }  // namespace tacto

@@ -4,6 +4,7 @@
 #include <limits>
 #include <system_error>
 
+#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "drivers/replay/ReplayDrivers.h"
 

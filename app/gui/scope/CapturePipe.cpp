@@ -3,6 +3,7 @@
 #include <QFileInfo>
 
 #include "app/gui/scope/ScopeExport.h"
+#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 
 namespace tacto::gui {

@@ -14,6 +14,7 @@
 #include "app/gui/scope/Steps.h"
 #include "app/gui/scope/TraceMath.h"
 #include "app/report/NumberText.h"
+#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"

@@ -15,6 +15,7 @@
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"

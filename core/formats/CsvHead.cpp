@@ -1,0 +1,135 @@
+#include "core/formats/CsvHead.h"
+
+#include <algorithm>
+#include <fast_float/fast_float.h>
+#include <limits>
+
+#include "core/base/Text.h"
+
+namespace tacto {
+
+namespace {
+
+char separatorOf(std::string_view line) {
+    if (line.find('\t') != std::string_view::npos && line.find(',') == std::string_view::npos) return '\t';
+    const auto semicolons = std::count(line.begin(), line.end(), ';');
+    const auto commas = std::count(line.begin(), line.end(), ',');
+    return semicolons > commas ? ';' : ',';
+}
+
+/// The separator of most of the first lines: a title line in front of a table may hold anything.
+char separatorOf(const std::vector<std::string_view>& lines) {
+    constexpr std::size_t kLooked = 40;
+    std::size_t tabs = 0;
+    std::size_t semicolons = 0;
+    std::size_t seen = 0;
+    for (const auto line : lines) {
+        if (seen++ == kLooked) break;
+        const char its = separatorOf(line);
+        tabs += its == '\t' ? 1U : 0U;
+        semicolons += its == ';' ? 1U : 0U;
+    }
+    if (2 * tabs > seen) return '\t';
+    return 2 * semicolons > seen ? ';' : ',';
+}
+
+bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
+    bool any = false;
+    for (const auto& field : fields) {
+        if (field.empty()) continue;
+        if (!fieldNumber(field, point)) return false;
+        any = true;
+    }
+    return any;
+}
+
+}  // namespace
+
+bool isBlankOrComment(std::string_view line) {
+    const auto content = trimmed(line);
+    return content.empty() || content.front() == '#';
+}
+
+void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+    fields.clear();
+    std::size_t begin = 0;
+    for (;;) {
+        // A quoted field may hold separators; it may not span lines, which no table of readings does.
+        std::size_t search = begin;
+        const auto first = line.find_first_not_of(" \t", begin);
+        const bool quoted = first != std::string_view::npos && line[first] == '"';
+        if (quoted) {
+            const auto closing = line.find('"', first + 1);
+            search = closing == std::string_view::npos ? line.size() : closing + 1;
+        }
+        const auto end = std::min(line.find(separator, search), line.size());
+        auto field = trimmed(line.substr(begin, end - begin));
+        if (quoted && field.size() >= 2 && field.back() == '"') field = trimmed(field.substr(1, field.size() - 2));
+        fields.push_back(field);
+        if (end >= line.size()) return;
+        begin = end + 1;
+    }
+}
+
+std::optional<double> fieldNumber(std::string_view field, char point) {
+    if (field.starts_with('+')) field.remove_prefix(1);
+    const bool negative = field.starts_with('-');
+    if (field.ends_with("∞") && field.size() <= std::string_view("-∞").size()) {
+        return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+    }
+    double value = 0;
+    const auto [end, error] =
+        fast_float::from_chars_advanced(field.data(), field.data() + field.size(), value,
+                                        fast_float::parse_options(fast_float::chars_format::general, point));
+    if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+    return value;
+}
+
+CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
+    struct Seen {
+        std::size_t number;
+        std::size_t offset;
+        std::size_t behind;
+    };
+    std::vector<Seen> seen;
+    std::vector<std::string_view> lines;
+    std::size_t number = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        const auto behind = std::min(end + 1, text.size());
+        const auto line = text.substr(at, end - at);
+        ++number;
+        if (number > skipRows && !isBlankOrComment(line)) {
+            seen.push_back({number, at, behind});
+            lines.push_back(line);
+        }
+        at = behind;
+    }
+    CsvHead head;
+    head.separator = separatorOf(lines);
+    std::vector<std::string_view> fields;
+    const auto lineAt = [&](std::size_t i) {
+        cutLine(lines[i], head.separator, fields);
+        return CsvLine{seen[i].number, seen[i].offset, seen[i].behind, {fields.begin(), fields.end()}};
+    };
+    const auto firstRow = [&](char point) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (isRowOfNumbers(lineAt(i).fields, point)) return i;
+        }
+        return std::nullopt;
+    };
+    auto row = firstRow('.');
+    if (head.separator != ',') {
+        // The last line looked at may be cut off in the middle; anything before it settles the matter.
+        const auto withComma = firstRow(',');
+        if (withComma && (!row || *withComma < *row)) {
+            head.point = ',';
+            row = withComma;
+        }
+    }
+    for (std::size_t i = 0; i < row.value_or(lines.size()); ++i) head.header.push_back(lineAt(i));
+    if (row) head.firstRow = lineAt(*row);
+    return head;
+}
+
+}  // namespace tacto

@@ -1,0 +1,44 @@
+// CsvHead.h - the beginning of a table: where its header ends and its numbers begin, what separates them.
+//
+// Tolerated, as in core/base/Csv.h: CR LF, blank lines, `#` comment lines, quoted fields, trailing separators; comma,
+// semicolon or tab between fields. A decimal comma is taken where fields are separated by something else and hold
+// numbers only so.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto {
+
+/// One line that is neither blank nor a comment.
+struct CsvLine {
+    std::size_t number = 0;           ///< in the file, from 1
+    std::size_t offset = 0;           ///< of its first byte from the beginning of the text
+    std::size_t behind = 0;           ///< of the line after it
+    std::vector<std::string> fields;  ///< trimmed, without quotes
+};
+
+struct CsvHead {
+    std::vector<CsvLine> header;      ///< the lines before the first row of numbers; all that were seen where none is
+    std::optional<CsvLine> firstRow;  ///< the first line whose fields are numbers or empty
+    char separator = ',';
+    char point = '.';
+};
+
+/// Cuts a line into `fields`, trimmed and without outer quotes.
+void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields);
+
+[[nodiscard]] bool isBlankOrComment(std::string_view line);
+
+/// A number as tables have them: also nan, inf, ∞ (what PicoScope writes beyond the range; read as inf).
+[[nodiscard]] std::optional<double> fieldNumber(std::string_view field, char point);
+
+/// Looks at `text`, the file's beginning in whole lines (a last one that is cut off counts), after `skipRows` lines.
+[[nodiscard]] CsvHead readCsvHead(std::string_view text, std::size_t skipRows);
+
+}  // namespace tacto

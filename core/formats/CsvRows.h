@@ -1,0 +1,67 @@
+// CsvRows.h - the rows of a table, a thousand at a time.
+//
+// Most rows are nothing but numbers, and those are read without cutting them into fields. A row that is anything else
+// (empty fields, quotes, nan, blank lines) goes the slower way and means the same.
+//
+// Thread-safety: none; one owner.
+#pragma once
+
+#include <cstdint>
+
+#include "core/formats/CsvLayout.h"
+#include "core/formats/TextBlocks.h"
+
+namespace tacto {
+
+/// Columns that are asked for, of consecutive rows.
+struct RowBatch {
+    static constexpr std::size_t kRows = 1024;
+    std::size_t rows = 0;
+    std::vector<double> times;                 ///< as the file has them; empty where no column is one
+    std::vector<std::vector<float>> channels;  ///< in V, A or 1; not finite where the field is empty or says so
+    std::vector<std::size_t> lines;            ///< in the file, from 1
+};
+
+class CsvRows {
+public:
+    /// `layout` and `blocks` must outlive this; `blocks` stands at its beginning.
+    CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks& blocks);
+
+    /// The next rows; none at the end. Looks at `watch` once in every block.
+    /// Errors: Io, Stopped; ParseError for a field that is no number, a row too short or too long.
+    [[nodiscard]] Result<const RowBatch*> next(const ReadWatch& watch);
+
+    /// Bytes of text per row so far, for an estimate of what is to come; 0 before the first.
+    [[nodiscard]] double bytesPerRow() const noexcept;
+    /// Whether some value was infinite: beyond the instrument's range, not missing.
+    [[nodiscard]] bool sawInfinite() const noexcept { return sawInfinite_; }
+
+private:
+    struct Use {
+        enum class Kind : std::uint8_t { Ignored, Time, Channel } kind = Kind::Ignored;
+        float* into = nullptr;  ///< the channel's place in the batch
+        double factor = 1;
+    };
+    /// Takes rows from text_ until the batch is full or the block is used up.
+    [[nodiscard]] Result<void> takeRows();
+    /// Reads the row at `text` into batch row `row`; the start of the next line, or null when it is no plain row.
+    [[nodiscard]] const char* takePlainRow(const char* text, const char* end, std::size_t row);
+    [[nodiscard]] Result<void> takeFields(std::string_view line, std::size_t row);
+    void store(std::size_t column, std::size_t row, double value);
+
+    const CsvLayout& layout_;
+    const char separator_;
+    const char point_;
+    TextBlocks& blocks_;
+    std::vector<Use> uses_;
+    RowBatch batch_;
+    std::vector<std::string_view> fields_;
+    std::string_view text_;  ///< of the block, not taken yet
+    std::size_t line_;       ///< of the text's first byte
+    std::size_t skip_;       ///< bytes before the first row
+    std::uint64_t bytes_ = 0;
+    std::uint64_t rows_ = 0;
+    bool sawInfinite_ = false;
+};
+
+}  // namespace tacto

@@ -1,0 +1,53 @@
+// CsvTimes.h - rate and start of a table from its stamps, its header or the options, in that order of trust reversed:
+// what the user says, then what the header states and the stamps do not contradict, then the stamps.
+//
+// Thread-safety: none; one owner.
+#pragma once
+
+#include "core/formats/CsvLayout.h"
+#include "core/formats/EvenSteps.h"
+#include "core/formats/TextBlocks.h"
+
+namespace tacto {
+
+class CsvTimes {
+public:
+    explicit CsvTimes(const CsvLayout& layout) noexcept : factor_(layout.timeFactor) {}
+
+    void add(double stamp, std::size_t line) noexcept {
+        const double t = stamp * factor_;
+        // A NaN compares unequal to itself.
+        if (t != t && missingLine_ == 0) missingLine_ = line;
+        half_.add(t);
+        quarter_.add(t);
+    }
+
+    /// Remembers what was added so far, for dropBehindKept().
+    void keep() noexcept {
+        keptHalf_ = half_;
+        keptQuarter_ = quarter_;
+        keptMissingLine_ = missingLine_;
+    }
+    void dropBehindKept() noexcept {
+        half_ = keptHalf_;
+        quarter_ = keptQuarter_;
+        missingLine_ = keptMissingLine_;
+    }
+
+    /// Sets rate and start, with warnings. `rows` are those with values; `blocks` is read again where the stamps do not
+    /// fit, to name the line.
+    /// Errors: ParseError naming the line where a time is missing or does not rise evenly; Io, Stopped.
+    [[nodiscard]] Result<void> into(CaptureReading& reading, TextBlocks& blocks, const CsvHead& head,
+                                    const CsvLayout& layout, std::size_t rows, const ReadWatch& watch) const;
+
+private:
+    double factor_;
+    EvenSteps half_{0.5};      // accepted
+    EvenSteps quarter_{0.26};  // not worth a word: what rounding to half a step's digits does
+    std::size_t missingLine_ = 0;
+    EvenSteps keptHalf_{0.5};
+    EvenSteps keptQuarter_{0.26};
+    std::size_t keptMissingLine_ = 0;
+};
+
+}  // namespace tacto

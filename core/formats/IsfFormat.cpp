@@ -1,0 +1,177 @@
+#include "core/formats/IsfFormat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/Text.h"
+#include "core/formats/ByteFile.h"
+#include "core/formats/ChannelOptions.h"
+#include "core/formats/IsfPreamble.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr std::size_t kChunk = 1024 * 1024;
+
+/// "#6200000": how many bytes of samples follow, and where.
+struct Block {
+    std::size_t begin;
+    std::size_t bytes;
+};
+Result<Block> blockAt(std::string_view head, std::size_t at, std::string_view file) {
+    const auto wrong = [&] {
+        return fail(ErrorCode::ParseError,
+                    "{}: byte {}: '#', a digit and that many digits of a length were expected before the samples", file,
+                    at);
+    };
+    if (at + 2 > head.size() || head[at] != '#' || head[at + 1] < '1' || head[at + 1] > '9') return wrong();
+    const auto digits = static_cast<std::size_t>(head[at + 1] - '0');
+    const auto length = parseNumber(head.substr(at + 2, digits));
+    if (at + 2 + digits > head.size() || !length || !(*length >= 0) || *length != std::floor(*length)) return wrong();
+    return Block{at + 2 + digits, static_cast<std::size_t>(*length)};
+}
+
+float codeAt(const unsigned char* bytes, const IsfPreamble& pre) {
+    if (pre.bytes == 1) return pre.isSigned ? static_cast<float>(static_cast<signed char>(*bytes)) : *bytes;
+    const unsigned high = pre.mostFirst ? bytes[0] : bytes[1];
+    const unsigned low = pre.mostFirst ? bytes[1] : bytes[0];
+    const auto code = static_cast<std::uint16_t>(high << 8U | low);
+    return pre.isSigned ? static_cast<float>(static_cast<std::int16_t>(code)) : static_cast<float>(code);
+}
+
+Result<void> readBlock(ByteFile& file, std::string_view head, const IsfPreamble& pre, const ReadWatch& watch,
+                       CaptureReading& reading) {
+    auto& samples = reading.capture.channels[0].samples;
+    const auto block = blockAt(head, pre.curve, file.name());
+    if (!block) return failure(block);
+    const std::size_t announced = block->bytes / pre.bytes;
+    const auto there =
+        static_cast<std::size_t>(file.size() - std::min<std::uint64_t>(file.size(), block->begin)) / pre.bytes;
+    const std::size_t wanted = std::min({announced, pre.points, there});
+    if (wanted < pre.points) {
+        reading.warnings.push_back(fmt::format("{}: {} points are announced, {} are there: the file was cut short",
+                                               file.name(), pre.points, wanted));
+    }
+    if (auto placed = file.seek(block->begin); !placed) return placed;
+    samples.reserve(wanted);
+    std::vector<char> chunk(kChunk);
+    bool lowBits = false;
+    while (samples.size() < wanted) {
+        const auto got = file.read(chunk.data(), std::min(kChunk, (wanted - samples.size()) * pre.bytes));
+        if (!got) return failure(got);
+        const auto count = *got / pre.bytes;
+        if (count == 0) return fail(ErrorCode::Io, "{} became shorter while it was read", file.name());
+        const auto* bytes = reinterpret_cast<const unsigned char*>(chunk.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            const float code = codeAt(bytes + i * pre.bytes, pre);
+            lowBits = lowBits || (pre.bytes == 2 && std::fmod(code, 256.0F) != 0);
+            samples.push_back(static_cast<float>(pre.valueOf(static_cast<double>(code))));
+        }
+        const auto done = static_cast<double>(samples.size()) / static_cast<double>(wanted);
+        if (auto going = keepReading(watch, done, file.name()); !going) return going;
+    }
+    // Two bytes without low bits hold an 8-bit converter's codes, whose highest is 0x7F00.
+    const double step = pre.bytes == 2 && !lowBits ? 256 : 1;
+    const double codes = pre.bytes == 2 ? 65536 : 256;
+    const double lowest = pre.isSigned ? -codes / 2 : 0;
+    auto& channel = reading.capture.channels[0];
+    channel.low = std::min(pre.valueOf(lowest), pre.valueOf(lowest + codes - step));
+    channel.high = std::max(pre.valueOf(lowest), pre.valueOf(lowest + codes - step));
+    channel.lsb = std::abs(pre.scale) * step;
+    return {};
+}
+
+Result<void> readText(ByteFile& file, const IsfPreamble& pre, const ReadWatch& watch, CaptureReading& reading) {
+    auto& samples = reading.capture.channels[0].samples;
+    if (auto placed = file.seek(pre.curve); !placed) return placed;
+    std::vector<char> chunk(kChunk);
+    std::string rest;
+    std::uint64_t taken = pre.curve;
+    for (bool ended = false; !ended && samples.size() < pre.points;) {
+        const auto got = file.read(chunk.data(), chunk.size());
+        if (!got) return failure(got);
+        ended = *got == 0;
+        rest.append(chunk.data(), *got);
+        taken += *got;
+        std::size_t at = 0;
+        for (;;) {
+            const auto comma = rest.find_first_of(",;\n", at);
+            if (comma == std::string::npos && !ended) break;
+            const auto field = trimmed(std::string_view(rest).substr(at, comma - at));
+            if (!field.empty()) {
+                const auto code = parseNumber(field);
+                if (!code) {
+                    return fail(ErrorCode::ParseError, "{}: point {} is '{}'; a number was expected", file.name(),
+                                samples.size() + 1, field.substr(0, 40));
+                }
+                samples.push_back(static_cast<float>(pre.valueOf(*code)));
+            }
+            at = comma == std::string::npos ? rest.size() : comma + 1;
+            if (at >= rest.size() || samples.size() == pre.points) break;
+        }
+        rest.erase(0, at);
+        if (rest.size() > 2 * kChunk) {
+            return fail(ErrorCode::ParseError, "{}: point {} is longer than {} bytes; a number was expected",
+                        file.name(), samples.size() + 1, kChunk);
+        }
+        const auto done = static_cast<double>(taken) / static_cast<double>(std::max<std::uint64_t>(file.size(), 1));
+        if (auto going = keepReading(watch, std::min(1.0, done), file.name()); !going) return going;
+    }
+    if (samples.size() < pre.points) {
+        reading.warnings.push_back(fmt::format("{}: {} points are announced, {} are there: the file was cut short",
+                                               file.name(), pre.points, samples.size()));
+    }
+    return {};
+}
+
+}  // namespace
+
+bool IsfFormat::recognises(const std::filesystem::path& /*path*/, std::string_view head) const { return isIsf(head); }
+
+Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const ReadOptions& options,
+                                       const ReadWatch& watch) const {
+    const auto head = readHead(path);
+    if (!head) return failure(head);
+    auto file = ByteFile::open(path);
+    if (!file) return failure(file);
+    const auto pre = readIsfPreamble(*head, file->name());
+    if (!pre) return failure(pre);
+    CaptureReading reading;
+    auto& channel = reading.capture.channels.emplace_back();
+    // "Ch1, DC coupling, 2.000V/div, …": the source comes first.
+    channel.name = std::string(trimmed(std::string_view(pre->title).substr(0, pre->title.find(','))));
+    if (channel.name.empty()) channel.name = "CH1";
+    std::ranges::transform(channel.name, channel.name.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    auto read = pre->text ? readText(*file, *pre, watch, reading) : readBlock(*file, *head, *pre, watch, reading);
+    if (!read) return failure(read);
+    if (channel.samples.size() < 2) {
+        return fail(ErrorCode::ParseError, "{}: {} point(s) in the file; at least 2 were expected", file->name(),
+                    channel.samples.size());
+    }
+    const auto unit = spelledUnit(pre->unit);
+    const double factor = unit ? unit->factor : 1;
+    channel.unit = unit ? unit->unit : "";
+    for (float& sample : channel.samples) sample = static_cast<float>(static_cast<double>(sample) * factor);
+    for (double* scaled : {&channel.low, &channel.high, &channel.lsb}) *scaled *= factor;
+    if (!unit && !options.units.contains(channel.name)) {
+        reading.warnings.push_back(fmt::format("{}: the unit '{}' of {} is unknown; its values are bare numbers",
+                                               file->name(), pre->unit, channel.name));
+    }
+    reading.capture.rate_hz = 1 / pre->interval_s;
+    reading.capture.start_s = pre->start_s;
+    reading.capture.trigger_s = std::numeric_limits<double>::quiet_NaN();
+    if (options.rate) {
+        const auto rate = rateFrom(options);
+        if (!rate) return failure(rate);
+        reading.capture.rate_hz = *rate;
+    }
+    auto applied =
+        applyChannelOptions(reading.capture, {{channel.name, 1, channel.unit, factor, ""}}, options, file->name());
+    if (!applied) return failure(applied);
+    return reading;
+}
+
+}  // namespace tacto

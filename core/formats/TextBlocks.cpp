@@ -1,0 +1,72 @@
+#include "core/formats/TextBlocks.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/formats/NumberText.h"
+
+namespace tacto {
+
+TextBlocks::TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name)
+    : file_(std::move(file)), text_(text), name_(std::move(name)), buffer_(kBlockBytes + 1 + kNumberPadding) {}
+
+Result<TextBlocks> TextBlocks::ofFile(const std::filesystem::path& path) {
+    auto file = ByteFile::open(path);
+    if (!file) return failure(file);
+    return TextBlocks(std::move(*file), {}, path.string());
+}
+
+TextBlocks TextBlocks::ofText(std::string_view text, std::string_view name) {
+    return TextBlocks(std::nullopt, text, std::string(name));
+}
+
+Result<std::size_t> TextBlocks::fill(char* into, std::size_t count) {
+    if (file_) return file_->read(into, count);
+    const auto got = text_.copy(into, count, static_cast<std::size_t>(taken_));
+    return got;
+}
+
+Result<std::string_view> TextBlocks::next() {
+    std::memmove(buffer_.data(), buffer_.data() + used_, held_ - used_);
+    held_ -= used_;
+    used_ = 0;
+    while (!ended_ && held_ < kBlockBytes) {
+        const auto got = fill(buffer_.data() + held_, kBlockBytes - held_);
+        if (!got) return failure(got);
+        const bool first = taken_ == 0;
+        taken_ += *got;
+        held_ += *got;
+        if (*got == 0) ended_ = true;
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        if (first && std::string_view(buffer_.data(), held_).starts_with(kByteOrderMark)) {
+            std::memmove(buffer_.data(), buffer_.data() + kByteOrderMark.size(), held_ - kByteOrderMark.size());
+            held_ -= kByteOrderMark.size();
+        }
+    }
+    std::string_view held(buffer_.data(), held_);
+    if (ended_) {
+        if (!held.empty() && held.back() != '\n') buffer_[held_++] = '\n';
+        used_ = held_;
+    } else {
+        const auto end = held.rfind('\n');
+        if (end == std::string_view::npos) {
+            return fail(ErrorCode::ParseError, "{}: a line is longer than {} bytes; a table of text was expected",
+                        name_, kBlockBytes);
+        }
+        used_ = end + 1;
+    }
+    return std::string_view(buffer_.data(), used_);
+}
+
+Result<void> TextBlocks::rewind() {
+    held_ = used_ = 0;
+    taken_ = 0;
+    ended_ = false;
+    return file_ ? file_->seek(0) : Result<void>{};
+}
+
+double TextBlocks::fraction() const noexcept {
+    return size() == 0 ? 1 : std::min(1.0, static_cast<double>(taken_) / static_cast<double>(size()));
+}
+
+}  // namespace tacto

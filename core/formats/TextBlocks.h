@@ -1,0 +1,51 @@
+// TextBlocks.h - a text in blocks of whole lines, from a file or from memory.
+//
+// Thread-safety: none; one owner. A block is valid until the next one is asked for.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/formats/ByteFile.h"
+
+namespace tacto {
+
+class TextBlocks {
+public:
+    /// Bytes of a block, and so of the longest line.
+    static constexpr std::size_t kBlockBytes = 1024 * 1024;
+
+    /// Errors: of ByteFile::open().
+    [[nodiscard]] static Result<TextBlocks> ofFile(const std::filesystem::path& path);
+    /// `text` must outlive this; `name` stands for the file in messages.
+    [[nodiscard]] static TextBlocks ofText(std::string_view text, std::string_view name);
+
+    /// Whole lines, the last one ended by '\n' even where the file's is not; empty at the end. kNumberPadding bytes
+    /// behind it may be read. Without the byte-order mark.
+    /// Errors: Io; ParseError for a line longer than a block.
+    [[nodiscard]] Result<std::string_view> next();
+
+    /// From the beginning once more. Errors: Io.
+    [[nodiscard]] Result<void> rewind();
+
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    /// How much of the text has been taken, 0 to 1.
+    [[nodiscard]] double fraction() const noexcept;
+    [[nodiscard]] std::uint64_t size() const noexcept { return file_ ? file_->size() : text_.size(); }
+
+private:
+    TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name);
+    [[nodiscard]] Result<std::size_t> fill(char* into, std::size_t count);
+
+    std::optional<ByteFile> file_;
+    std::string_view text_;
+    std::string name_;
+    std::vector<char> buffer_;
+    std::size_t held_ = 0;  // bytes in buffer_
+    std::size_t used_ = 0;  // of them, given away in the last block
+    std::uint64_t taken_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace tacto
