@@ -1,0 +1,73 @@
+// LoadReading.h - what a train did to a load, measured on its captures in the quantities of science.md section 7.
+//
+// Every figure comes from the samples: levels and times from core/measure, charge, energy and squares by summing the
+// record of each train from its own baseline, tail included. A figure that the record cannot carry (clipped, missing
+// samples, no two states, no current channel, only one train) is NaN and says why; it is never replaced by a command.
+//
+// Uncertainty (k = 1), science.md section 9: gain tolerance/√3 of each channel, resolution lsb/√12 of what is left
+// after the baseline is taken off (an offset cancels there), noise over the samples it is averaged over, and the spread
+// of the trains. A peak also carries the largest step between neighbours/√12: a spike may stand between two samples.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/measure/Capture.h"
+
+namespace tacto {
+
+/// A value with its standard uncertainty (k = 1), both in the same unit. NaN: not measured.
+struct Reading {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double u = std::numeric_limits<double>::quiet_NaN();
+    [[nodiscard]] bool measured() const noexcept;
+    /// Expanded uncertainty, 95 %: 2·u.
+    [[nodiscard]] double expanded() const noexcept { return 2 * u; }
+};
+
+/// The largest of the trains measured, unless a line says otherwise.
+struct LoadReading {
+    Reading amplitude_v;       ///< plateau of the leading phase, magnitude; mean of the trains
+    Reading amplitude_ma;      ///< the same of the current
+    Reading width_s;           ///< of the leading phase, from the voltage; mean
+    Reading interval_s;        ///< onset to onset of trains; the shortest
+    Reading impedance_ohm;     ///< amplitude_v / amplitude_ma; mean
+    Reading peak_v;            ///< largest |voltage|
+    Reading peak_ma;           ///< largest |current|
+    Reading charge_uc;         ///< the larger |charge| of either phase of a pulse
+    Reading net_charge_uc;     ///< |charge| of a pulse, gap and tail included
+    Reading imbalance;         ///< net_charge_uc / charge_uc, 0..
+    Reading energy_mj;         ///< ∫v·i dt of a pulse
+    Reading rms_train_ma;      ///< over n / intra-train rate
+    Reading rms_1s_ma;         ///< worst second, at the measured interval
+    Reading rms_5s_ma;         ///< worst 5 s
+    Reading rms_5s_v;          ///< worst 5 s, V
+    Reading dc_ma;             ///< |net charge| of the trains of 5 s / 5 s
+    Reading power_1s_w;        ///< energy of the worst second / 1 s
+    double currentLsb = 0;     ///< A; 0 = unknown
+    bool biphasic = false;     ///< every pulse had a second phase
+    bool underTenLsb = false;  ///< the current's plateau is below 10 LSB: nothing about current is evaluated
+    std::size_t trains = 0;    ///< captures measured
+    std::vector<std::string> warnings;
+};
+
+/// What the trains in the captures were meant to be: a pulse's place in a record is told by it.
+struct ExpectedTrain {
+    int pulses = 1;
+    double rate_hz = 100;     ///< intra-train
+    double interval_s = 0.5;  ///< commanded; used to count windows only where it agrees with the measured one
+};
+
+/// One capture per train, in time order, all with one command, on one time base. Channels "voltage" (V) and "current"
+/// (A). A single capture leaves the interval and all windows longer than a train unmeasured.
+/// Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound without a voltage
+/// channel.
+[[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected);
+
+}  // namespace tacto

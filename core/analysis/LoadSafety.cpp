@@ -1,0 +1,151 @@
+#include "core/analysis/LoadSafety.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/LoadSafetyRows.h"
+
+namespace tacto {
+
+namespace {
+
+bool isTrip(const LoadRecord& record) {
+    return record.load.kind == LoadKind::Open || record.load.kind == LoadKind::Short;
+}
+
+LoadLine lineOf(const LoadRecord& record, const LoadSafetyInput& input, const std::vector<SafetyRow>& rows) {
+    LoadLine line;
+    line.name = record.name;
+    line.serial = record.serial;
+    line.nominal_ohm = expectedOhms(record, input);
+    line.steps = record.steps.size();
+    line.refused = static_cast<std::size_t>(
+        std::count_if(record.refusals.begin(), record.refusals.end(), [](const auto& asked) { return asked.refused; }));
+    if (!record.steps.empty()) {
+        line.measured_ohm = record.steps.front().reading.impedance_ohm;
+        line.strongest = strongestOf(record);
+        line.powerDensity_w_cm2 = readingOf(line.strongest, Quantity::PowerDensity, input.area_cm2).value;
+        line.currentDensity_ma_cm2 = readingOf(line.strongest, Quantity::CurrentDensity, input.area_cm2).value;
+    }
+    std::vector<RowVerdict> verdicts;
+    for (const auto& row : rows) verdicts.push_back(row.verdict);
+    line.verdict = summaryOf(verdicts);
+    return line;
+}
+
+SafetyRow missing(std::string load, std::string item, std::string title, std::string reason) {
+    SafetyRow row;
+    row.load = std::move(load);
+    row.item = std::move(item);
+    row.title = std::move(title);
+    row.reason = std::move(reason);
+    return row;
+}
+
+void addMissingLoads(const LoadSafetyInput& input, LoadSafety& out) {
+    for (const auto& wanted : benchLoads()) {
+        const auto same = [&](const LoadRecord& record) { return record.load == wanted.load; };
+        if (std::any_of(input.loads.begin(), input.loads.end(), same)) continue;
+        LoadLine line;
+        line.name = wanted.name;
+        out.loads.push_back(std::move(line));
+        out.rows.push_back(missing(std::string(wanted.name), "load", "the load",
+                                   fmt::format("{} was not evaluated: it was not connected", wanted.name)));
+    }
+}
+
+void decide(LoadSafety& out) {
+    const auto collect = [&out](RowVerdict verdict) {
+        for (const auto* rows : {&out.rows, &out.worstCase.rows}) {
+            for (const auto& row : *rows) {
+                if (row.verdict == verdict && !row.reason.empty()) out.reasons.push_back(row.reason);
+            }
+        }
+    };
+    std::vector<RowVerdict> verdicts{out.worstCase.verdict};
+    for (const auto& row : out.rows) verdicts.push_back(row.verdict);
+    const auto summary = summaryOf(verdicts);
+    out.verdict = summary == RowVerdict::Fail   ? Verdict::Fail
+                  : summary == RowVerdict::Pass ? Verdict::Pass
+                                                : Verdict::Indeterminate;
+    for (const auto verdict : {RowVerdict::Fail, RowVerdict::Indeterminate, RowVerdict::NotEvaluated,
+                               RowVerdict::NotApplicable, RowVerdict::Attention}) {
+        collect(verdict);
+    }
+}
+
+}  // namespace
+
+std::string_view nameOf(RowVerdict verdict) noexcept {
+    switch (verdict) {
+        case RowVerdict::Pass:
+            return "pass";
+        case RowVerdict::Fail:
+            return "fail";
+        case RowVerdict::Indeterminate:
+            return "indeterminate";
+        case RowVerdict::NotEvaluated:
+            return "not evaluated";
+        case RowVerdict::NotApplicable:
+            return "not applicable";
+        case RowVerdict::RefusedAsExpected:
+            return "refused as expected";
+        case RowVerdict::Attention:
+            return "attention";
+    }
+    return "not evaluated";
+}
+
+RowVerdict judgeUpper(double value, double expanded, double limit, bool strict) noexcept {
+    if (!std::isfinite(value) || !(expanded >= 0) || std::isnan(limit)) return RowVerdict::NotEvaluated;
+    const auto keeps = [&](double v) { return strict ? v < limit : v <= limit; };
+    if (keeps(value + expanded)) return RowVerdict::Pass;
+    return keeps(value - expanded) ? RowVerdict::Indeterminate : RowVerdict::Fail;
+}
+
+RowVerdict summaryOf(const std::vector<RowVerdict>& verdicts) noexcept {
+    if (verdicts.empty()) return RowVerdict::NotEvaluated;
+    const auto has = [&](RowVerdict wanted) {
+        return std::find(verdicts.begin(), verdicts.end(), wanted) != verdicts.end();
+    };
+    for (const auto worst : {RowVerdict::Fail, RowVerdict::Indeterminate, RowVerdict::NotEvaluated}) {
+        if (has(worst)) return worst;
+    }
+    if (has(RowVerdict::Pass) || has(RowVerdict::Attention)) return RowVerdict::Pass;
+    return has(RowVerdict::RefusedAsExpected) ? RowVerdict::RefusedAsExpected : RowVerdict::NotApplicable;
+}
+
+LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
+    LoadSafety out;
+    for (const auto& record : input.loads) {
+        if (isTrip(record)) {
+            // Judged by the trip alone: its row is among the trips.
+            LoadLine line;
+            line.name = record.name;
+            for (const auto& trip : tripRows(input)) {
+                if (trip.load == record.name && trip.item == "trip") line.verdict = trip.verdict;
+            }
+            out.loads.push_back(std::move(line));
+            continue;
+        }
+        auto rows = rowsOf(record, input);
+        out.loads.push_back(lineOf(record, input, rows));
+        out.rows.insert(out.rows.end(), std::make_move_iterator(rows.begin()), std::make_move_iterator(rows.end()));
+    }
+    addMissingLoads(input, out);
+    if (input.reference) {
+        out.rows.push_back(*input.reference);
+    } else {
+        out.rows.push_back(missing("", "reference", "known-reference check", "the known-reference check was not made"));
+    }
+    for (auto& row : tripRows(input)) out.rows.push_back(std::move(row));
+    if (input.limits.empty()) {
+        out.rows.push_back(missing("", "limits", "limits", "no limit set was given: nothing can be called safe"));
+    }
+    out.disclosed = disclosedOf(input);
+    out.worstCase = worstCaseOf(input);
+    decide(out);
+    return out;
+}
+
+}  // namespace tacto

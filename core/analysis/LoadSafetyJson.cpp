@@ -1,0 +1,252 @@
+#include "core/analysis/LoadSafetyJson.h"
+
+#include <cmath>
+
+#include "core/analysis/ResultJson.h"
+
+namespace tacto {
+
+using nlohmann::json;
+
+namespace {
+
+struct Member {
+    const char* key;
+    Reading LoadReading::*reading;
+};
+constexpr Member kMembers[] = {{"amplitude_v", &LoadReading::amplitude_v},
+                               {"amplitude_ma", &LoadReading::amplitude_ma},
+                               {"width_s", &LoadReading::width_s},
+                               {"interval_s", &LoadReading::interval_s},
+                               {"impedance_ohm", &LoadReading::impedance_ohm},
+                               {"peak_v", &LoadReading::peak_v},
+                               {"peak_ma", &LoadReading::peak_ma},
+                               {"charge_uc", &LoadReading::charge_uc},
+                               {"net_charge_uc", &LoadReading::net_charge_uc},
+                               {"imbalance", &LoadReading::imbalance},
+                               {"energy_mj", &LoadReading::energy_mj},
+                               {"rms_train_ma", &LoadReading::rms_train_ma},
+                               {"rms_1s_ma", &LoadReading::rms_1s_ma},
+                               {"rms_5s_ma", &LoadReading::rms_5s_ma},
+                               {"rms_5s_v", &LoadReading::rms_5s_v},
+                               {"dc_ma", &LoadReading::dc_ma},
+                               {"power_1s_w", &LoadReading::power_1s_w}};
+
+/// Null and absent are NaN; anything else that is no number is an error.
+Result<double> numberAt(const json& object, const std::string& key) {
+    const auto at = object.find(key);
+    if (at == object.end() || at->is_null()) return std::nan("");
+    if (at->is_number()) return at->get<double>();
+    return fail(ErrorCode::InvalidArgument, "{} is {}; a number or null is expected", key, at->dump());
+}
+
+Result<std::string> textAt(const json& object, const char* key) {
+    const auto at = object.find(key);
+    if (at == object.end() || at->is_null()) return std::string();
+    if (at->is_string()) return at->get<std::string>();
+    return fail(ErrorCode::InvalidArgument, "{} is {}; a text is expected", key, at->dump());
+}
+
+Result<bool> flagAt(const json& object, const char* key) {
+    const auto at = object.find(key);
+    if (at == object.end() || at->is_null()) return false;
+    if (at->is_boolean()) return at->get<bool>();
+    return fail(ErrorCode::InvalidArgument, "{} is {}; true or false is expected", key, at->dump());
+}
+
+/// The elements of a list member; none where it is absent.
+Result<std::vector<json>> listAt(const json& object, const char* key) {
+    const auto at = object.find(key);
+    if (at == object.end() || at->is_null()) return std::vector<json>{};
+    if (!at->is_array()) return fail(ErrorCode::InvalidArgument, "{} is {}; a list is expected", key, at->dump());
+    for (const auto& item : *at) {
+        if (!item.is_object())
+            return fail(ErrorCode::InvalidArgument, "{} holds {}; objects are expected", key, item.dump());
+    }
+    return at->get<std::vector<json>>();
+}
+
+Result<LoadStep> stepFrom(const json& from) {
+    LoadStep step;
+    for (const auto& [key, into] : {std::pair("command_v", &step.command_v), std::pair("amplitude", &step.amplitude),
+                                    std::pair("interval_s", &step.interval_s)}) {
+        const auto value = numberAt(from, key);
+        if (!value) return failure(value);
+        *into = *value;
+    }
+    auto reading = loadReadingFrom(from.value("reading", json::object()));
+    if (!reading) return failure(reading);
+    step.reading = std::move(*reading);
+    return step;
+}
+
+Result<RefusedStep> refusalFrom(const json& from) {
+    RefusedStep step;
+    const auto command = numberAt(from, "command_v");
+    if (!command) return failure(command);
+    const auto interval = numberAt(from, "interval_s");
+    if (!interval) return failure(interval);
+    const auto forbidden = flagAt(from, "forbidden");
+    if (!forbidden) return failure(forbidden);
+    const auto refused = flagAt(from, "refused");
+    if (!refused) return failure(refused);
+    auto predicted = textAt(from, "predicted");
+    if (!predicted) return failure(predicted);
+    auto reason = textAt(from, "reason");
+    if (!reason) return failure(reason);
+    return RefusedStep{*command, *interval, *forbidden, *refused, std::move(*predicted), std::move(*reason)};
+}
+
+json toJson(const LoadLine& line) {
+    const auto& most = line.strongest;
+    return {{"name", line.name},
+            {"serial", line.serial.empty() ? json() : json(line.serial)},
+            {"nominal_ohm", numberOrNull(line.nominal_ohm)},
+            {"measured_ohm", numberOrNull(line.measured_ohm.value)},
+            {"measured_u_ohm", numberOrNull(line.measured_ohm.u)},
+            {"peak_v", numberOrNull(most.peak_v.value)},
+            {"peak_v_u", numberOrNull(most.peak_v.u)},
+            {"peak_ma", numberOrNull(most.peak_ma.value)},
+            {"peak_ma_u", numberOrNull(most.peak_ma.u)},
+            {"rms_train_ma", numberOrNull(most.rms_train_ma.value)},
+            {"rms_1s_ma", numberOrNull(most.rms_1s_ma.value)},
+            {"rms_5s_ma", numberOrNull(most.rms_5s_ma.value)},
+            {"rms_5s_ma_u", numberOrNull(most.rms_5s_ma.u)},
+            {"charge_uc", numberOrNull(most.charge_uc.value)},
+            {"net_charge_uc", numberOrNull(most.net_charge_uc.value)},
+            {"imbalance", numberOrNull(most.imbalance.value)},
+            {"energy_mj", numberOrNull(most.energy_mj.value)},
+            {"current_density_ma_cm2", numberOrNull(line.currentDensity_ma_cm2)},
+            {"power_density_w_cm2", numberOrNull(line.powerDensity_w_cm2)},
+            {"commands_delivered", line.steps},
+            {"commands_refused", line.refused},
+            {"verdict", nameOf(line.verdict)}};
+}
+
+}  // namespace
+
+json toJson(const LoadReading& reading) {
+    json out = {{"trains", reading.trains},
+                {"biphasic", reading.biphasic},
+                {"under_10_lsb", reading.underTenLsb},
+                {"warnings", reading.warnings}};
+    for (const auto& member : kMembers) {
+        out[member.key] = numberOrNull((reading.*member.reading).value);
+        out[std::string(member.key) + "_u"] = numberOrNull((reading.*member.reading).u);
+    }
+    return out;
+}
+
+json toJson(const SafetyRow& row) {
+    return {{"load", row.load},
+            {"item", row.item},
+            {"title", row.title},
+            {"value", numberOrNull(row.value)},
+            {"expanded_uncertainty", numberOrNull(row.expanded)},
+            {"limit", numberOrNull(row.limit)},
+            {"unit", row.unit},
+            {"set", row.set},
+            {"source", row.source},
+            {"verdict", nameOf(row.verdict)},
+            {"reason", row.reason}};
+}
+
+json toJson(const LoadSafety& found) {
+    json loads = json::array(), rows = json::array(), disclosed = json::array(), worst = json::array();
+    for (const auto& line : found.loads) loads.push_back(toJson(line));
+    for (const auto& row : found.rows) rows.push_back(toJson(row));
+    for (const auto& row : found.worstCase.rows) worst.push_back(toJson(row));
+    for (const auto& row : found.disclosed) {
+        disclosed.push_back({{"output", row.output},
+                             {"load", row.load},
+                             {"value", numberOrNull(row.value)},
+                             {"plus_minus_pct", numberOrNull(row.expanded_pct)},
+                             {"unit", row.unit},
+                             {"reason", row.reason}});
+    }
+    return {{"loads", loads},
+            {"worst_case",
+             {{"load_low_ohm", found.worstCase.low_ohm},
+              {"load_high_ohm", found.worstCase.high_ohm},
+              {"amplitude_factor", numberOrNull(found.worstCase.amplitudeFactor)},
+              {"rows", worst},
+              {"verdict", nameOf(found.worstCase.verdict)}}},
+            {"rows", rows},
+            {"disclosed", disclosed},
+            {"verdict", nameOf(found.verdict)},
+            {"reasons", found.reasons}};
+}
+
+Result<LoadReading> loadReadingFrom(const json& from) {
+    if (!from.is_object())
+        return fail(ErrorCode::InvalidArgument, "a reading is {}; an object is expected", from.dump());
+    LoadReading out;
+    for (const auto& member : kMembers) {
+        const auto value = numberAt(from, member.key);
+        if (!value) return failure(value);
+        const auto u = numberAt(from, std::string(member.key) + "_u");
+        if (!u) return failure(u);
+        out.*member.reading = {*value, *u};
+    }
+    const auto under = flagAt(from, "under_10_lsb");
+    if (!under) return failure(under);
+    out.underTenLsb = *under;
+    const auto warnings = from.value("warnings", json::array());
+    for (const auto& warning : warnings) {
+        if (warning.is_string()) out.warnings.push_back(warning.get<std::string>());
+    }
+    return out;
+}
+
+Result<LoadRecord> loadRecordFrom(const json& from) {
+    if (!from.is_object()) return fail(ErrorCode::InvalidArgument, "a load is {}; an object is expected", from.dump());
+    LoadRecord out;
+    for (const auto& [key, into] :
+         {std::pair("name", &out.name), std::pair("serial", &out.serial),
+          std::pair("not_applicable", &out.notApplicable), std::pair("problem", &out.problem)}) {
+        auto text = textAt(from, key);
+        if (!text) return failure(text);
+        *into = std::move(*text);
+    }
+    const auto load = parseLoad(out.name);
+    if (!load) return failure(load);
+    out.load = *load;
+    const auto dmm = numberAt(from, "dmm_ohm");
+    if (!dmm) return failure(dmm);
+    const auto dmmU = numberAt(from, "dmm_u_ohm");
+    if (!dmmU) return failure(dmmU);
+    out.dmm_ohm = {*dmm, *dmmU};
+    const auto steps = listAt(from, "steps");
+    if (!steps) return failure(steps);
+    for (const auto& item : *steps) {
+        auto step = stepFrom(item);
+        if (!step) return failure(step);
+        out.steps.push_back(std::move(*step));
+    }
+    const auto refusals = listAt(from, "refusals");
+    if (!refusals) return failure(refusals);
+    for (const auto& item : *refusals) {
+        auto refusal = refusalFrom(item);
+        if (!refusal) return failure(refusal);
+        out.refusals.push_back(std::move(*refusal));
+    }
+    return out;
+}
+
+Result<TripTrial> tripTrialFrom(const json& from) {
+    if (!from.is_object()) return fail(ErrorCode::InvalidArgument, "a trip is {}; an object is expected", from.dump());
+    TripTrial out;
+    auto name = textAt(from, "name");
+    if (!name) return failure(name);
+    const auto evaluated = flagAt(from, "evaluated");
+    if (!evaluated) return failure(evaluated);
+    const auto tripped = flagAt(from, "tripped");
+    if (!tripped) return failure(tripped);
+    const auto after = numberAt(from, "after_s");
+    if (!after) return failure(after);
+    auto reason = textAt(from, "reason");
+    if (!reason) return failure(reason);
+    return TripTrial{std::move(*name), *evaluated, *tripped, *after, std::move(*reason)};
+}
+
+}  // namespace tacto

@@ -1,0 +1,284 @@
+#include "core/analysis/LoadSafetyRows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/encoding/PulseTrain.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Reading scaledBy(double factor, const Reading& reading) { return {factor * reading.value, factor * reading.u}; }
+
+SafetyRow rowOf(const LoadRecord& record, std::string item, std::string title, const Reading& reading,
+                std::string unit) {
+    SafetyRow row;
+    row.load = record.name;
+    row.item = std::move(item);
+    row.title = std::move(title);
+    row.value = reading.value;
+    row.expanded = reading.expanded();
+    row.unit = std::move(unit);
+    return row;
+}
+
+void explain(SafetyRow& row, std::string_view missing) {
+    if (row.verdict == RowVerdict::NotEvaluated) {
+        row.reason = fmt::format("{} into {} was not evaluated: {}", row.title, row.load, missing);
+    } else if (row.verdict == RowVerdict::Fail || row.verdict == RowVerdict::Attention) {
+        row.reason = fmt::format("{} into {} is {:.4g} ± {:.2g} {}, above {:.4g} {}", row.title, row.load, row.value,
+                                 row.expanded, row.unit, row.limit, row.unit);
+    } else if (row.verdict == RowVerdict::Indeterminate) {
+        row.reason = fmt::format("{} into {} is {:.4g} ± {:.2g} {}: too close to {:.4g} {} to tell", row.title,
+                                 row.load, row.value, row.expanded, row.unit, row.limit, row.unit);
+    }
+}
+
+std::string missingOf(const LoadRecord& record) {
+    if (!record.problem.empty()) return record.problem;
+    for (const auto& step : record.steps) {
+        if (!step.reading.warnings.empty()) return step.reading.warnings.front();
+    }
+    return record.steps.empty() ? "nothing was delivered" : "it was not measured";
+}
+
+/// The step whose value and uncertainty come highest; one that was not measured wins, so that it is not hidden.
+template <class Of>
+Reading highest(const LoadRecord& record, Of of) {
+    Reading most;
+    bool first = true;
+    for (const auto& step : record.steps) {
+        const Reading reading = of(step);
+        if (!reading.measured()) return {};
+        if (first || reading.value + reading.expanded() > most.value + most.expanded()) most = reading;
+        first = false;
+    }
+    return most;
+}
+
+/// How far the delivered amplitude lies above the command, % of it; negative below.
+Reading amplitudeError(const LoadStep& step, const SourceTraits& source) {
+    const Reading& got = source.drive == Drive::Current ? step.reading.amplitude_ma : step.reading.amplitude_v;
+    if (!got.measured() || !(step.amplitude > 0)) return {};
+    return {100 * (got.value - step.amplitude) / step.amplitude, 100 * got.u / step.amplitude};
+}
+
+Reading widthError(const LoadStep& step, const PulseTrain& train) {
+    const double wanted = Seconds(train.phaseWidth).count();
+    return {100 * (step.reading.width_s.value - wanted) / wanted, 100 * step.reading.width_s.u / wanted};
+}
+
+/// Trains that follow too soon are too many: the shorter interval counts as the larger error.
+Reading rateError(const LoadStep& step) {
+    const auto& got = step.reading.interval_s;
+    return {100 * (step.interval_s - got.value) / step.interval_s, 100 * got.u / step.interval_s};
+}
+
+void addUpper(std::vector<SafetyRow>& rows, const LoadRecord& record, SafetyRow row, double limit, bool strict,
+              std::string set, std::string source) {
+    row.limit = limit;
+    row.set = std::move(set);
+    row.source = std::move(source);
+    row.verdict = judgeUpper(row.value, row.expanded, limit, strict);
+    explain(row, missingOf(record));
+    rows.push_back(std::move(row));
+}
+
+void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
+    Reading error;
+    if (!record.steps.empty()) {
+        const Reading& got = record.steps.front().reading.impedance_ohm;
+        const double truth = record.dmm_ohm.measured() ? record.dmm_ohm.value : expectedOhms(record, input);
+        const double known = record.dmm_ohm.measured() ? record.dmm_ohm.u : 0;
+        error = {100 * std::abs(got.value - truth) / truth, 100 * std::hypot(got.u, known) / truth};
+    }
+    addUpper(
+        rows, record,
+        rowOf(record, "load_value",
+              record.dmm_ohm.measured() ? "error of the load's value against the DMM" : "error of the load's value",
+              error, "%"),
+        input.tolerances.load_pct, false, "laboratory", "the load's value is verified before anything is judged on it");
+}
+
+void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
+    const auto amplitude = [&](const LoadStep& step) { return amplitudeError(step, input.source); };
+    const auto width = [&](const LoadStep& step) { return widthError(step, input.train); };
+    const auto within = [](auto error) {
+        return [error](const LoadStep& step) {
+            const Reading e = error(step);
+            return Reading{std::abs(e.value), e.u};
+        };
+    };
+    const char* own = "the laboratory's tolerance (science.md section 9)";
+    addUpper(rows, record,
+             rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitude), "%"),
+             input.tolerances.amplitude_pct, false, "laboratory", own);
+    addUpper(rows, record, rowOf(record, "width_over", "phase width above the command", highest(record, width), "%"),
+             input.tolerances.timing_pct, false, "laboratory", own);
+    addUpper(rows, record, rowOf(record, "rate_over", "interval below the command", highest(record, rateError), "%"),
+             input.tolerances.timing_pct, false, "laboratory", own);
+    for (const auto& set : input.limits) {
+        for (const auto& asked : set.accuracy) {
+            if (!(asked.tolerance_pct > 0)) continue;  // to be stated, which the table of outputs does
+            Reading error;
+            if (asked.parameter == "amplitude") error = highest(record, within(amplitude));
+            if (asked.parameter == "width") error = highest(record, within(width));
+            if (asked.parameter == "rate") error = highest(record, within(rateError));
+            addUpper(rows, record,
+                     rowOf(record, asked.parameter + "_accuracy", "error of the " + asked.parameter, error, "%"),
+                     asked.tolerance_pct, false, set.id, asked.source);
+        }
+    }
+}
+
+void addNetCharge(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
+    if (input.train.shape == PulseShape::Monophasic) return;
+    const auto imbalance = highest(record, [](const LoadStep& step) { return step.reading.imbalance; });
+    auto row = rowOf(record, "imbalance", "net charge of the phase charge", scaledBy(100, imbalance), "%");
+    row.limit = input.tolerances.imbalance_pct;
+    row.set = "laboratory";
+    row.source = "safety.md, hazard H5";
+    const bool lets_go = input.source.drive == Drive::Voltage && input.source.gap == GapState::HighImpedance;
+    if (lets_go && record.load.kind == LoadKind::SkinEquivalent) {
+        row.verdict = RowVerdict::NotApplicable;
+        row.reason = fmt::format(
+            "net charge into {} is reported, not judged: a voltage source that opens its output "
+            "between the phases leaves charge on a capacitor",
+            record.name);
+    } else if (imbalance.measured() && !(row.expanded <= input.tolerances.imbalanceUncertainty_pct) &&
+               !(row.value - row.expanded > row.limit)) {
+        row.verdict = RowVerdict::NotEvaluated;
+        row.reason = fmt::format(
+            "net charge into {} was not evaluated: its uncertainty is {:.2g} %, at most {:.2g} % "
+            "can tell",
+            record.name, row.expanded, input.tolerances.imbalanceUncertainty_pct);
+    } else {
+        row.verdict = judgeUpper(row.value, row.expanded, row.limit, false);
+        explain(row, missingOf(record));
+    }
+    rows.push_back(std::move(row));
+}
+
+bool isOhm500(const LoadRecord& record) {
+    return record.load.kind == LoadKind::Resistor && std::abs(record.load.series.value() - 500) < 1e-6;
+}
+
+void addLimits(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
+    const double hz = 1 / input.interval_s;
+    for (const auto& set : input.limits) {
+        for (const auto& limit : set.rows) {
+            if (!limit.holdsAt(hz) || (limit.judged == JudgedAt::Ohm500 && !isOhm500(record))) continue;
+            const Reading most = highest(record, [&](const LoadStep& step) {
+                if (limit.quantity == Quantity::CommandVoltage) return Reading{step.command_v, 0};
+                return readingOf(step.reading, limit.quantity, input.area_cm2);
+            });
+            auto row = rowOf(record, std::string(keyOf(limit.quantity)), std::string(titleOf(limit.quantity)), most,
+                             std::string(unitOf(limit.quantity)));
+            row.limit = limit.max;
+            row.set = set.id;
+            row.source = limit.source;
+            row.verdict = judgeUpper(row.value, row.expanded, limit.max, limit.strict);
+            const bool breaks = row.verdict == RowVerdict::Fail || row.verdict == RowVerdict::Indeterminate;
+            if (breaks && limit.action != LimitAction::Refuse) row.verdict = RowVerdict::Attention;
+            explain(row, needsArea(limit.quantity) && !input.area_cm2 ? "the electrode's area is not known"
+                                                                      : missingOf(record));
+            rows.push_back(std::move(row));
+        }
+    }
+}
+
+void addRefusals(std::vector<SafetyRow>& rows, const LoadRecord& record) {
+    for (const auto& asked : record.refusals) {
+        auto row =
+            rowOf(record, "refusal", fmt::format("{:.4g} V every {:.4g} s", asked.command_v, asked.interval_s), {}, "");
+        row.set = "gate";
+        row.source = asked.predicted;
+        if (asked.forbidden) {
+            row.verdict = asked.refused ? RowVerdict::RefusedAsExpected : RowVerdict::Fail;
+            row.reason = asked.refused ? asked.reason
+                                       : fmt::format("{} into {} was delivered although it breaks a limit: {}",
+                                                     row.title, record.name, asked.predicted);
+        } else if (asked.refused) {
+            row.verdict = RowVerdict::Indeterminate;
+            row.reason = fmt::format("{} into {} was refused although no limit forbids it: {}", row.title, record.name,
+                                     asked.reason);
+        } else {
+            continue;
+        }
+        rows.push_back(std::move(row));
+    }
+}
+
+}  // namespace
+
+double expectedOhms(const LoadRecord& record, const LoadSafetyInput& input) {
+    if (record.load.kind == LoadKind::Open || record.load.kind == LoadKind::Short) return kNaN;
+    PulseTrain train = input.train;
+    if (input.source.drive == Drive::Current)
+        train.amplitude = Milliamps(1);
+    else
+        train.amplitude = Volts(1);
+    return effectiveImpedance(record.load, segmentsOf(train, input.source.gap).items[0]).value();
+}
+
+Reading readingOf(const LoadReading& reading, Quantity quantity, std::optional<double> area_cm2) {
+    switch (quantity) {
+        case Quantity::CommandVoltage:
+            return {};
+        case Quantity::PeakVoltage:
+            return reading.peak_v;
+        case Quantity::PeakCurrent:
+            return reading.peak_ma;
+        case Quantity::PhaseCharge:
+            return reading.charge_uc;
+        case Quantity::NetCharge:
+            return reading.net_charge_uc;
+        case Quantity::PulseEnergy:
+            return reading.energy_mj;
+        case Quantity::RmsCurrentTrain:
+            return reading.rms_train_ma;
+        case Quantity::RmsCurrent1s:
+            return reading.rms_1s_ma;
+        case Quantity::RmsCurrent5s:
+            return reading.rms_5s_ma;
+        case Quantity::RmsVoltage5s:
+            return reading.rms_5s_v;
+        case Quantity::DcCurrent:
+            return reading.dc_ma;
+        case Quantity::CurrentDensity:
+            return area_cm2 ? scaledBy(1 / *area_cm2, reading.rms_5s_ma) : Reading{};
+        case Quantity::PowerDensity:
+            return area_cm2 ? scaledBy(1 / *area_cm2, reading.power_1s_w) : Reading{};
+    }
+    return {};
+}
+
+std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input) {
+    std::vector<SafetyRow> rows;
+    if (!record.notApplicable.empty()) {
+        auto row = rowOf(record, "drive", "driving the load", {}, "");
+        row.verdict = RowVerdict::NotApplicable;
+        row.reason = record.notApplicable;
+        return {row};
+    }
+    addRefusals(rows, record);
+    // A load on which the limits forbid everything has nothing to measure.
+    const bool allRefused = record.steps.empty() && !record.refusals.empty() && record.problem.empty();
+    if (allRefused) return rows;
+    addLoadValue(rows, record, input);
+    addAccuracy(rows, record, input);
+    addNetCharge(rows, record, input);
+    addLimits(rows, record, input);
+    if (!record.problem.empty()) {
+        auto row = rowOf(record, "complete", "all commands", {}, "");
+        row.verdict = RowVerdict::NotEvaluated;
+        row.reason = fmt::format("{} was left unfinished: {}", record.name, record.problem);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace tacto
