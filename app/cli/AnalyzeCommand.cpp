@@ -1,7 +1,10 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
 #include "app/cli/Verdicts.h"
+#include "core/analysis/CalibrationFile.h"
+#include "core/analysis/CalibrationJson.h"
 #include "core/analysis/ResultJson.h"
 #include "core/analysis/TrialFile.h"
 
@@ -11,20 +14,13 @@ namespace {
 
 void declare(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
 
-int run(const QCommandLineParser& parser) {
-    const auto given = parser.positionalArguments();
-    if (given.size() != 2)
-        return usage("analyze: a kind and a CSV file are expected, as in analyze separability trials.csv");
-    const auto kind = given.front().toStdString();
-    if (kind != "separability") {
-        return usage(fmt::format("analyze: \"{}\" cannot be analysed by this version; separability can", kind));
-    }
-    const auto trials = readSeparabilityTrials(given.at(1).toStdString());
+int separability(const std::string& file, bool asJson) {
+    const auto trials = readSeparabilityTrials(file);
     if (!trials) return couldNotRun(trials.error());
     const auto found = judgeSeparability(*trials);
     if (!found) return couldNotRun(found.error());
     const auto result = toJson(*found);
-    if (parser.isSet("json")) {
+    if (asJson) {
         printJson(result);
     } else {
         printSeparability(result);
@@ -33,11 +29,51 @@ int run(const QCommandLineParser& parser) {
     return exitForVerdict(nameOf(found->verdict));
 }
 
+/// Nobody stated a tolerance or what the instrument may contribute, so nothing is judged.
+int calibration(const std::string& file, bool asJson) {
+    const auto readings = readCalibrationReadings(file);
+    if (!readings) return couldNotRun(readings.error());
+    const auto found = fitCalibration(*readings);
+    if (!found) return couldNotRun(Error{found.error().code, fmt::format("{}: {}", file, found.error().message)});
+    if (asJson) {
+        printJson(toJson(*found));
+        return kDone;
+    }
+    fmt::print("\n  {:>12} {:>5} {:>14} {:>12} {:>12}\n", "commanded", "n", "mean", "residual", "down - up");
+    for (const auto& level : found->levels) {
+        const double turned = level.meanDown - level.meanUp;
+        fmt::print("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean,
+                   level.residual, std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned));
+    }
+    const auto percent = [](double value) { return std::isnan(value) ? "not known" : fmt::format("{:.4g} %", value); };
+    fmt::print("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
+               found->weighted ? ", weighted fit" : "");
+    fmt::print("  offset            {:.5g} ± {:.2g}\n", found->offset, found->offsetStandardError);
+    fmt::print("  in % of the largest command, {:.6g}:\n", found->fullScale);
+    fmt::print("  largest residual  {}\n", percent(found->residualMax_pct));
+    fmt::print("  repeatability     {}\n", percent(found->repeatability_pct));
+    fmt::print("  hysteresis        {}\n", percent(found->hysteresis_pct));
+    for (const auto& warning : found->warnings) fmt::print("  note: {}\n", warning);
+    return kDone;
+}
+
+int run(const QCommandLineParser& parser) {
+    const auto given = parser.positionalArguments();
+    if (given.size() != 2)
+        return usage("analyze: a kind and a CSV file are expected, as in analyze separability trials.csv");
+    const auto kind = given.front().toStdString();
+    const auto file = given.at(1).toStdString();
+    if (kind == "calibration") return calibration(file, parser.isSet("json"));
+    if (kind == "separability") return separability(file, parser.isSet("json"));
+    return usage(
+        fmt::format("analyze: \"{}\" cannot be analysed by this version; calibration and separability can", kind));
+}
+
 }  // namespace
 
 const Command kAnalyze{"analyze",
-                       "separability FILE.csv [--json]",
-                       "Whether measured trials (condition,amplitude,interval) can be told apart",
+                       "{calibration|separability} FILE.csv [--json]",
+                       "Commanded against measured values, or whether measured trials can be told apart",
                        false,
                        declare,
                        run};
