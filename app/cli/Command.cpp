@@ -44,8 +44,8 @@ int usage(const std::string& sentence) {
 }
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,     kMeasure,
-                                          kAnalyze, kReport,    kVerify,  kHid,       kScienceMode};
+    static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,      kMeasure,
+                                          kAnalyze, kReport,    kVerify,  kHid,       kScienceMode, kSensor};
     return all;
 }
 

@@ -61,6 +61,6 @@ void printJson(const nlohmann::json& value);
 
 // Defined one per file, in app/cli/<Name>Command.cpp.
 extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kAnalyze, kReport, kVerify, kHid,
-    kScienceMode;
+    kScienceMode, kSensor;
 
 }  // namespace tacto::cli

@@ -67,8 +67,8 @@ DeviceReport rowsOf(const SensorBoardReport& report) noexcept {
     rows.add({"malformed", "malformed frames", asNumber(report.line.malformed + report.line.tooLong), ""});
     rows.add({"bytes_dropped", "bytes read too late", asNumber(report.dropped), ""});
     rows.add({"drift_ppm", "clock drift", known ? report.drift_ppm : kUnknown, "ppm"});
-    rows.add({"drift_uncertainty_ppm", "its uncertainty, ±", known ? report.driftUncertainty_ppm : kUnknown, "ppm"});
-    rows.add({"drift_span_s", "over", known ? report.driftSpan_s : kUnknown, "s"});
+    rows.add({"drift_uncertainty_ppm", "drift uncertainty, ±", known ? report.driftUncertainty_ppm : kUnknown, "ppm"});
+    rows.add({"drift_span_s", "drift measured over", known ? report.driftSpan_s : kUnknown, "s"});
     rows.add({"delay_most_s", "delay, at most", report.delayMost_s, "s"});
     return rows;
 }

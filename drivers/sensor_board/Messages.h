@@ -19,6 +19,9 @@ namespace tacto::sensorboard {
 inline constexpr std::size_t kStreamsMost = 8;
 inline constexpr std::size_t kColumnsMost = 16;
 
+/// How the serial number of an emulated board begins (PROTOCOL.md, section 4).
+inline constexpr std::string_view kEmulatedSerial = "EMU-";
+
 struct BoardIdentity {
     int lowestVersion = 0;  ///< of the protocol, that the board speaks
     int highestVersion = 0;

@@ -63,7 +63,7 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
                     settings.serial);
     }
     identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
-                 who->serial,  who->firmware, false};
+                 who->serial,  who->firmware, who->serial.starts_with(kEmulatedSerial)};
     // One that a program left running is stopped first: configurations are set in silence.
     if (const auto stopped = link_.ask(Command::Stop, Reply::Done); !stopped) return failure(stopped);
     return configure(settings, who->streams);

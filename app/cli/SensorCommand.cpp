@@ -1,0 +1,156 @@
+// sensor: what a technician asks of a sensor board: who it is, what it is set to, how its line is.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/Command.h"
+#include "app/cli/SensorListening.h"
+#include "app/run/AllDrivers.h"
+#include "drivers/sensor_board/BoardReport.h"
+#include "drivers/sensor_board/SensorBoardDriver.h"
+
+namespace tacto::cli {
+
+namespace {
+
+using nlohmann::json;
+using sensorboard::SampleFormat;
+
+constexpr double kSecondsLeast = 0.5;
+constexpr double kSecondsMost = 3600;
+constexpr double kSecondsUsual = 2;
+
+void declare(QCommandLineParser& parser) {
+    parser.addOption(
+        {"seconds", "How long to listen, 0.5 to 3600 s: the longer, the surer the clock drift (2 s).", "S"});
+    parser.addOption({"json", "Prints one JSON value."});
+}
+
+json orNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json orNull(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
+
+const char* nameOf(SampleFormat format) noexcept { return format == SampleFormat::Int16 ? "int16" : "int32"; }
+
+json streamJson(const SensorBoard& board, const Listened& heard, std::size_t i) {
+    const auto& info = board.streams()[i];
+    const auto& set = board.configuration(i);
+    const auto& calibration = board.calibrations()[i];
+    const auto& counts = heard.report.streams[i];
+    auto scale = json::array();
+    auto offset = json::array();
+    for (const auto& column : set.columns) {
+        scale.push_back(column.scale);
+        offset.push_back(column.offset);
+    }
+    return {{"kind", tacto::nameOf(info.kind)},
+            {"unit", symbolOf(info.unit)},
+            {"channels", info.channels},
+            {"format", nameOf(set.format)},
+            {"rate_hz", info.rate_hz},
+            {"measured_rate_hz", orNull(heard.health[i].rate_hz)},
+            {"samples", counts.samples},
+            {"samples_lost", counts.lostSamples},
+            {"gaps", counts.gaps},
+            {"scale", std::move(scale)},
+            {"offset", std::move(offset)},
+            {"calibrated", calibration.calibrated},
+            {"calibration_date", orNull(calibration.date)},
+            {"calibration_reference", orNull(calibration.reference)},
+            {"scale_uncertainty", calibration.uncertainty}};
+}
+
+json statusJson(const SensorBoard& board, const Listened& heard) {
+    const auto& who = board.identity();
+    auto streams = json::array();
+    for (std::size_t i = 0; i < board.streams().size(); ++i) streams.push_back(streamJson(board, heard, i));
+    auto line = json::object();
+    const auto rows = sensorboard::rowsOf(heard.report);
+    for (const auto& row : rows.rows()) line[row.key] = orNull(row.value);
+    const auto& own = heard.report.board;
+    return {{"uri", who.uri},
+            {"name", who.name},
+            {"serial", who.serial},
+            {"firmware", who.firmware},
+            {"simulated", who.simulated},
+            {"seconds", heard.seconds},
+            {"streams", std::move(streams)},
+            {"losses", rows.losses},
+            {"line", std::move(line)},
+            {"board",
+             {{"faulty_streams", own.faultyStreams},
+              {"samples_lost", own.samplesLost},
+              {"blocks_dropped", own.blocksDropped},
+              {"frames_refused", own.framesRefused}}}};
+}
+
+std::string calibrationText(const sensorboard::StreamCalibration& calibration) {
+    if (!calibration.calibrated) return "not calibrated";
+    double worst = 0;
+    for (const double one : calibration.uncertainty) worst = std::max(worst, one);
+    return fmt::format("calibrated{}{}, scale ± {:.2g} % (k = 1)",
+                       calibration.date.empty() ? "" : fmt::format(" {}", calibration.date),
+                       calibration.reference.empty() ? "" : fmt::format(" ({})", calibration.reference), worst * 100);
+}
+
+void printText(const SensorBoard& board, const Listened& heard) {
+    const auto& who = board.identity();
+    fmt::print("sensor board  {} {}{}\nfirmware      {}\n", who.name, who.serial, who.simulated ? "  (simulated)" : "",
+               who.firmware);
+    for (std::size_t i = 0; i < board.streams().size(); ++i) {
+        const auto& info = board.streams()[i];
+        const auto& set = board.configuration(i);
+        fmt::print("{:<13} {} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}\n", tacto::nameOf(info.kind), info.channels,
+                   nameOf(set.format), symbolOf(info.unit), info.rate_hz, heard.health[i].rate_hz,
+                   calibrationText(board.calibrations()[i]));
+    }
+    const auto& report = heard.report;
+    const auto losses = sensorboard::lossesOf(report);
+    fmt::print("listened      {:.1f} s: {}\n", heard.seconds, losses == 0 ? "nothing lost" : "something was lost");
+    for (const auto& row : sensorboard::rowsOf(report).rows()) {
+        if (std::isfinite(row.value))
+            fmt::print("  {:<24} {:.6g}{}{}\n", row.name, row.value, *row.unit != '\0' ? " " : "", row.unit);
+        else
+            fmt::print("  {:<24} not known yet\n", row.name);
+    }
+    if (report.board.faultyStreams != 0) fmt::print("  the board says that a sensor of it does not answer\n");
+}
+
+int run(const QCommandLineParser& parser) {
+    const auto given = parser.positionalArguments();
+    if (given.isEmpty()) return usage("sensor: status is missing");
+    if (given.front() != "status")
+        return usage(fmt::format("sensor: there is no \"{}\"; status is expected", given.front().toStdString()));
+    if (given.size() > 2)
+        return usage(
+            fmt::format("sensor status: one URI is expected, and \"{}\" is a second one", given.at(2).toStdString()));
+    const auto seconds = parser.isSet("seconds") ? numberOption(parser, "seconds") : Result<double>(kSecondsUsual);
+    if (!seconds) return failWith(seconds.error());
+    if (!(*seconds >= kSecondsLeast && *seconds <= kSecondsMost))
+        return usage(fmt::format("--seconds is {}; {} to {} s is expected", *seconds, kSecondsLeast, kSecondsMost));
+    const auto uri = DeviceUri::parse(given.size() == 2 ? given.at(1).toStdString() : std::string("sensor:"));
+    if (!uri) return failWith(uri.error());
+    if (uri->scheme != "sensor")
+        return usage(fmt::format("\"{}\" is no sensor board; sensor:, sensor:SERIAL or sensor:?tty=PATH is expected",
+                                 uri->text()));
+    const SignalStop interrupts;
+    const SteadyClock clock;
+    const auto board = openSensorBoard(sensorBoardPorts(), *uri, clock);
+    if (!board) return failWith(board.error());
+    const auto heard = listenTo(**board, Seconds(*seconds), interrupts);
+    if (!heard) return failWith(heard.error());
+    if (parser.isSet("json"))
+        printJson(statusJson(**board, *heard));
+    else
+        printText(**board, *heard);
+    return kDone;
+}
+
+}  // namespace
+
+const Command kSensor{"sensor",
+                      "status [URI] [--seconds S] [--json]",
+                      "A sensor board by hand: who it is, its settings and calibration, rates, clock drift and losses",
+                      false,
+                      declare,
+                      run};
+
+}  // namespace tacto::cli

@@ -1,0 +1,23 @@
+// SensorListening.h - a few seconds of a sensor board's streams: how fast they come, and what is lost.
+//
+// Thread-safety: one caller.
+#pragma once
+
+#include <vector>
+
+#include "app/cli/SignalStop.h"
+#include "core/acquisition/StreamHealth.h"
+#include "drivers/sensor_board/SensorBoard.h"
+
+namespace tacto::cli {
+
+struct Listened {
+    double seconds = 0;                ///< of listening
+    std::vector<HealthReport> health;  ///< by SensorBoard::streams()
+    SensorBoardReport report;
+};
+
+/// Listens for `time`, or until somebody presses Ctrl+C. Errors: as SensorBoard::read().
+[[nodiscard]] Result<Listened> listenTo(SensorBoard& board, Seconds time, const SignalStop& interrupts);
+
+}  // namespace tacto::cli
