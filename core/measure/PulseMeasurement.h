@@ -5,6 +5,12 @@
 // by the record's end, incomplete (missing samples) or under-sampled (fewer than 10 samples in a phase) is flagged,
 // counted and not measured: its numbers are NaN, and an interval that begins or ends with it is not reported.
 //
+// Noise: with every state at least 21.6 dB (12 standard deviations) out of it, no pulse is missed and none invented. A
+// noisier record is measured on means of as many samples as that takes, if 10 of these fit a phase; where they do not,
+// the result is doubtful and a warning says so. A baseline that drifts or hums is followed where pulses leave it seven
+// tenths of the record; where it moves and cannot be followed, a warning says by how much. What these promises hold for
+// is in tests/measure/MeasurementGridTest.cpp, the errors in the table that measurement_table prints.
+//
 // Values are bare doubles: their unit is the channel's (V, A, or logic levels), which is data; charge is unit times
 // second, coulombs on a current channel. Times are seconds on the session's time base.
 //
@@ -86,12 +92,31 @@ struct MeasureOptions {
     Seconds interPhaseGapMax{1e-3};         ///< opposite phases at most this far apart form one pulse
 };
 
+/// How far the record itself lets its pulses be known.
+struct SignalQuality {
+    double snr_db = kNotMeasured;  ///< largest state over the noise, as measured (averaged); infinite without noise
+    std::size_t mean = 1;          ///< samples averaged into one before measuring
+    std::size_t meanOfSecond = 1;  ///< the same for the shallower side of biphasic pulses
+    double drift = 0;              ///< peak to peak, of the baseline that was followed; 0 = it stays
+    double unrest = 0;             ///< standard deviation of a baseline that moves and could not be followed
+    double levelAfter = 0;         ///< of the signal after its pulses less that before them, where a second phase seems
+                                   ///< to be hidden in the noise; 0 = none
+    bool doubtful = false;         ///< too much noise: pulses may be missing or invented
+};
+
 /// Standard uncertainties (k = 1) of one reading, from what the channel declares and the record shows.
 struct MeasurementUncertainty {
     double amplitude = kNotMeasured;  ///< of a plateau: lsb/√12, gain and offset tolerance /√3, noise over the plateau
     double width_s = kNotMeasured;     ///< sampling step/√6, and the noise on the edges
     double interval_s = kNotMeasured;  ///< the same
+    double gap_s = kNotMeasured;       ///< the same; biphasic only
+    double charge =
+        kNotMeasured;  ///< of the leading phase: gain, offset and noise over the width, step/√6 of its edges
+    double imbalance = kNotMeasured;  ///< of both charges, without what they share; biphasic only
 };
+
+/// A reading lies within this many standard uncertainties of the truth in 95 of 100 cases.
+inline constexpr double kCoverage = 2;
 
 struct ChannelMeasurement {
     std::string name;
@@ -102,6 +127,7 @@ struct ChannelMeasurement {
     std::vector<PulseMeasurement> pulses;  ///< all found, in time order, flagged ones included
     std::vector<TrainMeasurement> trains;
     std::size_t measuredPulses = 0;  ///< `pulses` of cli.md: those that the statistics are of
+    SignalQuality quality;
     MeasurementUncertainty uncertainty;
 
     // Of the measured pulses (leading phase); of the trains for the interval. n says how many.

@@ -6,161 +6,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
 #include <vector>
+
+#include "core/measure/AmplitudeHistogram.h"
+#include "core/measure/SampleBlocks.h"
 
 namespace tacto {
 
 namespace {
 
-constexpr std::size_t kBins = 200;
 constexpr std::size_t kFewestSamples = 20;
 constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
-constexpr double kPeakOverValley = 2;       // two modes are two when the valley between is half the lower
 constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
 constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
 constexpr double kRestingSpread = 0.2;  // of the way to the next state; a sine has 0.24, a square wave's ringing less
-
-struct Range {
-    double low = 0;
-    double high = 0;
-    double trimmedLow = 0;  // without the two outermost samples: a glitch must not stretch the histogram
-    double trimmedHigh = 0;
-    std::size_t n = 0;
-};
-
-Range rangeOf(std::span<const float> samples) {
-    std::array<float, 3> lowest;   // ascending
-    std::array<float, 3> highest;  // descending
-    lowest.fill(std::numeric_limits<float>::infinity());
-    highest.fill(-std::numeric_limits<float>::infinity());
-    std::size_t n = 0;
-    for (const float x : samples) {
-        if (!std::isfinite(x)) continue;
-        ++n;
-        if (x < lowest[2]) {
-            lowest[2] = x;
-            if (lowest[2] < lowest[1]) std::swap(lowest[2], lowest[1]);
-            if (lowest[1] < lowest[0]) std::swap(lowest[1], lowest[0]);
-        }
-        if (x > highest[2]) {
-            highest[2] = x;
-            if (highest[2] > highest[1]) std::swap(highest[2], highest[1]);
-            if (highest[1] > highest[0]) std::swap(highest[1], highest[0]);
-        }
-    }
-    return {lowest[0], highest[0], lowest[2], highest[2], n};
-}
-
-/// Noise from the median step between neighbours: edges are too few to move a median.
-double noiseOf(std::span<const float> samples) {
-    constexpr std::size_t kPairs = 4096;
-    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPairs);
-    std::vector<float> steps;
-    steps.reserve(kPairs * 2);
-    for (std::size_t i = 0; i + 1 < samples.size(); i += stride) {
-        const float step = std::abs(samples[i + 1] - samples[i]);
-        if (std::isfinite(step)) steps.push_back(step);
-    }
-    if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return static_cast<double>(*middle) / (0.6745 * std::sqrt(2.0));
-}
-
-struct Mode {
-    std::size_t bin = 0;
-    double weight = 0;  // samples within the smoothing window
-    double level = 0;   // their mean
-};
-
-/// Counts and sums per bin, so that a level is a mean of samples and not a bin's centre.
-struct Histogram {
-    std::array<double, kBins> count{};
-    std::array<double, kBins> sum{};
-    double low = 0;
-    double width = 0;
-    std::size_t halfWindow = 2;
-    std::size_t noiseReach = 2;  // beyond this many bins from a mode lies no noise of it
-
-    Histogram(std::span<const float> samples, const Range& range, double noise) {
-        low = range.trimmedLow;
-        width = (range.trimmedHigh - range.trimmedLow) / static_cast<double>(kBins);
-        halfWindow = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(1.5 * noise / width)), 2, kBins / 8);
-        noiseReach = std::max(halfWindow, static_cast<std::size_t>(std::ceil(5 * noise / width)));
-        for (const float x : samples) {
-            if (!std::isfinite(x)) continue;
-            const double value = std::clamp(static_cast<double>(x), range.trimmedLow, range.trimmedHigh);
-            const auto bin = std::min(kBins - 1, static_cast<std::size_t>((value - low) / width));
-            count[bin] += 1;
-            sum[bin] += value;
-        }
-    }
-
-    [[nodiscard]] Mode modeAt(std::size_t bin) const {
-        Mode mode{bin, 0, 0};
-        const std::size_t first = bin < halfWindow ? 0 : bin - halfWindow;
-        for (std::size_t k = first; k <= std::min(kBins - 1, bin + halfWindow); ++k) {
-            mode.weight += count[k];
-            mode.level += sum[k];
-        }
-        mode.level = mode.weight > 0 ? mode.level / mode.weight : low + (static_cast<double>(bin) + 0.5) * width;
-        return mode;
-    }
-
-    /// Local maxima of the smoothed histogram that are separated by valleys, ascending.
-    [[nodiscard]] std::vector<Mode> modes() const {
-        std::vector<double> smooth(kBins);
-        for (std::size_t k = 0; k < kBins; ++k) smooth[k] = modeAt(k).weight;
-        std::vector<Mode> found;
-        std::size_t peak = 0;
-        std::size_t plateauEnd = 0;
-        double valley = 0;
-        bool rising = true;
-        const auto accept = [&] { found.push_back(modeAt((peak + plateauEnd) / 2)); };
-        for (std::size_t k = 0; k < kBins; ++k) {
-            if (rising) {
-                if (smooth[k] > smooth[peak]) {
-                    peak = plateauEnd = k;
-                } else if (smooth[k] == smooth[peak] && k == plateauEnd + 1) {
-                    plateauEnd = k;
-                } else if (smooth[k] * kPeakOverValley < smooth[peak]) {
-                    accept();
-                    rising = false;
-                    valley = smooth[k];
-                }
-            } else {
-                valley = std::min(valley, smooth[k]);
-                if (smooth[k] > valley * kPeakOverValley && smooth[k] > 0) {
-                    rising = true;
-                    peak = plateauEnd = k;
-                }
-            }
-        }
-        if (rising && smooth[peak] > 0) accept();
-        return found;
-    }
-
-    /// ∫ of what lies above (sign +1) or below (-1) the mode's window, relative to its level.
-    [[nodiscard]] double chargeBeside(const Mode& mode, int sign) const {
-        double charge = 0;
-        for (std::size_t k = 0; k < kBins; ++k) {
-            const bool beside = sign > 0 ? k > mode.bin + noiseReach : k + noiseReach < mode.bin;
-            if (beside) charge += std::abs(sum[k] - count[k] * mode.level);
-        }
-        return charge;
-    }
-
-    /// Share of samples above `level`, to a bin's width.
-    [[nodiscard]] double shareAbove(double level) const {
-        double above = 0;
-        double all = 0;
-        for (std::size_t k = 0; k < kBins; ++k) {
-            all += count[k];
-            if (count[k] > 0 && sum[k] / count[k] > level) above += count[k];
-        }
-        return above / all;
-    }
-};
 
 /// The mode that holds most, weighing time by distance: a state, not the ringing beside one.
 const Mode* strongest(const std::vector<Mode>& modes, const Mode& from, int sign) {
@@ -183,7 +43,8 @@ StateLevels none(std::string why) {
     return levels;
 }
 
-bool threeStates(const Histogram& histogram, const std::vector<Mode>& modes, std::size_t n, StateLevels& levels) {
+bool threeStates(const AmplitudeHistogram& histogram, const std::vector<Mode>& modes, std::size_t n,
+                 StateLevels& levels) {
     const Mode* baseline = nullptr;
     for (const auto& candidate : modes) {
         if (candidate.weight < kSmallestBaseline * static_cast<double>(n)) continue;
@@ -206,7 +67,7 @@ bool threeStates(const Histogram& histogram, const std::vector<Mode>& modes, std
     return true;
 }
 
-bool twoStates(const Histogram& histogram, const std::vector<Mode>& modes, StateLevels& levels) {
+bool twoStates(const AmplitudeHistogram& histogram, const std::vector<Mode>& modes, StateLevels& levels) {
     if (modes.size() < 2) return false;
     const auto& largest =
         *std::max_element(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.weight < b.weight; });
@@ -223,29 +84,66 @@ bool twoStates(const Histogram& histogram, const std::vector<Mode>& modes, State
     return true;
 }
 
+/// Of the deviations from an origin: how many are within the window, their sum and their squares; how many are nearer
+/// than half way to the next state, and their squares.
+struct Moments {
+    double near = 0, sum = 0, squares = 0, half = 0, spread = 0;
+};
+
+/// In lanes without branches, a few thousand samples at a time: a float's digits suffice for so short a sum.
+Moments momentsAbout(std::span<const float> samples, double origin, double window, double half) {
+    constexpr std::size_t kLanes = 8;
+    constexpr std::size_t kRows = 256;
+    Moments all;
+    const auto zero = static_cast<float>(origin);
+    const auto inner = static_cast<float>(window);
+    const auto outer = static_cast<float>(half);
+    std::array<float, kLanes * kRows> chunk;
+    for (std::size_t first = 0; first < samples.size(); first += chunk.size()) {
+        const std::size_t n = std::min(chunk.size(), samples.size() - first);
+        if (n < chunk.size()) chunk.fill(std::numeric_limits<float>::quiet_NaN());
+        std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(first), n, chunk.begin());
+        std::array<float, kLanes> near{}, sum{}, squares{}, within{}, spread{};
+        for (std::size_t row = 0; row < chunk.size(); row += kLanes) {
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                const float d = chunk[row + lane] - zero;
+                const float distance = d < 0 ? -d : d;
+                // A comparison with NaN is false: what is missing counts nowhere.
+                const float inHalf = distance < outer ? d : 0.0F;
+                const float inWindow = distance < outer && distance <= inner ? d : 0.0F;
+                within[lane] += distance < outer ? 1.0F : 0.0F;
+                near[lane] += distance < outer && distance <= inner ? 1.0F : 0.0F;
+                spread[lane] += inHalf * inHalf;
+                sum[lane] += inWindow;
+                squares[lane] += inWindow * inWindow;
+            }
+        }
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            all.near += static_cast<double>(near[lane]);
+            all.sum += static_cast<double>(sum[lane]);
+            all.squares += static_cast<double>(squares[lane]);
+            all.half += static_cast<double>(within[lane]);
+            all.spread += static_cast<double>(spread[lane]);
+        }
+    }
+    // The origin was rounded to a float.
+    const double rounding = static_cast<double>(zero) - origin;
+    all.sum += all.near * rounding;
+    return all;
+}
+
 /// Baseline as the mean about its mode, the noise about it, and whether the signal rests there at all.
-bool refineBaseline(std::span<const float> samples, double neighbourNoise, StateLevels& levels) {
+bool refineBaseline(std::span<const float> samples, double noise, StateLevels& levels) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const double state : {levels.low, levels.high}) {
         if (state != levels.baseline) nearest = std::min(nearest, std::abs(state - levels.baseline));
     }
-    const double window = std::max(4 * neighbourNoise, 0.005 * nearest);
+    const double window = std::max(4 * noise, 0.005 * nearest);
     const double origin = levels.baseline;
-    double near = 0, sum = 0, squares = 0, half = 0, spread = 0;
-    for (const float x : samples) {
-        const double d = static_cast<double>(x) - origin;
-        if (std::abs(d) < 0.5 * nearest) {
-            half += 1;
-            spread += d * d;
-            if (std::abs(d) <= window) {
-                near += 1;
-                sum += d;
-                squares += d * d;
-            }
-        }
-    }
-    if (!(half > 0) || !(near > 0) || std::sqrt(spread / half) > kRestingSpread * nearest) return false;
-    const double mean = sum / near;
+    const auto [near, sum, squares, half, spread] = momentsAbout(samples, origin, window, 0.5 * nearest);
+    if (!(half > 0) || !(near > 0)) return false;
+    if (std::sqrt(spread / half) > kRestingSpread * nearest) return false;
+    const double mean = sum / near;  // from the origin; the squares are about it to a float's digits
     const bool isLow = levels.low == levels.baseline;
     const bool isHigh = levels.high == levels.baseline;
     levels.baseline = origin + mean;
@@ -257,11 +155,32 @@ bool refineBaseline(std::span<const float> samples, double neighbourNoise, State
 
 }  // namespace
 
+double neighbourNoise(std::span<const float> samples, double lsb) {
+    constexpr std::size_t kPairs = 4096;
+    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPairs);
+    std::vector<float> steps;
+    steps.reserve(kPairs * 2);
+    for (std::size_t i = 0; i + 1 < samples.size(); i += stride) {
+        const float step = std::abs(samples[i + 1] - samples[i]);
+        if (std::isfinite(step)) steps.push_back(step);
+    }
+    const double quantisation = lsb / std::sqrt(12.0);
+    if (steps.empty()) return quantisation;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return std::max(quantisation, static_cast<double>(*middle) / (0.6745 * std::sqrt(2.0)));
+}
+
 StateLevels findStateLevels(std::span<const float> samples, double lsb, bool logic) {
-    const Range range = rangeOf(samples);
-    if (range.n < kFewestSamples)
-        return none(fmt::format("it has {} samples; {} are the least", range.n, kFewestSamples));
-    if (!(range.high > range.low)) return none(fmt::format("it stays at {:.4g}", range.low));
+    return findStateLevels(SampleBlocks(samples), lsb, logic);
+}
+
+StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) {
+    const double low = static_cast<double>(blocks.lowest());
+    const double high = static_cast<double>(blocks.highest());
+    if (blocks.finite() < kFewestSamples)
+        return none(fmt::format("it has {} samples; {} are the least", blocks.finite(), kFewestSamples));
+    if (!(high > low)) return none(fmt::format("it stays at {:.4g}", low));
     if (logic) {
         StateLevels levels;
         levels.count = StateCount::Two;
@@ -269,18 +188,18 @@ StateLevels findStateLevels(std::span<const float> samples, double lsb, bool log
         levels.high = 1;
         return levels;
     }
-    const double noise = std::max(noiseOf(samples), lsb / std::sqrt(12.0));
-    const double span = range.trimmedHigh - range.trimmedLow;
+    const double noise = neighbourNoise(blocks.samples(), lsb);
+    const double span = static_cast<double>(blocks.thirdHighest()) - static_cast<double>(blocks.thirdLowest());
     if (!(span > kSpanInNoise * noise) || !(span > 4 * lsb)) {
-        return none(fmt::format("it moves by {:.3g} in all, no more than its noise", range.high - range.low));
+        return none(fmt::format("it moves by {:.3g} in all, no more than its noise", high - low));
     }
-    const Histogram histogram(samples, range, noise);
+    const AmplitudeHistogram histogram(blocks, noise);
     const auto modes = histogram.modes();
     StateLevels levels;
-    if (!threeStates(histogram, modes, range.n, levels) && !twoStates(histogram, modes, levels)) {
+    if (!threeStates(histogram, modes, blocks.finite(), levels) && !twoStates(histogram, modes, levels)) {
         return none("it rests at fewer than two levels");
     }
-    if (!refineBaseline(samples, noise, levels)) return none("it moves all the time and rests at no level");
+    if (!refineBaseline(blocks.samples(), noise, levels)) return none("it moves all the time and rests at no level");
     return levels;
 }
 

@@ -13,6 +13,8 @@
 
 namespace tacto {
 
+class SampleBlocks;
+
 enum class StateCount { None = 0, Two = 2, Three = 3 };
 
 /// Levels are in the channel's unit, a bare double because the unit is data (V, A, logic).
@@ -29,5 +31,11 @@ struct StateLevels {
 /// Two states: the baseline is the state with nine tenths of the samples; else the one near zero (within a tenth of
 /// the difference) if the other is not; else the lower. NaN samples are left out.
 [[nodiscard]] StateLevels findStateLevels(std::span<const float> samples, double lsb, bool logic);
+/// The same of a record whose extremes are known already.
+[[nodiscard]] StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic);
+
+/// Standard deviation of the noise from the median step between neighbours (4096 of them): edges are too few to move
+/// it. At least lsb/√12. Noise that is slower than the samples are apart looks smaller than it is.
+[[nodiscard]] double neighbourNoise(std::span<const float> samples, double lsb);
 
 }  // namespace tacto

@@ -28,12 +28,11 @@ double groupingGap(const MeasureOptions& options) {
     return 0;
 }
 
-TrainMeasurement trainOf(const std::vector<FoundPulse>& pulses, std::size_t first, std::size_t last) {
+TrainMeasurement trainOf(std::span<const PulseMeasurement> pulses) {
     TrainMeasurement train;
     double amplitude = 0, width = 0, charge = 0, imbalance = 0;
     int polarity = 0;
-    for (std::size_t i = first; i < last; ++i) {
-        const auto& pulse = pulses[i].pulse;
+    for (const auto& pulse : pulses) {
         if (!pulse.flags.measured()) {
             ++train.flagged;
             continue;
@@ -53,20 +52,28 @@ TrainMeasurement trainOf(const std::vector<FoundPulse>& pulses, std::size_t firs
         train.imbalance = imbalance / n;
         train.polarity = polarity >= 0 ? 1 : -1;
     }
-    train.onset_s = pulses[first].pulse.onset_s();
+    train.onset_s = pulses.front().onset_s();
     return train;
 }
 
-void groupTrains(const std::vector<FoundPulse>& pulses, double gap, std::vector<TrainMeasurement>& trains) {
+void groupTrains(std::span<const PulseMeasurement> pulses, std::span<const std::size_t> breaks, double gap,
+                 std::vector<TrainMeasurement>& trains) {
+    // Known also of a pulse that was flagged and whose numbers are gone.
+    const auto approximateOnset = [&](std::size_t i) {
+        return std::isnan(pulses[i].onset_s()) ? pulses[i].seenFrom_s : pulses[i].onset_s();
+    };
+    trains.reserve(gap > 0 ? 0 : pulses.size());
+    auto nextBreak = breaks.begin();
     for (std::size_t first = 0; first < pulses.size();) {
+        while (nextBreak != breaks.end() && *nextBreak < first) ++nextBreak;
+        const bool afterBreak = nextBreak != breaks.end() && *nextBreak == first;
+        if (afterBreak) ++nextBreak;
+        const std::size_t end = nextBreak == breaks.end() ? pulses.size() : *nextBreak;
         std::size_t last = first + 1;
-        const auto belongs = [&](std::size_t i) {
-            return !pulses[i].afterBreak && pulses[i].approximateOnset_s - pulses[i - 1].approximateOnset_s <= gap;
-        };
-        while (last < pulses.size() && belongs(last)) ++last;
-        trains.push_back(trainOf(pulses, first, last));
+        while (last < end && approximateOnset(last) - approximateOnset(last - 1) <= gap) ++last;
+        trains.push_back(trainOf(pulses.subspan(first, last - first)));
         // A flagged first pulse leaves its onset NaN, and with it this interval and the one before.
-        if (first > 0 && !pulses[first].afterBreak) {
+        if (first > 0 && !afterBreak) {
             auto& before = trains[trains.size() - 2];
             before.interval_s = trains.back().onset_s - before.onset_s;
         }
@@ -74,22 +81,85 @@ void groupTrains(const std::vector<FoundPulse>& pulses, double gap, std::vector<
     }
 }
 
+/// Gap and imbalance. `random`: of the leading charge; `offset` and `resolution`: of any level; `step`: s per sample.
+void addSecondPhase(const ChannelMeasurement& result, double step, double random, double offset, double resolution,
+                    MeasurementUncertainty& u) {
+    double n = 0, width = 0, height = 0;
+    for (const auto& pulse : result.pulses) {
+        if (!pulse.second) continue;
+        n += 1;
+        width += pulse.second->width_s;
+        height += std::abs(pulse.second->plateau);
+    }
+    const double charge = result.charge.mean;
+    if (!(n > 0) || !(charge > 0) || !(height > 0)) return;
+    width /= n;
+    height /= n;
+    const double ownStep =
+        step * static_cast<double>(result.quality.meanOfSecond) / static_cast<double>(result.quality.mean);
+    // White noise: the mean of more samples has less of it.
+    const double jitter = result.states.noise * std::sqrt(step / ownStep) * ownStep / height;
+    u.gap_s = std::hypot(u.width_s, std::hypot(ownStep > step ? ownStep / std::sqrt(6.0) : 0, jitter));
+    // A gain is the same for both charges and divides out; an offset adds to one what it takes from the other. Edges
+    // that fall between samples are the same for both where the phases are.
+    const double second = std::hypot(result.states.noise * std::sqrt(step * width), height * ownStep / std::sqrt(6.0));
+    const double baseline = result.states.noise * std::sqrt(step / width) * width;
+    const double shared = std::hypot(offset, resolution) * (result.width_s.mean + width);
+    u.imbalance = std::hypot(std::hypot(random, std::hypot(second, baseline)), shared) / charge;
+}
+
 MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const CaptureChannel& channel) {
     MeasurementUncertainty u;
     if (result.measuredPulses == 0) return u;
     const double amplitude = result.amplitude.mean;
-    const double samples = std::max(1.0, 0.6 * result.width_s.mean * result.rate_hz);
-    const double noise = result.states.noise / std::sqrt(samples);
+    const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // of what was measured
+    const double width = result.width_s.mean;
+    const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
     const double resolution = channel.lsb / std::sqrt(12.0);
     const double gain = channel.gainTolerance * amplitude / std::sqrt(3.0);
-    const double offset = channel.offsetTolerance / std::sqrt(3.0);
+    const double offset = std::hypot(channel.offsetTolerance / std::sqrt(3.0), result.quality.unrest);
     u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, offset));
     // Two edges, each somewhere within a step; and noise moves each by itself over the edge's steepness.
-    const double step = 1.0 / result.rate_hz;
     const double edge = std::max(std::isfinite(result.rise_s.mean) ? result.rise_s.mean / 0.8 : 0, step);
     const double jitter = amplitude > 0 ? std::sqrt(2.0) * result.states.noise * edge / amplitude : 0;
     u.width_s = u.interval_s = std::hypot(step / std::sqrt(6.0), jitter);
+    // Over the width, the edges, and the baseline that is subtracted all along.
+    const auto chargeNoise = [&](double length, double height, double sampling) {
+        const double samples = result.states.noise * std::sqrt(sampling * (length + 4 * edge));
+        return std::hypot(std::hypot(samples, noise * length), height * sampling / std::sqrt(6.0));
+    };
+    const double random = chargeNoise(width, amplitude, step);
+    u.charge = std::hypot(std::hypot(random, resolution * width), std::hypot(gain, offset) * width);
+    if (result.states.count == StateCount::Three) addSecondPhase(result, step, random, offset, resolution, u);
     return u;
+}
+
+void warnOfQuality(ChannelMeasurement& result) {
+    if (result.states.count == StateCount::None) return;
+    const auto& quality = result.quality;
+    const auto warn = [&](std::string what) {
+        result.warnings.push_back(fmt::format("channel '{}': {}", result.name, what));
+    };
+    if (quality.doubtful) {
+        warn(fmt::format("its noise is only {:.0f} dB below its pulses: pulses may be missing or invented",
+                         quality.snr_db));
+    }
+    if (quality.mean > 1) {
+        warn(fmt::format("its noise asked for the mean of every {} samples before measuring", quality.mean));
+    }
+    if (quality.drift > 0) {
+        warn(fmt::format("its baseline moves by {} and was followed", formatQuantity(quality.drift, result.unit, 2)));
+    }
+    if (quality.levelAfter != 0) {
+        warn(
+            fmt::format("after its pulses it lies {} from where it was before them: a second phase is hidden in the "
+                        "noise and not measured",
+                        formatQuantity(quality.levelAfter, result.unit, 2)));
+    }
+    if (quality.unrest > 0) {
+        warn(fmt::format("its baseline moves by {} (s.d.), more than its noise: levels and charges are uncertain by it",
+                         formatQuantity(quality.unrest, result.unit, 2)));
+    }
 }
 
 void warnOfPulses(ChannelMeasurement& result) {
@@ -115,11 +185,10 @@ void warnOfPulses(ChannelMeasurement& result) {
 
 }  // namespace
 
-void summarise(std::vector<FoundPulse> pulses, const CaptureChannel& channel, const MeasureOptions& options,
-               ChannelMeasurement& result) {
-    groupTrains(pulses, groupingGap(options), result.trains);
-    result.pulses.reserve(pulses.size());
-    for (const auto& found : pulses) result.pulses.push_back(found.pulse);
+void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t> breaks, const CaptureChannel& channel,
+               const MeasureOptions& options, ChannelMeasurement& result) {
+    groupTrains(pulses, breaks, groupingGap(options), result.trains);
+    result.pulses = std::move(pulses);
     result.measuredPulses = static_cast<std::size_t>(
         std::count_if(result.pulses.begin(), result.pulses.end(), [](const auto& p) { return p.flags.measured(); }));
 
@@ -136,6 +205,7 @@ void summarise(std::vector<FoundPulse> pulses, const CaptureChannel& channel, co
     result.imbalance = statisticsOver(all, [](const auto& p) { return p.imbalance; });
     result.interval_s = statisticsOver(result.trains, [](const auto& t) { return t.interval_s; });
     result.uncertainty = uncertaintyOf(result, channel);
+    warnOfQuality(result);
     warnOfPulses(result);
 }
 

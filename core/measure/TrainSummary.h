@@ -4,22 +4,16 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto {
 
-/// A pulse with what grouping needs even when it was flagged and its numbers are gone.
-struct FoundPulse {
-    PulseMeasurement pulse;
-    double approximateOnset_s = 0;
-    bool afterBreak = false;  ///< the time since the pulse before it is not known
-};
-
-/// Fills `result`'s pulses, trains, statistics, uncertainty and the warnings about pulses. result.states, rate and name
-/// are already there.
-void summarise(std::vector<FoundPulse> pulses, const CaptureChannel& channel, const MeasureOptions& options,
-               ChannelMeasurement& result);
+/// Fills `result`'s pulses, trains, statistics, uncertainty and the warnings about pulses. result.states, quality, rate
+/// and name are already there. `breaks`, ascending: pulses before which an unknown time has passed.
+void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t> breaks, const CaptureChannel& channel,
+               const MeasureOptions& options, ChannelMeasurement& result);
 
 }  // namespace tacto

@@ -1,5 +1,6 @@
 #include "tests/measure/MeasurementGrid.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace tacto::test {
@@ -76,12 +77,21 @@ void compare(const std::vector<PhaseTruth>& truths, bool biphasic, const PulseMe
     if (pulse.second) errors.gap.push_back((pulse.gap_s - (truths.back().onset_s - truth.end_s)) * rate_hz);
 }
 
+/// Readings that the stated uncertainty does not cover; in the units of Errors.
+int beyond(const std::vector<double>& errors, std::size_t from, double stated) {
+    return static_cast<int>(std::count_if(errors.begin() + static_cast<std::ptrdiff_t>(from), errors.end(),
+                                          [&](double e) { return !(std::abs(e) <= kCoverage * stated); }));
+}
+
 void judge(const Record& record, bool biphasic, GridResult& result, Errors& errors) {
     const auto m = measureChannel(record.capture, 0);
     const double rate_hz = record.capture.rate_hz;
     const std::size_t perPulse = biphasic ? 2 : 1;
     std::vector<bool> claimed(m.pulses.size(), false);
-    int missed = 0, invented = 0;
+    int missed = 0, invented = 0, halves = 0;
+    const auto& u = m.uncertainty;
+    const auto& truth = record.phases.front();
+    const std::size_t before_n = errors.amplitude.size(), beforeGap_n = errors.gap.size();
     const PulseMeasurement* before = nullptr;
     double onsetBefore_s = 0;
     for (std::size_t k = 0; k < record.phases.size(); k += perPulse) {
@@ -103,6 +113,7 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
             found = nullptr;
         } else {
             compare(truths, biphasic, *found, rate_hz, errors);
+            halves += biphasic && !found->second ? 1 : 0;
             if (before != nullptr) {
                 const double interval_s = found->onset_s() - before->onset_s();
                 errors.interval.push_back((interval_s - (truths.front().onset_s - onsetBefore_s)) * rate_hz);
@@ -115,7 +126,13 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
     result.missed += missed;
     result.invented += invented;
     result.warned += m.warnings.empty() ? 0 : 1;
-    result.silent += (missed > 0 || invented > 0) && m.warnings.empty() ? 1 : 0;
+    const double level = std::abs(truth.level);
+    result.beyondAmplitude += beyond(errors.amplitude, before_n, u.amplitude / level);
+    result.beyondWidth += beyond(errors.width, before_n, u.width_s * rate_hz);
+    result.beyondCharge += beyond(errors.charge, before_n, u.charge / (level * kWidth_s));
+    result.beyondGap += beyond(errors.gap, beforeGap_n, u.gap_s * rate_hz);
+    result.beyondImbalance += beyond(errors.imbalance, beforeGap_n, u.imbalance);
+    result.silent += (missed > 0 || invented > 0 || halves > 0) && m.warnings.empty() ? 1 : 0;
     if (m.measuredPulses > 0) result.stated = m.uncertainty;
 }
 

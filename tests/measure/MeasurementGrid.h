@@ -50,7 +50,9 @@ struct GridResult {
     int flagged = 0;   ///< found, and said not to be measurable
     int invented = 0;  ///< measured where there was none
     int warned = 0;    ///< records with any warning
-    int silent = 0;    ///< records with a missed or invented pulse and no warning
+    int silent = 0;    ///< records with a missed or invented pulse, or half a biphasic one, and no warning
+    // Readings further from the truth than kCoverage times the stated uncertainty, of `amplitude.n` (`gap.n`).
+    int beyondAmplitude = 0, beyondWidth = 0, beyondCharge = 0, beyondGap = 0, beyondImbalance = 0;
 };
 [[nodiscard]] GridResult measureGridPoint(const GridPoint& point, int seeds);
 

@@ -1,0 +1,136 @@
+#include "core/measure/BaselineDrift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tacto {
+
+namespace {
+
+constexpr std::size_t kShortestBlock = 48;
+constexpr std::size_t kCoarsest = 8;  // blocks in a record
+constexpr std::size_t kFinest = 4096;
+constexpr std::size_t kPerMedian = 65;   // samples of a block that its median is from
+constexpr std::size_t kJudged = 32'768;  // samples that say whether a baseline fits
+constexpr double kTail = 0.15;           // of the samples on either side may be pulses
+constexpr double kTailsApart = 2.073;    // of a Gaussian, in standard deviations
+constexpr double kMedianSpread = 1.25;   // of a median, in σ/√n
+constexpr double kMovesFor = 6;          // standard deviations of a median, to be a wandering baseline
+constexpr double kRests = 1.4;           // times the noise: no more is left about a baseline that fits
+constexpr double kMostBend = 0.2;        // of the span
+constexpr double kAsGood = 1.05;         // as the best of all
+
+double quantile(std::vector<double>& values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+double medianOf(std::span<const float> block, std::vector<float>& scratch) {
+    const std::size_t stride = std::max<std::size_t>(1, block.size() / kPerMedian);
+    scratch.clear();
+    for (std::size_t i = stride / 2; i < block.size(); i += stride) {
+        if (std::isfinite(block[i])) scratch.push_back(block[i]);
+    }
+    if (scratch.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+    std::nth_element(scratch.begin(), middle, scratch.end());
+    return static_cast<double>(*middle);
+}
+
+/// False where a block has no sample at all.
+bool follow(std::span<const float> samples, std::size_t blocks, BaselineDrift& drift) {
+    std::vector<float> scratch;
+    drift.block = samples.size() / blocks;
+    drift.medians.resize(blocks);
+    for (std::size_t b = 0; b < blocks; ++b) {
+        drift.medians[b] = medianOf(samples.subspan(b * drift.block, drift.block), scratch);
+        if (std::isnan(drift.medians[b])) return false;
+    }
+    const auto [least, most] = std::minmax_element(drift.medians.begin(), drift.medians.end());
+    drift.span = *most - *least;
+    return true;
+}
+
+/// A baseline bends little from block to block (a sine eleven blocks long by 0.16 of its span). What jumps to and fro
+/// is a state of the signal, such as a long recharge.
+bool bendsLittle(const BaselineDrift& drift, double still) {
+    std::vector<double> bends;
+    for (std::size_t b = 2; b < drift.medians.size(); ++b) {
+        bends.push_back(std::abs(drift.medians[b] - 2 * drift.medians[b - 1] + drift.medians[b - 2]));
+    }
+    return quantile(bends, 0.9) <= kMostBend * drift.span + still;
+}
+
+/// Spread of the middle seven tenths of the samples about the baseline, as a standard deviation.
+double restAbout(std::span<const float> samples, const BaselineDrift& drift) {
+    std::vector<double> left;
+    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kJudged);
+    left.reserve(samples.size() / stride + 1);
+    for (std::size_t i = 0; i < samples.size(); i += stride) {
+        const double x = static_cast<double>(samples[i]);
+        if (std::isfinite(x)) left.push_back(x - drift.at(i));
+    }
+    return (quantile(left, 1 - kTail) - quantile(left, kTail)) / kTailsApart;
+}
+
+}  // namespace
+
+double BaselineDrift::at(std::size_t sample) const noexcept {
+    const double position = (static_cast<double>(sample) + 0.5) / static_cast<double>(block) - 0.5;
+    const double last = static_cast<double>(medians.size()) - 1;
+    // Before the first middle and after the last one the line goes on.
+    const auto from = static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, std::max(0.0, last - 1)));
+    if (from + 1 >= medians.size()) return medians[from];
+    return medians[from] + (position - static_cast<double>(from)) * (medians[from + 1] - medians[from]);
+}
+
+std::optional<BaselineDrift> findDrift(std::span<const float> samples, double noise, double lsb) {
+    const std::size_t most = std::min(kFinest, samples.size() / kShortestBlock);
+    if (most < kCoarsest) return std::nullopt;
+    BaselineDrift drift;
+    if (!follow(samples, std::min<std::size_t>(64, most), drift)) return std::nullopt;
+    const double perMedian = static_cast<double>(std::min(kPerMedian, drift.block));
+    const double still = std::max(kMovesFor * kMedianSpread * noise / std::sqrt(perMedian), 1.5 * lsb);
+    auto medians = drift.medians;
+    if (!(quantile(medians, 1 - kTail) - quantile(medians, kTail) > still)) return std::nullopt;
+
+    BaselineDrift none;
+    if (!follow(samples, 1, none)) return std::nullopt;
+    const double undisturbed = std::max(noise, lsb / std::sqrt(12.0));
+    const double before = restAbout(samples, none);
+    std::vector<std::pair<double, BaselineDrift>> candidates;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t blocks = kCoarsest; blocks <= most; blocks *= 2) {
+        if (!follow(samples, blocks, drift)) break;
+        if (!bendsLittle(drift, still)) continue;
+        const double rest = restAbout(samples, drift);
+        best = std::min(best, rest);
+        candidates.emplace_back(rest, drift);
+    }
+    if (!(best < 0.97 * before) || !(best <= kRests * undisturbed)) return std::nullopt;
+    for (auto& [rest, candidate] : candidates) {
+        if (rest <= kAsGood * best) return std::move(candidate);
+    }
+    return std::nullopt;
+}
+
+SampleView withoutDrift(const SampleView& view, const BaselineDrift& drift) {
+    SampleView result;
+    result.capture = view.capture;
+    result.channel = view.channel;
+    result.mean = view.mean;
+    result.rate_hz = view.rate_hz;
+    result.start_s = view.start_s;
+    result.own.resize(view.samples.size());
+    auto medians = drift.medians;
+    const double origin = quantile(medians, 0.5);
+    for (std::size_t i = 0; i < view.samples.size(); ++i) {
+        result.own[i] = static_cast<float>(static_cast<double>(view.samples[i]) - drift.at(i) + origin);
+    }
+    result.samples = result.own;
+    return result;
+}
+
+}  // namespace tacto

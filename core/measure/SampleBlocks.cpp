@@ -1,0 +1,126 @@
+#include "core/measure/SampleBlocks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace tacto {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kLanes = 16;
+static_assert(SampleBlocks::kSamples % kLanes == 0);
+
+struct Extremes {
+    float low = kInfinity;
+    float high = -kInfinity;
+    std::size_t finite = 0;
+};
+
+/// Sixteen lanes side by side and no branch, so that a compiler turns them into vectors.
+bool ofWholeBlock(const float* samples, Extremes& into) noexcept {
+    std::array<float, kLanes> low;
+    std::array<float, kLanes> high;
+    std::array<std::int32_t, kLanes> odd;  // not finite
+    low.fill(kInfinity);
+    high.fill(-kInfinity);
+    odd.fill(0);
+    for (std::size_t row = 0; row < SampleBlocks::kSamples; row += kLanes) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const float x = samples[row + lane];
+            low[lane] = x < low[lane] ? x : low[lane];
+            high[lane] = x > high[lane] ? x : high[lane];
+            odd[lane] |= x - x != 0.0F ? 1 : 0;
+        }
+    }
+    std::int32_t anyOdd = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        into.low = std::min(into.low, low[lane]);
+        into.high = std::max(into.high, high[lane]);
+        anyOdd |= odd[lane];
+    }
+    into.finite = SampleBlocks::kSamples;
+    return anyOdd == 0;
+}
+
+Extremes oneByOne(std::span<const float> samples) noexcept {
+    Extremes found;
+    for (const float x : samples) {
+        if (!std::isfinite(x)) continue;
+        ++found.finite;
+        found.low = std::min(found.low, x);
+        found.high = std::max(found.high, x);
+    }
+    return found;
+}
+
+/// The third smallest of `sign` times all samples: it lies in one of the three blocks with the smallest extremes.
+float third(std::span<const float> samples, const std::vector<float>& extremes, float sign) {
+    std::array<std::size_t, 3> blocks{};
+    std::size_t known = 0;
+    for (std::size_t b = 0; b < extremes.size(); ++b) {
+        std::size_t at = known;
+        while (at > 0 && sign * extremes[b] < sign * extremes[blocks[at - 1]]) --at;
+        if (at >= blocks.size()) continue;
+        for (std::size_t k = std::min(known, blocks.size() - 1); k > at; --k) blocks[k] = blocks[k - 1];
+        blocks[at] = b;
+        known = std::min(known + 1, blocks.size());
+    }
+    std::array<float, 3> smallest;  // ascending
+    smallest.fill(kInfinity);
+    for (std::size_t k = 0; k < known; ++k) {
+        const std::size_t first = blocks[k] * SampleBlocks::kSamples;
+        for (const float sample : samples.subspan(first, std::min(SampleBlocks::kSamples, samples.size() - first))) {
+            const float x = sign * sample;
+            if (!std::isfinite(x) || !(x < smallest[2])) continue;
+            smallest[2] = x;
+            std::sort(smallest.begin(), smallest.end());
+        }
+    }
+    return sign * smallest[2];
+}
+
+}  // namespace
+
+SampleBlocks::SampleBlocks(std::span<const float> samples) : samples_(samples) {
+    const std::size_t blocks = (samples.size() + kSamples - 1) / kSamples;
+    low_.resize(blocks);
+    high_.resize(blocks);
+    lowest_ = kInfinity;
+    highest_ = -kInfinity;
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const auto block = samples.subspan(b * kSamples, std::min(kSamples, samples.size() - b * kSamples));
+        Extremes found;
+        if (block.size() < kSamples || !ofWholeBlock(block.data(), found)) found = oneByOne(block);
+        low_[b] = found.low;
+        high_[b] = found.high;
+        finite_ += found.finite;
+        lowest_ = std::min(lowest_, found.low);
+        highest_ = std::max(highest_, found.high);
+    }
+    thirdLowest_ = third(samples_, low_, 1.0F);
+    thirdHighest_ = third(samples_, high_, -1.0F);
+}
+
+std::size_t SampleBlocks::nextBeyond(std::size_t from, float below, float above) const noexcept {
+    const std::size_t n = samples_.size();
+    std::size_t i = from;
+    while (i < n) {
+        const std::size_t block = i / kSamples;
+        const std::size_t end = std::min(n, (block + 1) * kSamples);
+        if (high_[block] > above || low_[block] < below) {
+            for (; i < end; ++i) {
+                if (samples_[i] > above || samples_[i] < below) {
+                    if (std::isfinite(samples_[i])) return i;
+                }
+            }
+        }
+        i = end;
+    }
+    return n;
+}
+
+}  // namespace tacto
