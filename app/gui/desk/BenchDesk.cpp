@@ -61,6 +61,11 @@ Telemetry BenchDesk::telemetry() const {
     return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
 }
 
+std::optional<DeviceReport> BenchDesk::deviceReport(Role role) const {
+    const std::scoped_lock lock(benchMutex_);
+    return bench_ != nullptr ? bench_->deviceReport(role) : std::nullopt;
+}
+
 Result<bool> BenchDesk::allVirtual(const std::vector<DeviceUri>& uris) const {
     return makeRegistry_().allVirtual(uris);
 }

@@ -84,6 +84,8 @@ public:
     [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
     /// Disconnected without a bench.
     [[nodiscard]] Telemetry telemetry() const;
+    /// What the open device of that role reports on itself: losses, clock drift. Nothing where there is none.
+    [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const;
     /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
     [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
     /// The profile in force: of the open bench, else the one of the last order or the shipped one.

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
 
 namespace tacto::gui {
@@ -17,6 +18,8 @@ constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
 constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
+constexpr int kSerialRole = Qt::UserRole + 4;
+constexpr qint64 kDescribeEvery_ms = 500;  // what a device reports on itself
 
 /// Not so a recording or a folder of captures, whose name somebody has to give.
 bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty() && !device.placeholder; }
@@ -40,6 +43,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     tree_->setUniformRowHeights(false);
     layout->addWidget(tree_);
     facts_ = new QLabel(body);
+    facts_->setObjectName("deviceFacts");
     facts_->setWordWrap(true);
     facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     layout->addWidget(facts_);
@@ -89,14 +93,21 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
 void DeviceDock::list() {
     const auto& present = desk_.watch().devices();
     const auto open = desk_.open();
+    if (!open) seen_.clear();
     std::vector<std::string> keys;
     for (const auto& device : present) keys.push_back(device.uri + device.obstacle);
     if (open) {
-        for (const auto& device : open->about.devices) keys.push_back("open " + device.uri);
+        for (const auto& device : open->about.devices) {
+            keys.push_back("open " + device.uri);
+            if (std::ranges::any_of(present, [&](const auto& one) { return isSame(device, one); }))
+                seen_.insert(device.uri);
+        }
     }
     if (keys == listed_) return;
     listed_ = keys;
     const auto before = chosen();
+    const auto* currentItem = tree_->currentItem();
+    const auto current = currentItem != nullptr ? currentItem->data(0, kUriRole).toString() : QString();
     const QSignalBlocker quiet(tree_);
     tree_->clear();
     const auto add = [&](const QString& name, const QString& role, const QString& uri, bool isOpen,
@@ -105,6 +116,7 @@ void DeviceDock::list() {
         item->setData(0, kObstacleRole, obstacle);
         item->setData(0, kUriRole, uri);
         item->setData(0, kOpenRole, isOpen);
+        if (uri == current) tree_->setCurrentItem(item);
         item->setToolTip(0, QString("%1: %2").arg(role, uri));
         if (ready != nullptr) {
             const auto was = before.find(ready->role);
@@ -117,53 +129,51 @@ void DeviceDock::list() {
         item->setFont(0, font);
     };
     if (open) {
-        for (const auto& device : open->about.devices)
+        for (const auto& device : open->about.devices) {
+            const bool gone = unpluggedWhileOpen(device, present, seen_);
             add(QString::fromStdString(device.name), QString::fromStdString(device.role),
-                QString::fromStdString(device.uri), true);
+                QString::fromStdString(device.uri), true, nullptr,
+                gone ? tr("It was unplugged. Plug it in again, then reset the fault.") : QString());
+        }
     }
     for (const auto& device : present) {
-        const bool alreadyOpen = open && std::any_of(open->about.devices.begin(), open->about.devices.end(),
-                                                     [&](const auto& one) { return one.name == device.name; });
-        if (!alreadyOpen)
-            add(QString::fromStdString(device.name), words(nameOf(device.role)), QString::fromStdString(device.uri),
-                false, opensByItself(device) ? &device : nullptr, QString::fromStdString(device.obstacle));
+        const bool alreadyOpen =
+            open && std::ranges::any_of(open->about.devices, [&](const auto& one) { return isSame(one, device); });
+        if (alreadyOpen) continue;
+        add(QString::fromStdString(device.name), words(nameOf(device.role)), QString::fromStdString(device.uri), false,
+            opensByItself(device) ? &device : nullptr, QString::fromStdString(device.obstacle));
+        tree_->topLevelItem(tree_->topLevelItemCount() - 1)
+            ->setData(0, kSerialRole, QString::fromStdString(device.serial));
     }
-    if (tree_->topLevelItemCount() > 0) tree_->setCurrentItem(tree_->topLevelItem(0));
+    if (tree_->currentItem() == nullptr && tree_->topLevelItemCount() > 0)
+        tree_->setCurrentItem(tree_->topLevelItem(0));
     nameOpen();
     describe();
 }
 
 void DeviceDock::describe() {
+    described_.start();
     const auto* item = tree_->currentItem();
     if (item == nullptr) return facts_->setText(tr("No device is present."));
     const auto uri = item->data(0, kUriRole).toString();
+    const auto obstacle = item->data(0, kObstacleRole).toString();
     QStringList lines{QString("<b>%1</b>").arg(item->text(0).toHtmlEscaped()), uri.toHtmlEscaped()};
+    if (!obstacle.isEmpty()) lines << obstacle.toHtmlEscaped();
     if (const auto open = desk_.open(); open && item->data(0, kOpenRole).toBool()) {
         for (const auto& device : open->about.devices) {
             if (QString::fromStdString(device.uri) != uri) continue;
-            lines << tr("Serial %1, firmware %2")
-                         .arg(device.serial.empty() ? "–" : QString::fromStdString(device.serial).toHtmlEscaped(),
-                              device.firmware.empty() ? "–" : QString::fromStdString(device.firmware).toHtmlEscaped());
-            if (device.simulated) lines << tr("Simulated: no number of it was measured on hardware.");
-            if (device.role == "stimulator" && open->source) {
-                lines << tr("%1 source, at most %2")
-                             .arg(open->source->drive == Drive::Current ? tr("Current") : tr("Voltage"),
-                                  open->source->drive == Drive::Current ? settingText(open->source->amplitudeMax, "mA")
-                                                                        : settingText(open->source->amplitudeMax, "V"));
-                lines << tr("Not calibrated: no calibration is stored for it.");
-            }
-            if (device.role == "oscilloscope" && open->scope) {
-                lines << tr("%1 bits, up to %2")
-                             .arg(open->scope->bits)
-                             .arg(settingText(open->scope->maxRate.value(), "S/s"));
+            lines << factsOf(device, *open);
+            if (const auto role = roleNamed(device.role)) {
+                if (const auto report = desk_.deviceReport(*role)) lines << rowsOf(*report);
             }
         }
     } else {
+        if (const auto serial = item->data(0, kSerialRole).toString(); !serial.isEmpty())
+            lines << tr("Serial %1").arg(serial.toHtmlEscaped());
         lines << tr("Not open.");
-        if (const auto obstacle = item->data(0, kObstacleRole).toString(); !obstacle.isEmpty())
-            lines << obstacle.toHtmlEscaped();
     }
-    facts_->setText(lines.join("<br>"));
+    // The same text would throw away what somebody has marked in it.
+    if (const auto text = lines.join("<br>"); text != facts_->text()) facts_->setText(text);
 }
 
 std::map<Role, DeviceUri> DeviceDock::chosen() const {
@@ -218,6 +228,7 @@ void DeviceDock::refresh(const Telemetry& telemetry) {
     open_->setEnabled(desk_.activity() == Activity::Closed || live);
     close_->setEnabled(live);
     check_->setEnabled(live && telemetry.state == InterlockState::Disarmed);
+    if (desk_.open() && isVisible() && described_.hasExpired(kDescribeEvery_ms)) describe();
 }
 
 }  // namespace tacto::gui

@@ -1,14 +1,16 @@
-// DeviceDock.h - what is present, what is open, and what can be done with it: identity, firmware, calibration,
-// impedance check.
+// DeviceDock.h - what is present, what is open, and what can be done with it: identity, firmware, calibration, what a
+// device reports on itself, impedance check. A device that is open and was unplugged says so and stays open.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDockWidget>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
 #include <QTreeWidget>
 #include <map>
+#include <set>
 
 #include "app/gui/desk/BenchDesk.h"
 
@@ -42,6 +44,8 @@ private:
     QPushButton* close_;
     QPushButton* check_;
     std::vector<std::string> listed_;
+    std::set<std::string> seen_;  ///< URIs of open devices that were among those plugged in
+    QElapsedTimer described_;
 };
 
 }  // namespace tacto::gui

@@ -222,6 +222,7 @@ void MainWindow::buildDocks() {
 void MainWindow::tick() {
     const auto telemetry = desk_.telemetry();
     safety_->refresh(telemetry);
+    sayFault(telemetry);
     devices_->refresh(telemetry);
     if (exposure_->isVisible()) exposure_->refresh(telemetry);
     line_->refresh();
@@ -261,6 +262,17 @@ void MainWindow::noteChange() {
             }
         }
     }
+}
+
+/// In the second frame: the state is there at once, its reason with the control loop's next step.
+void MainWindow::sayFault(const Telemetry& telemetry) {
+    if (telemetry.state != InterlockState::Faulted) {
+        if (std::exchange(faultedFrames_, 0) > 0 && bannerText_->text() == faultText_) banner_->hide();
+        return;
+    }
+    if (++faultedFrames_ != 2) return;
+    complain(tr("Fault: %1").arg(QString::fromUtf8(telemetry.reason.c_str())));
+    faultText_ = bannerText_->text();
 }
 
 void MainWindow::complain(const QString& what) {

@@ -66,6 +66,7 @@ private:
     void restore();
     void tick();
     void noteChange();
+    void sayFault(const Telemetry& telemetry);
     void complain(const QString& what);
     void remember(const QString& path);
     void fillRecent();
@@ -99,6 +100,8 @@ private:
     QTimer frame_;
     QString load_ = "1 kohm";
     bool disarmWhenArmed_ = false;  // an impedance check is under way
+    int faultedFrames_ = 0;         // since the bench faulted
+    QString faultText_;             // as the banner says it
 };
 
 }  // namespace tacto::gui

@@ -222,7 +222,9 @@ void SafetyBar::showButtons(InterlockState state) {
                     state == InterlockState::Paused || state == InterlockState::Checking;
     if (state == InterlockState::Faulted) {
         action_->setText(tr("&Reset fault"));
-        action_->setToolTip(tr("Asks the stimulator again. When the cause is gone the bench is disarmed, not armed."));
+        action_->setToolTip(
+            tr("Asks the devices again; one that was unplugged is looked for. When the cause is gone the bench is "
+               "disarmed, not armed."));
     } else if (on) {
         action_->setText(tr("Dis&arm"));
         action_->setToolTip(tr("Ends the output and goes back to disarmed."));

@@ -1,0 +1,89 @@
+#include "app/gui/window/DeviceText.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("DeviceDock", text); }
+
+QString orDash(const std::string& text) { return text.empty() ? "–" : QString::fromStdString(text).toHtmlEscaped(); }
+
+std::string schemeOf(const std::string& uri) { return uri.substr(0, uri.find(':')); }
+
+}  // namespace
+
+std::optional<Role> roleNamed(const std::string& word) {
+    for (const auto role : {Role::Sensor, Role::Stimulator, Role::Oscilloscope, Role::Massager}) {
+        if (nameOf(role) == word) return role;
+    }
+    return std::nullopt;
+}
+
+bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
+    if (present.placeholder || open.role != nameOf(present.role)) return false;
+    if (open.uri == present.uri) return true;
+    const auto uri = DeviceUri::parse(open.uri);
+    if (!uri || uri->scheme != schemeOf(present.uri)) return false;
+    if (present.simulated) return open.name == present.name;
+    // A terminal is not among what is plugged in.
+    const bool terminal = std::ranges::any_of(uri->parameters, [](const auto& one) { return one.first == "tty"; });
+    if (terminal) return false;
+    return uri->path.empty() || uri->path == present.serial || (!open.serial.empty() && open.serial == present.serial);
+}
+
+bool unpluggedWhileOpen(const SessionDevice& open, const std::vector<DeviceIdentity>& present,
+                        const std::set<std::string>& seen) {
+    return seen.contains(open.uri) &&
+           std::ranges::none_of(present, [&](const auto& device) { return isSame(open, device); });
+}
+
+QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
+    QStringList lines;
+    lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
+    if (device.simulated) lines << tr("Simulated: no number of it was measured on hardware.");
+    if (device.role == "stimulator" && open.source) {
+        const bool current = open.source->drive == Drive::Current;
+        lines << tr("%1 source, at most %2")
+                     .arg(current ? tr("Current") : tr("Voltage"),
+                          settingText(open.source->amplitudeMax, current ? "mA" : "V"));
+        lines << tr("Not calibrated: no calibration is stored for it.");
+    }
+    if (device.role == "sensor") {
+        for (const auto& stream : open.streams) {
+            const auto kind = nameOf(stream.kind);
+            const auto unit = symbolOf(stream.unit);
+            lines << tr("%1: %2 × %3 at %4")
+                         .arg(QString::fromUtf8(kind.data(), qsizetype(kind.size())))
+                         .arg(stream.channels)
+                         .arg(QString::fromUtf8(unit.data(), qsizetype(unit.size())),
+                              settingText(stream.rate_hz, "Hz"));
+        }
+    }
+    if (device.role == "oscilloscope" && open.scope) {
+        lines << tr("%1 bits, up to %2").arg(open.scope->bits).arg(settingText(open.scope->maxRate.value(), "S/s"));
+    }
+    return lines;
+}
+
+QStringList rowsOf(const DeviceReport& report) {
+    QStringList lines;
+    for (const auto& row : report.rows()) {
+        const bool count = row.unit[0] == 0;
+        if (!std::isfinite(row.value) || (count && row.value == 0)) continue;
+        const auto value = count ? QString::number(row.value, 'f', 0)
+                           : std::string_view(row.unit) == "s"
+                               ? settingText(row.value, "s")
+                               : QString("%1 %2").arg(row.value, 0, 'f', 1).arg(row.unit);
+        lines << QString("%1: %2").arg(QString(row.name), value);
+    }
+    lines << (report.losses > 0 ? tr("⚠ Something was lost between it and this program.") : tr("Nothing was lost."));
+    return lines;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,138 @@
+// HardwareBench.h - the whole window with a stimulator and a sensor board plugged in, both emulated: what a person sees
+// of hardware, and what happens to them when a plug is pulled.
+#pragma once
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTest>
+#include <QTreeWidget>
+#include <gtest/gtest.h>
+
+#include "app/gui/window/DeviceDock.h"
+#include "app/gui/window/MainWindow.h"
+#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/sensor_board/EmulatedBoardLine.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/drivers/sciencemode/EmulatedLine.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+
+/// Sockets that stimulators are plugged into; each registry has its own of these on the one line.
+class StimulatorSockets final : public TransportPorts {
+public:
+    struct Plugs {
+        std::atomic<bool> in{true};
+        std::atomic<bool> permitted{true};
+    };
+    StimulatorSockets(std::shared_ptr<EmulatedLine> line, std::shared_ptr<Plugs> plugs)
+        : line_(std::move(line)), plugs_(std::move(plugs)) {}
+
+    std::vector<TransportPort> list() const override {
+        if (!plugs_->in) return {};
+        const char* obstacle = plugs_->permitted
+                                   ? ""
+                                   : "USB device 0483:5740 at 1-2 is there, but this user may not open it: "
+                                     "run \"./dev install-rules\" once, then plug the device in again.";
+        return {{"P24-0017", "1-2", obstacle}};
+    }
+    Result<std::unique_ptr<Transport>> open(const TransportPort&) override { return line_->connect(); }
+
+private:
+    const std::shared_ptr<EmulatedLine> line_;
+    const std::shared_ptr<Plugs> plugs_;
+};
+
+class HardwareWindow : public testing::Test {
+protected:
+    HardwareWindow() {
+        window.resize(1440, 900);
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        window.activateWindow();
+    }
+    ~HardwareWindow() override { window.close(); }
+
+    [[nodiscard]] Registry registry() const {
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        drivers.push_back(makeScienceModeDriver(std::make_shared<StimulatorSockets>(stimulator, plugs)));
+        drivers.push_back(makeSensorBoardDriver(board));
+        return Registry(std::move(drivers));
+    }
+    void unplugStimulator() {
+        plugs->in = false;
+        stimulator->unplug();
+    }
+    void plugStimulator() {
+        stimulator->plug();
+        plugs->in = true;
+    }
+
+    [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
+    /// The dock's line for a URI, when it has come; null after 10 s.
+    [[nodiscard]] QTreeWidgetItem* row(const QString& uri) {
+        QTreeWidgetItem* found = nullptr;
+        static_cast<void>(comesTrue([&] {
+            found = nullptr;
+            for (int i = 0; i < tree().topLevelItemCount(); ++i) {
+                if (tree().topLevelItem(i)->data(0, Qt::UserRole).toString() == uri) found = tree().topLevelItem(i);
+            }
+            return found != nullptr;
+        }));
+        return found;
+    }
+    void choose(QTreeWidgetItem* item) {
+        const auto where = tree().visualItemRect(item);
+        QTest::mouseClick(tree().viewport(), Qt::LeftButton, Qt::NoModifier, where.center());
+    }
+    /// Moves to the line and presses Return, as somebody without a mouse does.
+    void tick(const QString& uri) {
+        auto* item = row(uri);
+        ASSERT_NE(item, nullptr) << uri.toStdString();
+        choose(item);
+        QTest::keyClick(&tree(), Qt::Key_Return);
+        ASSERT_EQ(row(uri)->checkState(0), Qt::Checked) << uri.toStdString();
+    }
+    void open(const QStringList& uris) {
+        for (const auto& uri : uris) ASSERT_NO_FATAL_FAILURE(tick(uri));
+        click(*window.findChild<QPushButton*>("openBench"));
+        ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == gui::Activity::Live; }))
+            << banner().toStdString();
+    }
+    /// Both steps, as a person takes them.
+    void arm() {
+        auto* first = window.findChild<QPushButton*>("armButton");
+        ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+        click(*first);
+        auto* second = window.findChild<QPushButton*>("armOutput");
+        ASSERT_NE(second, nullptr);
+        ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+        click(*second);
+        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
+    }
+    void deliver() {
+        window.desk().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_TRUE(comesTrue([this] { return window.desk().telemetry().trainsDelivered > 0; }));
+    }
+    void pressReset() {
+        auto* button = window.findChild<QPushButton*>("armButton");
+        ASSERT_TRUE(comesTrue([&] { return button->text().contains("Reset"); }));
+        click(*button);
+    }
+    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] QString banner() {
+        const auto* label = window.findChild<QLabel*>("bannerText");
+        return label->isVisible() ? label->text() : QString();
+    }
+    [[nodiscard]] QString facts() { return window.findChild<QLabel*>("deviceFacts")->text(); }
+
+    const SteadyClock clock;
+    std::shared_ptr<EmulatedLine> stimulator = std::make_shared<EmulatedLine>(clock, nullptr);
+    std::shared_ptr<StimulatorSockets::Plugs> plugs = std::make_shared<StimulatorSockets::Plugs>();
+    std::shared_ptr<sensorboard::EmulatedBoardLine> board =
+        std::make_shared<sensorboard::EmulatedBoardLine>(clock, nullptr);
+    gui::MainWindow window{[this] { return registry(); }};
+};
+
+}  // namespace tacto::test

@@ -1,0 +1,149 @@
+// Hardware as a person meets it in the window: ticked, opened, not permitted, unplugged, plugged in again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/gui/look/Look.h"
+#include "tests/gui/window/HardwareBench.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kStimulator = "sciencemode:P24-0017";
+constexpr const char* kBoard = "sensor:EMU-0001";
+
+MATCHER_P(Says, part, "") { return arg.contains(QString::fromUtf8(part)); }
+
+TEST_F(HardwareWindow, WhatIsPluggedInIsTickedOpenedAndSaysWhoItIs) {
+    RecordProperty("hazard", "H4");
+    ASSERT_NE(row(kStimulator), nullptr);
+    choose(row(kStimulator));
+    EXPECT_THAT(facts(), Says("Not open."));
+    EXPECT_THAT(facts(), Says("Serial P24-0017"));
+    open({kStimulator, kBoard});
+    choose(row(kStimulator));
+    EXPECT_THAT(facts(), Says("EMU0000001")) << "by its own word, not by the plug's";
+    EXPECT_THAT(facts(), Says("Current source, at most"));
+    EXPECT_THAT(facts(), Says("Simulated")) << "an emulated device says so";
+    EXPECT_TRUE(row(kStimulator)->font(0).bold());
+    int lines = 0;
+    for (int i = 0; i < tree().topLevelItemCount(); ++i)
+        lines += tree().topLevelItem(i)->data(0, Qt::UserRole).toString().startsWith("sciencemode:") ? 1 : 0;
+    EXPECT_EQ(lines, 1) << "open, and not offered once more";
+    shot(window, "hardware_open");
+}
+
+TEST_F(HardwareWindow, ASensorBoardShowsWhatItsLineIsLike) {
+    RecordProperty("hazard", "H7");
+    open({kBoard});
+    choose(row(kBoard));
+    EXPECT_THAT(facts(), Says("acceleration: 3"));
+    ASSERT_TRUE(
+        comesTrue([this] { return facts().contains("<br>samples: ") && facts().contains("Nothing was lost."); }));
+    EXPECT_FALSE(facts().contains("clock drift")) << "not known before 2 s";
+    ASSERT_TRUE(
+        comesTrue([this] { return facts().contains("clock drift: ") && facts().contains("drift uncertainty"); }));
+    EXPECT_FALSE(facts().contains("⚠"));
+    board->inspect([](auto& b, Instant) { b.dropNext(0); });
+    EXPECT_TRUE(comesTrue([this] { return facts().contains("samples lost: 32") && facts().contains("⚠"); }));
+    shot(window, "hardware_board");
+}
+
+TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
+    plugs->permitted = false;
+    ASSERT_TRUE(comesTrue([this] { return row(kStimulator) != nullptr && row(kStimulator)->text(0).contains("⚠"); }));
+    choose(row(kStimulator));
+    EXPECT_THAT(facts(), Says("./dev install-rules"));
+    QTest::qWait(50);
+    const auto* text = window.findChild<QLabel*>("deviceFacts");
+    EXPECT_GE(text->height(), text->heightForWidth(text->width())) << "the sentence that helps is cut";
+    QTest::keyClick(&tree(), Qt::Key_Return);
+    EXPECT_TRUE(window.findChild<QPushButton*>("openBench")->text().remove('&').contains("simulated"));
+    shot(window, "hardware_not_permitted");
+    plugs->permitted = true;
+    ASSERT_TRUE(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
+    tick(kStimulator);
+}
+
+TEST_F(HardwareWindow, OneThatDoesNotAnswerIsABannerAndNoBench) {
+    stimulator->unplug();  // it is still listed: the list is a second old at most
+    tick(kStimulator);
+    click(*window.findChild<QPushButton*>("openBench"));
+    ASSERT_TRUE(comesTrue([this] { return !banner().isEmpty(); }));
+    EXPECT_THAT(banner(), Says("no stimulator \"P24-0017\" answers"));
+    EXPECT_EQ(window.desk().activity(), gui::Activity::Closed);
+}
+
+TEST_F(HardwareWindow, APulledPlugFaultsSaysSoAndComesBackOnlyByAReset) {
+    RecordProperty("hazard", "H2");
+    open({kStimulator});
+    arm();
+    deliver();
+    unplugStimulator();
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_TRUE(comesTrue([this] { return banner().contains("Output is off"); }));
+    EXPECT_THAT(banner(), Says("Fault: "));
+    ASSERT_TRUE(comesTrue([this] { return row(kStimulator)->text(0).contains("⚠"); }));
+    choose(row(kStimulator));
+    EXPECT_THAT(facts(), Says("It was unplugged. Plug it in again, then reset the fault."));
+    shot(window, "hardware_unplugged");
+    pressReset();
+    ASSERT_TRUE(comesTrue([this] { return banner().contains("still there"); }));
+    EXPECT_EQ(state(), InterlockState::Faulted);
+
+    plugStimulator();
+    ASSERT_TRUE(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
+    EXPECT_EQ(state(), InterlockState::Faulted) << "nothing comes back by itself";
+    pressReset();
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
+    arm();
+}
+
+TEST_F(HardwareWindow, APulledSensorBoardEndsTheOutputToo) {
+    RecordProperty("hazard", "H2");
+    open({kStimulator, kBoard});
+    arm();
+    deliver();
+    board->unplug();
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_TRUE(comesTrue([this] { return banner().contains("fingertip sensor failed"); }));
+    const auto pulses = stimulator->pulses();
+    QTest::qWait(700);
+    EXPECT_EQ(stimulator->pulses(), pulses);
+    board->plug();
+    ASSERT_TRUE(comesTrue([this] { return !row(kBoard)->text(0).contains("⚠"); }));
+    pressReset();
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
+    EXPECT_TRUE(comesTrue([this] { return window.desk().telemetry().sensorAge_s < 0.1; }));
+    EXPECT_TRUE(banner().isEmpty()) << banner().toStdString();
+}
+
+TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
+    open({kStimulator, kBoard});
+    arm();
+    deliver();
+    const auto* stop = window.findChild<QPushButton*>("stopButton");
+    for (const auto& [theme, name] : {std::pair(gui::Theme::Light, "light"), std::pair(gui::Theme::Dark, "dark")}) {
+        gui::applyTheme(theme);
+        for (const auto& [size, label] : {std::pair(QSize(1440, 900), ""), std::pair(QSize(1100, 700), "_small")}) {
+            window.resize(size);
+            QTest::qWait(150);
+            EXPECT_TRUE(window.rect().contains(QRect(stop->mapTo(&window, QPoint(0, 0)), stop->size())));
+            EXPECT_EQ(window.findChild<QLabel*>("interlockState")->text(), "DELIVERING");
+            shot(window, QString("hardware_delivering_%1%2").arg(name, label));
+        }
+    }
+    window.resize(1100, 700);
+    unplugStimulator();
+    ASSERT_TRUE(comesTrue([this] { return !banner().isEmpty() && row(kStimulator)->text(0).contains("⚠"); }));
+    choose(row(kStimulator));
+    QTest::qWait(100);
+    shot(window, "hardware_faulted_dark_small");
+    gui::applyTheme(gui::Theme::Light);
+    QTest::qWait(100);
+    shot(window, "hardware_faulted_light_small");
+}
+
+}  // namespace
+}  // namespace tacto::test
