@@ -8,7 +8,7 @@ namespace {
 
 /// Whatever ended output: safety's doing or a person's, not a mistake in a script.
 bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
-    if (bench.faults() > 0) return true;
+    if (bench.faults() > outcome.expectedFaults) return true;
     if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
     const auto code = outcome.error->code;
     return code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;

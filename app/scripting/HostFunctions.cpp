@@ -7,7 +7,8 @@ const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
         for (auto* part : {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
-                           recordFunctions, measureFunctions, plotFunctions}) {
+                           recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions,
+                           loadSafetyFunctions, calibrationFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }

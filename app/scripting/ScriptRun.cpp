@@ -178,13 +178,14 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
             result.error = Error{error->code, error->text()};
         }
         // A fault that the script swallowed is still the end of the run: no verdict stands on what came after it.
-        if (!result.error && request.bench != nullptr && request.bench->faults() > faultsBefore) {
+        if (!result.error && request.bench != nullptr &&
+            request.bench->faults() > faultsBefore + session.expectedFaults()) {
             result.verdict = ScriptVerdict::Stopped;
             result.error = Error{ErrorCode::Device, fmt::format("fault during the run: {}. Output is off.",
                                                                 request.bench->telemetry().reason.view())};
         }
         if (result.error) {
-            result.results = nlohmann::json();
+            result.results = result.abandoned ? nlohmann::json() : session.takePartial();
             result.reasons = {result.error->message};
         }
     }

@@ -130,6 +130,26 @@ nlohmann::json ScriptSession::worstExposure() const {
     return rows;
 }
 
+void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {
+    partial_ = std::move(results);
+    partialTables_ = std::move(tables);
+}
+
+nlohmann::json ScriptSession::takePartial() {
+    if (!partial_.is_object()) return {};
+    auto out = std::exchange(partial_, {});
+    out["partial"] = true;
+    if (request_.session == nullptr) return out;
+    for (const auto& table : partialTables_) {
+        nlohmann::json item = table;
+        item["kind"] = "table";
+        item["caption"] = table.value("caption", "") + " (partial: the run ended early)";
+        // The run has failed already, and says so; a table that cannot be written changes nothing.
+        (void)request_.session->reportItem(now(), item);
+    }
+    return out;
+}
+
 void ScriptSession::judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results) {
     verdict_ = verdict;
     reasons_ = std::move(reasons);
@@ -138,6 +158,7 @@ void ScriptSession::judge(ScriptVerdict verdict, std::vector<std::string> reason
 
 void ScriptSession::finish(ScriptOutcome& outcome) {
     outcome.verdict = verdict_;
+    outcome.expectedFaults = expectedFaults_;
     outcome.reasons = std::move(reasons_);
     outcome.results = std::move(results_);
     outcome.log = std::move(log_);

@@ -62,6 +62,15 @@ public:
     void watchExposure();
     [[nodiscard]] nlohmann::json worstExposure() const;
 
+    /// A fault that the script provoked, found as it should be, and reset: it does not void the run.
+    void noteExpectedFault() noexcept { ++expectedFaults_; }
+    [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
+
+    /// What stands if the run ends early: results, and tables {caption, rows, columns} for the report.
+    void keepPartial(nlohmann::json results, nlohmann::json tables);
+    /// The kept results, marked, and their tables written into the report; null where nothing was kept.
+    [[nodiscard]] nlohmann::json takePartial();
+
     void judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results);
     /// Moves what the run has come to into `outcome`.
     void finish(ScriptOutcome& outcome);
@@ -81,6 +90,8 @@ private:
     std::int64_t nextCapture_ = 1;
     std::vector<nlohmann::json> trials_;
     std::vector<Exemplar> exemplars_;
+    std::uint64_t expectedFaults_ = 0;
+    nlohmann::json partial_, partialTables_;
     std::map<std::string, ExposureRow> exposure_;
     std::vector<std::string> log_;
     ScriptVerdict verdict_ = ScriptVerdict::None;

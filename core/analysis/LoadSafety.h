@@ -157,6 +157,9 @@ struct LoadSafety {
 
 [[nodiscard]] LoadSafety judgeLoadSafety(const LoadSafetyInput& input);
 
+/// The known-reference check: a load whose value is known, measured first. Passes within tolerances.load_pct.
+[[nodiscard]] SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input);
+
 /// A value against an upper limit with its guard band. NaN in value or U is not evaluated.
 [[nodiscard]] RowVerdict judgeUpper(double value, double expanded, double limit, bool strict) noexcept;
 

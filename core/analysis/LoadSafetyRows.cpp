@@ -256,6 +256,14 @@ Reading readingOf(const LoadReading& reading, Quantity quantity, std::optional<d
     return {};
 }
 
+SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input) {
+    std::vector<SafetyRow> rows;
+    addLoadValue(rows, record, input);
+    rows.front().item = "reference";
+    rows.front().title = "known-reference check: " + rows.front().title;
+    return rows.front();
+}
+
 std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input) {
     std::vector<SafetyRow> rows;
     if (!record.notApplicable.empty()) {

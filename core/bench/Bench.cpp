@@ -50,7 +50,8 @@ struct Bench::State {
     void (*progress)(void*) = nullptr;
     void* progressContext = nullptr;
     std::atomic<DriveSource> driving{DriveSource::Off};
-    std::uint64_t refusalsSeen = 0;  // by the caller of drive(), wait() and capture()
+    std::atomic<bool> heartbeatWithheld{false};  // steady clock: the loop's thread does nothing
+    std::uint64_t refusalsSeen = 0;              // by the caller of drive(), wait() and capture()
 
     // Virtual clock only:
     Instant nextTick{0};
@@ -203,6 +204,7 @@ void Bench::State::startThreads() {
         sensorThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return sensor->serve(now); });
     if (scope) scopeThread = std::make_unique<DeviceThread>(clock, [this](Instant now) { return scope->serve(now); });
     loopThread = std::make_unique<DeviceThread>(clock, [this, due = clock.now()](Instant now) mutable {
+        if (heartbeatWithheld.load(std::memory_order_acquire)) return now + ControlLoop::kPeriod;
         loop->step(now);
         // Behind by more than a step (a stall): go on from now rather than catch up in a burst.
         due = std::max(due + ControlLoop::kPeriod, now);
@@ -405,6 +407,39 @@ Result<void> Bench::resetFault() {
     return s.interlock.reset();
 }
 
+bool Bench::faultPersists(FaultCause cause) const noexcept { return state_->interlock.causePersists(cause); }
+
+Result<void> Bench::withholdHeartbeat(Seconds duration) {
+    auto& s = *state_;
+    if (s.config.mode != OutputMode::BenchLoad) {
+        return fail(ErrorCode::Unsupported, "the heartbeat is withheld on bench loads only, never in {} mode",
+                    nameOf(s.config.mode));
+    }
+    if (!(duration.count() > 0 && duration.count() <= 10)) {
+        return fail(ErrorCode::InvalidArgument, "a silence of {} s; above 0 to 10 s is expected", duration.count());
+    }
+    const Instant until = s.config.clock->now() + toInstant(duration);
+    if (s.virtualClock != nullptr) {
+        while (!s.stopped && s.config.clock->now() < until) {
+            // The output alone is served, as its own thread would do while the loop hangs.
+            s.virtualClock->advanceTo(s.hasOutput() ? std::min(until, s.outputDue) : until);
+            const Instant now = s.config.clock->now();
+            if (s.hasOutput() && now >= s.outputDue) s.outputDue = s.serveOutput(now);
+            if (s.scope && s.scope->active()) s.scope->serve(now);
+        }
+        s.nextTick = s.config.clock->now();
+    } else {
+        s.heartbeatWithheld.store(true, std::memory_order_release);
+        {
+            std::unique_lock lock(s.waitMutex);
+            s.waitChanged.wait_for(lock, until - s.config.clock->now(), [&s] { return s.stopped.load(); });
+        }
+        s.heartbeatWithheld.store(false, std::memory_order_release);
+    }
+    if (s.stopped) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    return {};
+}
+
 Result<void> Bench::drive(DriveSource source, double roughness, double pressure) {
     auto& s = *state_;
     if (source == DriveSource::Sensor && !s.sensor) {
@@ -443,6 +478,7 @@ Result<void> Bench::setProfile(const Profile& profile) {
 }
 
 const Profile& Bench::profile() const noexcept { return state_->config.profile; }
+const std::vector<LimitSet>& Bench::limits() const noexcept { return state_->config.limits; }
 
 Result<void> Bench::wait(Seconds duration) {
     auto& s = *state_;

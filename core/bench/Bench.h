@@ -63,6 +63,14 @@ public:
     /// Errors: NotArmed while the cause persists.
     [[nodiscard]] Result<void> resetFault();
 
+    /// Whether `cause` is among those of the present fault.
+    [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;
+
+    /// Lets `duration` pass in which the control loop does not run, as in a hang, on purpose: what the dead-man check
+    /// of a bench load needs. The device threads go on, and end the output when they notice; the loop then finds a
+    /// fault. Errors: Unsupported outside bench loads; InvalidArgument unless above 0 and at most 10 s; Stopped.
+    [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
+
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
@@ -70,6 +78,7 @@ public:
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
     [[nodiscard]] Result<void> setProfile(const Profile& profile);
     [[nodiscard]] const Profile& profile() const noexcept;
+    [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
 
     /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives
     /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).

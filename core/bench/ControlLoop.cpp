@@ -334,7 +334,10 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
     if (report.isCheck && arming_) return judgeCheck(report);
 
-    if (!report.isCheck) ++shown_.trainsDelivered;
+    if (!report.isCheck) {
+        ++shown_.trainsDelivered;
+        shown_.trainAmplitude = report.amplitude;
+    }
     shown_.imbalance = report.imbalance;
     shown_.imbalanceUncertainty = report.imbalanceUncertainty;
     const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);

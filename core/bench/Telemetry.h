@@ -52,6 +52,7 @@ struct Telemetry {
     double imbalance = NAN;             ///< of the last pulse: |net charge| / phase charge
     double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
+    double trainAmplitude = NAN;        ///< as the stimulator was told for the last train, V or mA by its drive
     std::uint64_t trainsDelivered = 0;  ///< or bursts
     std::uint64_t trainsRefused = 0;    ///< by the limits
     std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data

@@ -27,7 +27,7 @@ std::vector<std::string> shippedNames() {
 }
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
-    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "massager", "separability"}));
+    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "load-safety", "massager", "separability"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
@@ -37,7 +37,8 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     RunBench rig(true, "sim:", 1, true, {declared.needs.begin(), declared.needs.end()});
     std::map<std::string, std::string> settings;
     if (GetParam() == "separability") settings["repeats"] = "2";
-    if (GetParam() != "separability") settings["duration"] = "5";
+    if (GetParam() == "live" || GetParam() == "massager") settings["duration"] = "5";
+    if (GetParam() == "load-safety") settings["steps"] = "2";
     const auto outcome = runShipped(rig, GetParam(), settings);
     EXPECT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_TRUE(rig.outputOff());

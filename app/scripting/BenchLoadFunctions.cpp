@@ -1,0 +1,237 @@
+// What a command would do to a load before it is given, and asking for commands that must be refused.
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/ResultJson.h"
+#include "core/bench/TrainPlanner.h"
+#include "core/encoding/Encoder.h"
+#include "core/safety/TrainExposure.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr double kRecordMargin_s = 3e-4;
+constexpr double kPreTrigger = 0.15;  // as bench.capture() sets it
+constexpr double kHeadroom = 1.5;     // of the range over the expected peak: an output that is too large still shows
+constexpr double kTimeConstants = 8;  // of tail: what is left is 0.03 %
+constexpr double kLongestTail_s = 0.02;
+
+Result<Json> loads(ScriptSession&, const Json&) {
+    Json out = Json::array();
+    for (const auto& named : benchLoads()) {
+        const char* kind = named.load.kind == LoadKind::Resistor         ? "resistor"
+                           : named.load.kind == LoadKind::SkinEquivalent ? "skin"
+                           : named.load.kind == LoadKind::Open           ? "open"
+                                                                         : "short";
+        out.push_back({{"name", named.name}, {"kind", kind}});
+    }
+    return out;
+}
+
+GateSetup setupOf(Bench& bench, const Load& load) {
+    GateSetup setup;
+    setup.mode = bench.mode();
+    setup.source = bench.devices().stimulator->traits();
+    setup.load = LoadRange::declared(load);
+    setup.limits = bench.limits();
+    setup.ceilings = bench.profile().ceilings;
+    setup.electrodeArea = bench.profile().electrodeArea;
+    setup.check = bench.profile().encoding.train;
+    return setup;
+}
+
+/// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
+std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
+    for (const auto& row : exposureTable(setup, train, interval)) {
+        if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
+        return fmt::format("{} {:.3g} {} at {}, {:.3g} {} at worst within 20 % of it; {} {:g} {} are allowed ({})",
+                           titleOf(row.quantity), nominal.at(row.quantity), row.unit, setup.load.nominal.text(),
+                           row.value, row.unit, row.strict ? "less than" : "at most", row.limit, row.unit,
+                           row.set.view());
+    }
+    return {};
+}
+
+/// Settings that show the whole train with its tail, and twice the peak that is expected.
+Json captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load, bool opens) {
+    const auto* scope = bench.devices().oscilloscope.get();
+    double tail_s = 0;
+    if (load.kind == LoadKind::SkinEquivalent) {
+        const double ohm = opens ? load.parallel.value() : 1 / (1 / load.parallel.value() + 1 / load.series.value());
+        tail_s = std::min(kLongestTail_s, kTimeConstants * ohm * load.capacitance.value() * 1e-9);
+    }
+    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
+    const double record_s = (train_s + tail_s + kRecordMargin_s) / (1 - kPreTrigger);
+    double rate = 10e6;
+    double depth = 1e6;
+    if (scope != nullptr) {
+        rate = std::min(rate, scope->traits().maxRate.value());
+        if (scope->traits().memoryDepth > 0) depth = static_cast<double>(scope->traits().memoryDepth);
+    }
+    if (record_s * rate > depth) rate = depth / record_s;
+    const double volts = kHeadroom * most.at(Quantity::PeakVoltage);
+    return {{"rate_hz", rate},
+            {"samples", std::floor(record_s * rate)},
+            {"voltage_range_v", volts},
+            {"current_range_ma", kHeadroom * most.at(Quantity::PeakCurrent)},
+            {"trigger_v", 0.2 * volts / kHeadroom}};
+}
+
+Result<Json> predict(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.predict", list);
+    auto name = arguments.text(0, "load");
+    if (!name) return failure(name);
+    auto strength = arguments.number(1, "strength", {0, 1});
+    if (!strength) return failure(strength);
+    Bench& bench = session.bench();
+    if (!bench.devices().stimulator) return fail(ErrorCode::Unsupported, "bench.predict: no stimulator is connected");
+    const auto load = parseLoad(*name);
+    if (!load) return failure(load);
+    if (load->kind == LoadKind::Open || load->kind == LoadKind::Short) {
+        return arguments.wrong("load", *name, "a resistor or a skin equivalent");
+    }
+    const auto& encoding = bench.profile().encoding;
+    const auto& source = bench.devices().stimulator->traits();
+    // The interval at its shortest, the amplitude as asked, whichever of R and P makes which.
+    const bool texture = encoding.assignment == Assignment::TextureToAmplitude;
+    const double R = texture ? *strength : 1, P = texture ? 1 : *strength;
+    const auto command = Encoder(encoding).encode(R, P);
+    if (!command) return failure(command);
+
+    PulseTrain unit = encoding.train;
+    if (source.drive == Drive::Current)
+        unit.amplitude = Milliamps(1);
+    else
+        unit.amplitude = Volts(1);
+    const Ohms ohms = effectiveImpedance(*load, segmentsOf(unit, source.gap).items[0]);
+    const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
+    if (!wanted) return failure(wanted);
+    Json out = {{"load", *name},
+                {"roughness", R},
+                {"pressure", P},
+                {"command_v", command->amplitude.value()},
+                {"interval_s", command->interval.count()},
+                {"nominal_ohm", numberOrNull(ohms.value())},
+                {"not_applicable", nullptr}};
+    const auto rounded = roundToDevice(*wanted, gridOf(source));
+    if (!rounded) {
+        out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", *name, command->amplitude.value(),
+                                            rounded.error().message);
+        return out;
+    }
+    const auto& train = rounded->train;
+    const GateSetup setup = setupOf(bench, *load);
+    const auto why = forbids(setup, train, command->interval);
+    const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
+    const auto most = exposureOf(train, command->interval, *load, source, area);
+    out["amplitude"] = siValue(train.amplitude) * (isCurrent(train.amplitude) ? 1e3 : 1);
+    out["forbidden"] = !why.empty();
+    out["predicted"] = why;
+    out["rms_5s_ma"] = numberOrNull(most.at(Quantity::RmsCurrent5s));
+    out["peak_ma"] = numberOrNull(most.at(Quantity::PeakCurrent));
+    out["capture"] = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
+    return out;
+}
+
+/// Gives the command and sees whether the limits let it through; the drive is off again afterwards.
+Result<Json> attempt(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.attempt", list);
+    auto command = arguments.object(0, "command");
+    if (!command) return failure(command);
+    auto R = arguments.number(**command, "roughness", 0, {0, 1});
+    if (!R) return failure(R);
+    auto P = arguments.number(**command, "pressure", 0, {0, 1});
+    if (!P) return failure(P);
+    Bench& bench = session.bench();
+    const auto before = bench.telemetry().trainsDelivered;
+    if (auto driven = bench.drive(DriveSource::Manual, *R, *P); !driven) return failure(driven);
+    // Two intervals: the first train may be one interval away, its status a little more.
+    const Seconds longest = 2 * Seconds(bench.profile().encoding.intervalMax);
+    Result<void> waited;
+    double passed_s = 0;
+    constexpr double kLook_s = 0.05;
+    while (waited && passed_s < longest.count() && bench.telemetry().trainsDelivered == before) {
+        waited = bench.wait(Seconds(kLook_s));
+        passed_s += kLook_s;
+    }
+    session.watchExposure();
+    if (auto off = bench.drive(DriveSource::Off); !off) return failure(off);
+    if (!waited && waited.error().code != ErrorCode::LimitExceeded) return failure(waited);
+    const bool delivered = bench.telemetry().trainsDelivered != before;
+    return Json{
+        {"refused", !waited && !delivered}, {"delivered", delivered}, {"reason", waited ? "" : waited.error().message}};
+}
+
+Result<Json> setElectrodeArea(ScriptSession& session, const Json& list) {
+    auto area = Arguments("bench.setElectrodeArea", list).number(0, "area", {1e-3, 1e3});
+    if (!area) return failure(area);
+    auto profile = session.bench().profile();
+    profile.electrodeArea = SquareCentimetres(*area);
+    if (auto set = session.bench().setProfile(profile); !set) return failure(set);
+    return Json();
+}
+
+Result<Json> electrodeArea(ScriptSession& session, const Json&) {
+    const auto& area = session.bench().profile().electrodeArea;
+    return area ? Json(area->value()) : Json();
+}
+
+}  // namespace
+
+std::vector<HostFunction> benchLoadFunctions() {
+    return {
+        {"bench",
+         "loads",
+         HostKind::Property,
+         {},
+         "The loads of the bench set: six resistors, a skin equivalent, open, short.",
+         "List of { name, kind }, kind \"resistor\", \"skin\", \"open\" or \"short\"; the name serves fitLoad() and "
+         "arm().",
+         "",
+         loads},
+        {"bench",
+         "predict",
+         HostKind::Function,
+         {{"load", "text", "", "a resistor or a skin equivalent"},
+          {"strength", "number", "", "0 the weakest amplitude to 1 the strongest, at the shortest interval"}},
+         "What a command would be and do on a load, by computation; nothing is delivered.",
+         "{ load, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is told), "
+         "forbidden, predicted, rms_5s_ma, peak_ma, not_applicable, capture }: forbidden when a limit is broken at "
+         "worst within 20 % of the load, predicted says by what; not_applicable says why the device cannot drive it; "
+         "capture holds options for bench.capture().",
+         "Throws without a stimulator.",
+         predict},
+        {"bench",
+         "attempt",
+         HostKind::Function,
+         {{"command", "object", "", "from bench.predict(): roughness and pressure"}},
+         "Asks for one train of this command while armed, and ends the drive again. A refusal is no error here.",
+         "{ refused, delivered, reason }",
+         "Throws when the run is stopped or a device fails.",
+         attempt},
+        {"bench",
+         "setElectrodeArea",
+         HostKind::Function,
+         {{"area", "number", "cm2", "of the smallest electrode"}},
+         "Sets the area that densities are judged with, for this run.",
+         "",
+         "Throws while armed.",
+         setElectrodeArea},
+        {"bench",
+         "electrodeArea",
+         HostKind::Property,
+         {},
+         "The area that densities are judged with, in cm2.",
+         "Number, or null when it is not known.",
+         "",
+         electrodeArea},
+    };
+}
+
+}  // namespace tacto

@@ -1,0 +1,200 @@
+// Measuring what went into a load, judging the whole set, its tracings, and what is kept of a run that ends early.
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/LoadSafetyJson.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Result<Json> measureLoad(ScriptSession& session, const Json& list) {
+    const Arguments arguments("measure.load", list);
+    auto handles = arguments.list(0, "captures");
+    if (!handles) return failure(handles);
+    auto held = session.held(**handles);
+    if (!held) return failure(held);
+    auto options = arguments.options(1, {"interval"});
+    if (!options) return failure(options);
+    const auto& encoding = session.bench().profile().encoding;
+    auto interval = arguments.number(*options, "interval", encoding.intervalMin.count(), {1e-3, 3600});
+    if (!interval) return failure(interval);
+    std::vector<Capture> captures;
+    Json ids = Json::array();
+    for (std::size_t i = 0; i < held->size(); ++i) {
+        captures.push_back(*(*held)[i]);
+        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
+    }
+    auto reading = readLoad(captures, ExpectedTrain{encoding.train.pulses, encoding.train.rate.value(), *interval});
+    if (!reading) return failure(reading);
+    Json out = toJson(*reading);
+    out["captures"] = ids;
+    const double commanded = session.bench().telemetry().trainAmplitude;
+    out["commanded"] = std::isfinite(commanded) ? Json(commanded) : Json();
+    return out;
+}
+
+/// What the bench is and may deliver; loads and trips come from the script.
+LoadSafetyInput inputFor(Bench& bench) {
+    LoadSafetyInput input;
+    const auto& profile = bench.profile();
+    input.limits = bench.limits();
+    if (bench.devices().stimulator) input.source = bench.devices().stimulator->traits();
+    input.train = profile.encoding.train;
+    input.command_v = profile.encoding.amplitudeMax.value();
+    input.interval_s = profile.encoding.intervalMin.count();
+    if (profile.electrodeArea) input.area_cm2 = profile.electrodeArea->value();
+    input.loadLow = profile.loadLow;
+    input.loadHigh = profile.loadHigh;
+    return input;
+}
+
+Result<void> readTolerances(const Arguments& arguments, const Json& options, LoadSafetyTolerances& into) {
+    const auto given = options.value("tolerances", Json::object());
+    if (!given.is_object()) return arguments.wrong("tolerances", given, "an object");
+    for (const auto& [key, target] :
+         {std::pair("load_pct", &into.load_pct), std::pair("amplitude_pct", &into.amplitude_pct),
+          std::pair("timing_pct", &into.timing_pct)}) {
+        auto value = arguments.number(given, key, *target, {0.01, 50});
+        if (!value) return failure(value);
+        *target = *value;
+    }
+    return {};
+}
+
+/// Loads that are empty are left out: they were not reached.
+Result<Json> loadSafety(ScriptSession& session, const Json& list) {
+    const Arguments arguments("analysis.loadSafety", list);
+    auto loads = arguments.list(0, "loads");
+    if (!loads) return failure(loads);
+    auto trips = arguments.list(1, "trips");
+    if (!trips) return failure(trips);
+    auto options = arguments.options(2, {"reference", "tolerances"});
+    if (!options) return failure(options);
+    LoadSafetyInput input = inputFor(session.bench());
+    if (auto read = readTolerances(arguments, *options, input.tolerances); !read) return failure(read);
+    for (const auto& item : **loads) {
+        auto record = loadRecordFrom(item);
+        if (!record) return failure(record);
+        input.loads.push_back(std::move(*record));
+    }
+    for (const auto& item : **trips) {
+        auto trip = tripTrialFrom(item);
+        if (!trip) return failure(trip);
+        input.trips.push_back(std::move(*trip));
+    }
+    if (options->contains("reference")) {
+        auto reference = loadRecordFrom((*options)["reference"]);
+        if (!reference) return failure(reference);
+        input.reference = judgeReference(*reference, input);
+    }
+    return toJson(judgeLoadSafety(input));
+}
+
+Result<Json> tracings(ScriptSession& session, const Json& list) {
+    const Arguments arguments("plot.tracings", list);
+    auto wanted = arguments.list(0, "tracings");
+    if (!wanted) return failure(wanted);
+    Json captures = Json::array();
+    for (const auto& one : **wanted) {
+        if (!one.is_object()) return arguments.wrong("a tracing", one, "an object with condition and label");
+        auto condition = arguments.text(one, "condition", "");
+        if (!condition) return failure(condition);
+        auto label = arguments.text(one, "label", *condition);
+        if (!label) return failure(label);
+        for (const auto& exemplar : session.exemplars()) {
+            if (exemplar.condition != *condition) continue;
+            Json entry = {{"label", *label}};
+            if (exemplar.row) {
+                entry["capture"] = *exemplar.row;
+            } else {
+                const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
+                entry["rate_hz"] = exemplar.capture.rate_hz;
+                entry["start_s"] = exemplar.capture.start_s - origin;
+                for (const auto& channel : exemplar.capture.channels) {
+                    if (channel.unit != "V" && channel.unit != "A") continue;
+                    entry[channel.unit == "V" ? "voltage_v" : "current_a"] = channel.samples;
+                }
+            }
+            captures.push_back(std::move(entry));
+        }
+    }
+    Json figure = {{"type", "waveforms"}, {"captures", captures}};
+    if (const auto& note = arguments.at(1); note.is_string()) figure["note"] = note;
+    return figure;
+}
+
+Result<Json> partial(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.partial", list);
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    const Json tables = arguments.at(1).is_null() ? Json::array() : arguments.at(1);
+    if (!tables.is_array()) return arguments.wrong("tables", tables, "a list of { caption, rows, columns }");
+    for (const auto& table : tables) {
+        if (!table.is_object() || !table.value("caption", Json()).is_string() ||
+            !table.value("rows", Json()).is_array()) {
+            return arguments.wrong("a table", table, "an object with a caption and a list of rows");
+        }
+    }
+    session.keepPartial(**found, tables);
+    return Json();
+}
+
+}  // namespace
+
+std::vector<HostFunction> loadSafetyFunctions() {
+    return {
+        {"measure",
+         "load",
+         HostKind::Function,
+         {{"captures", "list", "", "from bench.capture(), one per train, all with one command"},
+          {"options.interval", "number", "s", "the commanded interval; the profile's shortest where left out", true}},
+         "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
+         "{ amplitude_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, charge_uc, net_charge_uc, "
+         "imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, rms_5s_v, dc_ma, power_1s_w, each with its "
+         "standard "
+         "uncertainty in _u; trains, under_10_lsb, warnings, captures, commanded }: null what was not measured; "
+         "commanded is the last train's amplitude as the device was told.",
+         "Throws for captures that are held no longer, or without a voltage channel.",
+         measureLoad},
+        {"analysis",
+         "loadSafety",
+         HostKind::Function,
+         {{"loads", "list", "",
+           "{ name, dmm_ohm, dmm_u_ohm, serial, steps: [{ command_v, amplitude, interval_s, reading }], refusals: [{ "
+           "command_v, interval_s, forbidden, refused, predicted, reason }], not_applicable, problem }"},
+          {"trips", "list", "", "from bench.trip...()"},
+          {"options.reference", "object", "", "the load of the known-reference check, as in loads", true},
+          {"options.tolerances", "object", "%", "load_pct, amplitude_pct, timing_pct", true}},
+         "Judges everything measured against every limit set with its guard band.",
+         "{ verdict, reasons, loads, rows, disclosed, worst_case }: what is missing reads \"not evaluated\", and then "
+         "the verdict is no pass.",
+         "Throws for a load that cannot be read.",
+         loadSafety},
+        {"plot",
+         "tracings",
+         HostKind::Function,
+         {{"tracings", "list", "", "{ condition, label }: the first capture recorded under that condition"},
+          {"note", "text", "", "a sentence below the figure", true}},
+         "Voltage and current of recorded captures against time.",
+         "A figure, for report.figure().",
+         "",
+         tracings},
+        {"record",
+         "partial",
+         HostKind::Function,
+         {{"found", "object", "", "results so far, as verdict() takes them"},
+          {"tables", "list", "", "{ caption, rows, columns }, for the report", true}},
+         "Keeps what a run has come to, in case it ends early: results and tables then say that they are partial. The "
+         "last one counts; a run that ends by itself uses none.",
+         "",
+         "",
+         partial},
+    };
+}
+
+}  // namespace tacto

@@ -1,0 +1,221 @@
+// What must end output by itself, provoked on a bench load: an open or short circuit, contact that comes and goes, a
+// control loop that falls silent (hazards H2, H3).
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/ResultJson.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr double kLook_s = 0.02;
+
+Json trial(std::string_view name, bool evaluated, bool tripped, double after_s, std::string_view reason) {
+    return {{"name", name},
+            {"evaluated", evaluated},
+            {"tripped", tripped},
+            {"after_s", numberOrNull(after_s)},
+            {"reason", reason}};
+}
+
+bool canTell(Bench& bench) {
+    const auto& stimulator = bench.devices().stimulator;
+    return stimulator && stimulator->traits().readsBack;
+}
+
+constexpr std::string_view kNoReadBack =
+    "this stimulator does not read back, so nothing but the operator can find the load changed";
+
+/// Changes the load without ending the output first: itself on a simulated bench, else by the operator's hands.
+Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
+    if (auto& fitter = session.bench().devices().load) return fitter->fitLoad(to);
+    OperatorQuestion question;
+    question.name = "change-load";
+    question.text = request;
+    auto answer = session.ask(question);
+    if (!answer) return failure(answer);
+    return {};
+}
+
+ArmRequest armRequest(const std::string& load) {
+    ArmRequest request;
+    request.load = load;
+    request.operatorConfirmed = true;  // running a check on a bench load is the deliberate act, as in bench.arm()
+    return request;
+}
+
+/// The bench is in a fault that was provoked: counted, and its cause taken away.
+Result<void> acknowledge(ScriptSession& session, const std::string& load, const std::string& request) {
+    session.noteExpectedFault();
+    if (auto fitted = change(session, load, request); !fitted) return fitted;
+    return session.bench().resetFault();
+}
+
+std::string commandFor(std::string_view becomes, const std::string& load) {
+    if (becomes == "open") return fmt::format("Output is running into {}: lift one lead off it, then confirm", load);
+    if (becomes == "short") return fmt::format("Output is running into {}: bridge it with a wire, then confirm", load);
+    return fmt::format("Output is running into {}: make and break one lead's contact, then confirm", load);
+}
+
+/// Lets trains run until two have been delivered, so that a trip ends something.
+Result<void> startTrains(ScriptSession& session, const std::string& load) {
+    Bench& bench = session.bench();
+    if (auto armed = bench.arm(armRequest(load)); !armed) return armed;
+    const auto before = bench.telemetry().trainsDelivered;
+    if (auto driven = bench.drive(DriveSource::Manual, 0, 1); !driven) return driven;
+    const double longest_s = 4 * bench.profile().encoding.intervalMax.count();
+    for (double t = 0; t < longest_s && bench.telemetry().trainsDelivered < before + 2; t += kLook_s) {
+        if (auto waited = bench.wait(Seconds(kLook_s)); !waited) return waited;
+    }
+    if (bench.telemetry().trainsDelivered >= before + 2) return {};
+    return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
+}
+
+Result<Json> inChecking(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.tripWhenArming", list);
+    auto becomes = arguments.text(0, "load");
+    if (!becomes) return failure(becomes);
+    if (*becomes != "open" && *becomes != "short") return arguments.wrong("load", *becomes, "\"open\" or \"short\"");
+    auto declared = arguments.text(1, "declared");
+    if (!declared) return failure(declared);
+    Bench& bench = session.bench();
+    if (!canTell(bench)) return trial(*becomes, false, false, std::nan(""), kNoReadBack);
+    bench.disarm();
+    if (auto fitted = change(session, *becomes, fmt::format("Fit {} in place of the load, then confirm", *becomes));
+        !fitted) {
+        return failure(fitted);
+    }
+    const auto delivered = bench.telemetry().trainsDelivered;
+    const Instant begun = session.now();
+    const auto armed = bench.arm(armRequest(*declared));
+    const double after_s = toSeconds(session.now() - begun);
+    bench.disarm();
+    if (armed) return trial(*becomes, true, false, std::nan(""), "the output was armed into it");
+    // Refused for its load; any other failure is a failure of the run.
+    const auto code = armed.error().code;
+    if (code != ErrorCode::NotArmed && code != ErrorCode::LimitExceeded) return failure(armed);
+    const bool quiet = bench.telemetry().trainsDelivered == delivered;
+    return trial(*becomes, true, quiet, after_s, armed.error().message);
+}
+
+Result<Json> whileDelivering(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.tripWhileDelivering", list);
+    auto becomes = arguments.text(0, "becomes");
+    if (!becomes) return failure(becomes);
+    if (*becomes != "open" && *becomes != "short" && *becomes != "intermittent") {
+        return arguments.wrong("becomes", *becomes, "\"open\", \"short\" or \"intermittent\"");
+    }
+    auto load = arguments.text(1, "load");
+    if (!load) return failure(load);
+    auto within = arguments.number(2, "within", {0.1, 300});
+    if (!within) return failure(within);
+    const std::string name = *becomes == "intermittent" ? "intermittent contact" : *becomes + " while delivering";
+    Bench& bench = session.bench();
+    if (!canTell(bench)) return trial(name, false, false, std::nan(""), kNoReadBack);
+    bench.disarm();
+    if (auto fitted = change(session, *load, fmt::format("Fit the load {}, then confirm", *load)); !fitted) {
+        return failure(fitted);
+    }
+    if (auto started = startTrains(session, *load); !started) return failure(started);
+
+    const std::string changed = *becomes == "intermittent"
+                                    ? fmt::format("{}, intermittent 50 % seed {}", *load, session.request().seed)
+                                    : *becomes;
+    const Instant begun = session.now();
+    const auto delivered = bench.telemetry().trainsDelivered;
+    if (auto fitted = change(session, changed, commandFor(*becomes, *load)); !fitted) return failure(fitted);
+    Result<void> waited;
+    while (waited && toSeconds(session.now() - begun) < *within) waited = bench.wait(Seconds(kLook_s));
+    const double after_s = toSeconds(session.now() - begun);
+    const auto cause = *becomes == "short" ? FaultCause::ShortElectrode : FaultCause::OpenElectrode;
+    const auto seen = bench.telemetry();
+    if (waited) {
+        bench.disarm();
+        return trial(name, true, false, after_s, fmt::format("output went on for {:.1f} s", after_s));
+    }
+    if (waited.error().code != ErrorCode::Device || !bench.faultPersists(cause)) return failure(waited);
+    if (auto cleared = acknowledge(session, *load, fmt::format("Fit {} again, then confirm", *load)); !cleared) {
+        return failure(cleared);
+    }
+    // One train finds the change; with contact that comes and goes some find it still good.
+    const bool stopped = *becomes == "intermittent" || seen.trainsDelivered <= delivered + 1;
+    return trial(name, true, stopped, after_s, seen.reason.view());
+}
+
+Result<Json> bySilence(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.tripBySilence", list);
+    auto load = arguments.text(0, "load");
+    if (!load) return failure(load);
+    auto seconds = arguments.number(1, "seconds", {0.2, 10});
+    if (!seconds) return failure(seconds);
+    Bench& bench = session.bench();
+    bench.disarm();
+    if (auto fitted = change(session, *load, fmt::format("Fit the load {}, then confirm", *load)); !fitted) {
+        return failure(fitted);
+    }
+    if (auto started = startTrains(session, *load); !started) return failure(started);
+    const auto delivered = bench.telemetry().trainsDelivered;
+    if (auto silent = bench.withholdHeartbeat(Seconds(*seconds)); !silent) return failure(silent);
+    // The loop is back and looks at what happened: it must find a fault, and must not go on.
+    const auto waited = bench.wait(Seconds(*seconds));
+    const auto seen = bench.telemetry();
+    if (waited) {
+        bench.disarm();
+        return trial("dead-man", true, false, std::nan(""), "output went on after the silence");
+    }
+    if (waited.error().code != ErrorCode::Device || !bench.faultPersists(FaultCause::LoopSilent)) {
+        return failure(waited);
+    }
+    session.noteExpectedFault();
+    if (auto reset = bench.resetFault(); !reset) return failure(reset);
+    const bool quiet = seen.trainsDelivered <= delivered + 1;  // one may have been under way
+    return trial("dead-man", true, quiet, toSeconds(Heartbeat::kSilence), seen.reason.view());
+}
+
+}  // namespace
+
+std::vector<HostFunction> tripFunctions() {
+    constexpr std::string_view kReturns =
+        "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(): not evaluated where the stimulator "
+        "cannot read back; after_s from the change to the end of output.";
+    constexpr std::string_view kThrows =
+        "Throws when a fault of another kind came, when nobody can change the load, and when the run is stopped. "
+        "The fault that was provoked is reset and does not end the run.";
+    return {
+        {"bench",
+         "tripWhenArming",
+         HostKind::Function,
+         {{"load", "text", "", "\"open\" or \"short\": what is fitted"},
+          {"declared", "text", "", "the load that arming is told"}},
+         "Tries to arm into an open or short circuit. Arming must be refused after its one small pulse.",
+         kReturns,
+         kThrows,
+         inChecking},
+        {"bench",
+         "tripWhileDelivering",
+         HostKind::Function,
+         {{"becomes", "text", "", "\"open\", \"short\" or \"intermittent\""},
+          {"load", "text", "", "the load before"},
+          {"within", "number", "s", "how long to wait for the trip, 0.1 to 300"}},
+         "Delivers the weakest trains and changes the load under way. Output must end before the next train.",
+         kReturns,
+         kThrows,
+         whileDelivering},
+        {"bench",
+         "tripBySilence",
+         HostKind::Function,
+         {{"load", "text", "", "the load"},
+          {"seconds", "number", "s", "how long the control loop is silent, 0.2 to 10"}},
+         "Delivers the weakest trains and withholds the heartbeat. Output must end 100 ms later and stay off.",
+         kReturns,
+         kThrows,
+         bySilence},
+    };
+}
+
+}  // namespace tacto
