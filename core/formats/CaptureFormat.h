@@ -27,19 +27,19 @@ namespace tacto {
 /// A channel is named by its name in the file (capitals ignored) or by its number: of the column in a table, of the
 /// channel elsewhere, from 1.
 struct ReadOptions {
-    std::string format;                          ///< id of a format; empty: recognised from the file
-    std::size_t skipRows = 0;                    ///< lines at the beginning of a text that are passed over
-    std::vector<std::string> columns;            ///< the channels to keep, in this order
-    std::string timeColumn;                      ///< the column that holds the times
-    std::map<std::string, std::string> units;    ///< channel -> the unit of its numbers: "mV", "A"
-    std::map<std::string, double> probeFactors;  ///< channel -> its numbers are multiplied by this
-    std::optional<Hertz> rate;                   ///< for files without times; replaces a rate that the file states
+    std::string format{};                          ///< id of a format; empty: recognised from the file
+    std::size_t skipRows = 0;                      ///< lines at the beginning of a text that are passed over
+    std::vector<std::string> columns{};            ///< the channels to keep, in this order
+    std::string timeColumn{};                      ///< the column that holds the times
+    std::map<std::string, std::string> units{};    ///< channel -> the unit of its numbers: "mV", "A"
+    std::map<std::string, double> probeFactors{};  ///< channel -> its numbers are multiplied by this
+    std::optional<Hertz> rate{};                   ///< for files without times; replaces a rate that the file states
 };
 
 /// How a long reading is watched and ended.
 struct ReadWatch {
-    std::function<void(double fraction)> progress;  ///< 0 to 1, rising; may be empty
-    std::stop_token stop;
+    std::function<void(double fraction)> progress{};  ///< 0 to 1, rising; may be empty
+    std::stop_token stop{};
 };
 
 /// Reports `fraction` and looks at the stop: a reader calls it after each chunk (at most a few MB apart).

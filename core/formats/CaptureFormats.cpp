@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/ranges.h>
+#include <system_error>
 
 #include "core/formats/ByteFile.h"
 
@@ -84,14 +85,32 @@ Result<CaptureReading> CaptureFormats::read(const std::filesystem::path& path, c
     return reading;
 }
 
-Result<void> CaptureFormats::write(const std::filesystem::path& path, const Capture& capture) const {
+Result<const CaptureFormat*> CaptureFormats::writerOf(const std::filesystem::path& path) const {
     const auto suffix = suffixOf(path);
     for (const auto& format : formats_) {
         const auto its = format->suffixes();
-        if (format->canWrite() && std::ranges::find(its, suffix) != its.end()) return format->write(path, capture);
+        if (format->canWrite() && std::ranges::find(its, suffix) != its.end()) return format.get();
     }
     return fail(ErrorCode::InvalidArgument, "{}: captures are not written as '{}'; {} are the suffixes that are",
                 path.string(), suffix, fmt::join(writableSuffixes(), ", "));
+}
+
+Result<void> CaptureFormats::write(const std::filesystem::path& path, const Capture& capture) const {
+    const auto format = writerOf(path);
+    if (!format) return failure(format);
+    // Beside it, so that it can take its place at once: what was there stays until then.
+    auto unfinished = path;
+    unfinished += ".part" + suffixOf(path);
+    auto written = (*format)->write(unfinished, capture);
+    std::error_code error;
+    if (written) {
+        std::filesystem::rename(unfinished, path, error);
+        if (error) {
+            written = fail(ErrorCode::Io, "{} could not be written: {}", path.string(), error.message());
+        }
+    }
+    if (!written) std::filesystem::remove(unfinished, error);
+    return written;
 }
 
 }  // namespace tacto

@@ -32,7 +32,11 @@ public:
     [[nodiscard]] Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options = {},
                                               const ReadWatch& watch = {}) const;
 
-    /// Writes in the format of the suffix. Errors: InvalidArgument for a suffix that nobody writes; those of write().
+    /// The format that writes files of this suffix. Errors: InvalidArgument listing the suffixes that somebody writes.
+    [[nodiscard]] Result<const CaptureFormat*> writerOf(const std::filesystem::path& path) const;
+
+    /// Writes in the format of the suffix: the whole file or none of it.
+    /// Errors: those of writerOf() and of the format's write(); Io.
     [[nodiscard]] Result<void> write(const std::filesystem::path& path, const Capture& capture) const;
 
 private:
@@ -41,5 +45,8 @@ private:
 
 /// The formats of core/formats: the CSV dialects, Tektronix ISF, WAV. Plain CSV is the last: it takes any table.
 void addOwnFormats(CaptureFormats& formats);
+
+/// A list of those alone.
+[[nodiscard]] std::shared_ptr<const CaptureFormats> ownCaptureFormats();
 
 }  // namespace tacto

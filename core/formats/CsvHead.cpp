@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fast_float/fast_float.h>
 #include <limits>
+#include <span>
 
 #include "core/base/Text.h"
 
@@ -10,24 +11,17 @@ namespace tacto {
 
 namespace {
 
-char separatorOf(std::string_view line) {
-    if (line.find('\t') != std::string_view::npos && line.find(',') == std::string_view::npos) return '\t';
-    const auto semicolons = std::count(line.begin(), line.end(), ';');
-    const auto commas = std::count(line.begin(), line.end(), ',');
-    return semicolons > commas ? ';' : ',';
-}
-
-/// The separator of most of the first lines: a title line in front of a table may hold anything.
+/// What most of the first lines hold: a title line in front of a table may hold anything. A semicolon goes before a
+/// comma, which beside it is the decimal point of another country.
 char separatorOf(const std::vector<std::string_view>& lines) {
     constexpr std::size_t kLooked = 40;
     std::size_t tabs = 0;
     std::size_t semicolons = 0;
-    std::size_t seen = 0;
-    for (const auto line : lines) {
-        if (seen++ == kLooked) break;
-        const char its = separatorOf(line);
-        tabs += its == '\t' ? 1U : 0U;
-        semicolons += its == ';' ? 1U : 0U;
+    const auto seen = std::min(lines.size(), kLooked);
+    for (const auto line : std::span(lines).first(seen)) {
+        const bool comma = line.find(',') != std::string_view::npos;
+        tabs += line.find('\t') != std::string_view::npos && !comma ? 1U : 0U;
+        semicolons += line.find(';') != std::string_view::npos ? 1U : 0U;
     }
     if (2 * tabs > seen) return '\t';
     return 2 * semicolons > seen ? ';' : ',';

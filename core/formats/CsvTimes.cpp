@@ -81,6 +81,18 @@ bool areOnlyCoarse(const Steps& steps) {
 
 Result<void> CsvTimes::into(CaptureReading& reading, TextBlocks& blocks, const CsvHead& head, const CsvLayout& layout,
                             std::size_t rows, const ReadWatch& watch) const {
+    if (auto set = setTimes(reading, blocks, head, layout, rows, watch); !set) return set;
+    const auto& capture = reading.capture;
+    if (!(capture.rate_hz > 0) || !std::isfinite(capture.rate_hz) || !std::isfinite(capture.start_s)) {
+        return fail(ErrorCode::ParseError,
+                    "{}: times give {} samples per second from {} s on; finite ones were expected", blocks.name(),
+                    capture.rate_hz, capture.start_s);
+    }
+    return {};
+}
+
+Result<void> CsvTimes::setTimes(CaptureReading& reading, TextBlocks& blocks, const CsvHead& head,
+                                const CsvLayout& layout, std::size_t rows, const ReadWatch& watch) const {
     auto& capture = reading.capture;
     if (layout.times == RowTimes::Counted) {
         capture.rate_hz = layout.givenRate_hz ? *layout.givenRate_hz : 1 / *layout.interval_s;

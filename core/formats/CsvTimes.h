@@ -16,8 +16,8 @@ public:
 
     void add(double stamp, std::size_t line) noexcept {
         const double t = stamp * factor_;
-        // A NaN compares unequal to itself.
-        if (t != t && missingLine_ == 0) missingLine_ = line;
+        // Neither NaN nor infinite.
+        if (!(t - t == 0) && missingLine_ == 0) missingLine_ = line;
         half_.add(t);
         quarter_.add(t);
     }
@@ -41,6 +41,9 @@ public:
                                     const CsvLayout& layout, std::size_t rows, const ReadWatch& watch) const;
 
 private:
+    [[nodiscard]] Result<void> setTimes(CaptureReading& reading, TextBlocks& blocks, const CsvHead& head,
+                                        const CsvLayout& layout, std::size_t rows, const ReadWatch& watch) const;
+
     double factor_;
     EvenSteps half_{0.5};      // accepted
     EvenSteps quarter_{0.26};  // not worth a word: what rounding to half a step's digits does

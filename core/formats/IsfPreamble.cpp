@@ -134,12 +134,15 @@ Result<IsfPreamble> readIsfPreamble(std::string_view head, std::string_view file
     const auto unit = text(kXUnit);
     if (!unit.empty() && unit != "s") refuse(kXUnit, "s");
     pre.interval_s = number(kXStep);
-    if (!(pre.interval_s > 0)) refuse(kXStep, "a time above 0");
+    if (!(pre.interval_s > 0) || !std::isfinite(1 / pre.interval_s)) refuse(kXStep, "a time above 0");
     pre.start_s = number(kXZero, 0) - number(kPointOffset, 0) * pre.interval_s;
     pre.scale = number(kYScale);
     if (pre.scale == 0) refuse(kYScale, "a number other than 0");
     pre.offset = number(kYOffset, 0);
     pre.zero = number(kYZero, 0);
+    if (!std::isfinite(pre.start_s)) refuse(kXZero, "a time within reason");
+    if (!std::isfinite(pre.valueOf(-65536)) || !std::isfinite(pre.valueOf(65536)))
+        refuse(kYScale, "a scale within reason");
     if (!wrong.empty()) return tl::unexpected<Error>(Error{ErrorCode::ParseError, std::move(wrong)});
     pre.points = static_cast<std::size_t>(points);
     pre.unit = pairs.value(kYUnit).value_or("");

@@ -14,4 +14,10 @@ void addOwnFormats(CaptureFormats& formats) {
     }
 }
 
+std::shared_ptr<const CaptureFormats> ownCaptureFormats() {
+    auto formats = std::make_shared<CaptureFormats>();
+    addOwnFormats(*formats);
+    return formats;
+}
+
 }  // namespace tacto

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/ranges.h>
 #include <limits>
 #include <system_error>
 
-#include "core/formats/CsvFormat.h"
-#include "core/measure/CaptureFile.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {
@@ -92,6 +91,8 @@ private:
 
 class CaptureDriver final : public Driver {
 public:
+    explicit CaptureDriver(std::shared_ptr<const CaptureFormats> formats) : formats_(std::move(formats)) {}
+
     std::string_view scheme() const noexcept override { return "capture"; }
     bool runsOnVirtualClock() const noexcept override { return true; }
     std::vector<DeviceIdentity> list() const override {
@@ -111,21 +112,21 @@ public:
         }
         std::error_code error;
         if (!fs::is_directory(uri.path, error)) {
-            return fail(ErrorCode::NotFound, "device \"{}\": {} is no folder; one with captures (*.csv) was expected",
-                        uri.text(), uri.path.empty() ? "\"\"" : uri.path);
+            return fail(ErrorCode::NotFound, "device \"{}\": {} is no folder; one with captures ({}) was expected",
+                        uri.text(), uri.path.empty() ? "\"\"" : uri.path, fmt::join(formats_->suffixes(), ", "));
         }
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(uri.path, error)) {
-            if (entry.is_regular_file(error) && entry.path().extension() == ".csv") files.push_back(entry.path());
+            if (entry.is_regular_file(error) && formats_->knowsSuffix(entry.path())) files.push_back(entry.path());
         }
         std::ranges::sort(files);
         if (files.empty()) {
-            return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files *.csv were expected",
-                        uri.text(), uri.path);
+            return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files {} were expected", uri.text(),
+                        uri.path, fmt::join(formats_->suffixes(), ", "));
         }
         std::vector<Capture> captures;
         for (const auto& file : files) {
-            auto reading = readCapture(file);
+            auto reading = formats_->read(file);
             if (!reading) return failure(reading);
             captures.push_back(std::move(reading->capture));
         }
@@ -135,10 +136,15 @@ public:
         into.oscilloscope = std::make_unique<ReplayedCaptures>(std::move(captures), std::move(identity), context.clock);
         return {};
     }
+
+private:
+    std::shared_ptr<const CaptureFormats> formats_;
 };
 
 }  // namespace
 
-std::unique_ptr<Driver> makeCaptureDriver() { return std::make_unique<CaptureDriver>(); }
+std::unique_ptr<Driver> makeCaptureDriver(std::shared_ptr<const CaptureFormats> formats) {
+    return std::make_unique<CaptureDriver>(std::move(formats));
+}
 
 }  // namespace tacto

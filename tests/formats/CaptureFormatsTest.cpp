@@ -1,0 +1,80 @@
+// The list of formats: who is asked, who writes, and what it says when nobody knows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/formats/CaptureFormats.h"
+#include "tests/measure/SyntheticPulses.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(CaptureFormats, TheContentDecidesNotTheName) {
+    const ScratchDir scratch;
+    const auto formats = ownCaptureFormats();
+    const auto path = scratch.write("called.wav", "x-axis,1\nsecond,Volt\n0,1\n1,2\n");
+    const auto read = formats->read(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->formatId, "csv-keysight");
+    EXPECT_EQ(read->formatName, "Keysight CSV");
+}
+
+TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
+    const ScratchDir scratch;
+    const auto formats = ownCaptureFormats();
+    const auto path = scratch.write("t.csv", "time_s,a\n0,1\n1,2\n");
+    EXPECT_EQ(formats->read(path).value().formatId, "csv");
+    const auto wrong = formats->read(path, {.format = "csv-rigol"});
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().code, ErrorCode::ParseError);
+    const auto unknown = formats->read(path, {.format = "dat"});
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(
+        unknown.error().message,
+        "format 'dat' is not known; wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, csv-picoscope, "
+        "csv are");
+}
+
+TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {
+    const ScratchDir scratch;
+    const auto path = scratch.write("t.csv", "exported\nby hand\nx-axis,1\nsecond,Volt\n0,1\n1,2\n");
+    const auto read = ownCaptureFormats()->read(path, {.skipRows = 2});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->formatId, "csv-keysight");
+}
+
+TEST(CaptureFormats, WhatNobodyRecognisesIsRefusedWithWhatIsKnown) {
+    const ScratchDir scratch;
+    const auto read = ownCaptureFormats()->read(scratch.write("t.bin", std::string_view("\x01\0\x02", 3)));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::ParseError);
+    EXPECT_THAT(read.error().message, HasSubstr("Rigol CSV"));
+    EXPECT_EQ(ownCaptureFormats()->read(scratch.path() / "none.csv").error().code, ErrorCode::NotFound);
+    EXPECT_EQ(ownCaptureFormats()->read(scratch.path()).error().code, ErrorCode::Io);
+}
+
+TEST(CaptureFormats, WritesBySuffixAndLeavesNothingBehindThatFailed) {
+    const ScratchDir scratch;
+    const auto formats = ownCaptureFormats();
+    EXPECT_THAT(formats->writableSuffixes(), ElementsAre(".wav", ".csv"));
+    EXPECT_TRUE(formats->knowsSuffix("A.ISF"));
+    EXPECT_FALSE(formats->knowsSuffix("readme.txt"));
+    const auto capture = recordOf(biphasic(1e-3), {.rate_hz = 1e5, .samples = 1000});
+    for (const auto* name : {"a.csv", "a.WAV"}) {
+        ASSERT_TRUE(formats->write(scratch.path() / name, capture)) << name;
+        EXPECT_EQ(formats->read(scratch.path() / name)->capture.samples(), 1000U) << name;
+    }
+    const auto refused = formats->write(scratch.path() / "a.isf", capture);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("captures are not written as '.isf'; .wav, .csv are"));
+    EXPECT_FALSE(formats->write(scratch.path() / "b.csv", Capture{}));
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scratch.path())) ++files;
+    EXPECT_EQ(files, 2U);
+}
+
+}  // namespace
+}  // namespace tacto::test

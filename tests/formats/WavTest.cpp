@@ -1,0 +1,154 @@
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/formats/CaptureFormats.h"
+#include "tests/measure/SyntheticPulses.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::string little(std::uint64_t value, std::size_t bytes) {
+    std::string text;
+    for (std::size_t i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFFU);
+    return text;
+}
+
+struct Shape {
+    std::uint32_t kind = 1;
+    std::uint32_t bits = 16;
+    std::uint32_t channels = 1;
+    std::uint32_t rate_hz = 48000;
+    bool extensible = false;
+};
+std::string wav(const Shape& s, const std::string& data, std::uint32_t announced) {
+    std::string format = little(s.extensible ? 0xFFFE : s.kind, 2) + little(s.channels, 2) + little(s.rate_hz, 4) +
+                         little(s.rate_hz * s.channels * s.bits / 8, 4) + little(s.channels * s.bits / 8, 2) +
+                         little(s.bits, 2);
+    if (s.extensible)
+        format += little(22, 2) + little(s.bits, 2) + little(0, 4) + little(s.kind, 2) + std::string(14, 'g');
+    const auto rest = "WAVEfmt " + little(format.size(), 4) + format + "junk" + little(3, 4) + "abc" + '\0' + "data" +
+                      little(announced, 4) + data;
+    return "RIFF" + little(rest.size(), 4) + rest;
+}
+std::string wav(const Shape& s, const std::string& data) {
+    return wav(s, data, static_cast<std::uint32_t>(data.size()));
+}
+
+Result<CaptureReading> readBytes(const std::string& bytes, const ReadOptions& options = {}) {
+    const ScratchDir scratch;
+    return ownCaptureFormats()->read(scratch.write("t.wav", bytes), options);
+}
+
+TEST(Wav, PcmOfEveryWidthIsAFractionOfFullScale) {
+    const struct {
+        std::uint32_t bits;
+        std::string data;
+    } cases[] = {{8, std::string("\x00\x80\xC0", 3)},
+                 {16, little(0x8000, 2) + little(0, 2) + little(0x4000, 2)},
+                 {24, little(0x800000, 3) + little(0, 3) + little(0x400000, 3)},
+                 {32, little(0x80000000, 4) + little(0, 4) + little(0x40000000, 4)}};
+    for (const auto& [bits, data] : cases) {
+        for (const bool extensible : {false, true}) {
+            const auto read = readBytes(wav({.bits = bits, .extensible = extensible}, data));
+            ASSERT_TRUE(read) << read.error().message;
+            EXPECT_EQ(read->formatId, "wav");
+            EXPECT_DOUBLE_EQ(read->capture.rate_hz, 48000);
+            EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(-1, 0, 0.5F)) << bits;
+            EXPECT_DOUBLE_EQ(read->capture.channels[0].low, -1);
+            EXPECT_DOUBLE_EQ(read->capture.channels[0].lsb, std::exp2(1.0 - bits));
+            EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("does not say what its full scale is")));
+        }
+    }
+}
+
+TEST(Wav, UnitAndProbeSayWhatFullScaleIs) {
+    const auto read =
+        readBytes(wav({.channels = 2}, little(0x4000, 2) + little(0xC000, 2) + little(0, 2) + little(0, 2)),
+                  {.units = {{"CH1", "V"}, {"CH2", "mA"}}, .probeFactors = {{"CH1", 20.0}}});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_THAT(read->warnings, IsEmpty());
+    EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(10, 0));
+    EXPECT_DOUBLE_EQ(read->capture.channels[0].low, -20);
+    EXPECT_EQ(read->capture.channels[1].unit, "A");
+    EXPECT_THAT(read->capture.channels[1].samples, ElementsAre(-0.0005F, 0));
+}
+
+TEST(Wav, FloatsAreTakenAsTheyAre) {
+    const auto one = readBytes(wav({.kind = 3, .bits = 32}, little(std::bit_cast<std::uint32_t>(12.5F), 4) +
+                                                                little(std::bit_cast<std::uint32_t>(-3.0F), 4)));
+    ASSERT_TRUE(one) << one.error().message;
+    EXPECT_THAT(one->capture.channels[0].samples, ElementsAre(12.5F, -3));
+    const auto two = readBytes(wav({.kind = 3, .bits = 64}, little(std::bit_cast<std::uint64_t>(0.1), 8) +
+                                                                little(std::bit_cast<std::uint64_t>(1.0), 8)));
+    ASSERT_TRUE(two) << two.error().message;
+    EXPECT_THAT(two->capture.channels[0].samples, ElementsAre(0.1F, 1));
+}
+
+TEST(Wav, WhatIsWrittenReturnsBitByBit) {
+    const ScratchDir scratch;
+    auto capture = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .start_s = -0.25, .samples = 400'000, .noise = 0.1});
+    capture.channels.push_back(capture.channels[0]);
+    capture.channels[1].name = "current; odd";
+    capture.channels[1].unit = "A";
+    capture.channels[1].samples[5] = std::nanf("");
+    const auto formats = ownCaptureFormats();
+    ASSERT_TRUE(formats->write(scratch.path() / "c.wav", capture));
+    const auto read = formats->read(scratch.path() / "c.wav");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_THAT(read->warnings, IsEmpty());
+    EXPECT_DOUBLE_EQ(read->capture.rate_hz, 1e6);
+    EXPECT_DOUBLE_EQ(read->capture.start_s, -0.25);
+    ASSERT_THAT(read->capture.channels, SizeIs(2));
+    EXPECT_EQ(read->capture.channels[1].name, "current; odd");
+    EXPECT_EQ(read->capture.channels[1].unit, "A");
+    EXPECT_EQ(read->capture.channels[0].samples, capture.channels[0].samples);
+    EXPECT_TRUE(std::isnan(read->capture.channels[1].samples[5]));
+}
+
+TEST(Wav, HoldsOnlyWholeRates) {
+    const ScratchDir scratch;
+    auto capture = recordOf({}, {.rate_hz = 1000, .samples = 50});
+    for (const double rate : {35.7, 5e9, 0.4}) {
+        capture.rate_hz = rate;
+        const auto written = ownCaptureFormats()->write(scratch.path() / "c.wav", capture);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ErrorCode::InvalidArgument);
+        EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+    }
+    capture.rate_hz = 9'999'999.9;  // what time stamps leave of 10 MHz
+    EXPECT_TRUE(ownCaptureFormats()->write(scratch.path() / "c.wav", capture));
+}
+
+TEST(Wav, CutShortOpenEndedAndSenseless) {
+    RecordProperty("hazard", "H10");
+    const auto data = little(1, 2) + little(2, 2) + little(3, 2);
+    const auto cut = readBytes(wav({}, data, 100));
+    ASSERT_TRUE(cut) << cut.error().message;
+    EXPECT_THAT(cut->capture.channels[0].samples, SizeIs(3));
+    EXPECT_THAT(cut->warnings, ::testing::Contains(HasSubstr("cut short")));
+    const auto open = readBytes(wav({}, data, 0xFFFFFFFFU));
+    ASSERT_TRUE(open) << open.error().message;
+    EXPECT_THAT(open->capture.channels[0].samples, SizeIs(3));
+    EXPECT_THAT(open->warnings, SizeIs(1)) << "only the full scale";
+    const auto refusal = [](const std::string& bytes) {
+        const auto read = readBytes(bytes);
+        return read ? "accepted" : read.error().message;
+    };
+    EXPECT_THAT(refusal(wav({.kind = 6, .bits = 8}, data)), HasSubstr("samples of kind 6 with 8 bits"));
+    EXPECT_THAT(refusal(wav({.bits = 12}, data)), HasSubstr("with 12 bits"));
+    EXPECT_THAT(refusal(wav({.channels = 0}, data)), HasSubstr("0 channels"));
+    EXPECT_THAT(refusal(wav({}, little(1, 2))), HasSubstr("1 sample(s)"));
+    EXPECT_THAT(refusal("RIFF....WAVE"), HasSubstr("no fmt chunk"));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,53 @@
+// Whatever bytes call themselves a capture of any format: read or refused with a sentence, in memory that the input
+// bounds. The first byte says which options come along; the rest is the file, in memory where the system allows.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "core/formats/CaptureFormats.h"
+
+namespace {
+
+tacto::ReadOptions optionsFrom(std::uint8_t bits) {
+    tacto::ReadOptions options;
+    if ((bits & 1U) != 0) options.rate = tacto::Hertz(1e6);
+    if ((bits & 2U) != 0) options.skipRows = 1;
+    if ((bits & 4U) != 0) options.columns = {"2"};
+    if ((bits & 8U) != 0) options.timeColumn = "1";
+    if ((bits & 16U) != 0) options.units = {{"2", "mV"}};
+    if ((bits & 32U) != 0) options.probeFactors = {{"2", -10.0}};
+    return options;
+}
+
+void check(const tacto::Result<tacto::CaptureReading>& reading, std::size_t size) {
+    if (!reading) {
+        if (reading.error().message.empty()) std::abort();
+        return;
+    }
+    const auto& capture = reading->capture;
+    // What measuring relies on: a rate, a start, at least two samples, channels of one length and known units.
+    if (!(capture.rate_hz > 0) || !std::isfinite(capture.rate_hz) || !std::isfinite(capture.start_s)) std::abort();
+    if (capture.samples() < 2 || capture.samples() > size) std::abort();
+    for (const auto& channel : capture.channels) {
+        if (channel.samples.size() != capture.samples()) std::abort();
+        if (!channel.unit.empty() && channel.unit != "V" && channel.unit != "A") std::abort();
+        if (std::isnan(channel.low) || !(channel.low <= channel.high)) std::abort();
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    static const auto formats = tacto::ownCaptureFormats();
+    static const int file = memfd_create("capture", 0);
+    static const std::string path = "/proc/self/fd/" + std::to_string(file);
+    const auto options = optionsFrom(data[0]);
+    if (file < 0 || ftruncate(file, 0) != 0) return 0;
+    if (pwrite(file, data + 1, size - 1, 0) != static_cast<ssize_t>(size - 1)) return 0;
+    check(formats->read(path, options), size);
+    return 0;
+}
