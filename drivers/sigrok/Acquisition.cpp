@@ -72,6 +72,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
         if (plan.record > 0) into.reserve(plan.record);
         into.insert(into.end(), samples.begin(), samples.end());
     };
+    sink.frameBegin = [&] { queue.started(number); };
     sink.frameEnd = [&] { complete = true; };
     sink.stop = [&] {
         if (!queue.wanted(number)) stopped = true;
@@ -101,6 +102,7 @@ Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t nu
     sink.samples = [&](std::size_t channel, std::span<const float> samples, double resolution) {
         if (!queue.wanted(number)) return;
         trigger.add(channel, samples, resolution, now());
+        queue.started(number);
         if (queue.takeForced()) trigger.force();
         for (;;) {
             auto found = trigger.next();
@@ -110,6 +112,7 @@ Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t nu
             queue.push(number, std::move(**found));
         }
     };
+    sink.frameBegin = [] {};
     sink.frameEnd = [] {};
     sink.stop = [&] { return !queue.wanted(number); };
     while (queue.wanted(number)) {

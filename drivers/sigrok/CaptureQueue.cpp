@@ -23,6 +23,18 @@ bool CaptureQueue::wanted(std::uint64_t number) noexcept {
     return armed_ == number;
 }
 
+void CaptureQueue::started(std::uint64_t number) {
+    const std::scoped_lock lock(mutex_);
+    started_ = number;
+    changed_.notify_all();
+}
+
+bool CaptureQueue::waitStarted(std::uint64_t number, Seconds patience) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, patience, [&] { return started_ == number || error_; });
+    return started_ == number && !error_;
+}
+
 bool CaptureQueue::waitForRoom(std::uint64_t number) {
     std::unique_lock lock(mutex_);
     while (wanted(number)) {
@@ -46,6 +58,7 @@ void CaptureQueue::fail(Error error) {
     const std::scoped_lock lock(mutex_);
     if (!error_) error_ = std::move(error);
     armed_ = 0;
+    changed_.notify_all();
 }
 
 std::optional<Error> CaptureQueue::error() const {

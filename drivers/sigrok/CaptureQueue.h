@@ -31,6 +31,11 @@ public:
     /// Whether arming `number` is still in force. Says too that the loop turns.
     [[nodiscard]] bool wanted(std::uint64_t number) noexcept;
 
+    /// The instrument waits for triggers now.
+    void started(std::uint64_t number);
+    /// Waits for that. False when it has failed or has not come within `patience`.
+    [[nodiscard]] bool waitStarted(std::uint64_t number, Seconds patience);
+
     /// Waits while kHeld captures lie here and `number` is in force. False when it no longer is.
     [[nodiscard]] bool waitForRoom(std::uint64_t number);
     [[nodiscard]] bool hasRoom() const;
@@ -54,6 +59,7 @@ private:
     std::atomic<std::chrono::steady_clock::rep> turned_{0};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
+    std::uint64_t started_ = 0;     // guarded by mutex_
     std::uint64_t last_ = 0;        // guarded by mutex_
     std::deque<Capture> captures_;  // guarded by mutex_
     std::optional<Error> error_;    // guarded by mutex_

@@ -38,11 +38,15 @@ bool canSet(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexce
 std::vector<Fraction> fractionsOf(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexcept {
     std::vector<Fraction> fractions;
     const auto list = listOf(on, key);
-    if (!list || !canSet(on, key) || !g_variant_is_of_type(raw(*list), G_VARIANT_TYPE("a(tt)"))) return fractions;
+    if (!list || !canSet(on, key) || !g_variant_is_container(raw(*list))) return fractions;
+    // Some drivers list an array of fractions, most a tuple of them.
     for (gsize i = 0; i < g_variant_n_children(raw(*list)); ++i) {
+        const std::unique_ptr<GVariant, void (*)(GVariant*)> one(g_variant_get_child_value(raw(*list), i),
+                                                                 g_variant_unref);
+        if (!g_variant_is_of_type(one.get(), G_VARIANT_TYPE("(tt)"))) return {};
         guint64 p = 0;
         guint64 q = 0;
-        g_variant_get_child(raw(*list), i, "(tt)", &p, &q);
+        g_variant_get(one.get(), "(tt)", &p, &q);
         if (p > 0 && q > 0) fractions.push_back({p, q});
     }
     return fractions;

@@ -24,6 +24,7 @@ public:
     struct Sink {
         /// `samples` of channel `channel` (index into Abilities::channels), in V; the resolution in V, 0 unknown.
         std::function<void(std::size_t channel, std::span<const float> samples, double resolution)> samples;
+        std::function<void()> frameBegin;  ///< the device waits for its trigger
         std::function<void()> frameEnd;
         /// Asked at least every 20 ms while the session's loop turns; true ends the session.
         std::function<bool()> stop;

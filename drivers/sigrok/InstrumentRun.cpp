@@ -50,6 +50,10 @@ void Instrument::receive(const std::shared_ptr<sigrok::Packet>& packet) {
     const auto taken = guarded("taking samples", [&] {
         if (sink_ == nullptr || error_) return;
         const int type = packet->type()->id();
+        if (type == SR_DF_FRAME_BEGIN) {
+            sink_->frameBegin();
+            return;
+        }
         if (type == SR_DF_FRAME_END) {
             sink_->frameEnd();
             return;
@@ -84,8 +88,9 @@ Result<void> Instrument::run(const Sink& sink, std::uint64_t frames, std::uint64
     error_.reset();
     complaints_ = sigrokLog().errors;
     const auto ran = guarded("the acquisition", [&] {
-        if (abilities_.frameLimit) device_->config_set(sigrok::ConfigKey::LIMIT_FRAMES, valueOf(frames));
-        if (abilities_.sampleLimit) device_->config_set(sigrok::ConfigKey::LIMIT_SAMPLES, valueOf(samples));
+        if (abilities_.frameLimit && frames > 0) device_->config_set(sigrok::ConfigKey::LIMIT_FRAMES, valueOf(frames));
+        if (abilities_.sampleLimit && samples > 0)
+            device_->config_set(sigrok::ConfigKey::LIMIT_SAMPLES, valueOf(samples));
         session_->start();
         const Beat beat(*this);
         session_->run();

@@ -14,6 +14,7 @@ constexpr Seconds kLoopPatience(5);
 constexpr Seconds kSilence(3);
 constexpr Seconds kLoopPatienceUnseen(10);  // without a relay that sees the bytes: a long read cannot be told from none
 constexpr Seconds kOpenPatience(9);
+constexpr Seconds kArmPatience(6);  // an earlier wait for a trigger may have 3 s to go
 
 class SigrokOscilloscope : public Oscilloscope {
 public:
@@ -50,7 +51,12 @@ public:
         }
         const auto number = acquisition_->queue.arm();
         thread_->post([acquisition = acquisition_, plan = *plan_, number] { acquisition->acquire(plan, number); });
-        return {};
+        // A pulse that comes before the instrument is ready would be missed without a word.
+        if (acquisition_->queue.waitStarted(number, kArmPatience)) return {};
+        if (const auto well = check(); !well) return well;
+        acquisition_->queue.fail({ErrorCode::Timeout, fmt::format("{} has not begun to wait for a trigger for {:.0f} s",
+                                                                  identity_.name, kArmPatience.count())});
+        return check();
     }
 
     void disarm() noexcept override { acquisition_->queue.disarm(); }

@@ -1,9 +1,9 @@
 // SigrokOscilloscope.h - an oscilloscope that libsigrok speaks to.
 //
-// The instrument lives on a thread of its own (SigrokThread.h); what the bench calls here never waits for it: arm()
-// hands it the plan, poll() takes what has come. What goes wrong in between is poll()'s error, and final: the device
-// has to be opened again. An instrument from which nothing has come for some seconds although something must is a
-// Timeout.
+// The instrument lives on a thread of its own (SigrokThread.h); the bench waits for it in arm() only, until it
+// waits for triggers (some 0.1 s, at most 6 s); poll() takes what has come. What goes wrong in between is poll()'s
+// error, and final: the device has to be opened again. An instrument from which nothing has come for some seconds
+// although something must is a Timeout.
 //
 // Time stamps are the host's, taken when the samples arrive: libsigrok passes on no time of the trigger. Within a
 // record times are the instrument's; from record to record they are late by what reading it out takes (some 0.1 s).

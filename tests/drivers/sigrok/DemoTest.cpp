@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "core/devices/ForcedTrigger.h"
+#include "core/measure/PulseMeasurement.h"
+#include "drivers/sigrok/SigrokDriver.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+Result<DeviceSet> openDemo(const std::string& uri, const Clock& clock) {
+    DeviceSet devices;
+    const auto opened = makeSigrokDriver({})->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock, 1}, devices);
+    if (!opened) return failure(opened);
+    return devices;
+}
+
+Result<Capture> captured(Oscilloscope& scope) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    for (;;) {
+        auto found = scope.poll();
+        if (!found) return failure(found);
+        if (*found) return std::move(**found);
+        if (std::chrono::steady_clock::now() > until) return fail(ErrorCode::Timeout, "no capture within 5 s");
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+ScopeSettings settings() {
+    ScopeSettings s;
+    s.sampleRate = Hertz(100e3);
+    s.samples = 5000;
+    s.triggerLevel = 2;
+    return s;
+}
+
+TEST(SigrokDemo, IsListedAsSimulatedAndNothingIsTouched) {
+    const auto listed = makeSigrokDriver({})->list();
+    ASSERT_EQ(listed.size(), 2U);
+    EXPECT_EQ(listed[0].uri, "sigrok:demo");
+    EXPECT_TRUE(listed[0].simulated);
+    EXPECT_TRUE(listed[1].placeholder);
+}
+
+TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
+    const SteadyClock clock;
+    auto devices = openDemo("sigrok:demo?voltage=A0&current=A1&shunt=100", clock);
+    ASSERT_TRUE(devices.has_value()) << devices.error().message;
+    auto& scope = *devices->oscilloscope;
+    EXPECT_TRUE(scope.identity().simulated);
+    ASSERT_TRUE(scope.configure(settings()).has_value());
+    ASSERT_TRUE(scope.arm().has_value());
+    double last = -1;
+    for (int i = 0; i < 3; ++i) {
+        const auto capture = captured(scope);
+        ASSERT_TRUE(capture.has_value()) << capture.error().message;
+        EXPECT_TRUE(capture->simulated);
+        EXPECT_DOUBLE_EQ(capture->rate_hz, 100e3);
+        EXPECT_GT(capture->trigger_s, last);
+        last = capture->trigger_s;
+        ASSERT_EQ(capture->channels.size(), 2U);
+        EXPECT_EQ(capture->samples(), 5000U);
+        // A0: a square of ±10 V; A1: a sine of ±10 V, over 100 ohm.
+        const auto& volts = capture->channels[0].samples;
+        EXPECT_EQ(*std::ranges::max_element(volts), 10.0F);
+        EXPECT_EQ(*std::ranges::min_element(volts), -10.0F);
+        EXPECT_LT(volts[499], 2.0F);
+        EXPECT_GE(volts[500], 2.0F) << "a tenth of the record before the trigger";
+        const auto& amps = capture->channels[1].samples;
+        EXPECT_EQ(capture->channels[1].unit, "A");
+        EXPECT_NEAR(static_cast<double>(*std::ranges::max_element(amps)), 0.1, 1e-6);
+        double squares = 0;
+        for (const float one : amps) squares += static_cast<double>(one) * static_cast<double>(one);
+        EXPECT_NEAR(std::sqrt(squares / 5000), 0.1 / std::numbers::sqrt2, 1e-4);
+    }
+    scope.disarm();
+    EXPECT_FALSE(scope.poll()->has_value());
+    ASSERT_TRUE(scope.arm().has_value()) << "armed again after disarming";
+    EXPECT_TRUE(captured(scope).has_value());
+}
+
+TEST(SigrokDemo, ItsSquareIsMeasuredLikeAPulseTrain) {
+    const SteadyClock clock;
+    auto devices = openDemo("sigrok:demo", clock);
+    ASSERT_TRUE(devices.has_value()) << devices.error().message;
+    ASSERT_TRUE(devices->oscilloscope->configure(settings()).has_value());
+    ASSERT_TRUE(devices->oscilloscope->arm().has_value());
+    const auto capture = captured(*devices->oscilloscope);
+    ASSERT_TRUE(capture.has_value()) << capture.error().message;
+    ASSERT_EQ(capture->channels.size(), 1U) << "no current channel was named";
+    const auto& volts = capture->channels[0].samples;
+    // Equal phases: the period is what libsigrok's demo makes of it; each rising edge stands one period after the last.
+    std::vector<std::size_t> edges;
+    for (std::size_t i = 1; i < volts.size(); ++i) {
+        if (volts[i - 1] < 0 && volts[i] > 0) edges.push_back(i);
+    }
+    ASSERT_GT(edges.size(), 10U);
+    for (std::size_t i = 2; i < edges.size(); ++i) EXPECT_EQ(edges[i] - edges[i - 1], edges[1] - edges[0]);
+}
+
+TEST(SigrokDemo, ARecordIsForcedWhereNothingTriggers) {
+    const SteadyClock clock;
+    auto devices = openDemo("sigrok:demo", clock);
+    ASSERT_TRUE(devices.has_value());
+    auto& scope = *devices->oscilloscope;
+    auto* forced = dynamic_cast<ForcedTrigger*>(&scope);
+    ASSERT_NE(forced, nullptr);
+    EXPECT_EQ(forced->forceTrigger().error().code, ErrorCode::Unsupported) << "not armed";
+    auto high = settings();
+    high.triggerLevel = 40;  // the signal is ±10 V
+    ASSERT_TRUE(scope.configure(high).has_value());
+    ASSERT_TRUE(scope.arm().has_value());
+    EXPECT_FALSE(scope.poll()->has_value());
+    ASSERT_TRUE(forced->forceTrigger().has_value());
+    const auto capture = captured(scope);
+    ASSERT_TRUE(capture.has_value()) << capture.error().message;
+    EXPECT_TRUE(capture->untriggered);
+    EXPECT_TRUE(std::isnan(capture->trigger_s));
+}
+
+TEST(SigrokDemo, RefusalsNameWhatThereIs) {
+    const SteadyClock clock;
+    EXPECT_THAT(openDemo("sigrok:demo?voltage=B7", clock).error().message,
+                testing::AllOf(HasSubstr("B7"), HasSubstr("A0, A1")));
+    EXPECT_THAT(openDemo("sigrok:demo?probe=10", clock).error().message, HasSubstr("probe=10"));
+    EXPECT_THAT(openDemo("sigrok:demo?record=live", clock).error().message, HasSubstr("streams"));
+    EXPECT_THAT(openDemo("sigrok:demo:colour=red", clock).error().message,
+                testing::AllOf(HasSubstr("colour"), HasSubstr("analog_channels")));
+    const auto unknown = openDemo("sigrok:no-such-driver", clock);
+    EXPECT_EQ(unknown.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(unknown.error().message, HasSubstr("no-such-driver"));
+    EXPECT_TRUE(openDemo("sigrok:demo:analog_channels=2", clock).has_value());
+}
+
+TEST(SigrokDemo, TwoAreOpenAtOnceAndCloseWhileTheyRun) {
+    const SteadyClock clock;
+    auto first = openDemo("sigrok:demo", clock);
+    auto second = openDemo("sigrok:demo?voltage=A1", clock);
+    ASSERT_TRUE(first.has_value() && second.has_value());
+    for (auto* one : {&*first, &*second}) {
+        ASSERT_TRUE(one->oscilloscope->configure(settings()).has_value());
+        ASSERT_TRUE(one->oscilloscope->arm().has_value());
+    }
+    EXPECT_TRUE(captured(*first->oscilloscope).has_value());
+    EXPECT_TRUE(captured(*second->oscilloscope).has_value());
+    const auto before = std::chrono::steady_clock::now();
+    first->oscilloscope.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(2));
+    EXPECT_TRUE(captured(*second->oscilloscope).has_value()) << "the other goes on";
+}
+
+}  // namespace
+}  // namespace tacto::test

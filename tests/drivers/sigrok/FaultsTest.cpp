@@ -1,0 +1,123 @@
+// Instruments that fail in the middle of it: each is an error, none a hang or a crash.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/drivers/sigrok/ScopeOnLan.h"
+
+namespace tacto::test {
+namespace {
+
+using sigrok_driver::ScopeFault;
+using SteadyTime = std::chrono::steady_clock;
+
+ScopeSettings settings() {
+    ScopeSettings s;
+    s.sampleRate = Hertz(1e6);
+    s.samples = 2000;
+    s.triggerLevel = 5;
+    return s;
+}
+
+double seconds(SteadyTime::time_point since) { return Seconds(SteadyTime::now() - since).count(); }
+
+struct Failing {
+    const char* name;
+    ScopeFault fault;
+    ErrorCode code;
+    double within_s;
+};
+
+class ScopeFails : public testing::TestWithParam<Failing> {};
+
+TEST_P(ScopeFails, IsAnErrorOfPollAndClosesInTime) {
+    RecordProperty("hazard", "H4");
+    ScopeOnLan lan;
+    lan.arm(settings());
+    lan.instrument().setFault(GetParam().fault);
+    lan.bench().deliver(voltagePulse(10), Seconds(0.06));
+    auto since = SteadyTime::now();
+    const auto capture = lan.poll(Seconds(20));
+    ASSERT_FALSE(capture.has_value());
+    EXPECT_EQ(capture.error().code, GetParam().code) << capture.error().message;
+    EXPECT_LT(seconds(since), GetParam().within_s) << capture.error().message;
+    EXPECT_FALSE(lan.scope().poll().has_value()) << "the error stays";
+    EXPECT_FALSE(lan.scope().arm().has_value());
+    since = SteadyTime::now();
+    lan.close();
+    EXPECT_LT(seconds(since), 2.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, ScopeFails,
+                         testing::Values(Failing{"HangsUp", ScopeFault::HangUp, ErrorCode::Device, 3},
+                                         Failing{"FallsSilent", ScopeFault::Silence, ErrorCode::Timeout, 8},
+                                         Failing{"Garbage", ScopeFault::Garbage, ErrorCode::Device, 5},
+                                         Failing{"PromisesMore", ScopeFault::LongBlock, ErrorCode::Timeout, 8},
+                                         Failing{"GivesTooMuch", ScopeFault::Endless, ErrorCode::Device, 8}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
+    ScopeOnLan lan;
+    lan.arm(settings());
+    lan.instrument().fallSilent();
+    const auto since = SteadyTime::now();
+    const auto capture = lan.poll(Seconds(20));
+    ASSERT_FALSE(capture.has_value());
+    EXPECT_EQ(capture.error().code, ErrorCode::Timeout);
+    EXPECT_LT(seconds(since), 8);
+}
+
+TEST(ScopeFaults, ClosesInTimeWhileTheInstrumentIsSilentWithinARecord) {
+    ScopeOnLan lan;
+    lan.arm(settings());
+    lan.instrument().setFault(ScopeFault::Silence);
+    lan.bench().deliver(voltagePulse(10), Seconds(0.06));
+    (void)lan.instrument().waits(Seconds(0));
+    const auto since = SteadyTime::now();
+    lan.close();
+    EXPECT_LT(seconds(since), 2.0);
+}
+
+TEST(ScopeFaults, ClosesInTimeWhileItWaitsForATrigger) {
+    ScopeOnLan lan;
+    lan.arm(settings());
+    const auto since = SteadyTime::now();
+    lan.close();
+    EXPECT_LT(seconds(since), 2.0);
+    const auto again = lan.open();
+    EXPECT_TRUE(again.has_value()) << again.error().message;
+}
+
+TEST(ScopeFaults, DisarmingReturnsAtOnceAndItCanBeArmedAgain) {
+    ScopeOnLan lan;
+    lan.arm(settings());
+    const auto since = SteadyTime::now();
+    lan.scope().disarm();
+    EXPECT_LT(seconds(since), 0.1);
+    lan.arm(settings());
+    lan.bench().deliver(voltagePulse(10), Seconds(0.06));
+    const auto capture = lan.poll();
+    ASSERT_TRUE(capture.has_value()) << capture.error().message;
+    EXPECT_TRUE(capture->has_value());
+}
+
+TEST(ScopeFaults, AnInstrumentThatIsOffIsNotFoundAndOneThatIsMuteTimesOut) {
+    ScopeOnLan lan;
+    lan.close();
+    lan.instrument().fallSilent();
+    auto since = SteadyTime::now();
+    const auto mute = lan.open();
+    ASSERT_FALSE(mute.has_value());
+    EXPECT_LT(seconds(since), 12);
+    lan.instrument().unplug();
+    std::string off;
+    since = SteadyTime::now();
+    do {  // the listening socket closes on the server's own thread
+        const auto opened = lan.open();
+        ASSERT_FALSE(opened.has_value());
+        off = opened.error().message;
+    } while (off.find("no instrument at") == std::string::npos && seconds(since) < 30);
+    EXPECT_THAT(off, testing::HasSubstr("no instrument at 127.0.0.1"));
+}
+
+}  // namespace
+}  // namespace tacto::test

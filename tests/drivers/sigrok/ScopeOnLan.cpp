@@ -1,0 +1,60 @@
+#include "tests/drivers/sigrok/ScopeOnLan.h"
+
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <thread>
+
+#include "drivers/sigrok/SigrokDriver.h"
+
+namespace tacto::test {
+
+using sigrok_driver::CircuitInput;
+using sigrok_driver::EmulatedRigol;
+using sigrok_driver::EmulatedScopeServer;
+
+ScopeOnLan::ScopeOnLan(const std::string& parameters, const std::string& stimulator)
+    : parameters_(parameters), driver_(makeSigrokDriver({})) {
+    bench_.open(stimulator);
+    auto input = std::make_shared<CircuitInput>(bench_.circuit(), bench_.clock, Ohms(kShuntOhm));
+    auto server = EmulatedScopeServer::start(std::make_unique<EmulatedRigol>(std::move(input), bench_.clock));
+    if (!server) throw std::runtime_error(server.error().message);
+    server_ = std::move(*server);
+    if (const auto opened = open(); !opened) throw std::runtime_error(opened.error().message);
+}
+
+std::string ScopeOnLan::uri() const {
+    return fmt::format("sigrok:rigol-ds:conn=tcp-raw/127.0.0.1/{}?voltage=CH1&current=CH2&shunt={}ohm{}",
+                       server_->port(), kShuntOhm, parameters_);
+}
+
+Result<void> ScopeOnLan::open() {
+    const OpenContext context{bench_.clock, 1};
+    return driver_->open(DeviceUri::parse(uri()).value(), {}, context, opened_);
+}
+
+void ScopeOnLan::arm(const ScopeSettings& settings) {
+    const auto configured = scope().configure(settings);
+    ASSERT_TRUE(configured.has_value()) << configured.error().message;
+    const auto armed = scope().arm();
+    ASSERT_TRUE(armed.has_value()) << armed.error().message;
+    // So much signal time that the part of a record before the trigger is filled.
+    bench_.wait(Seconds(0.05));
+}
+
+void ScopeOnLan::pass(Seconds duration) {
+    const auto before = server_->readOut();
+    const bool waited = server_->waits(Seconds(0));
+    bench_.wait(duration);
+    if (waited && !server_->waits(Seconds(0))) (void)server_->hasReadOut(before + 1, Seconds(5));
+}
+
+Result<std::optional<Capture>> ScopeOnLan::poll(Seconds patience) {
+    const auto until = std::chrono::steady_clock::now() + patience;
+    for (;;) {
+        auto found = scope().poll();
+        if (!found || *found || std::chrono::steady_clock::now() > until) return found;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+}  // namespace tacto::test
