@@ -44,7 +44,7 @@ int usage(const std::string& sentence) {
 }
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,      kMeasure,
+    static const std::vector<Command> all{kRun,     kProtocols, kDevices, kRoughness, kEncode,      kMeasure, kConvert,
                                           kAnalyze, kReport,    kVerify,  kHid,       kScienceMode, kSensor};
     return all;
 }

@@ -60,7 +60,7 @@ void printJson(const nlohmann::json& value);
 [[nodiscard]] Result<void> writeFile(const std::string& path, const std::string& content);
 
 // Defined one per file, in app/cli/<Name>Command.cpp.
-extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kAnalyze, kReport, kVerify, kHid,
-    kScienceMode, kSensor;
+extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kReport, kVerify,
+    kHid, kScienceMode, kSensor;
 
 }  // namespace tacto::cli

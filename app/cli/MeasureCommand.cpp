@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
+#include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
-#include "core/formats/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 
@@ -17,6 +17,7 @@ void declare(QCommandLineParser& parser) {
         {"shunt", "Resistance in ohm across which the channel was measured: volts become amperes.", "OHM"});
     parser.addOption({"rate", "Intra-train pulse rate in Hz: pulses up to 1.5 periods apart form a train.", "HZ"});
     parser.addOption({"train-gap", "Pulses up to this many seconds apart form a train.", "S"});
+    declareCaptureOptions(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -78,7 +79,9 @@ int run(const QCommandLineParser& parser) {
         if (!(*ohm > 0)) return usage(fmt::format("measure: --shunt is {}; a number above 0 is expected", *ohm));
         shunt = Ohms(*ohm);
     }
-    auto reading = readCapture(*path);
+    const auto readAs = captureOptions(parser);
+    if (!readAs) return usage("measure: " + readAs.error().message);
+    auto reading = readCaptureFile(*path, *readAs);
     if (!reading) return couldNotRun(reading.error());
     std::optional<std::size_t> channel;
     const auto channelName = parser.value("channel").toStdString();
@@ -99,9 +102,10 @@ int run(const QCommandLineParser& parser) {
     if (parser.isSet("json")) {
         auto channels = nlohmann::json::array();
         for (const auto& m : found.channels) channels.push_back(toJson(m));
-        printJson({{"channels", channels}, {"warnings", warnings}});
+        printJson({{"format", reading->formatId}, {"channels", channels}, {"warnings", warnings}});
         return kDone;
     }
+    fmt::print("{}\n", reading->formatName);
     for (const auto& m : found.channels) {
         fmt::print("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
                    m.measuredPulses);
@@ -120,7 +124,7 @@ int run(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kMeasure{"measure",
-                       "CAPTURE [--channel NAME] [--shunt OHM] [--json]",
+                       "CAPTURE [--channel NAME] [--shunt OHM] [--format ID] [--json]",
                        "Amplitude, width and interval of the pulses in an oscilloscope record",
                        false,
                        declare,

@@ -1,5 +1,6 @@
 #include "app/run/AllDrivers.h"
 
+#include "app/run/CaptureFormatsList.h"
 #include "app/scripting/ProtocolLibrary.h"
 #include "drivers/hid_massager/HidDriver.h"
 #include "drivers/pulsepal/PulsePalDriver.h"
@@ -23,7 +24,7 @@ std::function<Registry()> allDrivers() {
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
         drivers.push_back(makeRecordingDriver());
-        drivers.push_back(makeCaptureDriver());
+        drivers.push_back(makeCaptureDriver(captureFormats()));
         drivers.push_back(makeSigrokDriver(usb));
         drivers.push_back(makeScienceModeDriver(makeUsbPorts(usb, {kScienceMode}, {})));
         drivers.push_back(makePulsePalDriver(makeUsbPorts(usb, {kPulsePal}, {.dataTerminalReady = true})));

@@ -3,8 +3,7 @@
 #include <QFileInfo>
 
 #include "app/gui/scope/ScopeExport.h"
-#include "core/formats/CsvFormat.h"
-#include "core/measure/CaptureFile.h"
+#include "app/run/CaptureFormatsList.h"
 
 namespace tacto::gui {
 
@@ -18,6 +17,7 @@ CapturePipe::CapturePipe(QObject* parent) : QObject(parent) { thread_.setMaxThre
 
 CapturePipe::~CapturePipe() {
     wantedOpen_ = 0;
+    reading_.request_stop();
     thread_.clear();
     thread_.waitForDone();
 }
@@ -46,14 +46,19 @@ void CapturePipe::open(const QString& path) {
     const auto number = ++openNumber_;
     wantedOpen_ = number;
     opening_ = true;
+    percentRead_ = 0;
+    reading_.request_stop();
+    reading_ = std::stop_source();
     emit openingChanged();
-    thread_.start([this, number, path, wish = wish_] {
-        auto read = readCapture(path.toStdString());
+    thread_.start([this, number, path, wish = wish_, stop = reading_.get_token()] {
+        auto read = captureFormats()->read(path.toStdString(), {}, {[this](double part) { tellRead(part); }, stop});
         ShownPtr shown;
         if (read && wantedOpen_ == number) {
             auto its = std::const_pointer_cast<ShownCapture>(
                 prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, wish));
             its->source = QFileInfo(path).fileName();
+            // Of what is not evident: which instrument's table it was taken for.
+            if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";
             its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
             shown = its;
         }
@@ -77,8 +82,20 @@ void CapturePipe::open(const QString& path) {
 void CapturePipe::cancelOpen() {
     if (!opening_) return;
     wantedOpen_ = 0;
+    reading_.request_stop();
     opening_ = false;
     emit openingChanged();
+}
+
+void CapturePipe::tellRead(double part) {
+    const int percent = static_cast<int>(100 * part);
+    if (percentRead_.exchange(percent) == percent) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+            if (opening_) emit openingChanged();
+        },
+        Qt::QueuedConnection);
 }
 
 void CapturePipe::recalculate(const ShownPtr& shown) {

@@ -12,6 +12,7 @@
 #include <QThreadPool>
 #include <atomic>
 #include <cstdint>
+#include <stop_token>
 
 #include "app/gui/scope/Trace.h"
 
@@ -26,7 +27,7 @@ public:
     void setWish(const MathWish& wish) { wish_ = wish; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
-    /// A file that is being read is not shown when it comes.
+    /// A file that is being read is read no further, and not shown.
     void cancelOpen();
     /// The same capture with the present wish.
     void recalculate(const ShownPtr& shown);
@@ -35,6 +36,8 @@ public:
     void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
 
     [[nodiscard]] bool opening() const noexcept { return opening_; }
+    /// Of the file that is being read, 0 to 100. openingChanged() tells each.
+    [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
     [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
 
 signals:
@@ -45,12 +48,16 @@ signals:
     void failed(const QString& what);
 
 private:
+    void tellRead(double part);  // on the thread that reads
+
     QThreadPool thread_;  // one, so that results come in order
     MathWish wish_;
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;
     std::uint64_t openNumber_ = 0;
+    std::stop_source reading_;
+    std::atomic<int> percentRead_{0};
     std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
 };
 

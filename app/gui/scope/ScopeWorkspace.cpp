@@ -229,7 +229,7 @@ QString ScopeWorkspace::waitingText(const QString& level) const {
 
 QString ScopeWorkspace::statusText() const {
     if (!problem_.isEmpty()) return problem_;
-    if (pipe_.opening()) return tr("Reading the capture…");
+    if (pipe_.opening()) return tr("Reading the capture, %1 %…").arg(pipe_.percentRead());
     if (!done_.isEmpty()) return done_;
     const auto& shown = view_->shown();
     const bool file = shown && !shown->source.isEmpty();

@@ -14,6 +14,7 @@
 #include "app/gui/scope/ScopeExport.h"
 #include "app/gui/scope/ScopeView.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/run/CaptureFormatsList.h"
 
 namespace tacto::gui {
 
@@ -40,8 +41,11 @@ void ScopeWorkspace::buildMenu() {
 }
 
 void ScopeWorkspace::askOpen() {
-    const auto path =
-        QFileDialog::getOpenFileName(this, tr("Open a capture"), {}, tr("Captures (*.csv);;All files (*)"));
+    QStringList patterns;
+    for (const auto suffix : captureFormats()->suffixes())
+        patterns << "*" + QString::fromUtf8(suffix.data(), qsizetype(suffix.size()));
+    const auto path = QFileDialog::getOpenFileName(this, tr("Open a capture"), {},
+                                                   tr("Captures (%1);;All files (*)").arg(patterns.join(' ')));
     if (!path.isEmpty()) openCaptureFile(path);
 }
 
@@ -97,7 +101,7 @@ void ScopeWorkspace::copyData() {
 
 void ScopeWorkspace::dragEnterEvent(QDragEnterEvent* event) {
     const auto urls = event->mimeData()->urls();
-    if (!urls.isEmpty() && urls.first().toLocalFile().endsWith(".csv", Qt::CaseInsensitive)) {
+    if (!urls.isEmpty() && captureFormats()->knowsSuffix(urls.first().toLocalFile().toStdString())) {
         event->acceptProposedAction();
     }
 }

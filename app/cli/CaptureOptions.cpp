@@ -1,0 +1,120 @@
+#include "app/cli/CaptureOptions.h"
+
+#include <chrono>
+#include <cmath>
+#include <unistd.h>
+
+#include "app/cli/Command.h"
+#include "app/run/CaptureFormatsList.h"
+#include "core/base/Text.h"
+
+namespace tacto::cli {
+
+namespace {
+
+/// "CH1=mV": what stands before and behind the '='.
+Result<std::pair<std::string, std::string>> pairOf(const QString& text, const char* option, const char* example) {
+    const auto both = text.toStdString();
+    // The name of a channel may hold one, a unit or a number may not.
+    const auto equals = both.rfind('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == both.size()) {
+        return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; CHANNEL={} is expected", option, both, example);
+    }
+    return std::pair(std::string(trimmed(both.substr(0, equals))), std::string(trimmed(both.substr(equals + 1))));
+}
+
+/// "[#####.....] 52 %" on a terminal, from the second second on; gone when it is.
+class ReadingBar {
+public:
+    ReadingBar() : shown_(isatty(STDERR_FILENO) != 0) {}
+    ReadingBar(const ReadingBar&) = delete;
+    ReadingBar& operator=(const ReadingBar&) = delete;
+    ~ReadingBar() {
+        if (percent_ >= 0) fmt::print(stderr, "\r\033[K");
+    }
+    void show(double fraction) {
+        constexpr std::chrono::seconds kQuiet{1};
+        const auto percent = static_cast<int>(100 * fraction);
+        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kQuiet) return;
+        percent_ = percent;
+        const auto filled = static_cast<std::size_t>(30 * fraction);
+        fmt::print(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'),
+                   percent);
+        std::fflush(stderr);
+    }
+
+private:
+    bool shown_;
+    int percent_ = -1;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void declareCaptureOptions(QCommandLineParser& parser) {
+    parser.addOption({"format", "Reads the file as this format, whatever it looks like (csv-rigol, isf, …).", "ID"});
+    parser.addOption({"skip-rows", "Lines at the beginning of a table that are passed over.", "N"});
+    parser.addOption(
+        {"columns", "The channels to read, by name or number of the column, with commas between.", "LIST"});
+    parser.addOption({"time-column", "The column of times, by name or number.", "COLUMN"});
+    parser.addOption({"unit", "The unit of a channel's numbers, as in CH1=mV; may be repeated.", "CH=UNIT"});
+    parser.addOption(
+        {"probe", "Factor that a channel's numbers are multiplied by, as in CH1=10; may be repeated.", "CH=FACTOR"});
+    parser.addOption({"sample-rate", "Samples per second, for a file without times or with wrong ones.", "HZ"});
+}
+
+Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
+    ReadOptions options;
+    options.format = parser.value("format").toStdString();
+    options.timeColumn = parser.value("time-column").toStdString();
+    if (parser.isSet("skip-rows")) {
+        const auto rows = numberOption(parser, "skip-rows");
+        if (!rows) return failure(rows);
+        if (!(*rows >= 0 && *rows <= 1e6) || *rows != std::floor(*rows)) {
+            return fail(ErrorCode::InvalidArgument, "--skip-rows is {}; a whole number from 0 to a million is expected",
+                        *rows);
+        }
+        options.skipRows = static_cast<std::size_t>(*rows);
+    }
+    if (parser.isSet("columns")) {
+        const auto list = parser.value("columns").toStdString();
+        for (const auto name : split(list, ',')) {
+            if (trimmed(name).empty()) {
+                return fail(ErrorCode::InvalidArgument,
+                            "--columns is \"{}\"; names or numbers with commas between are expected", list);
+            }
+            options.columns.emplace_back(trimmed(name));
+        }
+    }
+    for (const auto& text : parser.values("unit")) {
+        const auto unit = pairOf(text, "unit", "mV");
+        if (!unit) return failure(unit);
+        options.units.insert_or_assign(unit->first, unit->second);
+    }
+    for (const auto& text : parser.values("probe")) {
+        const auto probe = pairOf(text, "probe", "10");
+        if (!probe) return failure(probe);
+        const auto factor = parseNumber(probe->second);
+        if (!factor) {
+            return fail(ErrorCode::InvalidArgument, "--probe is \"{}\"; CHANNEL=10, a number, is expected",
+                        text.toStdString());
+        }
+        options.probeFactors.insert_or_assign(probe->first, *factor);
+    }
+    if (parser.isSet("sample-rate")) {
+        const auto rate = numberOption(parser, "sample-rate");
+        if (!rate) return failure(rate);
+        if (!(*rate > 0)) {
+            return fail(ErrorCode::InvalidArgument, "--sample-rate is {}; a number above 0 is expected", *rate);
+        }
+        options.rate = Hertz(*rate);
+    }
+    return options;
+}
+
+Result<CaptureReading> readCaptureFile(const std::string& path, const ReadOptions& options) {
+    ReadingBar bar;
+    return captureFormats()->read(path, options, {[&](double fraction) { bar.show(fraction); }, {}});
+}
+
+}  // namespace tacto::cli

@@ -1,0 +1,23 @@
+// CaptureOptions.h - what the command line says about a capture file better than the file does, and reading it.
+//
+// Thread-safety: the main thread only.
+#pragma once
+
+#include <QCommandLineParser>
+#include <string>
+
+#include "core/formats/CaptureFormat.h"
+
+namespace tacto::cli {
+
+/// Declares --format, --skip-rows, --columns, --time-column, --unit, --probe and --sample-rate.
+void declareCaptureOptions(QCommandLineParser& parser);
+
+/// Errors: InvalidArgument naming the option, its text and what was expected.
+[[nodiscard]] Result<ReadOptions> captureOptions(const QCommandLineParser& parser);
+
+/// Reads with every format that the programs know. On a terminal a bar on stderr shows what takes over a second.
+/// Errors: of CaptureFormats::read().
+[[nodiscard]] Result<CaptureReading> readCaptureFile(const std::string& path, const ReadOptions& options);
+
+}  // namespace tacto::cli

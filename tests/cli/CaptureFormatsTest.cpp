@@ -1,0 +1,112 @@
+// measure and convert on files of other instruments, and what the user knows better than they do.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/Result.h"
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// 0 and 5 V in turn, 50 samples each at 100 kS/s, as a Rigol writes it.
+std::string rigol() {
+    std::string text = "X,CH1,CH2,Start,Increment,\r\nSequence,Volt,Volt,-1.0e-03,1.0e-05,\r\n";
+    for (int i = 0; i < 1000; ++i)
+        text += fmt::format("{},{:.2e},{:.2e},\r\n", i, i / 50 % 2 * 5.0, i / 50 % 2 * 50e-3);
+    return text;
+}
+
+TEST(CaptureFormatsCommands, MeasureSaysWhichFormatItTookTheFileFor) {
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    const auto json = jsonOf(desk.run({"measure", path, "--json"}));
+    EXPECT_EQ(json["format"], "csv-rigol");
+    EXPECT_EQ(json["channels"].size(), 2U);
+    EXPECT_NEAR(json["channels"][0]["rate_hz"].get<double>(), 1e5, 1e-6);
+    EXPECT_NEAR(json["channels"][0]["interval_s"]["mean"].get<double>(), 1e-3, 1e-8);
+    EXPECT_THAT(desk.run({"measure", path}).out, HasSubstr("Rigol CSV"));
+    const auto refused = desk.run({"measure", path, "--format", "isf"});
+    EXPECT_EQ(refused.code, 3) << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("CURVE"));
+}
+
+TEST(CaptureFormatsCommands, MeasureTakesTheUsersWordOverTheFiles) {
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    const auto ran = desk.run({"measure", path, "--columns", "CH2", "--unit", "CH2=mA", "--probe", "CH2=100",
+                               "--sample-rate", "200000", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto json = jsonOf(ran);
+    ASSERT_EQ(json["channels"].size(), 1U);
+    EXPECT_EQ(json["channels"][0]["unit"], "A");
+    EXPECT_NEAR(json["channels"][0]["amplitude"]["mean"].get<double>(), 50e-3 * 1e-3 * 100, 1e-9);
+    EXPECT_NEAR(json["channels"][0]["interval_s"]["mean"].get<double>(), 0.5e-3, 1e-8);
+
+    const auto titled = desk.write("titled.csv", "a title\nanother\nwhen;what\n0;1\n1;2\n2;3\n");
+    EXPECT_EQ(desk.run({"measure", titled, "--skip-rows", "2", "--time-column", "when"}).code, 0);
+}
+
+TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
+    RecordProperty("hazard", "H10");
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    for (const Words& words : {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"},
+                               Words{"--skip-rows", "-1"}, Words{"--skip-rows", "1.5"}, Words{"--columns", "1,,2"},
+                               Words{"--sample-rate", "0"}, Words{"--sample-rate", "nan"}}) {
+        Words all{"measure", path};
+        all.insert(all.end(), words.begin(), words.end());
+        const auto ran = desk.run(all);
+        EXPECT_EQ(ran.code, 2) << words[0] << " " << words[1];
+        EXPECT_THAT(ran.err, HasSubstr(words[0])) << words[1];
+        EXPECT_EQ(ran.out, "");
+    }
+    const auto none = desk.run({"measure", path, "--columns", "CH7"});
+    EXPECT_EQ(none.code, 3);
+    EXPECT_THAT(none.err, HasSubstr("no channel 'CH7'"));
+}
+
+TEST(CaptureFormatsCommands, ConvertKeepsEveryValue) {
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    for (const auto* name : {"out.csv", "out.wav"}) {
+        const auto ran = desk.run({"convert", path, "--out", desk.at(name), "--json"});
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        const auto json = jsonOf(ran);
+        EXPECT_EQ(json["format"], "csv-rigol");
+        EXPECT_EQ(json["samples"], 1000);
+        EXPECT_EQ(json["channels"], 2);
+        const auto before = jsonOf(desk.run({"measure", path, "--json"}));
+        const auto after = jsonOf(desk.run({"measure", desk.at(name), "--json"}));
+        for (const auto* value : {"amplitude", "width_s", "interval_s"}) {
+            EXPECT_NEAR(after["channels"][1][value]["mean"].get<double>(),
+                        before["channels"][1][value]["mean"].get<double>(), 1e-9)
+                << name << " " << value;
+        }
+        EXPECT_EQ(after["channels"][1]["unit"], "V");
+        EXPECT_EQ(after["warnings"], before["warnings"]) << "the file itself is nothing to warn of";
+    }
+    EXPECT_THAT(contentOf(desk.at("out.csv")), ::testing::StartsWith("time_s,CH1_v,CH2_v\n-0.001"));
+}
+
+TEST(CaptureFormatsCommands, ConvertNeverWritesOverWhatItReads) {
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    std::filesystem::create_symlink(path, desk.at("link.csv"));
+    for (const auto& out : {path, desk.at("./scope.csv"), desk.at("link.csv")}) {
+        const auto ran = desk.run({"convert", path, "--out", out});
+        EXPECT_EQ(ran.code, 2) << out;
+        EXPECT_THAT(ran.err, HasSubstr("the file that is read"));
+    }
+    EXPECT_EQ(contentOf(path), rigol());
+    EXPECT_EQ(desk.run({"convert", path}).code, 2);
+    const auto unknown = desk.run({"convert", path, "--out", desk.at("out.isf")});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr(".csv"));
+    EXPECT_EQ(desk.run({"convert", desk.at("none.csv"), "--out", desk.at("out.csv")}).code, 3);
+    EXPECT_FALSE(std::filesystem::exists(desk.at("out.csv")));
+}
+
+}  // namespace
+}  // namespace tacto::test
