@@ -131,6 +131,7 @@ struct Bench::State {
     [[nodiscard]] Result<void> open();
     void startThreads();
     void turn(Instant until) noexcept;
+    void letReportsBeJudged() noexcept;
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
     [[nodiscard]] Result<void> health() const;
@@ -389,6 +390,21 @@ Result<void> Bench::State::askAgain(Session& session, DeviceThread* thread, Inst
     return {};
 }
 
+/// What a device's session reported while the device was gone (a keep-alive that failed) belongs to the fault that is
+/// being left; judged after the reset it would be the next one.
+void Bench::State::letReportsBeJudged() noexcept {
+    constexpr std::uint64_t kSteps = 2;  // one may be under way
+    constexpr Instant kWithin = std::chrono::milliseconds(500);
+    const auto begin = loop->telemetry().steps;
+    const Instant until = config.clock->now() + kWithin;
+    while (loop->telemetry().steps < begin + kSteps && config.clock->now() < until) {
+        if (virtualClock != nullptr)
+            turn(until);
+        else
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
 Result<void> Bench::resetFault() {
     auto& s = *state_;
     if (s.interlock.state() != InterlockState::Faulted) return {};
@@ -403,6 +419,7 @@ Result<void> Bench::resetFault() {
         if (const auto well = s.askAgain(*s.sensor, s.sensorThread.get(), kOpenWithin, "fingertip sensor"); !well)
             return well;
     }
+    s.letReportsBeJudged();
     for (int cause = 0; cause < kFaultCauseCount; ++cause) s.interlock.causeGone(static_cast<FaultCause>(cause));
     return s.interlock.reset();
 }

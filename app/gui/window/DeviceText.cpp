@@ -61,7 +61,7 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
             lines << tr("%1: %2 × %3 at %4")
                          .arg(QString::fromUtf8(kind.data(), qsizetype(kind.size())))
                          .arg(stream.channels)
-                         .arg(QString::fromUtf8(unit.data(), qsizetype(unit.size())),
+                         .arg(QString::fromUtf8(unit.data(), qsizetype(unit.size())).replace("s2", "s²"),
                               settingText(stream.rate_hz, "Hz"));
         }
     }
