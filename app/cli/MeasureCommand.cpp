@@ -2,6 +2,7 @@
 
 #include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
+#include "app/cli/MeasureLoad.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
 #include "core/measure/CaptureFile.h"
@@ -97,12 +98,18 @@ int run(const QCommandLineParser& parser) {
         }
     }
     const auto found = measureCapture(reading->capture, channel, *options);
+    const auto load = loadIn(reading->capture, *options);
     auto warnings = reading->warnings;
     warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    if (load) warnings.insert(warnings.end(), load->warnings.begin(), load->warnings.end());
     if (parser.isSet("json")) {
         auto channels = nlohmann::json::array();
-        for (const auto& m : found.channels) channels.push_back(toJson(m));
-        printJson({{"format", reading->formatId}, {"channels", channels}, {"warnings", warnings}});
+        for (const auto& m : found.channels) {
+            channels.push_back(toJson(m));
+            addTrust(channels.back(), m);
+        }
+        printJson(
+            {{"format", reading->formatId}, {"channels", channels}, {"load", loadJson(load)}, {"warnings", warnings}});
         return kDone;
     }
     fmt::print("{}\n", reading->formatName);
@@ -116,7 +123,9 @@ int run(const QCommandLineParser& parser) {
         printStatistic("fall", m.fall_s, "s");
         printStatistic("gap", m.gap_s, "s");
         if (m.imbalance.n > 0) fmt::print("  {:<11} {:>10.3g} %\n", "imbalance", 100 * m.imbalance.mean);
+        printTrust(m);
     }
+    if (load) printLoad(*load);
     for (const auto& warning : warnings) fmt::print(stderr, "{}\n", warning);
     return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace tacto {
@@ -126,8 +127,19 @@ SampleView withoutDrift(const SampleView& view, const BaselineDrift& drift) {
     result.own.resize(view.samples.size());
     auto medians = drift.medians;
     const double origin = quantile(medians, 0.5);
-    for (std::size_t i = 0; i < view.samples.size(); ++i) {
-        result.own[i] = static_cast<float>(static_cast<double>(view.samples[i]) - drift.at(i) + origin);
+    // From block to block, since the line is straight from the middle of one to the middle of the next.
+    const std::size_t n = view.samples.size();
+    for (std::size_t first = 0; first < n;) {
+        const std::size_t middle = drift.block / 2;
+        const std::size_t next = std::min(n, first < middle ? middle : first + drift.block);
+        const double slope =
+            next - first > 1 ? (drift.at(next - 1) - drift.at(first)) / static_cast<double>(next - 1 - first) : 0;
+        const double begin = drift.at(first) - origin;
+        for (std::size_t i = first; i < next; ++i) {
+            const double baseline = begin + slope * static_cast<double>(static_cast<std::int64_t>(i - first));
+            result.own[i] = static_cast<float>(static_cast<double>(view.samples[i]) - baseline);
+        }
+        first = next;
     }
     result.samples = result.own;
     return result;

@@ -140,6 +140,8 @@ std::vector<FoundPhase> findPhases(const SampleView& view, const SampleBlocks& b
     const Thresholds thresholds(levels, sides);
     const std::size_t n = view.samples.size();
     std::vector<FoundPhase> phases;
+    // Address space, not memory: what is not filled costs nothing, and what is filled is not copied as it grows.
+    phases.reserve(std::min<std::size_t>(n / 20, 1'000'000));
     for (std::size_t i = 0; (i = blocks.nextBeyond(i, thresholds.below, thresholds.above)) < n;) {
         phases.push_back(follow(view, i, thresholds, levels.baseline));
         i = phases.back().end;
@@ -149,7 +151,8 @@ std::vector<FoundPhase> findPhases(const SampleView& view, const SampleBlocks& b
     const bool restless = !rangeKnown && !phases.empty() && isRestless(view.channel->samples);
     Extremes recorded{blocks.lowest(), blocks.highest()};
     if (restless && !view.own.empty()) {
-        recorded = extremesOf(view.channel->samples.begin(), view.channel->samples.end());
+        const SampleBlocks asRecorded(view.channel->samples);
+        recorded = {asRecorded.lowest(), asRecorded.highest()};
     }
     for (auto& phase : phases) {
         phase.clipped = isClipped(phase, restless, recorded);

@@ -120,26 +120,33 @@ private:
     double sign_;
 };
 
-struct Plateau {
-    double level = kNotMeasured;  // unsigned
-    double slope = 0;             // per sample
+/// The samples from 30 to 90 % of the width; at least one.
+struct PlateauRange {
+    std::size_t first;
+    std::size_t last;
+
+    PlateauRange(const PhaseSamples& samples, double onset, double end) {
+        const double width = end - onset;
+        first = static_cast<std::size_t>(std::ceil(std::max(0.0, onset + kPlateauFrom * width)));
+        last = std::min(samples.size() - 1, static_cast<std::size_t>(std::max(0.0, onset + kPlateauTo * width)));
+        if (first > last) first = last = std::min(samples.size() - 1, first);
+    }
 };
 
-Plateau plateauOf(const PhaseSamples& samples, double onset, double end) {
-    const double width = end - onset;
-    const auto first = static_cast<std::size_t>(std::ceil(std::max(0.0, onset + kPlateauFrom * width)));
-    const auto last = std::min(samples.size() - 1, static_cast<std::size_t>(std::max(0.0, onset + kPlateauTo * width)));
-    if (first > last) return {samples[std::min(samples.size() - 1, first)], 0};
-    double sum = 0, moment = 0;
-    const double centre = 0.5 * (static_cast<double>(first) + static_cast<double>(last));
-    for (std::size_t i = first; i <= last; ++i) {
-        const double y = samples[i];
-        sum += y;
-        moment += (static_cast<double>(i) - centre) * y;
-    }
-    const double n = static_cast<double>(last - first + 1);
-    const double squares = n * (n * n - 1) / 12;  // of the positions about their centre
-    return {sum / n, squares > 0 ? moment / squares : 0};
+double levelOf(const PhaseSamples& samples, const PlateauRange& range) {
+    double sum = 0;
+    for (std::size_t i = range.first; i <= range.last; ++i) sum += samples[i];
+    return sum / static_cast<double>(range.last - range.first + 1);
+}
+
+/// Per sample.
+double slopeOf(const PhaseSamples& samples, const PlateauRange& range) {
+    double position = 0.5 * (static_cast<double>(range.first) - static_cast<double>(range.last));
+    double moment = 0;
+    for (std::size_t i = range.first; i <= range.last; ++i, position += 1) moment += position * samples[i];
+    const double n = static_cast<double>(range.last - range.first + 1);
+    const double squares = n * (n * n - 1) / 12;  // of the positions about their middle
+    return squares > 0 ? moment / squares : 0;
 }
 
 }  // namespace
@@ -147,19 +154,21 @@ Plateau plateauOf(const PhaseSamples& samples, double onset, double end) {
 void measureShape(FoundPhase& phase, double baseline) {
     const PhaseSamples samples(phase, baseline);
     const std::size_t before = phase.begin == 0 ? 0 : phase.begin - 1;
-    auto plateau = plateauOf(samples, static_cast<double>(phase.begin), static_cast<double>(phase.end));
+    PlateauRange range(samples, static_cast<double>(phase.begin), static_cast<double>(phase.end));
+    double plateau = levelOf(samples, range);
     // Twice: the second time the plateau is taken between the 50 % points that the first time found.
     for (int pass = 0; pass < 2; ++pass) {
-        phase.onset = samples.onset(before, phase.end, plateau.level);
-        phase.end50 = samples.end(phase.end, phase.begin, plateau.level);
+        phase.onset = samples.onset(before, phase.end, plateau);
+        phase.end50 = samples.end(phase.end, phase.begin, plateau);
         if (!(phase.end50 > phase.onset)) break;
-        plateau = plateauOf(samples, phase.onset, phase.end50);
+        range = PlateauRange(samples, phase.onset, phase.end50);
+        plateau = levelOf(samples, range);
     }
     auto& m = phase.measured;
     const auto& view = *phase.view;
     const double step = 1.0 / view.rate_hz;
     const double width = phase.end50 - phase.onset;
-    m.plateau = phase.sign * plateau.level;
+    m.plateau = phase.sign * plateau;
     m.onset_s = view.timeOf(phase.onset);
     m.end_s = view.timeOf(phase.end50);
     m.width_s = width * step;
@@ -168,19 +177,18 @@ void measureShape(FoundPhase& phase, double baseline) {
 
     const auto onsetSample = static_cast<std::size_t>(std::ceil(std::max(0.0, phase.onset)));
     const auto endSample = std::min(samples.size() - 1, static_cast<std::size_t>(std::floor(phase.end50)));
-    m.rise_s = (samples.firstRise(onsetSample, endSample, 0.9 * plateau.level) -
-                samples.edgeStart(onsetSample, 0.1 * plateau.level)) *
-               step;
-    m.fall_s = (samples.edgeEnd(endSample, 0.1 * plateau.level) -
-                samples.lastFall(endSample, onsetSample, 0.9 * plateau.level)) *
-               step;
-    double largest = plateau.level;
+    m.rise_s =
+        (samples.firstRise(onsetSample, endSample, 0.9 * plateau) - samples.edgeStart(onsetSample, 0.1 * plateau)) *
+        step;
+    m.fall_s =
+        (samples.edgeEnd(endSample, 0.1 * plateau) - samples.lastFall(endSample, onsetSample, 0.9 * plateau)) * step;
+    double largest = plateau;
     for (std::size_t i = onsetSample; i <= endSample; ++i) {
         const double y = samples[i];
         largest = y > largest ? y : largest;
     }
-    m.overshoot = largest / plateau.level - 1;
-    m.droop = -plateau.slope * width / plateau.level;
+    m.overshoot = largest / plateau - 1;
+    m.droop = -slopeOf(samples, range) * width / plateau;
 }
 
 double integralOf(const FoundPhase& phase, double baseline, double from, double to) {

@@ -22,6 +22,33 @@ Statistics statisticsOver(const Items& items, Value value) {
     return statisticsOf(readings);
 }
 
+/// All figures in one walk: two hundred thousand pulses do not fit the cache, and ten walks would fetch them ten times.
+void statisticsOfPulses(ChannelMeasurement& m) {
+    struct Figure {
+        Statistics& statistics;
+        double (*value)(const PulseMeasurement&);
+        std::vector<double> readings{};
+    };
+    Figure figures[] = {{m.amplitude, [](const PulseMeasurement& p) { return std::abs(p.leading.plateau); }},
+                        {m.width_s, [](const PulseMeasurement& p) { return p.leading.width_s; }},
+                        {m.rise_s, [](const PulseMeasurement& p) { return p.leading.rise_s; }},
+                        {m.fall_s, [](const PulseMeasurement& p) { return p.leading.fall_s; }},
+                        {m.overshoot, [](const PulseMeasurement& p) { return p.leading.overshoot; }},
+                        {m.droop, [](const PulseMeasurement& p) { return p.leading.droop; }},
+                        {m.charge, [](const PulseMeasurement& p) { return std::abs(p.leading.charge); }},
+                        {m.gap_s, [](const PulseMeasurement& p) { return p.gap_s; }},
+                        {m.imbalance, [](const PulseMeasurement& p) { return p.imbalance; }}};
+    for (auto& figure : figures) figure.readings.reserve(m.pulses.size());
+    // Flagged pulses carry NaN throughout and so count nowhere.
+    for (const auto& pulse : m.pulses) {
+        for (auto& figure : figures) {
+            const double reading = figure.value(pulse);
+            if (!std::isnan(reading)) figure.readings.push_back(reading);
+        }
+    }
+    for (auto& figure : figures) figure.statistics = statisticsOf(figure.readings);
+}
+
 double groupingGap(const MeasureOptions& options) {
     if (options.trainGap) return options.trainGap->count();
     if (options.intraTrainRate && options.intraTrainRate->value() > 0) return 1.5 / options.intraTrainRate->value();
@@ -192,17 +219,7 @@ void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t
     result.measuredPulses = static_cast<std::size_t>(
         std::count_if(result.pulses.begin(), result.pulses.end(), [](const auto& p) { return p.flags.measured(); }));
 
-    // Flagged pulses carry NaN throughout and so count nowhere.
-    const auto& all = result.pulses;
-    result.amplitude = statisticsOver(all, [](const auto& p) { return std::abs(p.leading.plateau); });
-    result.width_s = statisticsOver(all, [](const auto& p) { return p.leading.width_s; });
-    result.rise_s = statisticsOver(all, [](const auto& p) { return p.leading.rise_s; });
-    result.fall_s = statisticsOver(all, [](const auto& p) { return p.leading.fall_s; });
-    result.overshoot = statisticsOver(all, [](const auto& p) { return p.leading.overshoot; });
-    result.droop = statisticsOver(all, [](const auto& p) { return p.leading.droop; });
-    result.charge = statisticsOver(all, [](const auto& p) { return std::abs(p.leading.charge); });
-    result.gap_s = statisticsOver(all, [](const auto& p) { return p.gap_s; });
-    result.imbalance = statisticsOver(all, [](const auto& p) { return p.imbalance; });
+    statisticsOfPulses(result);
     result.interval_s = statisticsOver(result.trains, [](const auto& t) { return t.interval_s; });
     result.uncertainty = uncertaintyOf(result, channel);
     warnOfQuality(result);

@@ -68,6 +68,41 @@ TEST(RealCaptures, ATektronixRecordOfASerialBus) {
     EXPECT_EQ(data.measuredPulses, 23U);  // 48 edges, the first one down
 }
 
+/// Widths between 50 % points by straight lines, levels by medians and means, sums of samples times the step: computed
+/// once by a few lines of Python that share nothing with this code.
+TEST(RealCaptures, AgreesWithASecondProgram) {
+    const auto bus = sharedData("scope/mdo4104c/RTC.csv");
+    if (!bus) GTEST_SKIP() << kNoSharedData;
+    const auto busCapture = numbersOf(*bus, 21, 2, 50e6);
+    const auto clock = measureChannel(busCapture, 1);
+    EXPECT_NEAR(clock.width_s.median, 5.03275e-6, 4e-9);
+    EXPECT_NEAR(clock.width_s.mean, 5.25798e-6, 4e-9);
+    EXPECT_NEAR(clock.interval_s.median, 10.0007e-6, 2e-9);
+    EXPECT_NEAR(clock.amplitude.mean, 5.0176, 0.003);
+    EXPECT_NEAR(clock.charge.median, 2.5143e-5, 0.5e-7);
+    EXPECT_NEAR(clock.states.noise, 0.0754, 0.005);
+    EXPECT_EQ(clock.quality.mean, 1U) << "37 dB need no averaging";
+    const auto data = measureChannel(busCapture, 0);
+    EXPECT_NEAR(data.width_s.median, 10.0318e-6, 4e-9);
+    EXPECT_NEAR(data.width_s.mean, 12.2191e-6, 6e-9);
+    EXPECT_NEAR(data.amplitude.mean, 4.898, 0.012) << "it has glitches, whose plateau is a matter of taste";
+    EXPECT_NEAR(data.charge.median, 4.9205e-5, 2e-7);
+
+    const auto calibrator = numbersOf(*sharedData("scope/rigol_DS2072A-1.csv"), 2, 2, 200e3);
+    const double amplitudes[] = {0.29876, 0.30326};
+    for (std::size_t c = 0; c < 2; ++c) {
+        const auto m = measureChannel(calibrator, c);
+        EXPECT_NEAR(m.amplitude.mean, amplitudes[c], 0.0003);
+        EXPECT_NEAR(m.width_s.mean, 0.50008e-3, 0.25e-6);
+        EXPECT_NEAR(m.interval_s.mean, 1e-3, 1e-8);
+        EXPECT_NEAR(m.charge.median, amplitudes[c] * 0.5e-3, 1e-6);
+    }
+    const auto ringing = measureChannel(numbersOf(*sharedData("scope/rigol_DS1102E-B.csv"), 2, 1, 50e6), 0);
+    EXPECT_NEAR(ringing.width_s.median, 1.08639e-6, 1e-9);
+    EXPECT_NEAR(ringing.interval_s.median, 2.25947e-6, 1e-9);
+    EXPECT_NEAR(ringing.amplitude.mean, 5.667, 0.01);
+}
+
 TEST(RealCaptures, SlowDriftsAndNoiseHaveNoPulses) {
     RecordProperty("hazard", "H9");
     const auto path = sharedData("scope/rigol_DS1074Z-A.csv");

@@ -1,0 +1,95 @@
+#include "app/cli/MeasureLoad.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "core/analysis/ResultJson.h"
+#include "core/base/Text.h"
+
+namespace tacto::cli {
+
+namespace {
+
+template <class Flag>
+std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
+    return static_cast<std::size_t>(
+        std::count_if(m.pulses.begin(), m.pulses.end(), [&](const auto& p) { return flag(p.flags); }));
+}
+
+void printFigure(const char* name, const Statistics& s, const char* unit) {
+    if (s.n == 0) return;
+    fmt::print("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
+               formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
+}
+
+}  // namespace
+
+void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
+    const auto& u = m.uncertainty;
+    const auto expanded = [](double standard) { return numberOrNull(kCoverage * standard); };
+    channel["uncertainty"] = {{"coverage_factor", kCoverage},      {"amplitude", expanded(u.amplitude)},
+                              {"width_s", expanded(u.width_s)},    {"interval_s", expanded(u.interval_s)},
+                              {"gap_s", expanded(u.gap_s)},        {"charge", expanded(u.charge)},
+                              {"imbalance", expanded(u.imbalance)}};
+    const auto& q = m.quality;
+    channel["quality"] = {{"snr_db", numberOrNull(q.snr_db)},
+                          {"averaged", q.mean},
+                          {"averaged_second", q.meanOfSecond},
+                          {"drift", q.drift},
+                          {"unrest", q.unrest},
+                          {"level_after", q.levelAfter},
+                          {"doubtful", q.doubtful}};
+    channel["flagged"] = {{"clipped", countOf(m, [](const auto& f) { return f.clipped; })},
+                          {"truncated", countOf(m, [](const auto& f) { return f.truncated; })},
+                          {"incomplete", countOf(m, [](const auto& f) { return f.incomplete; })},
+                          {"under_sampled", countOf(m, [](const auto& f) { return f.underSampled; })},
+                          {"coarse", countOf(m, [](const auto& f) { return f.coarse && f.measured(); })}};
+}
+
+void printTrust(const ChannelMeasurement& m) {
+    if (m.measuredPulses == 0) return;
+    const auto& u = m.uncertainty;
+    fmt::print("  uncertainty (k = {:.0f}): amplitude {}, width {}, interval {}", kCoverage,
+               formatQuantity(kCoverage * u.amplitude, m.unit, 2), formatQuantity(kCoverage * u.width_s, "s", 2),
+               formatQuantity(kCoverage * u.interval_s, "s", 2));
+    if (m.gap_s.n > 0) fmt::print(", gap {}", formatQuantity(kCoverage * u.gap_s, "s", 2));
+    if (m.imbalance.n > 0) fmt::print(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
+    fmt::print("\n");
+    if (std::isfinite(m.quality.snr_db)) fmt::print("  {:<11} {:>9.1f} dB\n", "above noise", m.quality.snr_db);
+}
+
+std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptions& options) {
+    const auto channels = loadChannels(capture);
+    if (!channels) return std::nullopt;
+    auto load = measureLoad(capture, channels->first, channels->second, options);
+    if (!load) return std::nullopt;  // it asks for just what loadChannels() found
+    return *std::move(load);
+}
+
+nlohmann::json loadJson(const std::optional<LoadMeasurement>& load) {
+    if (!load) return nullptr;
+    return {{"voltage", load->voltage},
+            {"current", load->current},
+            {"pulses", load->measuredPulses},
+            {"load_ohm", toJson(load->load_ohm)},
+            {"load_uncertainty_ohm", numberOrNull(kCoverage * load->loadUncertainty_ohm)},
+            {"impedance_ohm", toJson(load->impedance_ohm)},
+            {"charge_c", toJson(load->charge_c)},
+            {"second_charge_c", toJson(load->secondCharge_c)},
+            {"net_charge_c", toJson(load->netCharge_c)},
+            {"energy_j", toJson(load->energy_j)}};
+}
+
+void printLoad(const LoadMeasurement& load) {
+    if (load.measuredPulses == 0) return;
+    fmt::print("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current,
+               load.measuredPulses, kCoverage, formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2));
+    printFigure("load", load.load_ohm, "ohm");
+    printFigure("impedance", load.impedance_ohm, "ohm");
+    printFigure("charge", load.charge_c, "C");
+    printFigure("second charge", load.secondCharge_c, "C");
+    printFigure("net charge", load.netCharge_c, "C");
+    printFigure("energy", load.energy_j, "J");
+}
+
+}  // namespace tacto::cli

@@ -1,0 +1,29 @@
+// MeasureLoad.h - what `measure` says beyond the figures of each channel: how far they can be trusted, and the load
+// that a voltage and a current together show.
+//
+// Keys: channels[].uncertainty {coverage_factor, amplitude, width_s, interval_s, gap_s, charge, imbalance},
+// channels[].quality {snr_db, averaged, averaged_second, drift, unrest, level_after, doubtful}, channels[].flagged
+// {clipped, truncated, incomplete, under_sampled, coarse}; load {voltage, current, pulses, load_ohm,
+// load_uncertainty_ohm, impedance_ohm, charge_c, second_charge_c, net_charge_c, energy_j} or null.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/base/Result.h"
+#include "core/measure/LoadMeasurement.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto::cli {
+
+/// Adds the keys of one channel to what `measure` prints of it.
+void addTrust(nlohmann::json& channel, const ChannelMeasurement& m);
+/// One line of expanded uncertainties (k = 2) and one of the signal's quality; nothing without pulses.
+void printTrust(const ChannelMeasurement& m);
+
+/// The load, where the capture has exactly one channel in V and one in A.
+[[nodiscard]] std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptions& options);
+[[nodiscard]] nlohmann::json loadJson(const std::optional<LoadMeasurement>& load);
+void printLoad(const LoadMeasurement& load);
+
+}  // namespace tacto::cli
