@@ -115,17 +115,21 @@ FoundPhase follow(const SampleView& view, std::size_t begin, const Thresholds& t
     phase.sign = samples[begin] > thresholds.above ? 1 : -1;
     const float sign = phase.sign > 0 ? 1.0F : -1.0F;
     const float release = sign * (phase.sign > 0 ? thresholds.aboveRelease : thresholds.belowRelease);
-    const auto zero = static_cast<float>(baseline);
-    double area = 0;
+    double sum = 0;
+    std::size_t missing = 0;
     std::size_t i = begin;
-    // A missing sample does not end a phase; it makes it incomplete.
-    for (; i < samples.size() && !(sign * samples[i] < release); ++i) {
-        if (std::isnan(samples[i])) {
-            phase.incomplete = true;
+    for (; i < samples.size(); ++i) {
+        const float x = sign * samples[i];
+        if (x < release) break;
+        // A missing sample does not end a phase; it makes it incomplete.
+        if (std::isnan(x)) {
+            ++missing;
         } else {
-            area += static_cast<double>(sign * (samples[i] - zero));
+            sum += static_cast<double>(x);
         }
     }
+    phase.incomplete = missing > 0;
+    const double area = sum - phase.sign * baseline * static_cast<double>(i - begin - missing);
     phase.end = i;
     phase.area = area / view.rate_hz;
     phase.truncated = phase.begin == 0 || phase.end == samples.size();

@@ -107,6 +107,27 @@ public:
         }
         return kNotMeasured;
     }
+    /// Of the samples first to last, both included: the baseline and the sign are put in once.
+    [[nodiscard]] double sum(std::size_t first, std::size_t last) const {
+        double sums[2] = {0, 0};
+        std::size_t i = first;
+        for (; i + 1 <= last; i += 2) {
+            sums[0] += static_cast<double>(samples_[i]);
+            sums[1] += static_cast<double>(samples_[i + 1]);
+        }
+        if (i == last) sums[0] += static_cast<double>(samples_[i]);
+        return sign_ * (sums[0] + sums[1] - static_cast<double>(last - first + 1) * baseline_);
+    }
+    /// Largest of the samples first to last, both included.
+    [[nodiscard]] double largest(std::size_t first, std::size_t last) const {
+        const auto sign = static_cast<float>(sign_);
+        float most = sign * samples_[first];
+        for (std::size_t i = first; i <= last; ++i) {
+            const float x = sign * samples_[i];
+            most = x > most ? x : most;
+        }
+        return static_cast<double>(most) - sign_ * baseline_;
+    }
     [[nodiscard]] double at(double position) const {
         const auto i = static_cast<std::size_t>(position);
         if (i + 1 >= size()) return (*this)[size() - 1];
@@ -134,9 +155,7 @@ struct PlateauRange {
 };
 
 double levelOf(const PhaseSamples& samples, const PlateauRange& range) {
-    double sum = 0;
-    for (std::size_t i = range.first; i <= range.last; ++i) sum += samples[i];
-    return sum / static_cast<double>(range.last - range.first + 1);
+    return samples.sum(range.first, range.last) / static_cast<double>(range.last - range.first + 1);
 }
 
 /// Per sample.
@@ -182,12 +201,8 @@ void measureShape(FoundPhase& phase, double baseline) {
         step;
     m.fall_s =
         (samples.edgeEnd(endSample, 0.1 * plateau) - samples.lastFall(endSample, onsetSample, 0.9 * plateau)) * step;
-    double largest = plateau;
-    for (std::size_t i = onsetSample; i <= endSample; ++i) {
-        const double y = samples[i];
-        largest = y > largest ? y : largest;
-    }
-    m.overshoot = largest / plateau - 1;
+    const double largest = onsetSample <= endSample ? samples.largest(onsetSample, endSample) : plateau;
+    m.overshoot = std::max(largest, plateau) / plateau - 1;
     m.droop = -slopeOf(samples, range) * width / plateau;
 }
 
@@ -198,8 +213,7 @@ double integralOf(const FoundPhase& phase, double baseline, double from, double 
     const auto last = static_cast<std::size_t>(to);  // the last sample at or before `to`
     if (last < first) return 0.5 * (samples.at(from) + samples.at(to)) * (to - from);
     // Trapezoids: whole samples but for half of the first and the last, and the pieces outside them.
-    double sum = 0;
-    for (std::size_t i = first; i <= last; ++i) sum += samples[i];
+    double sum = samples.sum(first, last);
     sum -= 0.5 * (samples[first] + samples[last]);
     sum += 0.5 * (samples.at(from) + samples[first]) * (static_cast<double>(first) - from);
     sum += 0.5 * (samples[last] + samples.at(to)) * (to - static_cast<double>(last));

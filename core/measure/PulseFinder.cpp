@@ -131,9 +131,9 @@ public:
                 mean *= 4;
                 continue;
             }
-            const double share = kSlack * (kReliable / nowOut) * (kReliable / nowOut);
-            const auto enough = static_cast<std::size_t>(
-                std::min(std::ceil(share * static_cast<double>(mean)), static_cast<double>(kLongestMean + 1)));
+            const double share = kSlack * (kReliable / nowOut) * (kReliable / nowOut) * static_cast<double>(mean);
+            const auto enough =
+                static_cast<std::size_t>(std::clamp(std::ceil(share), 2.0, static_cast<double>(kLongestMean + 1)));
             if (nowOut < kReliable) {
                 if (back) break;
                 mean = std::max(enough, mean + 1);
