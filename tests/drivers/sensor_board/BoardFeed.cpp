@@ -15,13 +15,15 @@ BoardFeed::BoardFeed(const Clock& clock, EmulatedBoardSettings settings, Send se
       board_(powerUp()),
       thread_([this] { run(); }) {}
 
-BoardFeed::~BoardFeed() {
+BoardFeed::~BoardFeed() { stop(); }
+
+void BoardFeed::stop() {
     {
         const std::scoped_lock lock(mutex_);
         quitting_ = true;
     }
     changed_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
 }
 
 std::unique_ptr<EmulatedBoard> BoardFeed::powerUp() const {

@@ -32,6 +32,9 @@ public:
     /// Without power it says nothing; with it again its clock begins anew and it waits for START.
     void power(bool on);
 
+    /// No more is sent; for an owner whose `send` ends before this does. May be repeated.
+    void stop();
+
     /// Does something with the board while nobody else does.
     template <class Act>
     auto inspect(Act act) {

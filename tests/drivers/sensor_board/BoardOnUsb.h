@@ -19,6 +19,9 @@ class BoardOnUsb {
 public:
     BoardOnUsb(UsbTestbed& bed, const Clock& clock, sensorboard::EmulatedBoardSettings settings = {},
                BoardInterface kind = BoardInterface::Serial, int port = 1, BoardFeed::MakeSignal signal = {});
+    ~BoardOnUsb() { feed_.stop(); }
+    BoardOnUsb(const BoardOnUsb&) = delete;
+    BoardOnUsb& operator=(const BoardOnUsb&) = delete;
 
     /// Out of the socket and without power.
     void unplug();
