@@ -34,10 +34,10 @@ struct Reading {
 /// The largest of the trains measured, unless a line says otherwise.
 struct LoadReading {
     Reading amplitude_v;       ///< plateau of the leading phase, magnitude; mean of the trains
-    Reading amplitude_ma;      ///< the same of the current
+    Reading amplitude_ma;      ///< at the end of the leading phase, from 80 to 97 % of its width; mean
     Reading width_s;           ///< of the leading phase, from the voltage; mean
     Reading interval_s;        ///< onset to onset of trains; the shortest
-    Reading impedance_ohm;     ///< amplitude_v / amplitude_ma; mean
+    Reading impedance_ohm;     ///< voltage over current there, as science.md section 4 means |Z|; mean
     Reading peak_v;            ///< largest |voltage|
     Reading peak_ma;           ///< largest |current|
     Reading charge_uc;         ///< the larger |charge| of either phase of a pulse
@@ -52,7 +52,7 @@ struct LoadReading {
     Reading power_1s_w;        ///< energy of the worst second / 1 s
     double currentLsb = 0;     ///< A; 0 = unknown
     bool biphasic = false;     ///< every pulse had a second phase
-    bool underTenLsb = false;  ///< the current's plateau is below 10 LSB: nothing about current is evaluated
+    bool underTenLsb = false;  ///< the current peaks below 10 LSB: nothing about current is evaluated
     std::size_t trains = 0;    ///< captures measured
     std::vector<std::string> warnings;
 };
@@ -60,8 +60,7 @@ struct LoadReading {
 /// What the trains in the captures were meant to be: a pulse's place in a record is told by it.
 struct ExpectedTrain {
     int pulses = 1;
-    double rate_hz = 100;     ///< intra-train
-    double interval_s = 0.5;  ///< commanded; used to count windows only where it agrees with the measured one
+    double rate_hz = 100;  ///< intra-train
 };
 
 /// One capture per train, in time order, all with one command, on one time base. Channels "voltage" (V) and "current"
@@ -69,5 +68,9 @@ struct ExpectedTrain {
 /// Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound without a voltage
 /// channel.
 [[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected);
+
+/// impedance_ohm alone, from captures whose range fits the end of the phase: the current may be clipped before it, as
+/// a skin equivalent's charging spike then is. Not measured below 10 LSB. Errors: as readLoad().
+[[nodiscard]] Result<Reading> readImpedance(std::span<const Capture> captures, const ExpectedTrain& expected);
 
 }  // namespace tacto

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/analysis/LoadSafetyRows.h"
 
@@ -22,7 +23,7 @@ LoadLine lineOf(const LoadRecord& record, const LoadSafetyInput& input, const st
     line.refused = static_cast<std::size_t>(
         std::count_if(record.refusals.begin(), record.refusals.end(), [](const auto& asked) { return asked.refused; }));
     if (!record.steps.empty()) {
-        line.measured_ohm = record.steps.front().reading.impedance_ohm;
+        line.measured_ohm = record.value_ohm.measured() ? record.value_ohm : record.steps.front().reading.impedance_ohm;
         line.strongest = strongestOf(record);
         line.powerDensity_w_cm2 = readingOf(line.strongest, Quantity::PowerDensity, input.area_cm2).value;
         line.currentDensity_ma_cm2 = readingOf(line.strongest, Quantity::CurrentDensity, input.area_cm2).value;
@@ -54,11 +55,24 @@ void addMissingLoads(const LoadSafetyInput& input, LoadSafety& out) {
     }
 }
 
-void decide(LoadSafety& out) {
-    const auto collect = [&out](RowVerdict verdict) {
+/// Rows that wait for nothing but the electrode's area; said once instead of row by row.
+bool waitsForArea(const SafetyRow& row, const LoadSafetyInput& input) {
+    const auto quantity = quantityOf(row.item);
+    return !input.area_cm2 && quantity && needsArea(*quantity) && row.verdict == RowVerdict::NotEvaluated;
+}
+
+void decide(const LoadSafetyInput& input, LoadSafety& out) {
+    bool areaSaid = false;
+    const auto collect = [&](RowVerdict verdict) {
         for (const auto* rows : {&out.rows, &out.worstCase.rows}) {
             for (const auto& row : *rows) {
-                if (row.verdict == verdict && !row.reason.empty()) out.reasons.push_back(row.reason);
+                if (row.verdict != verdict || row.reason.empty()) continue;
+                if (!waitsForArea(row, input)) {
+                    out.reasons.push_back(row.reason);
+                } else if (!std::exchange(areaSaid, true)) {
+                    out.reasons.emplace_back(
+                        "current and power density were not evaluated on any load: the electrode's area is not known");
+                }
             }
         }
     };
@@ -144,7 +158,7 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     }
     out.disclosed = disclosedOf(input);
     out.worstCase = worstCaseOf(input);
-    decide(out);
+    decide(input, out);
     return out;
 }
 

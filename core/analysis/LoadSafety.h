@@ -73,6 +73,7 @@ struct LoadRecord {
     std::string name;  ///< as parseLoad() reads it
     Load load;
     Reading dmm_ohm;     ///< entered by the operator with its standard uncertainty; else not measured
+    Reading value_ohm;   ///< |Z| from captures made for it; else not measured, and the first step's is taken
     std::string serial;  ///< of the resistor; may be empty
     std::vector<LoadStep> steps;
     std::vector<RefusedStep> refusals;
@@ -134,7 +135,8 @@ struct DisclosedOutput {
     std::string output;  ///< "maximum output voltage"
     std::string load;    ///< "500 ohm"
     double value = std::numeric_limits<double>::quiet_NaN();
-    double expanded_pct = std::numeric_limits<double>::quiet_NaN();  ///< ± % of the value, 95 %
+    double expanded = std::numeric_limits<double>::quiet_NaN();      ///< U, in the value's unit
+    double expanded_pct = std::numeric_limits<double>::quiet_NaN();  ///< ± % of the value; NaN where U exceeds it
     std::string unit;
     std::string reason;  ///< why it is not evaluated; else empty
 };

@@ -38,10 +38,10 @@ void explain(SafetyRow& row, std::string_view missing) {
 }
 
 std::string missingOf(const LoadRecord& record) {
-    if (!record.problem.empty()) return record.problem;
     for (const auto& step : record.steps) {
         if (!step.reading.warnings.empty()) return step.reading.warnings.front();
     }
+    if (!record.problem.empty()) return record.problem;
     return record.steps.empty() ? "nothing was delivered" : "it was not measured";
 }
 
@@ -90,7 +90,8 @@ void addUpper(std::vector<SafetyRow>& rows, const LoadRecord& record, SafetyRow 
 void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
     Reading error;
     if (!record.steps.empty()) {
-        const Reading& got = record.steps.front().reading.impedance_ohm;
+        const Reading& got =
+            record.value_ohm.measured() ? record.value_ohm : record.steps.front().reading.impedance_ohm;
         const double truth = record.dmm_ohm.measured() ? record.dmm_ohm.value : expectedOhms(record, input);
         const double known = record.dmm_ohm.measured() ? record.dmm_ohm.u : 0;
         error = {100 * std::abs(got.value - truth) / truth, 100 * std::hypot(got.u, known) / truth};

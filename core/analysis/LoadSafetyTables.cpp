@@ -155,7 +155,8 @@ std::vector<DisclosedOutput> disclosedOf(const LoadSafetyInput& input) {
             const auto most = readingOf(strongestOf(*record), quantity, input.area_cm2);
             if (most.measured()) {
                 row.value = most.value;
-                row.expanded_pct = most.value > 0 ? 100 * most.expanded() / most.value : 0;
+                row.expanded = most.expanded();
+                if (most.value > row.expanded) row.expanded_pct = 100 * row.expanded / most.value;
             } else {
                 row.reason = "not measured";
             }

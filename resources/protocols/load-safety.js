@@ -61,8 +61,7 @@ function deliver(record, command) {
   const options = command.capture;
   const reading = measure.load(
     bench.capture({ trains: 2, rate_hz: options.rate_hz, samples: options.samples, trigger_v: options.trigger_v,
-      voltage_range_v: options.voltage_range_v, current_range_ma: options.current_range_ma }),
-    { interval: command.interval_s });
+      voltage_range_v: options.voltage_range_v, current_range_ma: options.current_range_ma }));
   bench.drive("off");
   record.steps.push({ command_v: command.command_v, amplitude: reading.commanded, interval_s: command.interval_s, reading: reading });
   keepStep(record, command, reading);
@@ -78,8 +77,22 @@ function keepStep(load, command, reading) {
   record.trial(condition(load.name, command), kept);
 }
 
+// What a load has come to, at once: a row of the session, and of the window.
+function keepLine(line) {
+  record.trial(line.name, Object.assign({ load: line.name, load_verdict: line.verdict }, line));
+}
+
 // The value of a load, judged alone: nothing else is asked of one that is not what it should be.
-function valueIsRight(record, tolerances) {
+function valueIsRight(record, command, kind, tolerances) {
+  if (kind === "skin") { // its current settles far below the charging spike: read in a range of its own
+    bench.drive("manual", { roughness: command.roughness, pressure: command.pressure });
+    const value = measure.value(bench.capture({ trains: 4, rate_hz: command.capture.rate_hz, samples: command.capture.samples,
+      trigger_v: command.capture.trigger_v, voltage_range_v: command.capture.voltage_range_v,
+      current_range_ma: command.value_range_ma }));
+    bench.drive("off");
+    record.value_ohm = value.impedance_ohm;
+    record.value_u_ohm = value.impedance_ohm_u;
+  }
   const rows = analysis.loadSafety([record], [], { tolerances: tolerances }).rows;
   const row = rows.filter((each) => each.load === record.name && each.item === "load_value")[0];
   if (row.verdict === "pass") return true;
@@ -87,7 +100,7 @@ function valueIsRight(record, tolerances) {
   return false;
 }
 
-function measureLoad(name, p, tolerances) {
+function measureLoad(name, kind, p, tolerances) {
   const record = newRecord(name);
   const strongest = bench.predict(name, 1);
   if (strongest.not_applicable !== null) {
@@ -107,7 +120,7 @@ function measureLoad(name, p, tolerances) {
       continue;
     }
     deliver(record, command);
-    if (record.steps.length === 1 && !valueIsRight(record, tolerances)) break;
+    if (record.steps.length === 1 && !valueIsRight(record, command, kind, tolerances)) break;
   }
   bench.disarm();
   return record;
@@ -155,7 +168,7 @@ function tables(found) {
   return [
     { caption: "Loads", rows: found.loads, columns: LOAD_COLUMNS },
     { caption: "Outputs that the FDA guidance asks to be stated", rows: found.disclosed,
-      columns: ["output", "load", "value", "plus_minus_pct", "unit", "reason"] },
+      columns: ["output", "load", "value", "expanded_uncertainty", "plus_minus_pct", "unit", "reason"] },
     { caption: "IEC 60601-2-10", rows: of("iec-60601-2-10"), columns: ROW_COLUMNS },
     { caption: "FDA guidance", rows: of("fda-pms"), columns: ROW_COLUMNS },
     { caption: "The paper: up to 40 V, below 10 mA RMS over 5 s", rows: of("paper"), columns: ROW_COLUMNS },
@@ -204,9 +217,9 @@ function run(p) {
         trips.push(bench.tripWhenArming(each.name, "1 kohm"));
         loads.push(newRecord(each.name));
       } else {
-        loads.push(measureLoad(each.name, p, tolerances));
+        loads.push(measureLoad(each.name, each.kind, p, tolerances));
       }
-      keep();
+      keepLine(keep().loads.filter((line) => line.name === each.name)[0]);
     }
     for (const kind of progress(["open", "short", "intermittent"], "Trips")) {
       trips.push(bench.tripWhileDelivering(kind, "1 kohm", 20));

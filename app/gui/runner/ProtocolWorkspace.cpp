@@ -7,6 +7,7 @@
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ResultPanel.h"
@@ -20,6 +21,8 @@
 namespace tacto::gui {
 
 namespace {
+
+constexpr const char* kOfLoads = "load-safety";  // shows its loads before the first was measured
 
 enum Step { kWiring, kSettings, kRun, kResult, kAllDone };
 
@@ -70,6 +73,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         panel_->say({});
         purpose_->setText(QString::fromStdString(declaration_->purpose));
         wiring_->show(*declaration_);
+        showLoads(source_.name == kOfLoads);
         form_->show(*declaration_);
     }
     steps_->setNote(kRun, {});
@@ -175,6 +179,8 @@ void ProtocolWorkspace::runNow() {
     tabs_->setTabEnabled(tabs_->indexOf(pdf_), false);
     log_->clear();
     plane_->begin(false);
+    loads_->begin();
+    showLoads(source_.name == kOfLoads);
     wave_->show(nullptr);
     panel_->begin();
     steps_->setNote(kRun, {});
@@ -189,7 +195,12 @@ void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     if (!running_) return;
     const auto feed = desk_.takeRunFeed();
     for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
-    for (const auto& trial : feed.trials) plane_->add(trial);
+    for (const auto& trial : feed.trials) {
+        plane_->add(trial);
+        if (!LoadRows::isOfLoad(trial)) continue;
+        loads_->add(trial);
+        showLoads(true);
+    }
     if (!feed.captures.empty()) {
         wave_->show(feed.captures.back());
         emit captured(feed.captures.back());
@@ -208,6 +219,7 @@ void ProtocolWorkspace::ended(const FinishedRun& run) {
     prompt_->close();
     const auto& error = run.result.outcome.error;
     plane_->setSimulated(run.result.simulated);
+    loads_->end(run.result.outcome.results);
     panel_->end(error.has_value());
     result_->show(run);
     steps_->setCurrent(kAllDone);

@@ -24,6 +24,7 @@ namespace tacto::gui {
 
 class CaptureStrip;
 class ExposureTable;
+class LoadRows;
 class ParameterForm;
 class PromptPanel;
 class ResultPanel;
@@ -56,6 +57,7 @@ private:
     [[nodiscard]] QWidget* buildTabs();
     void buildKeys();
     void placeWave();
+    void showLoads(bool loads);
 
     void fillChooser(const QString& select);
     void choose(const QString& nameOrPath);
@@ -91,6 +93,7 @@ private:
     PromptPanel* prompt_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
+    LoadRows* loads_ = nullptr;  // in the plane's place where a protocol measures loads
     CaptureStrip* wave_ = nullptr;
     QTabWidget* tabs_ = nullptr;
     QWidget* worstPage_ = nullptr;

@@ -8,6 +8,7 @@
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
@@ -165,8 +166,11 @@ QWidget* ProtocolWorkspace::buildPlots() {
     plots_ = new QHBoxLayout(holder);
     plots_->setContentsMargins(0, 0, 0, 0);
     plane_ = new TrialPlane(holder);
+    loads_ = new LoadRows(holder);
+    loads_->hide();
     wave_ = new CaptureStrip(holder);
     plots_->addWidget(plane_, 3);
+    plots_->addWidget(loads_, 3);
     plots_->addWidget(wave_, 2);
     return holder;
 }
@@ -210,6 +214,11 @@ QWidget* ProtocolWorkspace::buildTabs() {
     tabs_->setTabEnabled(report, false);
     tabs_->setTabToolTip(report, tr("The report of the last run: \"Open the report\" under Result shows it here."));
     return tabs_;
+}
+
+void ProtocolWorkspace::showLoads(bool loads) {
+    loads_->setVisible(loads);
+    plane_->setVisible(!loads);
 }
 
 void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {

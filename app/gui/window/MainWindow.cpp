@@ -129,14 +129,8 @@ void MainWindow::buildPages() {
         tr("Until then the Separability workspace measures a fixed set of commands on the oscilloscope, and reports "
            "say \"not calibrated\"."),
         pages_));
-    pages_->addWidget(new ComingWorkspace(
-        tr("Safety check"),
-        tr("For engineers: do the limits hold on resistors that stand for skin, from the weakest command to the "
-           "strongest?"),
-        {tr("Each load of the bench set, verified by measurement before anything else"),
-         tr("Worst-case commands measured and judged against every limit set"),
-         tr("Open, short, intermittent contact and the dead-man switch must trip")},
-        tr("Until then \"Faults…\" in the Devices dock shows how open, short and stuck outputs end a run."), pages_));
+    safetyCheck_ = new ProtocolWorkspace(desk_, "load-safety", pages_);
+    pages_->addWidget(safetyCheck_);
     separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
     pages_->addWidget(separability_);
     pages_->addWidget(new ComingWorkspace(
@@ -149,6 +143,7 @@ void MainWindow::buildPages() {
     pages_->addWidget(sessions_);
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
     pages_->addWidget(protocols_);
+    connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
     connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
     connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
     connect(live_, &LiveWorkspace::refusedRecording, this, &MainWindow::complain);
@@ -211,7 +206,7 @@ void MainWindow::buildDocks() {
         addDockWidget(Qt::RightDockWidgetArea, dock);
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
-    for (auto* protocol : {separability_, protocols_})
+    for (auto* protocol : {safetyCheck_, separability_, protocols_})
         connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
@@ -232,6 +227,7 @@ void MainWindow::tick() {
     if (measured || (shown == livePage_ && livePage_->currentWidget() == scope_)) scope_->refresh(telemetry);
     if (measured) summary_->refresh(telemetry);
     // One of the two takes what a run says: the one it was started from, told apart by themselves.
+    safetyCheck_->refresh(telemetry);
     separability_->refresh(telemetry);
     protocols_->refresh(telemetry);
 }

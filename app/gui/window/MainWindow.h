@@ -86,6 +86,7 @@ private:
     QTabWidget* livePage_ = nullptr;
     LiveWorkspace* live_ = nullptr;
     ScopeWorkspace* scope_ = nullptr;
+    ProtocolWorkspace* safetyCheck_ = nullptr;
     ProtocolWorkspace* separability_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;
     SessionsWorkspace* sessions_ = nullptr;

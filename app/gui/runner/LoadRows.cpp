@@ -1,0 +1,154 @@
+#include "app/gui/runner/LoadRows.h"
+
+#include <QHeaderView>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/runner/ResultPanel.h"
+#include "core/electrode/Load.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kVerdictRole = Qt::UserRole;
+constexpr int kCountRole = Qt::UserRole + 1;
+
+struct RowLook {
+    QString shape;
+    QColor colour;
+};
+
+/// Word, shape and colour tell a verdict apart; what is neither pass nor fail is quiet.
+RowLook lookOf(const QString& verdict) {
+    if (verdict == "pass" || verdict == "fail" || verdict == "indeterminate") {
+        const auto look = verdictLook(verdict);
+        return {look.shape, look.colour};
+    }
+    if (verdict == "refused as expected") return {"⊘", colours().text};
+    if (verdict == "not applicable") return {"–", colours().quiet};
+    return {"○", colours().text};
+}
+
+QString number(const nlohmann::json& values, const char* key, const char* unit) {
+    const auto at = values.find(key);
+    return at != values.end() && at->is_number() ? quantityText(at->get<double>(), unit) : QString("–");
+}
+
+}  // namespace
+
+LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
+    setObjectName("loadRows");
+    setAccessibleName(tr("Loads"));
+    setToolTip(tr("Each load of the bench set: its value as measured, the strongest output so far, and its verdict."));
+    setHorizontalHeaderLabels(
+        {tr("Load"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s"), tr("Verdict")});
+    verticalHeader()->hide();
+    setEditTriggers(NoEditTriggers);
+    setSelectionMode(NoSelection);
+    setAlternatingRowColors(true);
+    setTabKeyNavigation(false);
+    setWordWrap(false);
+    setHorizontalScrollMode(ScrollPerPixel);
+    horizontalHeader()->setStretchLastSection(true);
+    begin();
+}
+
+void LoadRows::begin() {
+    setRowCount(0);
+    for (const auto& named : benchLoads()) {
+        const int row = rowOf(QString::fromUtf8(named.name.data(), qsizetype(named.name.size())));
+        write(row, kVerdict, tr("○ to do"));
+    }
+    resizeColumnsToContents();
+}
+
+bool LoadRows::isOfLoad(const nlohmann::json& trial) {
+    const auto at = trial.find("load");
+    return at != trial.end() && at->is_string();
+}
+
+int LoadRows::rowOf(const QString& load) {
+    for (int row = 0; row < rowCount(); ++row) {
+        if (item(row, kLoad)->text() == load) return row;
+    }
+    const int row = rowCount();
+    insertRow(row);
+    for (int column = 0; column < kColumns; ++column) {
+        auto* cell = new QTableWidgetItem(column == kLoad ? load : column == kVerdict ? QString() : QString("–"));
+        const bool right = column != kLoad && column != kVerdict;
+        cell->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+        setItem(row, column, cell);
+    }
+    return row;
+}
+
+void LoadRows::write(int row, Column column, const QString& text) { item(row, column)->setText(text); }
+
+void LoadRows::numbers(int row, const nlohmann::json& values, const char* measured) {
+    write(row, kMeasured, number(values, measured, "Ω"));
+    write(row, kPeak, number(values, "peak_ma", "mA"));
+    write(row, kRms, number(values, "rms_5s_ma", "mA"));
+}
+
+void LoadRows::judge(int row, const QString& verdict) {
+    auto* cell = item(row, kVerdict);
+    cell->setData(kVerdictRole, verdict);
+    cell->setText(lookOf(verdict).shape + " " + verdict);
+    cell->setForeground(lookOf(verdict).colour);
+}
+
+void LoadRows::add(const nlohmann::json& trial) {
+    if (!isOfLoad(trial)) return;
+    const int row = rowOf(QString::fromStdString(trial["load"].get<std::string>()));
+    scrollToItem(item(row, kLoad));
+    const auto verdict = trial.find("load_verdict");
+    if (verdict != trial.end() && verdict->is_string()) {
+        numbers(row, trial, "measured_ohm");
+        judge(row, QString::fromStdString(verdict->get<std::string>()));
+    } else {
+        const int count = item(row, kCommands)->data(kCountRole).toInt() + 1;
+        item(row, kCommands)->setData(kCountRole, count);
+        write(row, kCommands, QString::number(count));
+        numbers(row, trial, "impedance_ohm");
+        write(row, kVerdict, tr("◔ being measured"));
+    }
+    resizeColumnsToContents();
+    horizontalHeader()->setStretchLastSection(true);
+}
+
+void LoadRows::end(const nlohmann::json& results) {
+    if (results.is_object() && results.contains("loads")) {
+        for (const auto& line : results["loads"]) {
+            const int row = rowOf(QString::fromStdString(line.value("name", std::string())));
+            numbers(row, line, "measured_ohm");
+            judge(row, QString::fromStdString(line.value("verdict", std::string("not evaluated"))));
+        }
+    }
+    for (int row = 0; row < rowCount(); ++row) {
+        if (item(row, kVerdict)->data(kVerdictRole).toString().isEmpty()) judge(row, "not evaluated");
+    }
+    resizeColumnsToContents();
+    horizontalHeader()->setStretchLastSection(true);
+}
+
+QString LoadRows::verdictOf(const QString& load) const {
+    for (int row = 0; row < rowCount(); ++row) {
+        if (item(row, kLoad)->text() == load) return item(row, kVerdict)->text();
+    }
+    return {};
+}
+
+void LoadRows::colour() {
+    for (int row = 0; row < rowCount(); ++row) {
+        auto* cell = item(row, kVerdict);
+        if (const auto verdict = cell->data(kVerdictRole).toString(); !verdict.isEmpty())
+            cell->setForeground(lookOf(verdict).colour);
+    }
+}
+
+void LoadRows::changeEvent(QEvent* event) {
+    QTableWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) colour();
+}
+
+}  // namespace tacto::gui

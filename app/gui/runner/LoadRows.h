@@ -1,0 +1,38 @@
+// LoadRows.h - the loads of a safety check as rows that turn to verdicts while they are measured.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QTableWidget>
+#include <nlohmann/json.hpp>
+
+namespace tacto::gui {
+
+class LoadRows final : public QTableWidget {
+    Q_OBJECT
+public:
+    explicit LoadRows(QWidget* parent = nullptr);
+    /// The bench set, all of it still to be done.
+    void begin();
+    /// Whether a trial, as record.trial() was given it, is one of a load.
+    [[nodiscard]] static bool isOfLoad(const nlohmann::json& trial);
+    /// A command that was measured, or (with load_verdict) what a load has come to.
+    void add(const nlohmann::json& trial);
+    /// The run's results, whose verdicts are the last word; null for a run without any. What was not reached says so.
+    void end(const nlohmann::json& results);
+    /// "✔ pass", as it stands there; empty for a load that is not listed.
+    [[nodiscard]] QString verdictOf(const QString& load) const;
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    enum Column { kLoad, kMeasured, kCommands, kPeak, kRms, kVerdict, kColumns };
+    [[nodiscard]] int rowOf(const QString& load);
+    void write(int row, Column column, const QString& text);
+    void numbers(int row, const nlohmann::json& values, const char* measured);
+    void judge(int row, const QString& verdict);
+    void colour();
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,184 @@
+// The shipped load-safety protocol against the twin: what it finds, and what becomes of it when something breaks.
+#include <atomic>
+#include <future>
+#include <gtest/gtest.h>
+
+#include "core/base/Random.h"
+#include "tests/scripting/LoadSafetyRig.h"
+
+namespace tacto {
+namespace {
+
+using test::loadOf;
+using test::LoadSafetyRig;
+
+TEST(LoadSafetyRun, PassesOnTheCleanTwinAndFindsEveryLoadsValue) {
+    LoadSafetyRig rig({}, 1, true);
+    const auto outcome = rig.run({{"area", "3"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
+    EXPECT_TRUE(rig.outputOff());
+    ASSERT_EQ(outcome.results["loads"].size(), 9U);
+    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3, 100e3}) {
+        const auto load =
+            loadOf(outcome.results, ohm < 1e3 ? fmt::format("{:g} ohm", ohm) : fmt::format("{:g} kohm", ohm / 1e3));
+        EXPECT_EQ(load["verdict"], "pass") << ohm;
+        EXPECT_NEAR(load["measured_ohm"].get<double>(), ohm, 0.01 * ohm);
+        EXPECT_NEAR(load["peak_ma"].get<double>(), (ohm > 100 ? 40e3 : 20e3) / ohm, 0.01 * 40e3 / ohm);
+    }
+    // science.md section 7: 40 V every 0.5 s into 500 ohm is 2.26 mA over 5 s.
+    EXPECT_NEAR(loadOf(outcome.results, "500 ohm")["rms_5s_ma"].get<double>(), 2.2627, 0.01);
+    // science.md section 6: 40 V into the skin equivalent peaks at 200 mA and more.
+    const auto skin = loadOf(outcome.results, "200 ohm + 10 kohm || 50 nF");
+    EXPECT_EQ(skin["verdict"], "pass");
+    EXPECT_GE(skin["peak_ma"].get<double>(), 195.0);
+    EXPECT_EQ(outcome.results["worst_case"]["verdict"], "pass");
+    std::size_t tables = 0, figures = 0;
+    for (const auto& item : rig.reportItems()) {
+        tables += item.value("kind", "") == "table" ? 1 : 0;
+        if (item.value("kind", "") != "figure") continue;
+        ++figures;
+        EXPECT_EQ(item["figure"]["captures"].size(), 4U) << "three single pulses and a burst";
+    }
+    EXPECT_GE(tables, 9U);
+    EXPECT_EQ(figures, 1U);
+}
+
+TEST(LoadSafetyRun, FortyVoltsInto100OhmIsAskedForAndRefused) {
+    RecordProperty("hazard", "H1");
+    LoadSafetyRig rig({});
+    const auto outcome = rig.run();
+    bool found = false;
+    for (const auto& row : outcome.results["rows"]) {
+        if (row["load"] != "100 ohm" || row["item"] != "refusal") continue;
+        found = true;
+        EXPECT_EQ(row["verdict"], "refused as expected");
+        EXPECT_NE(row["source"].get<std::string>().find("11.3"), std::string::npos) << row["source"];
+    }
+    EXPECT_TRUE(found);
+    EXPECT_EQ(loadOf(outcome.results, "100 ohm")["commands_refused"], 1);
+}
+
+TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
+    RecordProperty("hazard", "H3");
+    LoadSafetyRig rig({});
+    const auto outcome = rig.run();
+    std::size_t trips = 0;
+    for (const auto& row : outcome.results["rows"]) {
+        if (row["item"] != "trip") continue;
+        ++trips;
+        EXPECT_EQ(row["verdict"], "pass") << row.dump();
+        EXPECT_TRUE(row["value"].is_number()) << row.dump();
+    }
+    EXPECT_EQ(trips, 6U);
+    EXPECT_EQ(outcome.expectedFaults, 4U) << "open, short, loose contact, silence; arming is refused without a fault";
+}
+
+TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
+    RecordProperty("hazard", "H9");
+    LoadSafetyRig rig({});
+    const auto outcome = rig.run({{"steps", "2"}});
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_EQ(loadOf(outcome.results, "500 ohm")["verdict"], "not evaluated");
+    EXPECT_TRUE(loadOf(outcome.results, "500 ohm")["power_density_w_cm2"].is_null());
+}
+
+TEST(LoadSafetyRun, AStimulatorThatCannotReadBackIsNoPass) {
+    RecordProperty("hazard", "H9");
+    LoadSafetyRig rig({"sim:stimulator?readback=no"});
+    auto request = rig.request({{"area", "3"}, {"steps", "2"}});
+    PresetOperator desk(std::map<std::string, std::string>{{"confirm-load", "yes"}});
+    request.operatorDesk = &desk;
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_EQ(loadOf(outcome.results, "open")["verdict"], "not evaluated");
+}
+
+TEST(LoadSafetyRun, ACurrentSourceNamesWhatItCannotDrive) {
+    LoadSafetyRig rig({"sim:stimulator?mode=current&step=0.5mA"});
+    const auto outcome = rig.run();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto load = loadOf(outcome.results, "100 kohm");
+    EXPECT_EQ(load["verdict"], "not applicable");
+    bool named = false;
+    for (const auto& reason : outcome.results["reasons"]) {
+        named = named || reason.get<std::string>().find("100 kohm cannot be driven") != std::string::npos;
+    }
+    EXPECT_TRUE(named) << outcome.results["reasons"].dump(1);
+}
+
+// A device lost at any moment: outputs off, what was measured is kept and marked, and nothing passes.
+class DeviceLoss : public testing::TestWithParam<std::string> {};
+
+TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
+    RecordProperty("hazard", "H9");
+    LoadSafetyRig clean({});
+    ASSERT_EQ(clean.run().verdict, ScriptVerdict::Pass);
+    const double whole_s = clean.now_s();
+    ASSERT_GT(whole_s, 20);
+    constexpr int kMoments = 24;
+    std::size_t loadsSeen = 0, partial = 0;
+    for (int k = 0; k < kMoments; ++k) {
+        const double at_s = whole_s * (k + 0.5) / kMoments;
+        LoadSafetyRig rig({fmt::format("{}@{:.3f}s", GetParam(), at_s)}, 1, true);
+        const auto outcome = rig.run();
+        EXPECT_NE(outcome.verdict, ScriptVerdict::Pass) << at_s;
+        EXPECT_TRUE(outcome.error) << at_s;
+        EXPECT_TRUE(rig.outputOff()) << at_s;
+        ASSERT_TRUE(outcome.results.is_object()) << at_s;
+        EXPECT_EQ(outcome.results["partial"], true) << at_s;
+        EXPECT_NE(outcome.results["verdict"], "pass") << at_s;
+        std::size_t measured = 0;
+        for (const auto& load : outcome.results["loads"]) measured += load["commands_delivered"] != 0 ? 1U : 0U;
+        EXPECT_GE(measured, loadsSeen) << "a later loss leaves no fewer loads";
+        loadsSeen = measured;
+        for (const auto& item : rig.reportItems()) {
+            const auto caption = item.value("caption", "");
+            partial += caption == "Loads (partial: the run ended early)" ? 1 : 0;
+        }
+    }
+    EXPECT_GE(loadsSeen, 6U);
+    EXPECT_EQ(partial, static_cast<std::size_t>(kMoments));
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, DeviceLoss,
+                         testing::Values("sim:stimulator?fault=unplug", "sim:stimulator?fault=garbage",
+                                         "sim:oscilloscope?fault=unplug"),
+                         [](const auto& tested) {
+                             return std::string(tested.param.find("oscilloscope") != std::string::npos ? "Oscilloscope"
+                                                : tested.param.find("garbage") != std::string::npos    ? "Garbage"
+                                                                                                       : "Stimulator");
+                         });
+
+TEST(LoadSafetyRun, CancelledAtEveryTrialKeepsWhatItHas) {
+    RecordProperty("hazard", "H9");
+    LoadSafetyRig clean({});
+    std::size_t trials = 0;
+    {
+        auto request = clean.request({{"area", "3"}, {"steps", "2"}});
+        request.onTrial = [&](const nlohmann::json&) { ++trials; };
+        ASSERT_EQ(runProtocol(std::move(request)).value().verdict, ScriptVerdict::Pass);
+    }
+    ASSERT_GE(trials, 14U);
+    for (std::size_t at = 1; at <= trials; ++at) {
+        LoadSafetyRig rig({});
+        auto request = rig.request({{"area", "3"}, {"steps", "2"}});
+        std::promise<ScriptRun*> started;
+        auto running = started.get_future().share();
+        std::size_t seen = 0;
+        request.onTrial = [&](const nlohmann::json&) {
+            if (++seen == at) running.get()->stop("the test");
+        };
+        auto run = ScriptRun::start(std::move(request)).value();
+        started.set_value(run.get());
+        const auto outcome = run->wait();
+        EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped) << at;
+        EXPECT_TRUE(rig.outputOff()) << at;
+        ASSERT_TRUE(outcome.results.is_object()) << at;
+        EXPECT_EQ(outcome.results["partial"], true) << at;
+    }
+}
+
+}  // namespace
+}  // namespace tacto
