@@ -35,6 +35,22 @@ void printVerdict(std::string_view verdict, const std::vector<std::string>& reas
     for (const auto& reason : reasons) fmt::print("           {}\n", reason);
 }
 
+void printCalibration(const nlohmann::json& results) {
+    const auto reference = results.value("reference", nlohmann::json::object());
+    fmt::print("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"),
+               at(reference, "measured_ohm"));
+    fmt::print("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
+               "repeatability %", "hysteresis %", "U at the largest", "verdict");
+    for (const char* name : {"amplitude", "interval", "width", "gap"}) {
+        const auto found = results.value(name, nlohmann::json::object());
+        if (!found.contains("gain")) continue;
+        fmt::print("  {:<12} {:>10.6f} {:>12.3g} {:>12.4f} {:>14.4f} {:>12.4f} {:>15.3g} {:<2}   {}\n", name,
+                   at(found, "gain"), at(found, "offset"), at(found, "residual_max_pct_fs"),
+                   at(found, "repeatability_pct_fs"), at(found, "hysteresis_pct_fs"), at(found, "expanded_uncertainty"),
+                   found.value("unit", ""), found.value("verdict", ""));
+    }
+}
+
 void printSeparability(const nlohmann::json& results) {
     fmt::print("\n  {:<14} {:>4} {:>22} {:>24}\n", "condition", "n", "amplitude (V)", "interval (s)");
     for (const auto& c : results.value("conditions", nlohmann::json::array())) {

@@ -13,6 +13,8 @@ namespace tacto::cli {
 
 /// The verdict in a word, then why.
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons);
+/// The results of a calibration, a line per quantity, without the verdict.
+void printCalibration(const nlohmann::json& results);
 /// Any other protocol's results, a line each.
 void printResults(const nlohmann::json& results);
 /// The results of a separability run or analysis, as a table on stdout, without the verdict.

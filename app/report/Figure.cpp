@@ -242,6 +242,26 @@ TimelineFigure readTimeline(Reader& in) {
     return figure;
 }
 
+CalibrationFigure readCalibration(Reader& in) {
+    CalibrationFigure figure;
+    const QString view = in.text("view");
+    if (view != "measured" && view != "errors") in.complain("view", "measured or errors");
+    figure.errors = view == "errors";
+    figure.quantity = in.text("quantity");
+    figure.unit = in.text("unit");
+    figure.gain = in.number("gain");
+    figure.offset = in.number("offset");
+    in.objects("levels", true, [&](Reader& item) {
+        figure.levels.push_back({item.number("commanded"), item.number("mean_up"), item.number("mean_down"),
+                                 item.number("error"), item.number("expanded_uncertainty"), item.number("tolerance")});
+    });
+    in.objects("readings", true, [&](Reader& item) {
+        figure.readings.push_back(
+            {item.number("commanded"), item.number("measured"), item.text("direction"), item.flag("outlier")});
+    });
+    return figure;
+}
+
 }  // namespace
 
 bool ExposureFigure::Row::evaluated() const { return std::isfinite(value); }
@@ -268,10 +288,12 @@ Result<Figure> parseFigure(const QJsonObject& json) {
         figure.content = readExposure(in);
     } else if (type == "timeline") {
         figure.content = readTimeline(in);
+    } else if (type == "calibration") {
+        figure.content = readCalibration(in);
     } else {
         return fail(ErrorCode::InvalidArgument,
-                    "A figure's type is \"{}\"; it can be conditions, plane, waveforms, confusion, exposure or "
-                    "timeline.",
+                    "A figure's type is \"{}\"; it can be conditions, plane, waveforms, confusion, exposure, "
+                    "timeline or calibration.",
                     type.toStdString());
     }
     figure.note = in.text("note");

@@ -44,6 +44,14 @@
 //    "trains": [{"t_s": 0.5, "amplitude_v": 22.0, "refused": false}],   optional
 //    "faults": [{"t_s": 3.2, "text": "electrode open"}]}                optional
 //
+//   {"type": "calibration",                     from analysis.calibration()
+//    "view": "measured",                        or "errors": what is drawn against the command
+//    "quantity": "amplitude", "unit": "V",      of everything below
+//    "gain": 1.01, "offset": 0.2,               of the fitted line
+//    "levels": [{"commanded": 10, "mean_up": .., "mean_down": .., "error": .., "expanded_uncertainty": ..,
+//                "tolerance": ..}],
+//    "readings": [{"commanded": 10, "measured": 10.3, "direction": "up", "outlier": false}]}
+//
 // Every type takes an optional "note": one sentence printed below the caption.
 //
 // Thread-safety: values; pure functions.
@@ -146,8 +154,33 @@ struct TimelineFigure {
     std::vector<Fault> faults;
 };
 
+struct CalibrationFigure {
+    struct Level {
+        double commanded = kUnknown;
+        double meanUp = kUnknown;
+        double meanDown = kUnknown;
+        double error = kUnknown;
+        double uncertainty = kUnknown;  ///< expanded, 95 %
+        double tolerance = kUnknown;    ///< half-width
+    };
+    struct Reading {
+        double commanded = kUnknown;
+        double measured = kUnknown;
+        QString direction;  ///< "up", "down" or empty
+        bool outlier = false;
+    };
+    QString quantity;
+    QString unit;
+    bool errors = false;  ///< errors against the command; else what was measured
+    double gain = kUnknown;
+    double offset = kUnknown;
+    std::vector<Level> levels;
+    std::vector<Reading> readings;
+};
+
 struct Figure {
-    std::variant<ConditionsFigure, PlaneFigure, WaveformsFigure, ConfusionFigure, ExposureFigure, TimelineFigure>
+    std::variant<ConditionsFigure, PlaneFigure, WaveformsFigure, ConfusionFigure, ExposureFigure, TimelineFigure,
+                 CalibrationFigure>
         content;
     QString note;
 };

@@ -52,7 +52,8 @@ std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated) {
                                  [&](const WaveformsFigure& content) { return drawWaveforms(content, simulated); },
                                  [&](const ConfusionFigure& content) { return drawConfusion(content, simulated); },
                                  [&](const ExposureFigure& content) { return drawExposure(content, simulated); },
-                                 [&](const TimelineFigure& content) { return drawTimeline(content, simulated); }},
+                                 [&](const TimelineFigure& content) { return drawTimeline(content, simulated); },
+                                 [&](const CalibrationFigure& content) { return drawCalibration(content, simulated); }},
                       figure.content);
 }
 
@@ -79,6 +80,10 @@ QString figureLegend(const Figure& figure) {
                    },
                    [](const TimelineFigure&) {
                        return QString("Bars are the trains delivered, the line is what the encoder asked for.");
+                   },
+                   [](const CalibrationFigure& content) {
+                       return content.errors ? QString("Dashed: the tolerance. Bars: expanded uncertainty, 95\u202f%.")
+                                             : QString("Each point is a reading.");
                    }},
         figure.content);
     if (!figure.note.isEmpty()) text = (figure.note + " " + text).trimmed();

@@ -12,8 +12,6 @@ namespace tacto {
 
 namespace {
 
-constexpr double kSameLevel = 1e-9;  // of full scale: the same number, printed and read back
-
 /// Readings of one level and one direction, by their index.
 struct Group {
     std::size_t level = 0;
@@ -42,24 +40,28 @@ Result<void> check(std::span<const CalibrationReading> readings) {
     return {};
 }
 
-/// Levels by rising command; `levelOf` tells each reading's.
-std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> readings, double fullScale,
+/// Levels by rising command; `levelOf` tells each reading's. A level begins where a command lies further than `apart`
+/// above the level's first.
+std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> readings, double apart,
                                          std::vector<std::size_t>& levelOf) {
     std::vector<double> commands;
     for (const auto& r : readings) commands.push_back(r.commanded);
     std::sort(commands.begin(), commands.end());
-    std::vector<CalibrationLevel> levels;
+    std::vector<double> firsts;
     for (const double command : commands) {
-        if (levels.empty() || command - levels.back().commanded > kSameLevel * fullScale) {
-            levels.emplace_back().commanded = command;
-        }
+        if (firsts.empty() || command - firsts.back() > apart) firsts.push_back(command);
     }
+    std::vector<CalibrationLevel> levels(firsts.size());
+    std::vector<double> counts(firsts.size(), 0);
     for (const auto& r : readings) {
-        const auto above =
-            std::upper_bound(levels.begin(), levels.end(), r.commanded,
-                             [](double c, const CalibrationLevel& level) { return c < level.commanded; });
-        levelOf.push_back(static_cast<std::size_t>(above - levels.begin()) - 1);
+        const auto above = std::upper_bound(firsts.begin(), firsts.end(), r.commanded);
+        const auto k = static_cast<std::size_t>(above - firsts.begin()) - 1;
+        levelOf.push_back(k);
+        // From the first command, so that equal commands keep their every digit.
+        levels[k].commanded += r.commanded - firsts[k];
+        ++counts[k];
     }
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].commanded = firsts[k] + levels[k].commanded / counts[k];
     return levels;
 }
 
@@ -78,9 +80,13 @@ std::vector<Group> findGroups(const Calibration& found, const std::vector<std::s
     return groups;
 }
 
+/// As if each had been commanded the level's own value.
 std::vector<double> measuredOf(const Calibration& found, const Group& group) {
     std::vector<double> out;
-    for (const std::size_t i : group.members) out.push_back(found.readings[i].measured);
+    for (const std::size_t i : group.members) {
+        const auto& r = found.readings[i];
+        out.push_back(r.measured - (r.commanded - found.levels[group.level].commanded));
+    }
     return out;
 }
 
@@ -159,7 +165,7 @@ void fitLine(Calibration& found) {
     }
 }
 
-void markOutliers(Calibration& found, const std::vector<Group>& groups) {
+void markOutliers(Calibration& found, const std::vector<Group>& groups, double resolution) {
     std::vector<double> apart;  // every two repeats
     std::vector<std::pair<std::size_t, double>> of;
     for (const auto& group : groups) {
@@ -174,15 +180,21 @@ void markOutliers(Calibration& found, const std::vector<Group>& groups) {
     const auto spread = statisticsOf(apart);
     // Of a normal scatter σ: median 0.6745·√2·σ, mean 2/√π·σ.
     const double scale = spread.median > 0 ? 1.0483 * spread.median : 0.8862 * spread.mean;
+    std::vector<std::string> marked;
     for (const auto& [i, distance] : of) {
-        if (!(distance > kOutlierDistance * scale)) continue;
+        if (!(distance > std::max(kOutlierDistance * scale, resolution))) continue;
         auto& r = found.readings[i];
         r.outlier = true;
         ++found.outliers;
-        found.warnings.push_back(fmt::format(
-            "reading {} ({} measured at {}{}{}) stands out from its repeats; it is marked and kept", i + 1, r.measured,
-            r.commanded, r.direction == SweepDirection::None ? "" : " going ", nameOf(r.direction)));
+        constexpr std::size_t kNamed = 5;
+        if (found.outliers > kNamed) continue;
+        marked.push_back(fmt::format("{} ({:.6g} at {:.6g}{}{})", i + 1, r.measured, r.commanded,
+                                     r.direction == SweepDirection::None ? "" : " going ", nameOf(r.direction)));
     }
+    if (found.outliers == 0) return;
+    if (found.outliers > marked.size()) marked.emplace_back("others");
+    found.warnings.push_back(fmt::format("{} of {} readings stand out from their repeats and are marked and kept: {}",
+                                         found.outliers, found.readings.size(), fmt::join(marked, ", ")));
 }
 
 void warnOfGaps(Calibration& found, const std::vector<Group>& groups) {
@@ -230,7 +242,16 @@ std::string_view nameOf(SweepDirection direction) noexcept {
     return "";
 }
 
-Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings) {
+Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings, const CalibrationOptions& options) {
+    if (!(options.sameLevel >= 0) || !(options.sameLevel < 1)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration: levels {} of the largest command apart are one; 0 or more and below 1 was expected",
+                    options.sameLevel);
+    }
+    if (!(options.resolution >= 0) || !std::isfinite(options.resolution)) {
+        return fail(ErrorCode::InvalidArgument, "calibration: resolution {}; 0 or more was expected",
+                    options.resolution);
+    }
     if (auto sane = check(readings); !sane) return failure(sane);
     Calibration found;
     found.readings.assign(readings.begin(), readings.end());
@@ -244,7 +265,7 @@ Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings)
                     readings.size());
     }
     std::vector<std::size_t> levelOf;
-    found.levels = findLevels(readings, found.fullScale, levelOf);
+    found.levels = findLevels(readings, options.sameLevel * found.fullScale, levelOf);
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (!std::isnan(readings[i].measured)) continue;
         ++found.notMeasured;
@@ -259,7 +280,7 @@ Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings)
                     "calibration: {} levels with a measured reading; a line wants at least two", measuredLevels);
     }
     fitLine(found);
-    markOutliers(found, groups);
+    markOutliers(found, groups, options.resolution);
     warnOfGaps(found, groups);
     return found;
 }

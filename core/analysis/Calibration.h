@@ -9,6 +9,7 @@
 // than 5 robust standard deviations from the median of its own level and direction. That deviation is 1.0483 times the
 // median distance between two repeats, over all pairs of a level and direction (0.8862 times their mean where more than
 // half of them are equal): unlike distances from the median of a few repeats, it does not shrink with their number.
+// What lies within the instrument's resolution does not stand out.
 //
 // Thread-safety: pure function.
 #pragma once
@@ -75,8 +76,16 @@ struct Calibration {
     std::vector<std::string> warnings;  ///< sentences: fewer levels or repeats than wanted, marked or missing readings
 };
 
+struct CalibrationOptions {
+    /// Commands that lie within this share of the largest are one level at their mean, and what they differ by is no
+    /// scatter: a source that is told its current from a measured load is told a slightly different one each time.
+    double sameLevel = 1e-9;  ///< the same number, printed and read back
+    double resolution = 0;    ///< one step of the instrument, in the readings' unit; 0 = not known
+};
+
 /// Errors: InvalidArgument for a command or reading that is not finite (NaN readings apart), a negative uncertainty,
-/// fewer than two levels with a measured reading, or commands that are all 0.
-[[nodiscard]] Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings);
+/// fewer than two levels with a measured reading, commands that are all 0, or options that are not 0 or more.
+[[nodiscard]] Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,
+                                                 const CalibrationOptions& options = {});
 
 }  // namespace tacto

@@ -60,7 +60,7 @@ json toJson(const UncertaintyBudget& budget) {
             {"combined", budget.combined},
             {"degrees_of_freedom", numberOrNull(budget.degreesOfFreedom)},
             {"coverage_factor", numberOrNull(budget.coverageFactor)},
-            {"expanded_uncertainty", budget.expanded},
+            {"expanded_uncertainty", numberOrNull(budget.expanded)},
             {"method", nameOf(budget.method)}};
 }
 
@@ -69,14 +69,14 @@ json toJson(const JudgedCalibration& judged) {
     for (std::size_t k = 0; k < judged.levels.size(); ++k) {
         const auto& level = judged.levels[k];
         auto& row = out["levels"][k];
-        row["error"] = level.error;
-        row["worst_error"] = level.worstError;
-        row["expanded_uncertainty"] = level.budget.expanded;
+        row["error"] = numberOrNull(level.error);
+        row["worst_error"] = numberOrNull(level.worstError);
+        row["expanded_uncertainty"] = numberOrNull(level.budget.expanded);
         row["tolerance"] = level.tolerance;
         row["verdict"] = nameOf(level.verdict);
     }
     const auto& top = judged.fullScale().budget;
-    out["expanded_uncertainty"] = top.expanded;
+    out["expanded_uncertainty"] = numberOrNull(top.expanded);
     out["gain_expanded_uncertainty"] = judged.gain.expanded;
     out["offset_expanded_uncertainty"] = judged.offset.expanded;
     out["budget"] = toJson(top);

@@ -88,6 +88,16 @@ void decide(JudgedCalibration& judged) {
                                              level.commanded, level.worstError, level.budget.expanded,
                                              level.tolerance));
     }
+    if (judged.verdict == Verdict::Pass) {
+        const auto used = [](const JudgedLevel& level) {
+            return (std::abs(level.worstError) + level.budget.expanded) / level.tolerance;
+        };
+        const auto tightest = std::max_element(judged.levels.begin(), judged.levels.end(),
+                                               [&](const auto& a, const auto& b) { return used(a) < used(b); });
+        judged.reasons.push_back(
+            fmt::format("nowhere nearer to the tolerance than at {:.6g}: error {:+.2g} ± {:.2g}, tolerance ± {:.4g}",
+                        tightest->commanded, tightest->worstError, tightest->budget.expanded, tightest->tolerance));
+    }
     if (!found.complete && judged.verdict == Verdict::Pass) judged.verdict = Verdict::Indeterminate;
     judged.reasons.insert(judged.reasons.end(), found.warnings.begin(), found.warnings.end());
 }
@@ -110,10 +120,12 @@ Result<JudgedCalibration> judgeCalibration(Calibration calibration, const Instru
     judged.tolerance_pct = tolerance_pct;
     for (const auto& level : judged.calibration.levels) {
         if (level.n == 0) {
-            return fail(ErrorCode::InvalidArgument,
-                        "calibration: level {} has no measured reading; at least one was "
-                        "expected",
-                        level.commanded);
+            JudgedLevel unknown;
+            unknown.commanded = level.commanded;
+            unknown.error = unknown.worstError = unknown.budget.expanded = std::numeric_limits<double>::quiet_NaN();
+            unknown.tolerance = tolerance_pct / 100 * std::abs(level.commanded);
+            judged.levels.push_back(std::move(unknown));
+            continue;
         }
         auto budget = levelBudget(level, judged.calibration, errors, options);
         if (!budget) return failure(budget);

@@ -52,7 +52,8 @@ struct JudgedCalibration {
 
 /// `tolerance_pct`: in % of the command at each level. The verdict is the worst level's; fewer than 11 levels or 5
 /// repeats, a level that was not met both ways or a reading that was not measured cannot pass.
-/// Errors: as combine(); InvalidArgument for a tolerance that is not above 0, or a level without a measured reading.
+/// A level without a measured reading is indeterminate, its budget empty and its U NaN.
+/// Errors: as combine(); InvalidArgument for a tolerance that is not above 0, or where nothing was repeated.
 [[nodiscard]] Result<JudgedCalibration> judgeCalibration(Calibration calibration, const InstrumentErrors& errors,
                                                          double tolerance_pct, const BudgetOptions& options = {});
 

@@ -113,9 +113,41 @@ TEST(Calibration, AReadingThatStandsOutIsMarkedAndKept) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->outliers, 1U);
     EXPECT_TRUE(found->readings[17].outlier);
-    EXPECT_THAT(found->warnings, testing::Contains(HasSubstr("reading 18")));
+    EXPECT_THAT(found->warnings, testing::Contains(HasSubstr("1 of 110 readings stand out")));
     EXPECT_NEAR(found->gain, lineThrough(readings).first, 1e-12);
     EXPECT_GT(found->repeatability, clean->repeatability);
+}
+
+TEST(Calibration, WhatLiesWithinTheResolutionDoesNotStandOut) {
+    // Nearly all repeats agree, and one fell beside by less than the step of the clock that timed them.
+    CalibrationTwin twin;
+    twin.jitter = 1e-6;
+    auto readings = twin.run(5);
+    readings[40].measured += 0.002;
+    EXPECT_EQ(fitCalibration(readings)->outliers, 1U);
+    EXPECT_EQ(fitCalibration(readings, {.resolution = 0.0025})->outliers, 0U);
+    EXPECT_FALSE(fitCalibration(readings, {.resolution = kNan}));
+}
+
+TEST(Calibration, CommandsThatDifferALittleAreOneLevelAndTheirDifferenceNoScatter) {
+    CalibrationTwin twin;
+    twin.gain = 1;
+    twin.jitter = 0;
+    twin.hysteresis = 0;
+    auto readings = twin.run(1);
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const double told = 0.05 * std::sin(static_cast<double>(i));
+        readings[i].commanded += told;
+        readings[i].measured += told;
+    }
+    const auto found = fitCalibration(readings, {.sameLevel = 0.01});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->levels.size(), 11U);
+    EXPECT_NEAR(found->repeatability, 0, 1e-9);
+    EXPECT_NEAR(found->offset, 0.15, 1e-9);
+    EXPECT_GT(fitCalibration(readings)->levels.size(), 100U);
+    EXPECT_FALSE(fitCalibration(readings, {.sameLevel = -1}));
+    EXPECT_FALSE(fitCalibration(readings, {.sameLevel = kNan}));
 }
 
 TEST(Calibration, MarksFewOfAHealthyDevicesReadings) {

@@ -27,7 +27,8 @@ std::vector<std::string> shippedNames() {
 }
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
-    EXPECT_EQ(shippedNames(), (std::vector<std::string>{"live", "load-safety", "massager", "separability"}));
+    EXPECT_EQ(shippedNames(),
+              (std::vector<std::string>{"live", "load-safety", "massager", "separability", "stimulator-calibration"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};

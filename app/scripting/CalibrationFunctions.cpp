@@ -1,0 +1,281 @@
+// Calibrating a stimulator: what to command, one reading from the captures, and the line through all of them.
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/CalibrationJson.h"
+#include "core/analysis/ResultJson.h"
+#include "core/encoding/Rounding.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Result<Json> setEncoding(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.setEncoding", list);
+    auto wanted = arguments.object(0, "changes");
+    if (!wanted) return failure(wanted);
+    Profile profile = session.bench().profile();
+    Json section = toJson(profile.encoding);
+    section.update(**wanted);  // an unknown key is refused below, by name
+    auto encoding = encodingProfileFrom(section);
+    if (!encoding) return failure(encoding);
+    profile.encoding = *encoding;
+    if (auto replaced = session.bench().setProfile(profile); !replaced) return failure(replaced);
+    return Json();
+}
+
+/// Over the trains, not over their pulses: a train is one event.
+double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::*member) {
+    std::vector<double> readings;
+    for (const auto& train : channel.trains) {
+        if (std::isfinite(train.*member)) readings.push_back(train.*member);
+    }
+    return statisticsOf(readings).mean;
+}
+
+const CaptureChannel* channelOf(const Capture& capture, std::string_view name) {
+    for (const auto& channel : capture.channels) {
+        if (channel.name == name) return &channel;
+    }
+    return nullptr;
+}
+
+/// What the data sheet of the channel that was read states, in the reading's unit (`scale`: mA per A).
+Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
+    const auto known = [](double value) { return value > 0 ? Json(value) : Json(); };
+    return {{"gain_tolerance", known(channel.gainTolerance)},
+            {"offset_tolerance", known(channel.offsetTolerance * scale)},
+            {"resolution", known(channel.lsb * scale)},
+            {"sampling_step_s", 1 / capture.rate_hz},
+            {"full_scale", known(channel.high * scale)}};
+}
+
+/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was told.
+Json commandOf(Bench& bench) {
+    const Telemetry now = bench.telemetry();
+    const PulseTrain& train = bench.profile().encoding.train;
+    const auto step = bench.devices().stimulator->traits().widthStep.count();
+    return {{"amplitude", numberOrNull(now.trainAmplitude)},
+            {"interval_s", numberOrNull(now.interval_s)},
+            {"width_s", towardZero(train.phaseWidth.count(), step) / 1e6},
+            {"gap_s", towardZero(train.interPhaseGap.count(), step) / 1e6}};
+}
+
+/// The load as V/I, with the limits that both channels state (half-width, relative; the worst case of their sum).
+void addLoad(Json& out, const Capture& capture, double volts, double amps) {
+    const auto* v = channelOf(capture, "voltage");
+    const auto* i = channelOf(capture, "current");
+    if (v == nullptr || i == nullptr || !(volts > 0) || !(amps > 0)) return;
+    const auto limit = [](const CaptureChannel& channel, double value) {
+        return channel.gainTolerance + (channel.offsetTolerance + channel.lsb / 2) / value;
+    };
+    out["load_ohm"] = volts / amps;
+    out["load_limit"] = limit(*v, volts) + limit(*i, amps);
+    if (i->lsb > 0) out["current_lsb"] = amps / i->lsb;
+}
+
+Result<Json> pulse(ScriptSession& session, const Json& list) {
+    const Arguments arguments("measure.pulse", list);
+    auto handles = arguments.list(0, "captures");
+    if (!handles) return failure(handles);
+    auto held = session.held(**handles);
+    if (!held) return failure(held);
+    if (held->empty()) return arguments.wrong("captures", **handles, "at least one capture");
+    const auto& stimulator = session.bench().devices().stimulator;
+    if (!stimulator) return fail(ErrorCode::Unsupported, "measure.pulse: no stimulator is connected");
+    std::vector<Capture> captures;
+    Json ids = Json::array();
+    for (std::size_t i = 0; i < held->size(); ++i) {
+        captures.push_back(*(*held)[i]);
+        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
+    }
+    MeasureOptions options;
+    const PulseTrain& expected = session.bench().profile().encoding.train;
+    if (expected.pulses > 1) options.intraTrainRate = expected.rate;
+
+    auto voltage = measureTrains(captures, "voltage", options);
+    if (!voltage) return failure(voltage);
+    const auto current = measureTrains(captures, "current", options);
+    const bool drivesCurrent = stimulator->traits().drive == Drive::Current;
+    if (drivesCurrent && !current) return failure(current);
+    const ChannelMeasurement& read = drivesCurrent ? *current : *voltage;
+    const double scale = drivesCurrent ? 1e3 : 1;
+    const auto* channel = channelOf(captures.front(), read.name);
+
+    Json out = {{"unit", drivesCurrent ? "mA" : "V"},
+                {"amplitude", numberOrNull(scale * meanOfTrains(read, &TrainMeasurement::amplitude))},
+                {"interval_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::interval_s))},
+                {"width_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::width_s))},
+                {"gap_s", numberOrNull(read.gap_s.mean)},
+                {"trains", read.trains.size()},
+                {"warnings", read.warnings},
+                {"commanded", commandOf(session.bench())},
+                {"instrument", instrumentOf(captures.front(), *channel, scale)},
+                {"captures", ids}};
+    if (current) {
+        addLoad(out, captures.front(), meanOfTrains(*voltage, &TrainMeasurement::amplitude),
+                meanOfTrains(*current, &TrainMeasurement::amplitude));
+    }
+    return out;
+}
+
+Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments, const Json& rows) {
+    std::vector<CalibrationReading> readings;
+    for (const auto& row : rows) {
+        if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
+            return arguments.wrong("a reading", row, "an object with commanded, measured and direction");
+        }
+        CalibrationReading reading;
+        reading.commanded = row["commanded"].get<double>();
+        const Json measured = row.value("measured", Json());
+        if (measured.is_number()) reading.measured = measured.get<double>();
+        const Json direction = row.value("direction", Json(""));
+        bool known = false;
+        for (const auto one : {SweepDirection::None, SweepDirection::Up, SweepDirection::Down}) {
+            if (direction != nameOf(one)) continue;
+            reading.direction = one;
+            known = true;
+        }
+        if (!known) return arguments.wrong("direction", direction, "\"up\", \"down\" or \"\"");
+        readings.push_back(reading);
+    }
+    return readings;
+}
+
+Result<Json> calibration(ScriptSession& session, const Json& list) {
+    const Arguments arguments("analysis.calibration", list);
+    auto rows = arguments.list(0, "readings");
+    if (!rows) return failure(rows);
+    auto readings = readingsFrom(arguments, **rows);
+    if (!readings) return failure(readings);
+    auto options =
+        arguments.options(1, {"quantity", "unit", "tolerance_pct", "gain_tolerance", "offset_tolerance", "resolution",
+                              "load_tolerance", "load_sensitivity", "sampling_step", "same_level"});
+    if (!options) return failure(options);
+    auto quantity = arguments.text(*options, "quantity", "amplitude");
+    if (!quantity) return failure(quantity);
+    auto unit = arguments.text(*options, "unit", "");
+    if (!unit) return failure(unit);
+    double tolerance = 2;
+    CalibrationOptions fit;
+    InstrumentErrors errors;
+    struct Option {
+        const char* key;
+        double* target;
+        double least;
+    };
+    for (const auto& [key, target, least] :
+         {Option{"tolerance_pct", &tolerance, 0}, Option{"gain_tolerance", &errors.gainTolerance, 0},
+          Option{"offset_tolerance", &errors.offsetTolerance, 0}, Option{"resolution", &errors.resolution, 0},
+          Option{"load_tolerance", &errors.loadTolerance, 0}, Option{"load_sensitivity", &errors.loadSensitivity, -10},
+          Option{"sampling_step", &errors.samplingStep, 0}, Option{"same_level", &fit.sameLevel, 0}}) {
+        auto value = arguments.number(*options, key, *target, {least, 1e9});
+        if (!value) return failure(value);
+        *target = *value;
+    }
+    fit.resolution = std::max(errors.resolution, errors.samplingStep);
+    auto found = fitCalibration(*readings, fit);
+    if (!found) return failure(found);
+    BudgetOptions budget;
+    budget.seed = session.request().seed;
+    auto judged = judgeCalibration(std::move(*found), errors, tolerance, budget);
+    if (!judged) return failure(judged);
+    constexpr double kIec_pct = 20;  // IEC 60601-2-10: output within ± 20 % of what is set
+    Json out = toJson(*judged);
+    out["quantity"] = *quantity;
+    out["unit"] = *unit;
+    out["verdict_iec"] = nameOf(verdictAt(*judged, kIec_pct));
+    return out;
+}
+
+Result<Json> figureOf(const char* function, const Json& list, const char* view) {
+    const Arguments arguments(function, list);
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    if (!(*found)->value("levels", Json()).is_array()) {
+        return arguments.wrong("found", **found, "what analysis.calibration() returned");
+    }
+    Json out = {{"type", "calibration"}, {"view", view}};
+    for (const char* key : {"quantity", "unit", "gain", "offset", "levels", "readings", "full_scale"}) {
+        out[key] = (*found)->value(key, Json());
+    }
+    return out;
+}
+
+Result<Json> plotCalibration(ScriptSession&, const Json& list) {
+    return figureOf("plot.calibration", list, "measured");
+}
+Result<Json> plotResiduals(ScriptSession&, const Json& list) { return figureOf("plot.residuals", list, "errors"); }
+
+}  // namespace
+
+std::vector<HostFunction> calibrationFunctions() {
+    constexpr std::string_view kFound = "from analysis.calibration()";
+    return {
+        {"bench",
+         "setEncoding",
+         HostKind::Function,
+         {{"changes", "object", "",
+           "keys of a profile's encoding section (amplitude_min_v, interval_max_s, phase_width_us, ...)"}},
+         "Changes how R and P become a train, for the rest of the run. The output must be disarmed.",
+         "",
+         "Throws while armed; for an unknown key, a wrong type, or a range that does not fit.",
+         setEncoding},
+        {"measure",
+         "pulse",
+         HostKind::Function,
+         {{"captures", "list", "", "from bench.capture(), in time order"}},
+         "One reading for a calibration: what came out beside what was commanded, and what the oscilloscope states of "
+         "itself.",
+         "{ unit, amplitude, interval_s, width_s, gap_s, trains, warnings, commanded: { amplitude, interval_s, "
+         "width_s, "
+         "gap_s }, instrument: { gain_tolerance, offset_tolerance, resolution, sampling_step_s, full_scale }, "
+         "load_ohm, load_limit, captures }: amplitude in unit, V or mA by the stimulator's source; what could not be "
+         "measured or is not stated is null; load_limit is the relative half-width that both channels state.",
+         "Throws for captures that are held no longer, or without the channel that is read.",
+         pulse},
+        {"analysis",
+         "calibration",
+         HostKind::Function,
+         {{"readings", "list", "", "objects with commanded, measured and direction (up, down)"},
+          {"options.quantity", "text", "", "what was calibrated; amplitude where left out", true},
+          {"options.unit", "text", "", "of the readings", true},
+          {"options.tolerance_pct", "number", "%", "of the command at each level; 2 where left out", true},
+          {"options.gain_tolerance", "number", "", "of the instrument, relative half-width", true},
+          {"options.offset_tolerance", "number", "as the readings", "of the instrument, half-width", true},
+          {"options.resolution", "number", "as the readings", "one step of the instrument", true},
+          {"options.load_tolerance", "number", "", "relative half-width", true},
+          {"options.load_sensitivity", "number", "", "relative change of a reading per relative change of the load",
+           true},
+          {"options.sampling_step", "number", "s", "of the record, for widths and intervals", true},
+          {"options.same_level", "number", "", "commands this close, relative to the largest, are one level", true}},
+         "Fits measured against commanded, works out the uncertainty and judges each level with a guard band.",
+         "{ gain, offset, residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, expanded_uncertainty, verdict, "
+         "verdict_iec (± 20 %), reasons, levels, readings with outlier, budget: { rows }, ... }.",
+         "Throws for fewer than two levels, or where nothing was repeated.",
+         calibration},
+        {"plot",
+         "calibration",
+         HostKind::Function,
+         {{"found", "object", "", kFound}},
+         "Measured against commanded, with the fitted line.",
+         "A figure, for report.figure().",
+         "",
+         plotCalibration},
+        {"plot",
+         "residuals",
+         HostKind::Function,
+         {{"found", "object", "", kFound}},
+         "Errors against the command, up and down, with their uncertainty and the tolerance band.",
+         "A figure, for report.figure().",
+         "",
+         plotResiduals},
+    };
+}
+
+}  // namespace tacto

@@ -1,0 +1,91 @@
+// CalibrationStore.h - the calibrations of a lab's stimulators: one file, a line per calibration, never overwritten.
+//
+// Each line is a JSON object that carries its number, the SHA-256 of the line before it and its own; so a line that was
+// changed, taken out or put in is found when the file is read. A newer calibration of the same serial supersedes the
+// older one, which stays. The last line may be cut short by a crash while it was written: it is left out, and said so.
+//
+// A calibration counts for one serial and one kind of source, until a date. What is missing, expired or damaged is
+// *not calibrated*, never "assumed good" (hazards H1 and H9).
+//
+// Thread-safety: none; one owner. add() locks the file against other processes.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+/// A calendar date, UTC.
+using CalibrationDate = std::chrono::year_month_day;
+/// "2026-11-21". Nothing for another form or a day that does not exist.
+[[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
+[[nodiscard]] std::string dateText(CalibrationDate date);
+
+/// An instrument that a calibration rests on.
+struct CalibrationInstrument {
+    std::string name;
+    std::string serial;
+    std::optional<CalibrationDate> due;  ///< of its own calibration; nothing: nobody stated it
+};
+
+struct StoredCalibration {
+    std::string serial;  ///< of the stimulator; not empty
+    std::string device;  ///< its name
+    std::string unit;    ///< "V" or "mA": of the source that was calibrated, and of `offset`
+    double gain = 1;     ///< delivered = gain · commanded + offset; above 0
+    double offset = 0;
+    double uncertainty_pct = 0;  ///< U of the delivered amplitude, largest over the levels, in % of the command
+    double lowest = 0;           ///< the calibrated range, commanded
+    double highest = 0;
+    CalibrationDate made{};
+    CalibrationDate validUntil{};  ///< the last day on which it counts
+    bool simulated = false;        ///< of a simulated device, or measured by one
+    std::string session;           ///< file name of the session that holds the readings
+    std::vector<CalibrationInstrument> instruments;
+};
+
+class CalibrationStore {
+public:
+    /// Reads the file; one that is not there is empty. Errors: Io; ParseError naming the line that does not check.
+    [[nodiscard]] static Result<CalibrationStore> open(std::filesystem::path file);
+
+    /// Appends and syncs. Errors: InvalidArgument for a calibration without serial, unit or valid numbers and dates, or
+    /// an instrument that was overdue on the day it was used; Io; ParseError when the file was damaged meanwhile.
+    [[nodiscard]] Result<void> add(const StoredCalibration& calibration);
+
+    /// The newest of that serial and unit, whatever its date.
+    [[nodiscard]] const StoredCalibration* latest(std::string_view serial, std::string_view unit) const;
+    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired when, or made
+    /// on a simulated bench while the device is none.
+    [[nodiscard]] Result<StoredCalibration> valid(std::string_view serial, std::string_view unit, CalibrationDate day,
+                                                  bool simulated) const;
+
+    [[nodiscard]] const std::vector<StoredCalibration>& all() const noexcept { return all_; }
+    [[nodiscard]] bool lastLineCut() const noexcept { return cut_; }
+
+private:
+    explicit CalibrationStore(std::filesystem::path file) : file_(std::move(file)) {}
+    [[nodiscard]] Result<void> read(std::string_view text);
+
+    std::filesystem::path file_;
+    std::vector<StoredCalibration> all_;
+    std::string head_;  // SHA-256 of the last line; empty before the first
+    std::size_t wholeBytes_ = 0;
+    bool cut_ = false;
+};
+
+/// $XDG_DATA_HOME/tactoscope/calibrations.jsonl, or ~/.local/share/tactoscope/calibrations.jsonl.
+[[nodiscard]] std::filesystem::path calibrationFile();
+
+/// What the device has to be told so that it delivers `wanted`, in the calibration's unit; 0 stays 0. Errors:
+/// InvalidArgument for a value that is not finite or negative, or one that the offset alone exceeds.
+[[nodiscard]] Result<double> commandFor(const StoredCalibration& calibration, double wanted);
+
+}  // namespace tacto

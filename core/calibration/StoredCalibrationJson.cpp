@@ -1,0 +1,123 @@
+#include "core/calibration/StoredCalibrationJson.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace tacto {
+
+using nlohmann::json;
+
+std::optional<CalibrationDate> parseDate(std::string_view text) {
+    if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
+    const auto number = [&](std::size_t from, std::size_t length) -> std::optional<int> {
+        int value = 0;
+        const char* end = text.data() + from + length;
+        const auto read = std::from_chars(text.data() + from, end, value);
+        if (read.ec != std::errc() || read.ptr != end || value < 0) return std::nullopt;
+        return value;
+    };
+    const auto year = number(0, 4), month = number(5, 2), day = number(8, 2);
+    if (!year || !month || !day) return std::nullopt;
+    const CalibrationDate date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
+                               std::chrono::day(static_cast<unsigned>(*day))};
+    return date.ok() ? std::optional(date) : std::nullopt;
+}
+
+std::string dateText(CalibrationDate date) {
+    return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                       static_cast<unsigned>(date.day()));
+}
+
+Result<void> check(const StoredCalibration& c) {
+    if (c.serial.empty()) {
+        return fail(ErrorCode::InvalidArgument, "a calibration without the stimulator's serial; one was expected");
+    }
+    if (c.unit != "V" && c.unit != "mA") {
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: unit '{}'; V or mA was expected", c.serial, c.unit);
+    }
+    if (!(c.gain > 0) || !std::isfinite(c.gain) || !std::isfinite(c.offset)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration of {}: gain {} and offset {}; a gain above 0 and a finite offset were expected",
+                    c.serial, c.gain, c.offset);
+    }
+    if (!(c.uncertainty_pct > 0) || !std::isfinite(c.uncertainty_pct)) {
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: uncertainty {} %; above 0 was expected", c.serial,
+                    c.uncertainty_pct);
+    }
+    if (!(c.lowest > 0) || !(c.highest > c.lowest) || !std::isfinite(c.highest)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration of {}: range {} to {} {}; a rising one above 0 was expected", c.serial, c.lowest,
+                    c.highest, c.unit);
+    }
+    if (!c.made.ok() || !c.validUntil.ok() || c.validUntil < c.made) {
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: valid until {}; a day from {} on was expected",
+                    c.serial, c.validUntil.ok() ? dateText(c.validUntil) : "no day",
+                    c.made.ok() ? dateText(c.made) : "no day");
+    }
+    for (const auto& instrument : c.instruments) {
+        if (!instrument.due || *instrument.due >= c.made) continue;
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration of {}: the {} {} was itself due on {}, before {}; a calibrated one was expected",
+                    c.serial, instrument.name, instrument.serial, dateText(*instrument.due), dateText(c.made));
+    }
+    return {};
+}
+
+json toJson(const StoredCalibration& c) {
+    json instruments = json::array();
+    for (const auto& instrument : c.instruments) {
+        instruments.push_back({{"name", instrument.name},
+                               {"serial", instrument.serial},
+                               {"due", instrument.due ? json(dateText(*instrument.due)) : json()}});
+    }
+    return {{"serial", c.serial},
+            {"device", c.device},
+            {"unit", c.unit},
+            {"gain", c.gain},
+            {"offset", c.offset},
+            {"uncertainty_pct", c.uncertainty_pct},
+            {"lowest", c.lowest},
+            {"highest", c.highest},
+            {"made", dateText(c.made)},
+            {"valid_until", dateText(c.validUntil)},
+            {"simulated", c.simulated},
+            {"session", c.session},
+            {"instruments", instruments}};
+}
+
+Result<StoredCalibration> storedCalibrationFrom(const json& in) {
+    StoredCalibration c;
+    const auto date = [](const json& value) {
+        return value.is_string() ? parseDate(value.get<std::string>()) : std::nullopt;
+    };
+    try {
+        c.serial = in.at("serial").get<std::string>();
+        c.device = in.at("device").get<std::string>();
+        c.unit = in.at("unit").get<std::string>();
+        c.gain = in.at("gain").get<double>();
+        c.offset = in.at("offset").get<double>();
+        c.uncertainty_pct = in.at("uncertainty_pct").get<double>();
+        c.lowest = in.at("lowest").get<double>();
+        c.highest = in.at("highest").get<double>();
+        c.simulated = in.at("simulated").get<bool>();
+        c.session = in.at("session").get<std::string>();
+        const auto made = date(in.at("made")), until = date(in.at("valid_until"));
+        if (!made || !until) return fail(ErrorCode::ParseError, "made or valid_until is no date such as 2026-11-21");
+        c.made = *made;
+        c.validUntil = *until;
+        for (const auto& entry : in.at("instruments")) {
+            CalibrationInstrument instrument{entry.at("name").get<std::string>(), entry.at("serial").get<std::string>(),
+                                             date(entry.at("due"))};
+            if (!instrument.due && !entry.at("due").is_null()) {
+                return fail(ErrorCode::ParseError, "an instrument's due is no date such as 2026-11-21");
+            }
+            c.instruments.push_back(std::move(instrument));
+        }
+    } catch (const json::exception& wrong) {
+        return fail(ErrorCode::ParseError, "{}", wrong.what());
+    }
+    if (auto sane = check(c); !sane) return failure(sane);
+    return c;
+}
+
+}  // namespace tacto

@@ -1,0 +1,167 @@
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/calibration/CalibrationStore.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+CalibrationDate on(const char* text) { return parseDate(text).value(); }
+
+StoredCalibration sample(const std::string& serial, double gain = 1.02) {
+    StoredCalibration c;
+    c.serial = serial;
+    c.device = "P24";
+    c.unit = "V";
+    c.gain = gain;
+    c.offset = 0.1;
+    c.uncertainty_pct = 0.6;
+    c.lowest = 10;
+    c.highest = 40;
+    c.made = on("2026-11-21");
+    c.validUntil = on("2027-11-20");
+    c.session = "run.tacto";
+    c.instruments = {{"DS2072A", "DS2D1", on("2027-03-01")}, {"shunt", "R7", std::nullopt}};
+    return c;
+}
+
+std::string textOf(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+class CalibrationStoreFile : public testing::Test {
+protected:
+    [[nodiscard]] CalibrationStore store() const { return CalibrationStore::open(path).value(); }
+    ScratchDir folder;
+    std::filesystem::path path = folder.path() / "lab" / "calibrations.jsonl";
+};
+
+TEST_F(CalibrationStoreFile, KeepsEveryCalibrationAndTheNewestCounts) {
+    RecordProperty("hazard", "H8");
+    auto first = store();
+    ASSERT_TRUE(first.add(sample("A1", 1.02)));
+    const auto before = textOf(path);
+    ASSERT_TRUE(first.add(sample("B2", 0.97)));
+    ASSERT_TRUE(first.add(sample("A1", 1.03)));
+    EXPECT_TRUE(textOf(path).starts_with(before));  // superseded, never overwritten
+    const auto again = store();
+    ASSERT_EQ(again.all().size(), 3U);
+    EXPECT_DOUBLE_EQ(again.latest("A1", "V")->gain, 1.03);
+    EXPECT_DOUBLE_EQ(again.latest("B2", "V")->gain, 0.97);
+    EXPECT_EQ(again.latest("A1", "mA"), nullptr);
+    EXPECT_EQ(again.all()[0].instruments.size(), 2U);
+    EXPECT_EQ(again.all()[0].instruments[0].due, on("2027-03-01"));
+    EXPECT_FALSE(again.all()[0].instruments[1].due);
+}
+
+TEST_F(CalibrationStoreFile, CountsForItsSerialAndItsTimeOnly) {
+    RecordProperty("hazard", "H1");
+    auto kept = store();
+    const auto why = [&](const char* serial, const char* day, bool simulated = false) {
+        const auto found = kept.valid(serial, "V", on(day), simulated);
+        return found ? std::string("valid") : found.error().message;
+    };
+    EXPECT_THAT(why("A1", "2026-12-01"), HasSubstr("A1 is not calibrated"));
+    ASSERT_TRUE(kept.add(sample("A1")));
+    EXPECT_EQ(why("A1", "2026-11-21"), "valid");
+    EXPECT_EQ(why("A1", "2027-11-20"), "valid");
+    EXPECT_THAT(why("A1", "2027-11-21"), HasSubstr("2027-11-20"));
+    EXPECT_THAT(why("A1", "2026-11-20"), HasSubstr("today is 2026-11-20"));
+    EXPECT_THAT(why("A2", "2026-12-01"), HasSubstr("A2 is not calibrated"));
+    EXPECT_THAT(why("", "2026-12-01"), HasSubstr("without a serial"));
+    auto twin = sample("A1");
+    twin.simulated = true;
+    ASSERT_TRUE(kept.add(twin));
+    EXPECT_THAT(why("A1", "2026-12-01"), HasSubstr("simulated bench"));
+    EXPECT_EQ(why("A1", "2026-12-01", true), "valid");
+}
+
+TEST_F(CalibrationStoreFile, FindsALineThatWasChangedTakenOutOrMoved) {
+    RecordProperty("hazard", "H8");
+    auto kept = store();
+    for (const double gain : {1.01, 1.02, 1.03}) ASSERT_TRUE(kept.add(sample("A1", gain)));
+    const auto text = textOf(path);
+    const auto refusal = [&](const std::string& changed) {
+        write(path, changed);
+        const auto opened = CalibrationStore::open(path);
+        return opened ? std::string("accepted") : opened.error().message;
+    };
+    EXPECT_EQ(refusal(text), "accepted");
+    auto edited = text;
+    edited.replace(edited.find("1.02"), 4, "1.12");
+    EXPECT_THAT(refusal(edited), HasSubstr(":2: its digest"));
+    const auto second = text.find('\n') + 1;
+    const auto third = text.find('\n', second) + 1;
+    EXPECT_THAT(refusal(text.substr(0, second) + text.substr(third)), HasSubstr(":2: the line before"));
+    EXPECT_THAT(refusal(text.substr(second)), HasSubstr(":1: the line before"));
+    EXPECT_THAT(refusal("{}\n"), HasSubstr(":1: this is no calibration"));
+    EXPECT_THAT(refusal(text + "nonsense\n"), HasSubstr(":4:"));
+}
+
+TEST_F(CalibrationStoreFile, ALineCutShortByACrashIsLeftOutAndReplaced) {
+    auto kept = store();
+    ASSERT_TRUE(kept.add(sample("A1", 1.01)));
+    const auto whole = textOf(path);
+    ASSERT_TRUE(kept.add(sample("A1", 1.02)));
+    write(path, textOf(path).substr(0, whole.size() + 40));
+    auto opened = store();
+    EXPECT_TRUE(opened.lastLineCut());
+    EXPECT_DOUBLE_EQ(opened.latest("A1", "V")->gain, 1.01);
+    ASSERT_TRUE(opened.add(sample("A1", 1.04)));
+    EXPECT_EQ(store().all().size(), 2U);
+    EXPECT_DOUBLE_EQ(store().latest("A1", "V")->gain, 1.04);
+}
+
+TEST_F(CalibrationStoreFile, TwoProgramsLoseNothing) {
+    auto one = store(), other = store();
+    ASSERT_TRUE(one.add(sample("A1")));
+    ASSERT_TRUE(other.add(sample("B2")));
+    ASSERT_TRUE(one.add(sample("C3")));
+    EXPECT_EQ(store().all().size(), 3U);
+}
+
+TEST_F(CalibrationStoreFile, RefusesWhatIsNoCalibration) {
+    RecordProperty("hazard", "H9");
+    auto kept = store();
+    const auto refused = [&](auto change) {
+        auto c = sample("A1");
+        change(c);
+        return !kept.add(c);
+    };
+    EXPECT_TRUE(refused([](auto& c) { c.serial.clear(); }));
+    EXPECT_TRUE(refused([](auto& c) { c.unit = "A"; }));
+    for (const double gain : {0.0, -1.0, kNan}) EXPECT_TRUE(refused([&](auto& c) { c.gain = gain; })) << gain;
+    EXPECT_TRUE(refused([](auto& c) { c.offset = kNan; }));
+    EXPECT_TRUE(refused([](auto& c) { c.uncertainty_pct = 0; }));
+    EXPECT_TRUE(refused([](auto& c) { c.highest = c.lowest; }));
+    EXPECT_TRUE(refused([](auto& c) { c.validUntil = on("2026-11-20"); }));
+    EXPECT_TRUE(refused([](auto& c) { c.instruments[0].due = on("2026-11-20"); }));  // overdue when it was used
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(CalibrationDateText, ReadsDaysThatExist) {
+    EXPECT_EQ(dateText(on("2028-02-29")), "2028-02-29");
+    for (const char* text : {"2027-02-29", "2027-13-01", "27-01-01", "2027/01/01", "2027-1-01", "2027-01-0x", ""}) {
+        EXPECT_FALSE(parseDate(text)) << text;
+    }
+}
+
+TEST(CalibrationCommand, UndoesGainAndOffset) {
+    const auto c = sample("A1");
+    EXPECT_NEAR(c.gain * commandFor(c, 40).value() + c.offset, 40, 1e-12);
+    EXPECT_EQ(commandFor(c, 0).value(), 0);
+    EXPECT_FALSE(commandFor(c, kNan));
+    EXPECT_FALSE(commandFor(c, -1));
+    EXPECT_FALSE(commandFor(c, 0.05));  // below the offset
+}
+
+}  // namespace
+}  // namespace tacto::test

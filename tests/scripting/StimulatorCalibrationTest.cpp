@@ -1,0 +1,198 @@
+// The stimulator calibration as a lab starts it, on twins of known error, with faults at its steps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+using testing::HasSubstr;
+using Settings = std::map<std::string, std::string>;
+
+constexpr const char* kName = "stimulator-calibration";
+const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
+
+RunRequest requestFor(RunBench& rig, const Settings& settings) {
+    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
+    auto source = shipped.find(kName).value();
+    const auto declaration = readDeclaration(source).value();
+    auto request = rig.request(std::move(source));
+    request.parameters = applySettings(declaration, settings).value().parameters;
+    return request;
+}
+
+ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
+    RunBench rig(true, device, seed, false, kNeeded);
+    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    EXPECT_TRUE(rig.outputOff());
+    return outcome;
+}
+
+TEST(StimulatorCalibration, FindsGainAndOffsetOfATwin) {
+    const auto outcome = calibrate("sim:stimulator?gain=1.01&offset=0.1V", {{"quantities", "amplitude"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& amplitude = outcome.results["amplitude"];
+    EXPECT_NEAR(amplitude["gain"].get<double>(), 1.01, 0.001);
+    EXPECT_NEAR(amplitude["offset"].get<double>(), 0.1, 0.02);
+    EXPECT_EQ(amplitude["unit"], "V");
+    EXPECT_EQ(amplitude["n"], 110);
+    EXPECT_EQ(amplitude["levels"].size(), 11U);
+    // 1 % and 0.1 V of 10 V are 2 %, the tolerance: nobody can say on which side.
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_EQ(amplitude["verdict_iec"], "pass");
+    EXPECT_TRUE(outcome.results["reference"]["passed"].get<bool>());
+}
+
+TEST(StimulatorCalibration, OfEverythingOnAHealthyTwinPasses) {
+    const auto outcome = calibrate("sim:", {});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
+    for (const char* quantity : {"amplitude", "interval", "width", "gap"}) {
+        const auto& found = outcome.results[quantity];
+        EXPECT_NEAR(found["gain"].get<double>(), 1, 0.001) << quantity;
+        for (const char* key :
+             {"offset", "residual_max_pct_fs", "repeatability_pct_fs", "hysteresis_pct_fs", "expanded_uncertainty"}) {
+            EXPECT_TRUE(found[key].is_number()) << quantity << "." << key;
+        }
+        EXPECT_EQ(found["verdict"], "pass") << quantity;
+        EXPECT_EQ(found["levels"].size(), 11U) << quantity;
+        EXPECT_EQ(found["not_measured"], 0) << quantity;
+    }
+}
+
+TEST(StimulatorCalibration, OfATwinThatIsOffFails) {
+    RecordProperty("hazard", "H9");
+    const auto outcome = calibrate("sim:stimulator?gain=1.05", {{"quantities", "amplitude"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail);
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("the tolerance"));
+}
+
+TEST(StimulatorCalibration, OfACurrentSourceIsInMilliamps) {
+    const auto outcome = calibrate("sim:stimulator?mode=current&gain=1.02",
+                                   {{"quantities", "amplitude"}, {"repeats", "3"}, {"amplitude_max_v", "38"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& amplitude = outcome.results["amplitude"];
+    EXPECT_EQ(amplitude["unit"], "mA");
+    EXPECT_EQ(amplitude["levels"].size(), 11U);
+    EXPECT_NEAR(amplitude["gain"].get<double>(), 1.02, 0.002);
+    EXPECT_NEAR(amplitude["full_scale"].get<double>(), 38, 1);
+}
+
+TEST(StimulatorCalibration, AFailedKnownReferenceCalibratesNothing) {
+    RecordProperty("hazard", "H9");
+    const auto outcome = calibrate("sim:stimulator?load=1.1kohm", {});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    ASSERT_FALSE(outcome.reasons.empty());
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("known-reference check failed"));
+    EXPECT_FALSE(outcome.results.contains("amplitude"));
+}
+
+TEST(StimulatorCalibration, TheSameSeedGivesTheSameSweepsAndAnotherSeedOthers) {
+    const auto directions = [](std::uint64_t seed) {
+        const auto outcome = calibrate("sim:", {{"quantities", "amplitude"}, {"levels", "2"}, {"repeats", "8"}}, seed);
+        std::string order;
+        for (const auto& reading : outcome.results["amplitude"]["readings"])
+            order += reading["direction"].get<std::string>();
+        return order;
+    };
+    const auto first = directions(4);
+    EXPECT_FALSE(first.empty());
+    EXPECT_EQ(first, directions(4));
+    EXPECT_NE(first, directions(5));
+}
+
+TEST(StimulatorCalibration, ARangeThatIsNoneIsRefused) {
+    const auto outcome = calibrate("sim:", {{"amplitude_min_v", "40"}, {"amplitude_max_v", "20"}});
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THAT(outcome.error->message, HasSubstr("amplitude_min_v is 40"));
+}
+
+TEST(StimulatorCalibration, AnOscilloscopeThatStatesNothingAsksForItsDataSheet) {
+    RecordProperty("hazard", "H9");
+    const auto silent = calibrate("sim:oscilloscope?gaintolerance=0", {{"quantities", "amplitude"}});
+    ASSERT_TRUE(silent.error);
+    EXPECT_THAT(silent.error->message, HasSubstr("scope_gain_pct"));
+    const auto told = calibrate("sim:oscilloscope?gaintolerance=0",
+                                {{"quantities", "amplitude"}, {"repeats", "2"}, {"scope_gain_pct", "1"}});
+    ASSERT_FALSE(told.error) << told.error->message;
+    EXPECT_NEAR(told.results["amplitude"]["budget"]["rows"][1]["value"].get<double>(), 0.01, 1e-9);
+}
+
+TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
+    RecordProperty("hazard", "H8");
+    RunBench rig(true, "sim:", 1, true, kNeeded);
+    const auto outcome =
+        runProtocol(requestFor(rig, {{"quantities", "amplitude"}, {"levels", "3"}, {"repeats", "2"}})).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    EXPECT_EQ(reader.trials().value().size(), 12U);
+    int figures = 0, budgets = 0;
+    const auto rows = reader.reportItems().value();
+    for (const auto& row : rows) {
+        const auto& item = row.body;
+        figures += item.value("figure", nlohmann::json::object()).value("type", "") == "calibration" ? 1 : 0;
+        budgets += item.value("caption", "").find("uncertainty budget") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_EQ(figures, 2);
+    EXPECT_EQ(budgets, 1);
+}
+
+/// Devices fail at every step in turn: while the reference is checked, while it warms up, and in amplitude, interval,
+/// width and gap (the virtual clock makes the times the same in every run).
+class CalibrationFault : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(CalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    const auto [device, at_s] = GetParam();
+    RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
+    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "2"}, {"levels", "4"}})).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_TRUE(rig.outputOff());
+    EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
+    if (at_s < 15) return;  // nothing was read yet
+    ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
+    EXPECT_TRUE(outcome.results["partial"].get<bool>());
+    EXPECT_GE(outcome.results["amplitude"]["readings"].size(), 4U);
+    EXPECT_FALSE(outcome.results.contains("verdict"));
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, CalibrationFault,
+                         ::testing::Combine(::testing::Values("stimulator?fault=unplug", "stimulator?fault=open",
+                                                              "oscilloscope?fault=unplug", "oscilloscope?fault=stale"),
+                                            ::testing::Values(0.0, 5.0, 18.0, 30.0, 57.2, 57.5)));
+
+/// The operator stops at the n-th reading.
+class CalibrationCancel : public ::testing::TestWithParam<int> {};
+
+TEST_P(CalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    auto request = requestFor(rig, {{"repeats", "2"}, {"levels", "4"}});
+    Bench& bench = rig.bench();
+    int readings = 0;
+    // From the script's own thread, at a moment that is the same in every run: the next call of the bench says so.
+    request.onTrial = [&](const nlohmann::json&) {
+        if (++readings == GetParam()) bench.stop("the test");
+    };
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    EXPECT_TRUE(rig.outputOff());
+    ASSERT_EQ(outcome.results.is_object(), GetParam() > 4) << outcome.results.dump();
+    if (outcome.results.is_object()) {
+        EXPECT_TRUE(outcome.results["partial"].get<bool>());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, CalibrationCancel, ::testing::Values(1, 7, 17, 40, 55));
+
+}  // namespace
+}  // namespace tacto
