@@ -33,6 +33,7 @@ CsvRows::CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks
       point_(point),
       blocks_(blocks),
       uses_(layout.width),
+      ends_(separator),
       line_(layout.dataLine),
       skip_(layout.dataOffset) {
     if (layout.times != RowTimes::Counted) {
@@ -73,7 +74,9 @@ Result<void> CsvRows::takeRows() {
     const char* text = text_.data();
     const char* const end = text + text_.size();
     while (text != end && batch_.rows < RowBatch::kRows) {
+        text = takeShortRows(text, end);
         const std::size_t row = batch_.rows;
+        if (text == end || row == RowBatch::kRows) break;
         if (const char* const next = takePlainRow(text, end, row)) {
             batch_.lines[row] = line_++;
             ++batch_.rows;
@@ -94,6 +97,47 @@ Result<void> CsvRows::takeRows() {
     bytes_ += static_cast<std::uint64_t>(text - text_.data());
     text_.remove_prefix(static_cast<std::size_t>(text - text_.data()));
     return {};
+}
+
+const char* CsvRows::takeShortRows(const char* text, const char* end) {
+    const std::uint64_t points = eightTimes(point_);
+    const std::size_t width = uses_.size();
+    const Use* const uses = uses_.data();
+    for (;;) {
+        ends_.look(text, end);
+        const char* const base = text;
+        std::size_t next = 0;  // end of the field at hand
+        while (next + width <= ends_.count() && batch_.rows < RowBatch::kRows) {
+            const std::size_t row = batch_.rows;
+            const char* begin = text;
+            for (std::size_t c = 0; c < width; ++c) {
+                const char* fieldEnd = base + ends_[next + c];
+                const bool last = c + 1 == width;
+                // A row that ends before its last field, or a field too much; an end of line may be two characters.
+                if (last ? *fieldEnd != '\n' : *fieldEnd == '\n') return text;
+                const char* const following = fieldEnd + 1;
+                if (last) fieldEnd -= static_cast<int>(fieldEnd[-1] == '\r' && fieldEnd > begin);
+                const Use& use = uses[c];
+                if (use.kind == Use::Kind::Ignored) return text;
+                double value = 0;
+                if (!fieldNumber(begin, fieldEnd, points, value)) {
+                    // The same row may yet be numbers with exponents.
+                    if (takeNumber(begin, point_, value) != fieldEnd) return text;
+                }
+                if (use.kind == Use::Kind::Time) {
+                    batch_.times[row] = value;
+                } else {
+                    use.into[row] = static_cast<float>(value * use.factor);
+                }
+                begin = following;
+            }
+            batch_.lines[row] = line_++;
+            ++batch_.rows;
+            next += width;
+            text = begin;
+        }
+        if (text == base || text == end || batch_.rows == RowBatch::kRows) return text;
+    }
 }
 
 const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t row) {

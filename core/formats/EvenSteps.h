@@ -19,9 +19,18 @@ public:
         if (count_ == 0) first_ = t;
         const double since = t - first_;
         const auto k = static_cast<double>(count_);
-        // Written so that a NaN becomes a bound and fails the comparison at the end.
-        if (!(since <= low_ * (k + tolerance_))) low_ = since / (k + tolerance_);
-        if (k > tolerance_ && !(since >= high_ * (k - tolerance_))) high_ = since / (k - tolerance_);
+        // Bounds are kept as fractions: a division for every stamp would be most of the work. Written so that a NaN
+        // becomes a bound and fails the comparison at the end.
+        const double over = k + tolerance_;
+        if (!(since * lowUnder_ <= low_ * over)) {
+            low_ = since;
+            lowUnder_ = over;
+        }
+        const double under = k - tolerance_;
+        if (under > 0 && !(since * highUnder_ >= high_ * under)) {
+            high_ = since;
+            highUnder_ = under;
+        }
         last_ = t;
         ++count_;
     }
@@ -34,15 +43,17 @@ public:
     /// Whether all stamps fit `step`.
     [[nodiscard]] bool fits(double step) const noexcept {
         constexpr double kRounding = 1e-12;  // of the bounds' own division
-        return step > 0 && step >= low_ * (1 - kRounding) && step <= high_ * (1 + kRounding);
+        return step > 0 && step >= low_ / lowUnder_ * (1 - kRounding) && step <= high_ / highUnder_ * (1 + kRounding);
     }
 
 private:
     double tolerance_;
     double first_ = 0;
     double last_ = 0;
-    double low_ = 0;
-    double high_ = std::numeric_limits<double>::infinity();
+    double low_ = 0;  // over lowUnder_
+    double lowUnder_ = 1;
+    double high_ = std::numeric_limits<double>::infinity();  // over highUnder_
+    double highUnder_ = 1;
     std::size_t count_ = 0;
 };
 

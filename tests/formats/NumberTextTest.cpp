@@ -61,6 +61,7 @@ TEST(NumberText, LeavesToAnotherWhatItCannotDoExactly) {
 TEST(NumberText, GivesTheNearestDoubleOrNone) {
     Random random(20261121, "numbers");
     std::size_t taken = 0;
+    std::size_t fields = 0;
     for (int k = 0; k < 200'000; ++k) {
         std::string text = random.below(2) == 0 ? "-" : "";
         for (auto digits = random.below(11); digits > 0; --digits) text += static_cast<char>('0' + random.below(10));
@@ -71,6 +72,13 @@ TEST(NumberText, GivesTheNearestDoubleOrNone) {
         }
         if (random.below(2) == 0) text += fmt::format("e{}", static_cast<int>(random.below(40)) - 20);
         const auto ours = take(text);
+        double field = 0;
+        const auto padded = text + std::string(kNumberPadding, k % 2 == 0 ? '.' : '7');
+        if (fieldNumber(padded.data(), padded.data() + text.size(), eightTimes('.'), field)) {
+            ++fields;
+            ASSERT_EQ(field, std::strtod(text.c_str(), nullptr)) << text;
+            ASSERT_EQ(std::signbit(field), text[0] == '-') << text;
+        }
         if (!ours.taken) continue;
         ++taken;
         char* end = nullptr;
@@ -79,6 +87,20 @@ TEST(NumberText, GivesTheNearestDoubleOrNone) {
         ASSERT_EQ(ours.length, static_cast<std::size_t>(end - text.c_str())) << text;
     }
     EXPECT_GT(taken, 80'000U);
+    EXPECT_GT(fields, 40'000U);
+}
+
+TEST(NumberText, AFieldIsANumberFromItsBeginToItsEnd) {
+    for (const std::string text : {"", "-", "+", ".", "-.", "1.2.3", "1 ", " 1", "1e5", "nan", "12a", "1..", "--1",
+                                   "12345678901234567", "99999999999999.99", "1,5", "123456789.1x"}) {
+        double value = 0;
+        const auto padded = text + std::string(kNumberPadding, '1');
+        EXPECT_FALSE(fieldNumber(padded.data(), padded.data() + text.size(), eightTimes('.'), value)) << text;
+    }
+    double value = 0;
+    const auto comma = "12345,678" + std::string(kNumberPadding, ',');
+    ASSERT_TRUE(fieldNumber(comma.data(), comma.data() + 9, eightTimes(','), value));
+    EXPECT_EQ(value, 12345.678);
 }
 
 }  // namespace
