@@ -97,24 +97,26 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
 
 Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t number) {
     StreamTrigger trigger(plan, wiring);
-    std::optional<Error> error;
     Instrument::Sink sink;
     sink.samples = [&](std::size_t channel, std::span<const float> samples, double resolution) {
         if (!queue.wanted(number)) return;
         trigger.add(channel, samples, resolution, now());
         queue.started(number);
-        if (queue.takeForced()) trigger.force();
-        for (;;) {
-            auto found = trigger.next();
-            if (!found) throw std::runtime_error(found.error().message);
-            if (!*found) return;
-            if (!queue.hasRoom()) continue;  // a stream does not wait: what nobody fetches is not kept
-            queue.push(number, std::move(**found));
-        }
     };
     sink.frameBegin = [] {};
     sink.frameEnd = [] {};
-    sink.stop = [&] { return !queue.wanted(number); };
+    // Not with each packet: samples come in bursts, and only with the last of a burst is it known when they were taken.
+    sink.stop = [&] {
+        if (queue.takeForced()) trigger.force();
+        while (queue.wanted(number)) {
+            auto found = trigger.next();
+            if (!found) throw std::runtime_error(found.error().message);
+            if (!*found) return false;
+            if (!queue.hasRoom()) continue;  // a stream does not wait: what nobody fetches is not kept
+            queue.push(number, std::move(**found));
+        }
+        return true;
+    };
     while (queue.wanted(number)) {
         if (auto ran = instrument->run(sink, 0, 0); !ran) return ran;
         if (queue.wanted(number)) return fail(ErrorCode::Device, "{} has ended its stream", abilities.model);

@@ -26,7 +26,7 @@ public:
         std::function<void(std::size_t channel, std::span<const float> samples, double resolution)> samples;
         std::function<void()> frameBegin;  ///< the device waits for its trigger
         std::function<void()> frameEnd;
-        /// Asked at least every 20 ms while the session's loop turns; true ends the session.
+        /// Asked every 20 ms while the session's loop turns; true ends the session.
         std::function<bool()> stop;
     };
 

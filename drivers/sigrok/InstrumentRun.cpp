@@ -35,7 +35,7 @@ struct Instrument::Beat {
             if (!owner.error_ && log.errors - owner.complaints_ >= kComplaints) {
                 owner.error_ = Error{ErrorCode::Device, "the instrument does not answer as it should: " + log.last};
             }
-            if (owner.sink_->stop() || owner.error_) owner.session_->stop();
+            if (owner.error_ || owner.sink_->stop()) owner.session_->stop();
         });
         if (!turned && !owner.error_) owner.error_ = turned.error();
         return G_SOURCE_CONTINUE;

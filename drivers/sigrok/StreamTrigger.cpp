@@ -32,6 +32,9 @@ Result<Capture> StreamTrigger::cutAt(double at, bool untriggered) {
     RawRecord raw;
     raw.rate_hz = plan_.settings.sampleRate.value();
     raw.end_s = *beginning_s_ + static_cast<double>(dropped_ + first + samples) / raw.rate_hz;
+    // The estimate of the beginning gets earlier with time; records do not overlap for that.
+    raw.end_s = std::max(raw.end_s, lastEnd_s_ + static_cast<double>(samples) / raw.rate_hz);
+    lastEnd_s_ = raw.end_s;
     raw.resolution = resolution_;
     raw.voltage = take(voltage_);
     if (wiring_.current) raw.current = take(current_);

@@ -40,6 +40,7 @@ private:
     std::optional<double> beginning_s_;  // of the stream's first sample; the earliest that any packet allows
     std::size_t searched_ = 0;           // up to here no trigger begins
     std::size_t free_ = 0;               // records begin here at the earliest: none overlaps the one before
+    double lastEnd_s_ = 0;               // of the record before
     bool forced_ = false;
 };
 

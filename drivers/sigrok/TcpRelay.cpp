@@ -114,7 +114,6 @@ TcpRelay::TcpRelay(std::string place, int upstream, int listener, std::uint16_t 
 TcpRelay::~TcpRelay() {
     cut();
     if (thread_.joinable()) thread_.join();
-    ::close(listener_);
     ::close(wake_);
 }
 
@@ -203,6 +202,8 @@ void TcpRelay::carry() noexcept {
         }
     }
     hangUp();
+    // Ends a conversation too that nobody has accepted yet.
+    ::close(listener_);
 }
 
 }  // namespace tacto::sigrok_driver

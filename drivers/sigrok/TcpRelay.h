@@ -56,7 +56,7 @@ private:
     Seconds patience_{3};
     int upstream_;         // the instrument; -1 while not connected. The thread's.
     int downstream_ = -1;  // libsigrok. The thread's.
-    const int listener_;
+    const int listener_;   // closed by the thread when it ends
     const std::uint16_t port_;
     const int wake_;  // eventfd
     std::atomic<bool> cut_{false};

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, ScopeFails,
                          testing::Values(Failing{"HangsUp", ScopeFault::HangUp, ErrorCode::Device, 3},
                                          Failing{"FallsSilent", ScopeFault::Silence, ErrorCode::Timeout, 8},
                                          Failing{"Garbage", ScopeFault::Garbage, ErrorCode::Device, 5},
-                                         Failing{"PromisesMore", ScopeFault::LongBlock, ErrorCode::Timeout, 8},
+                                         Failing{"PromisesMore", ScopeFault::LongBlock, ErrorCode::Device, 8},
                                          Failing{"GivesTooMuch", ScopeFault::Endless, ErrorCode::Device, 8}),
                          [](const auto& one) { return std::string(one.param.name); });
 

@@ -74,7 +74,7 @@ TEST_F(RelayTest, PassesBothWaysAndConnectsAnewForTheNextConversation) {
     auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
     ASSERT_TRUE(relay.has_value()) << relay.error().message;
     for (int i = 0; i < 3; ++i) {
-        const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
+        Socket client(::socket(AF_INET, SOCK_STREAM, 0));
         connect(client, (*relay)->port());
         const Socket instrument(::accept(listener_, nullptr, nullptr));
         ASSERT_GE(instrument, 0);
@@ -91,6 +91,8 @@ TEST_F(RelayTest, PassesBothWaysAndConnectsAnewForTheNextConversation) {
         });
         EXPECT_EQ(receive(client, large.size()), large);
         sender.join();
+        client.close();  // libsigrok ends conversations, not the instrument
+        EXPECT_EQ(receive(instrument, 1), "");
         EXPECT_FALSE((*relay)->fault().has_value());
         EXPECT_LT((*relay)->silence().count(), 60);
     }

@@ -1,0 +1,115 @@
+// Opening a .sr of 45 million samples against unpacking it: zlib inflating the same entries into one buffer, and
+// checking them, in turns with ours inside one benchmark. "times_unzip" must be at most 2. "memory_of_samples" is the
+// most memory held while it opens, over that of the samples: at most 1.25.
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <fstream>
+#include <zlib.h>
+
+#include "drivers/sigrok/SigrokFormat.h"
+#include "drivers/sigrok/ZipDirectory.h"
+
+namespace tacto {
+namespace {
+
+constexpr std::size_t kSamples = 45'000'000;
+
+/// Pulses in the noise of eight bits, as an oscilloscope saves them; written once.
+const std::filesystem::path& largeFile() {
+    static const auto path = [] {
+        auto made = std::filesystem::temp_directory_path() / "tactoscope-perf-45M.sr";
+        Capture capture;
+        capture.rate_hz = 50e6;
+        auto& channel = capture.channels.emplace_back();
+        channel.name = "voltage";
+        channel.unit = "V";
+        channel.samples.resize(kSamples);
+        std::uint64_t state = 1;
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            state = state * 6364136223846793005U + 1442695040888963407U;
+            const int noise = static_cast<int>(state >> 60U) - 8;
+            const int level = i % 500'000 < 10'000 ? 50 : 0;
+            channel.samples[i] = 0.2F * static_cast<float>(level + noise);
+        }
+        if (auto written = SigrokFormat().write(made, capture); !written) {
+            throw std::runtime_error(written.error().message);
+        }
+        return made;
+    }();
+    return path;
+}
+
+double unzipSeconds(const std::filesystem::path& path) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto file = ByteFile::open(path).value();
+    const auto entries = sigrok_driver::zipDirectory(file).value();
+    std::vector<unsigned char> in(1 << 20), out(4 << 20);
+    for (const auto& entry : entries) {
+        char header[30];
+        (void)file.seek(entry.header);
+        (void)file.read(header, sizeof header);
+        const auto names = [&](std::size_t at) {
+            return static_cast<unsigned>(static_cast<unsigned char>(header[at])) |
+                   static_cast<unsigned>(static_cast<unsigned char>(header[at + 1])) << 8U;
+        };
+        (void)file.seek(entry.header + sizeof header + names(26) + names(28));
+        z_stream stream{};
+        ::inflateInit2(&stream, -MAX_WBITS);
+        uLong crc = 0;
+        for (std::uint64_t left = entry.compressed; left > 0 && entry.method == 8;) {
+            const auto got =
+                file.read(reinterpret_cast<char*>(in.data()), std::min<std::size_t>(in.size(), left)).value();
+            left -= got;
+            stream.next_in = in.data();
+            stream.avail_in = static_cast<uInt>(got);
+            do {
+                stream.next_out = out.data();
+                stream.avail_out = static_cast<uInt>(out.size());
+                ::inflate(&stream, Z_NO_FLUSH);
+                crc = ::crc32_z(crc, out.data(), out.size() - stream.avail_out);
+            } while (stream.avail_out == 0);
+        }
+        ::inflateEnd(&stream);
+        if (entry.method == 8 && crc != entry.crc) throw std::runtime_error("the baseline unpacked something else");
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// A line of /proc/self/status, in bytes.
+double statusBytes(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    while (status >> word) {
+        if (word == key + ":") {
+            double kilobytes = 0;
+            status >> kilobytes;
+            return kilobytes * 1024;
+        }
+    }
+    return 0;
+}
+
+void BM_OpenSrAgainstUnzip(benchmark::State& state) {
+    const auto& path = largeFile();
+    double ours = 0, theirs = 0, memory = 0;
+    for ([[maybe_unused]] auto _ : state) {
+        theirs += unzipSeconds(path);
+        std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+        const double before = statusBytes("VmRSS");
+        const auto begin = std::chrono::steady_clock::now();
+        const auto reading = SigrokFormat().read(path, {}, {});
+        const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        if (!reading) return state.SkipWithError(reading.error().message.c_str());
+        if (reading->capture.samples() != kSamples) return state.SkipWithError("not all samples came");
+        memory = std::max(memory, (statusBytes("VmHWM") - before) / (kSamples * sizeof(float)));
+        ours += took;
+        state.SetIterationTime(took);
+    }
+    state.counters["unzip_s"] = theirs / static_cast<double>(state.iterations());
+    state.counters["times_unzip"] = ours / theirs;
+    state.counters["memory_of_samples"] = memory;
+}
+BENCHMARK(BM_OpenSrAgainstUnzip)->UseManualTime()->Iterations(3)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace tacto
