@@ -55,6 +55,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> plotFunctions();
 [[nodiscard]] std::vector<HostFunction> generalFunctions();
 [[nodiscard]] std::vector<HostFunction> calibrationFunctions();
+[[nodiscard]] std::vector<HostFunction> calibrationStoreFunctions();
 [[nodiscard]] std::vector<HostFunction> benchLoadFunctions();
 [[nodiscard]] std::vector<HostFunction> tripFunctions();
 [[nodiscard]] std::vector<HostFunction> loadSafetyFunctions();

@@ -7,6 +7,15 @@ protocol({
   purpose: "Commanded against measured amplitude, interval, phase width and gap, with their uncertainty",
   needs: ["stimulator", "oscilloscope"],
   parameters: {
+    mode: {
+      label: "Mode",
+      type: "choice",
+      choices: { full: "calibrate", check: "check the stored calibration at three levels" },
+      value: "full",
+    },
+    store: { label: "Keep the result for this stimulator", type: "boolean", value: false },
+    valid_days: { label: "It holds for", unit: "d", type: "integer", min: 1, max: 3660, value: 365 },
+    scope_due: { label: "Oscilloscope's own calibration is due (2027-03-01)", type: "text", value: "" },
     quantities: {
       label: "Calibrate",
       type: "choice",
@@ -227,6 +236,34 @@ function write(quantity, found) {
   if (marked.length > 0) report.table(title + ": marked readings", marked, ["commanded", "measured", "direction"]);
 }
 
+// Does the stored line still hold? Judged on what both can tell: the stored uncertainty and this run's.
+function checkStored(p, stored, results) {
+  const few = Object.assign({}, p, {
+    levels: 3,
+    repeats: 2,
+    amplitude_min_v: stored.unit === "V" ? Math.max(stored.lowest, p.amplitude_min_v) : p.amplitude_min_v,
+    amplitude_max_v: stored.unit === "V" ? Math.min(stored.highest, p.amplitude_max_v) : p.amplitude_max_v,
+  });
+  const found = calibrate(few, "amplitude", results);
+  const rows = found.levels.map((level) => {
+    const expected = stored.gain * level.commanded + stored.offset;
+    const allowed = (stored.uncertainty_pct / 100) * level.commanded + level.expanded_uncertainty;
+    const off = level.mean - expected;
+    return { commanded: level.commanded, expected, measured: level.mean, off, allowed, holds: Math.abs(off) <= allowed };
+  });
+  report.table("Check of the stored calibration (" + found.unit + ")", rows);
+  results.check = rows;
+  const broken = rows.filter((row) => !(row.holds === true));
+  results.verdict = broken.length === 0 ? "pass" : "fail";
+  results.reasons = broken.map(
+    (row) =>
+      "at " + row.commanded.toPrecision(4) + " the stored calibration expects " + row.expected.toPrecision(5) + " ± " +
+      row.allowed.toPrecision(2) + " and " + row.measured.toPrecision(5) + " was measured",
+  );
+  if (broken.length === 0) results.reasons = [stored.text + "; it still holds at three levels"];
+  return verdict(results);
+}
+
 function worst(verdicts) {
   if (verdicts.includes("fail")) return "fail";
   return verdicts.includes("indeterminate") ? "indeterminate" : "pass";
@@ -238,6 +275,9 @@ function run(p) {
     const high = range.replace("%", "max");
     if (!(p[low] < p[high])) throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
   }
+  const stored = bench.calibration;
+  report.text("Stored calibration: " + stored.text + ".");
+  if (p.mode === "check" && !stored.calibrated) throw new Error(stored.text + "; there is nothing to check");
   wire(p);
   const { check, reading } = checkReference(p);
   const results = { reference: check, instruments: bench.devices };
@@ -254,6 +294,7 @@ function run(p) {
     throw new Error("the oscilloscope states no gain tolerance; scope_gain_pct is expected, from its data sheet");
   }
   warmUp(p);
+  if (p.mode === "check") return checkStored(p, stored, results);
   const quantities = p.quantities === "all" ? ["amplitude", "interval", "width", "gap"] : [p.quantities];
   for (const quantity of quantities) {
     const found = calibrate(p, quantity, results);
@@ -263,6 +304,11 @@ function run(p) {
   }
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
+  if (p.store) {
+    if (!results.amplitude) throw new Error("quantities is " + p.quantities + "; amplitude or all is expected to keep a result");
+    results.stored = record.calibration(results.amplitude, { valid_days: p.valid_days, scope_due: p.scope_due });
+    record.event("calibration stored", results.stored);
+  }
   results.verdict = worst(quantities.map((quantity) => results[quantity].verdict));
   results.reasons = [];
   for (const quantity of quantities) {

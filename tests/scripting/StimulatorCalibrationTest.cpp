@@ -144,6 +144,51 @@ TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
     EXPECT_EQ(budgets, 1);
 }
 
+/// A store of its own for each test.
+class CalibrationKept : public ::testing::Test {
+protected:
+    CalibrationKept() { ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1); }
+    ~CalibrationKept() override { ::unsetenv("XDG_DATA_HOME"); }
+    CalibrationKept(const CalibrationKept&) = delete;
+    CalibrationKept& operator=(const CalibrationKept&) = delete;
+    test::ScratchDir folder;
+};
+
+TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) {
+    RecordProperty("hazard", "H9");
+    const auto nothing = calibrate("sim:", {{"mode", "check"}});
+    ASSERT_TRUE(nothing.error);
+    EXPECT_THAT(nothing.error->message, HasSubstr("SIM-1 is not calibrated"));
+
+    const auto full = calibrate("sim:stimulator?gain=1.03", {{"quantities", "amplitude"}, {"store", "true"}});
+    ASSERT_FALSE(full.error) << full.error->message;
+    EXPECT_EQ(full.results["stored"]["serial"], "SIM-1");
+    EXPECT_TRUE(full.results["stored"]["supersedes"].is_null());
+
+    const auto holds = calibrate("sim:stimulator?gain=1.03", {{"mode", "check"}});
+    ASSERT_FALSE(holds.error) << holds.error->message;
+    EXPECT_EQ(holds.verdict, ScriptVerdict::Pass) << holds.results["reasons"].dump();
+    const auto changed = calibrate("sim:stimulator?gain=1.06", {{"mode", "check"}});
+    ASSERT_FALSE(changed.error) << changed.error->message;
+    EXPECT_EQ(changed.verdict, ScriptVerdict::Fail);
+    EXPECT_EQ(changed.reasons.size(), 3U);
+}
+
+TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
+    RecordProperty("hazard", "H9");
+    const Settings amplitude{{"quantities", "amplitude"}, {"store", "true"}};
+    auto few = amplitude, overdue = amplitude;
+    few["levels"] = "5";
+    overdue["scope_due"] = "2020-01-01";
+    const auto incomplete = calibrate("sim:", few);
+    ASSERT_TRUE(incomplete.error);
+    EXPECT_THAT(incomplete.error->message, HasSubstr("a complete calibration"));
+    const auto late = calibrate("sim:", overdue);
+    ASSERT_TRUE(late.error);
+    EXPECT_THAT(late.error->message, HasSubstr("was itself due on 2020-01-01"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 /// Devices fail at every step in turn: while the reference is checked, while it warms up, and in amplitude, interval,
 /// width and gap (the virtual clock makes the times the same in every run).
 class CalibrationFault : public ::testing::TestWithParam<std::tuple<const char*, double>> {};

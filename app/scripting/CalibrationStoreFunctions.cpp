@@ -1,0 +1,137 @@
+// The store of calibrations, for scripts: what holds for the stimulator that is connected, and keeping a new one.
+#include <chrono>
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/calibration/CalibrationStore.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Of the wall: a calibration's date is the laboratory's, not the bench clock's.
+CalibrationDate today() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }
+
+Result<Stimulator*> connected(ScriptSession& session, std::string_view function) {
+    const auto& stimulator = session.bench().devices().stimulator;
+    if (!stimulator) return fail(ErrorCode::Unsupported, "{}: no stimulator is connected", function);
+    return stimulator.get();
+}
+
+std::string unitOf(const Stimulator& stimulator) { return stimulator.traits().drive == Drive::Current ? "mA" : "V"; }
+
+Result<Json> calibration(ScriptSession& session, const Json&) {
+    auto stimulator = connected(session, "bench.calibration");
+    if (!stimulator) return failure(stimulator);
+    const auto& device = (*stimulator)->identity();
+    auto store = CalibrationStore::open(calibrationFile());
+    if (!store) return failure(store);
+    const auto found = store->valid(device.serial, unitOf(**stimulator), today(), device.simulated);
+    if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
+    return Json{{"calibrated", true},
+                {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
+                                     dateText(found->made), dateText(found->validUntil))},
+                {"unit", found->unit},
+                {"gain", found->gain},
+                {"offset", found->offset},
+                {"uncertainty_pct", found->uncertainty_pct},
+                {"lowest", found->lowest},
+                {"highest", found->highest},
+                {"made", dateText(found->made)},
+                {"valid_until", dateText(found->validUntil)}};
+}
+
+Result<std::optional<CalibrationDate>> dueDate(const Arguments& arguments, const Json& options) {
+    auto text = arguments.text(options, "scope_due", "");
+    if (!text) return failure(text);
+    if (text->empty()) return std::optional<CalibrationDate>();
+    const auto date = parseDate(*text);
+    if (!date) return arguments.wrong("scope_due", *text, "a day such as \"2027-03-01\"");
+    return date;
+}
+
+/// U over the command, at its worst; NaN where a level has none.
+double worstUncertainty_pct(const Json& levels) {
+    double worst = 0;
+    for (const auto& level : levels) {
+        const Json u = level.value("expanded_uncertainty", Json()), at = level.value("commanded", Json());
+        if (!u.is_number() || !at.is_number()) return std::nan("");
+        worst = std::max(worst, 100 * u.get<double>() / std::abs(at.get<double>()));
+    }
+    return worst;
+}
+
+Result<Json> keep(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.calibration", list);
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    const Json& amplitude = **found;
+    auto options = arguments.options(1, {"valid_days", "scope_due"});
+    if (!options) return failure(options);
+    auto days = arguments.number(*options, "valid_days", 365, {1, 3660, true});
+    if (!days) return failure(days);
+    auto due = dueDate(arguments, *options);
+    if (!due) return failure(due);
+    auto stimulator = connected(session, "record.calibration");
+    if (!stimulator) return failure(stimulator);
+    if (amplitude.value("quantity", "") != "amplitude" || amplitude.value("complete", Json()) != Json(true)) {
+        return arguments.wrong("found", amplitude, "a complete calibration of amplitude, from analysis.calibration(),");
+    }
+    StoredCalibration made;
+    made.serial = (*stimulator)->identity().serial;
+    made.device = (*stimulator)->identity().name;
+    made.unit = amplitude.value("unit", "");
+    if (made.unit != unitOf(**stimulator)) return arguments.wrong("unit", made.unit, unitOf(**stimulator));
+    made.gain = amplitude.value("gain", std::nan(""));
+    made.offset = amplitude.value("offset", std::nan(""));
+    const Json& levels = amplitude.at("levels");
+    made.uncertainty_pct = worstUncertainty_pct(levels);
+    made.lowest = levels.front().value("commanded", std::nan(""));
+    made.highest = levels.back().value("commanded", std::nan(""));
+    made.made = today();
+    made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(static_cast<int>(*days));
+    for (const auto& device : session.bench().devices().identities()) {
+        made.simulated = made.simulated || device.simulated;
+        if (device.role == Role::Oscilloscope) made.instruments.push_back({device.name, device.serial, *due});
+    }
+    auto store = CalibrationStore::open(calibrationFile());
+    if (!store) return failure(store);
+    const auto* before = store->latest(made.serial, made.unit);
+    const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
+    if (auto added = store->add(made); !added) return failure(added);
+    return Json{{"serial", made.serial}, {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes}};
+}
+
+}  // namespace
+
+std::vector<HostFunction> calibrationStoreFunctions() {
+    return {
+        {"bench",
+         "calibration",
+         HostKind::Property,
+         {},
+         "The stored calibration that holds today for the stimulator that is connected.",
+         "{ calibrated, text }, and where calibrated: { unit, gain, offset, uncertainty_pct, lowest, highest, made, "
+         "valid_until }.",
+         "Throws without a stimulator, or when the store is damaged.",
+         calibration},
+        {"record",
+         "calibration",
+         HostKind::Function,
+         {{"found", "object", "", "a complete calibration of amplitude, from analysis.calibration()"},
+          {"options.valid_days", "number", "d", "how long it holds, 1 to 3660; 365 where left out", true},
+          {"options.scope_due", "text", "", "day on which the oscilloscope's own calibration is due", true}},
+         "Keeps a calibration for the stimulator's serial. An older one stays in the store and is superseded.",
+         "{ serial, valid_until, supersedes }: the date of the one before, or null.",
+         "Throws for an incomplete calibration, a stimulator without a serial, an overdue oscilloscope, or a store "
+         "that "
+         "cannot be written.",
+         keep},
+    };
+}
+
+}  // namespace tacto
