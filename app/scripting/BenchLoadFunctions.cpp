@@ -136,7 +136,8 @@ Result<Json> predict(ScriptSession& session, const Json& list) {
     out["rms_5s_ma"] = numberOrNull(most.at(Quantity::RmsCurrent5s));
     out["peak_ma"] = numberOrNull(most.at(Quantity::PeakCurrent));
     // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
-    out["value_range_ma"] = numberOrNull(2e3 * command->amplitude.value() / ohms.value());
+    constexpr double kOverTheEnd = 5e3;  // mA per A
+    out["fine_range_ma"] = numberOrNull(kOverTheEnd * command->amplitude.value() / ohms.value());
     out["capture"] = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
     return out;
 }
@@ -204,10 +205,11 @@ std::vector<HostFunction> benchLoadFunctions() {
           {"strength", "number", "", "0 the weakest amplitude to 1 the strongest, at the shortest interval"}},
          "What a command would be and do on a load, by computation; nothing is delivered.",
          "{ load, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is told), "
-         "forbidden, predicted, rms_5s_ma, peak_ma, value_range_ma, not_applicable, capture }: forbidden when a limit "
+         "forbidden, predicted, rms_5s_ma, peak_ma, fine_range_ma, not_applicable, capture }: forbidden when a limit "
          "is broken at "
          "worst within 20 % of the load, predicted says by what; not_applicable says why the device cannot drive it; "
-         "capture holds options for bench.capture(), value_range_ma the current range for measure.value().",
+         "capture holds options for bench.capture(), fine_range_ma the current range of the fine captures of "
+         "measure.load().",
          "Throws without a stimulator.",
          predict},
         {"bench",

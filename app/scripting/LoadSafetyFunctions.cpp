@@ -5,7 +5,6 @@
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/analysis/LoadSafetyJson.h"
-#include "core/analysis/ResultJson.h"
 
 namespace tacto {
 
@@ -13,40 +12,38 @@ namespace {
 
 using Json = nlohmann::json;
 
+Result<std::vector<Capture>> capturesOf(ScriptSession& session, const Json& handles) {
+    auto held = session.held(handles);
+    if (!held) return failure(held);
+    std::vector<Capture> captures;
+    for (const auto* capture : *held) captures.push_back(*capture);
+    return captures;
+}
+
 Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.load", list);
     auto handles = arguments.list(0, "captures");
     if (!handles) return failure(handles);
-    auto held = session.held(**handles);
-    if (!held) return failure(held);
-    const auto& encoding = session.bench().profile().encoding;
-    std::vector<Capture> captures;
-    Json ids = Json::array();
-    for (std::size_t i = 0; i < held->size(); ++i) {
-        captures.push_back(*(*held)[i]);
-        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
+    auto captures = capturesOf(session, **handles);
+    if (!captures) return failure(captures);
+    std::vector<Capture> fine;
+    if (!arguments.at(1).is_null()) {
+        auto more = arguments.list(1, "fine");
+        if (!more) return failure(more);
+        auto taken = capturesOf(session, **more);
+        if (!taken) return failure(taken);
+        fine = std::move(*taken);
     }
-    auto reading = readLoad(captures, ExpectedTrain{encoding.train.pulses, encoding.train.rate.value()});
+    Json ids = Json::array();
+    for (const auto& handle : **handles) ids.push_back(handle.is_object() ? handle["capture"] : handle);
+    const auto& train = session.bench().profile().encoding.train;
+    auto reading = readLoad(*captures, ExpectedTrain{train.pulses, train.rate.value()}, fine);
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
     out["captures"] = ids;
     const double commanded = session.bench().telemetry().trainAmplitude;
     out["commanded"] = std::isfinite(commanded) ? Json(commanded) : Json();
     return out;
-}
-
-Result<Json> measureValue(ScriptSession& session, const Json& list) {
-    const Arguments arguments("measure.value", list);
-    auto handles = arguments.list(0, "captures");
-    if (!handles) return failure(handles);
-    auto held = session.held(**handles);
-    if (!held) return failure(held);
-    std::vector<Capture> captures;
-    for (const auto* capture : *held) captures.push_back(*capture);
-    const auto& train = session.bench().profile().encoding.train;
-    auto value = readImpedance(captures, ExpectedTrain{train.pulses, train.rate.value()});
-    if (!value) return failure(value);
-    return Json{{"impedance_ohm", numberOrNull(value->value)}, {"impedance_ohm_u", numberOrNull(value->u)}};
 }
 
 /// What the bench is and may deliver; loads and trips come from the script.
@@ -162,7 +159,9 @@ std::vector<HostFunction> loadSafetyFunctions() {
         {"measure",
          "load",
          HostKind::Function,
-         {{"captures", "list", "", "from bench.capture(), one per train, all with one command"}},
+         {{"captures", "list", "", "from bench.capture(), one per train, all with one command"},
+          {"fine", "list", "", "more of them in a current range that fits the end of a phase: a spike may clip there",
+           true}},
          "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
          "{ amplitude_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, charge_uc, net_charge_uc, "
          "imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, rms_5s_v, dc_ma, power_1s_w, each with its "
@@ -171,14 +170,6 @@ std::vector<HostFunction> loadSafetyFunctions() {
          "commanded is the last train's amplitude as the device was told.",
          "Throws for captures that are held no longer, or without a voltage channel.",
          measureLoad},
-        {"measure",
-         "value",
-         HostKind::Function,
-         {{"captures", "list", "", "from bench.capture(), one per train; the current may be clipped early in a pulse"}},
-         "The load's |Z|: voltage over current at the end of the leading phase.",
-         "{ impedance_ohm, impedance_ohm_u }, null when it was not measured or the current is below 10 LSB.",
-         "Throws for captures that are held no longer, or without a voltage channel.",
-         measureValue},
         {"analysis",
          "loadSafety",
          HostKind::Function,

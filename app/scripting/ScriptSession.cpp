@@ -139,6 +139,7 @@ nlohmann::json ScriptSession::takePartial() {
     if (!partial_.is_object()) return {};
     auto out = std::exchange(partial_, {});
     out["partial"] = true;
+    out["verdict"] = nullptr;  // nothing that ended early passes, whatever it had come to (hazard H9)
     if (request_.session == nullptr) return out;
     for (const auto& table : partialTables_) {
         nlohmann::json item = table;

@@ -65,7 +65,16 @@ std::string commandFor(std::string_view becomes, const std::string& load) {
 /// Lets trains run until two have been delivered, so that a trip ends something.
 Result<void> startTrains(ScriptSession& session, const std::string& load) {
     Bench& bench = session.bench();
-    if (auto armed = bench.arm(armRequest(load)); !armed) return armed;
+    ArmRequest request = armRequest(load);
+    if (!canTell(bench)) {  // nobody but the operator knows what is connected
+        OperatorQuestion question;
+        question.name = "confirm-load";
+        question.text = fmt::format("{} is connected", load);
+        auto answer = session.ask(question);
+        if (!answer) return failure(answer);
+        request.declaredLoadConfirmed = *answer == Json(true);
+    }
+    if (auto armed = bench.arm(request); !armed) return armed;
     const auto before = bench.telemetry().trainsDelivered;
     if (auto driven = bench.drive(DriveSource::Manual, 0, 1); !driven) return driven;
     const double longest_s = 4 * bench.profile().encoding.intervalMax.count();

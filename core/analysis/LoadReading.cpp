@@ -239,6 +239,83 @@ void addCurrent(LoadReading& out, const Trains& trains, const ExpectedTrain& exp
     out.power_1s_w = times(trainsIn(1, out.interval_s) * pulses * 1e-3, out.energy_mj);
 }
 
+/// A wide and a fine record of the same command, each known by the onset of its first pulse.
+struct TwoRanges {
+    LoadTrace wide, fine, voltage;  ///< voltage: of the fine record
+    double wideOnset_s = 0, fineOnset_s = 0;
+    ChannelMeasurement pulses;  ///< of the fine record
+};
+
+std::optional<TwoRanges> twoRanges(const Capture& wide, const Capture& fine, const ExpectedTrain& expected,
+                                   std::vector<std::string>& warnings) {
+    const auto wideOnset = pulsesOf(wide, expected, warnings);
+    auto pulses = pulsesOf(fine, expected, warnings);
+    if (!wideOnset || !pulses) return std::nullopt;
+    const double wide_s = wideOnset->trains.front().onset_s, fine_s = pulses->trains.front().onset_s;
+    const auto a = traceOf(wide, "current", wide_s), b = traceOf(fine, "current", fine_s);
+    const auto v = traceOf(fine, "voltage", fine_s);
+    if (!a || a->clipped || !b || !v || v->clipped) return std::nullopt;
+    return TwoRanges{*a, *b, *v, wide_s, fine_s, std::move(*pulses)};
+}
+
+/// ∫i of the fine record, and of the wide one while the fine one clips; with how long that was, and how often.
+struct Joined {
+    double integral = 0, wide_s = 0;
+    std::size_t seams = 0;
+};
+Joined joined(const TwoRanges& two) {
+    constexpr std::size_t kAside = 3;  // samples beside a clipped one: its amplifier is still coming back
+    Joined out;
+    const auto& fine = two.fine;
+    for (std::size_t i = fine.quiet; i < fine.size();) {
+        std::size_t end = i;
+        while (end < fine.size() && !fine.clippedNear(end, kAside)) out.integral += fine.at(end++) * fine.dt;
+        i = end;
+        while (end < fine.size() && fine.clippedNear(end, kAside)) ++end;
+        if (end == i) break;
+        const double shift = two.wideOnset_s - two.fineOnset_s;
+        const double from = fine.start_s + static_cast<double>(i) * fine.dt + shift;
+        const double to = fine.start_s + static_cast<double>(end) * fine.dt + shift;
+        out.integral += integralOf(two.wide, from, to);
+        out.wide_s += to - from;
+        out.seams += 2;
+        i = end;
+    }
+    return out;
+}
+
+void addFine(LoadReading& out, std::span<const Capture> captures, std::span<const Capture> fine,
+             const ExpectedTrain& expected) {
+    out.impedance_ohm = out.net_charge_uc = out.imbalance = {};
+    Trains ends;
+    double net = 0, u_net = 0;
+    for (std::size_t k = 0; k < fine.size(); ++k) {
+        const auto two = twoRanges(captures[k % captures.size()], fine[k], expected, out.warnings);
+        if (!two) return;
+        TrainFigures figures;
+        readEnds(two->voltage, &two->fine, two->pulses, figures);
+        figures.noise_v = two->voltage.noise;
+        figures.noise_a = two->fine.noise;
+        if (!(figures.end_a < 0.98 * two->fine.channel->high)) return;  // the range does not fit the end either
+        ends.push_back(figures);
+        const auto charge = joined(*two);
+        net = std::max(net, std::abs(charge.integral) / expected.pulses);
+        // A moving level takes every step of the converter alike; what stays is that of the baseline under it.
+        const double w = out.width_s.value;
+        u_net = std::max(u_net, together({two->wide.channel->lsb / kSqrt12 * charge.wide_s / expected.pulses,
+                                          ChannelDoubt(two->fine.channel).level * w * kSqrt3,
+                                          two->fine.channel->high * two->fine.dt / kSqrt12 *
+                                              std::sqrt(static_cast<double>(charge.seams)),
+                                          two->wide.noise * std::sqrt(charge.wide_s * two->wide.dt)}));
+    }
+    const auto* current = channelOf(fine.front(), "current");
+    out.impedance_ohm =
+        impedanceOf(ends, ChannelDoubt(channelOf(fine.front(), "voltage")), ChannelDoubt(current), current->lsb);
+    const double phase = 1e-6 * out.charge_uc.value;
+    out.net_charge_uc = times(1e6, {net, together({ChannelDoubt(current).gain * net, u_net})});
+    out.imbalance = {net / phase, u_net / phase};
+}
+
 Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& expected) {
     if (captures.empty()) return fail(ErrorCode::InvalidArgument, "no capture to read a load from; one per train");
     if (expected.pulses < 1 || !(expected.rate_hz > 0)) {
@@ -255,8 +332,9 @@ Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& exp
 
 bool Reading::measured() const noexcept { return std::isfinite(value) && std::isfinite(u); }
 
-Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected) {
-    if (const auto fine = checked(captures, expected); !fine) return failure(fine);
+Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected,
+                             std::span<const Capture> fine) {
+    if (const auto sane = checked(captures, expected); !sane) return failure(sane);
     LoadReading out;
     Trains trains;
     for (const auto& capture : captures) {
@@ -287,30 +365,8 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
         return out;
     }
     addCurrent(out, trains, expected, v, i, dt, static_cast<double>(captures.front().samples()) * dt);
+    if (!fine.empty()) addFine(out, captures, fine, expected);
     return out;
-}
-
-Result<Reading> readImpedance(std::span<const Capture> captures, const ExpectedTrain& expected) {
-    if (const auto fine = checked(captures, expected); !fine) return failure(fine);
-    Trains trains;
-    std::vector<std::string> warnings;
-    for (const auto& capture : captures) {
-        const auto pulses = pulsesOf(capture, expected, warnings);
-        if (!pulses) return Reading{};
-        TrainFigures figures;
-        const double onset_s = pulses->trains.front().onset_s;
-        const auto voltage = traceOf(capture, "voltage", onset_s), current = traceOf(capture, "current", onset_s);
-        if (!voltage || voltage->clipped || !current) return Reading{};
-        readEnds(*voltage, &*current, *pulses, figures);
-        figures.noise_v = voltage->noise;
-        figures.noise_a = current->noise;
-        // A level at the end of the range is no reading, whatever came before it.
-        if (!(figures.end_a < 0.98 * current->channel->high)) return Reading{};
-        trains.push_back(figures);
-    }
-    const auto* current = channelOf(captures.front(), "current");
-    return impedanceOf(trains, ChannelDoubt(channelOf(captures.front(), "voltage")), ChannelDoubt(current),
-                       current->lsb);
 }
 
 }  // namespace tacto

@@ -65,12 +65,11 @@ struct ExpectedTrain {
 
 /// One capture per train, in time order, all with one command, on one time base. Channels "voltage" (V) and "current"
 /// (A). A single capture leaves the interval and all windows longer than a train unmeasured.
-/// Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound without a voltage
-/// channel.
-[[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected);
-
-/// impedance_ohm alone, from captures whose range fits the end of the phase: the current may be clipped before it, as
-/// a skin equivalent's charging spike then is. Not measured below 10 LSB. Errors: as readLoad().
-[[nodiscard]] Result<Reading> readImpedance(std::span<const Capture> captures, const ExpectedTrain& expected);
+/// `fine`: further trains of the same command in a current range that fits the end of a phase, where a skin
+/// equivalent's charging spike clips. |Z|, net charge and imbalance are then read there, and in `captures` only while
+/// `fine` clips. Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound
+/// without a voltage channel.
+[[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected,
+                                           std::span<const Capture> fine = {});
 
 }  // namespace tacto

@@ -23,7 +23,7 @@ LoadLine lineOf(const LoadRecord& record, const LoadSafetyInput& input, const st
     line.refused = static_cast<std::size_t>(
         std::count_if(record.refusals.begin(), record.refusals.end(), [](const auto& asked) { return asked.refused; }));
     if (!record.steps.empty()) {
-        line.measured_ohm = record.value_ohm.measured() ? record.value_ohm : record.steps.front().reading.impedance_ohm;
+        line.measured_ohm = record.steps.front().reading.impedance_ohm;
         line.strongest = strongestOf(record);
         line.powerDensity_w_cm2 = readingOf(line.strongest, Quantity::PowerDensity, input.area_cm2).value;
         line.currentDensity_ma_cm2 = readingOf(line.strongest, Quantity::CurrentDensity, input.area_cm2).value;

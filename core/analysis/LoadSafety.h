@@ -73,7 +73,6 @@ struct LoadRecord {
     std::string name;  ///< as parseLoad() reads it
     Load load;
     Reading dmm_ohm;     ///< entered by the operator with its standard uncertainty; else not measured
-    Reading value_ohm;   ///< |Z| from captures made for it; else not measured, and the first step's is taken
     std::string serial;  ///< of the resistor; may be empty
     std::vector<LoadStep> steps;
     std::vector<RefusedStep> refusals;

@@ -217,11 +217,6 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
     const auto dmmU = numberAt(from, "dmm_u_ohm");
     if (!dmmU) return failure(dmmU);
     out.dmm_ohm = {*dmm, *dmmU};
-    const auto value = numberAt(from, "value_ohm");
-    if (!value) return failure(value);
-    const auto valueU = numberAt(from, "value_u_ohm");
-    if (!valueU) return failure(valueU);
-    out.value_ohm = {*value, *valueU};
     const auto steps = listAt(from, "steps");
     if (!steps) return failure(steps);
     for (const auto& item : *steps) {

@@ -90,8 +90,7 @@ void addUpper(std::vector<SafetyRow>& rows, const LoadRecord& record, SafetyRow 
 void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
     Reading error;
     if (!record.steps.empty()) {
-        const Reading& got =
-            record.value_ohm.measured() ? record.value_ohm : record.steps.front().reading.impedance_ohm;
+        const Reading& got = record.steps.front().reading.impedance_ohm;
         const double truth = record.dmm_ohm.measured() ? record.dmm_ohm.value : expectedOhms(record, input);
         const double known = record.dmm_ohm.measured() ? record.dmm_ohm.u : 0;
         error = {100 * std::abs(got.value - truth) / truth, 100 * std::hypot(got.u, known) / truth};

@@ -12,6 +12,16 @@ std::size_t LoadTrace::indexAt(double t_s) const noexcept {
     return std::min(static_cast<std::size_t>(position), size());
 }
 
+bool LoadTrace::clippedNear(std::size_t i, std::size_t aside) const noexcept {
+    const auto low = static_cast<float>(channel->low), high = static_cast<float>(channel->high);
+    if (!(low < high)) return false;
+    const std::size_t from = i > aside ? i - aside : 0, to = std::min(size(), i + aside + 1);
+    for (std::size_t k = from; k < to; ++k) {
+        if (!(channel->samples[k] > low) || !(channel->samples[k] < high)) return true;
+    }
+    return false;
+}
+
 const CaptureChannel* channelOf(const Capture& capture, std::string_view name) noexcept {
     for (const auto& channel : capture.channels) {
         if (channel.name == name) return &channel;

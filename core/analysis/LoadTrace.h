@@ -23,6 +23,8 @@ struct LoadTrace {
 
     [[nodiscard]] double at(std::size_t i) const { return static_cast<double>(channel->samples[i]) - baseline; }
     [[nodiscard]] std::size_t size() const { return channel->samples.size(); }
+    /// Whether a sample within `aside` of `i` stands at the end of the range.
+    [[nodiscard]] bool clippedNear(std::size_t i, std::size_t aside) const noexcept;
     /// Index of the first sample at or after `t_s`, held within the record.
     [[nodiscard]] std::size_t indexAt(double t_s) const noexcept;
 };

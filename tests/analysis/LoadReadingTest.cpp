@@ -123,17 +123,23 @@ TEST(LoadReading, FewerPulsesThanCommandedAreNotMeasured) {
     EXPECT_NE(found.warnings.front().find("3 were commanded"), std::string::npos) << found.warnings.front();
 }
 
-TEST(LoadReading, AValueIsReadBehindAClippedSpike) {
-    auto captures = loadCaptures({});
-    for (auto& capture : captures) {
+TEST(LoadReading, BehindAClippedSpikeTheFineRangeIsRead) {
+    RecordProperty("hazard", "H5");
+    LoadTruth truth;
+    truth.second = 0.98;
+    const auto wide = loadCaptures(truth);
+    auto fine = wide;
+    for (auto& capture : fine) {
         auto& current = capture.channels[1];
         const auto onset = static_cast<std::size_t>(120e-6 * capture.rate_hz);
         for (std::size_t k = 0; k < 300; ++k) current.samples[onset + k] = static_cast<float>(current.high);
     }
-    EXPECT_FALSE(readLoad(captures, ExpectedTrain{}).value().impedance_ohm.measured());
-    const auto value = readImpedance(captures, ExpectedTrain{}).value();
-    ASSERT_TRUE(value.measured());
-    EXPECT_NEAR(value.value, 500, value.expanded());
+    EXPECT_FALSE(readLoad(fine, ExpectedTrain{}).value().impedance_ohm.measured());
+    const auto found = readLoad(wide, ExpectedTrain{}, fine).value();
+    ASSERT_TRUE(found.impedance_ohm.measured());
+    EXPECT_NEAR(found.impedance_ohm.value, 500, found.impedance_ohm.expanded());
+    EXPECT_NEAR(found.imbalance.value, 0.02, found.imbalance.expanded());
+    EXPECT_LE(found.imbalance.expanded(), 0.005);
 }
 
 TEST(LoadReading, RefusesNoCapturesAndANonsensicalTrain) {
