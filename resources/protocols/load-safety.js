@@ -8,14 +8,14 @@ protocol({
   purpose: "Does the stimulator keep every limit on known loads, and does it stop when it must?",
   needs: ["stimulator", "oscilloscope"],
   parameters: {
-    steps: { label: "Commands per load, weakest to strongest", type: "integer", min: 2, max: 11, value: 4 },
-    area: { label: "Area of the smallest electrode (0: the profile's)", unit: "cm2", min: 0, max: 1000, value: 0 },
-    dmm: { label: "Enter each load's multimeter reading", type: "boolean", value: false },
+    steps: { label: "Commands per load", type: "integer", min: 2, max: 11, value: 4 },
+    area: { label: "Smallest electrode (0: profile)", unit: "cm2", min: 0, max: 1000, value: 0 },
+    dmm: { label: "Enter multimeter readings", type: "boolean", value: false },
     load_tolerance: { label: "Tolerance of a load's value", unit: "%", min: 0.1, max: 15, value: 5 },
-    amplitude_tolerance: { label: "Amplitude allowed above the command", unit: "%", min: 0.1, max: 20, value: 2 },
+    amplitude_tolerance: { label: "Amplitude over the command", unit: "%", min: 0.1, max: 20, value: 2 },
     silence: { label: "Heartbeat withheld for", unit: "s", min: 0.5, max: 10, value: 1.5 },
     reference: {
-      label: "Reference load, measured first",
+      label: "Known load, measured first",
       type: "choice",
       choices: { "500 ohm": "500 ohm", "1 kohm": "1 kohm", "2 kohm": "2 kohm" },
       value: "1 kohm",
@@ -87,8 +87,8 @@ function condition(name, command) {
 }
 
 function keepStep(load, command, reading) {
-  const kept = Object.assign({ command_v: command.command_v, load: load.name }, reading);
-  record.trial(condition(load.name, command), kept);
+  const kept = Object.assign({ command_v: command.command_v }, load.reference ? {} : { load: load.name }, reading);
+  record.trial((load.reference ? "reference " : "") + condition(load.name, command), kept);
 }
 
 // What a load has come to, at once: a row of the session, and of the window.
@@ -206,6 +206,7 @@ function run(p) {
 
   // A reading of a known load comes first: instruments that cannot give it can judge nothing.
   reference = newRecord(p.reference);
+  reference.reference = true;
   enterDmm(reference, p);
   bench.fitLoad(reference.name);
   if (arms(reference)) {

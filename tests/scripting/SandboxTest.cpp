@@ -118,8 +118,10 @@ TEST(Sandbox, RefusesTopLevelNamesThatHideTheProgramsOwn) {
 TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
     RecordProperty("hazard", "H10");
     EXPECT_EQ(outcomeOf(R"js(function run() {
-        const own = ["arm", "capture", "conditions", "devices", "disarm", "drive", "exposure", "finished", "fitLoad",
-                     "lift", "live", "measureReference", "present", "replayed", "setReferences", "time", "wait"];
+        const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
+                     "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
+                     "predict", "present", "replayed", "setElectrodeArea", "setEncoding", "setReferences", "time",
+                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "wait"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }

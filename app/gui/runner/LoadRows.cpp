@@ -41,7 +41,7 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setAccessibleName(tr("Loads"));
     setToolTip(tr("Each load of the bench set: its value as measured, the strongest output so far, and its verdict."));
     setHorizontalHeaderLabels(
-        {tr("Load"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s"), tr("Verdict")});
+        {tr("Load"), tr("Verdict"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s")});
     verticalHeader()->hide();
     setEditTriggers(NoEditTriggers);
     setSelectionMode(NoSelection);
@@ -49,7 +49,7 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setTabKeyNavigation(false);
     setWordWrap(false);
     setHorizontalScrollMode(ScrollPerPixel);
-    horizontalHeader()->setStretchLastSection(true);
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() * 3 / 2);
     begin();
 }
 
@@ -113,7 +113,6 @@ void LoadRows::add(const nlohmann::json& trial) {
         write(row, kVerdict, tr("◔ being measured"));
     }
     resizeColumnsToContents();
-    horizontalHeader()->setStretchLastSection(true);
 }
 
 void LoadRows::end(const nlohmann::json& results) {
@@ -128,7 +127,6 @@ void LoadRows::end(const nlohmann::json& results) {
         if (item(row, kVerdict)->data(kVerdictRole).toString().isEmpty()) judge(row, "not evaluated");
     }
     resizeColumnsToContents();
-    horizontalHeader()->setStretchLastSection(true);
 }
 
 QString LoadRows::verdictOf(const QString& load) const {

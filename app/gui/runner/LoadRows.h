@@ -27,7 +27,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    enum Column { kLoad, kMeasured, kCommands, kPeak, kRms, kVerdict, kColumns };
+    enum Column { kLoad, kVerdict, kMeasured, kCommands, kPeak, kRms, kColumns };
     [[nodiscard]] int rowOf(const QString& load);
     void write(int row, Column column, const QString& text);
     void numbers(int row, const nlohmann::json& values, const char* measured);
