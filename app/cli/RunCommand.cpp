@@ -148,7 +148,9 @@ int exitFor(const RunResult& result) {
 void printSummary(const ScriptOutcome& outcome, const json& value) {
     if (outcome.results.is_object() && outcome.results.contains("confusion"))
         printSeparability(outcome.results);
-    else if (outcome.results.is_object() && outcome.results.contains("reference") && !outcome.results.contains("loads"))
+    else if (outcome.results.is_object() && outcome.results.contains("loads"))
+        printLoadSafety(outcome.results);
+    else if (outcome.results.is_object() && outcome.results.contains("reference"))
         printCalibration(outcome.results);
     else if (outcome.results.is_object())
         printResults(outcome.results);
