@@ -70,7 +70,7 @@ TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
 TEST(CaptureFormatsCommands, ConvertKeepsEveryValue) {
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
-    for (const auto* name : {"out.csv", "out.wav"}) {
+    for (const auto* name : {"out.csv", "out.wav", "out.sr"}) {
         const auto ran = desk.run({"convert", path, "--out", desk.at(name), "--json"});
         ASSERT_EQ(ran.code, 0) << ran.err;
         const auto json = jsonOf(ran);
