@@ -147,8 +147,9 @@ function burst(p) {
   bench.disarm();
   const name = "500 ohm, burst";
   keepBurst(name, captures);
-  return { condition: name, label: "500 ohm: trains of " + command.command_v.toFixed(0) + " V every " + command.interval_s + " s, " +
-    (rate / 1e3).toFixed(0) + " kS/s" };
+  return { condition: name, label: "500 ohm, " + command.command_v.toFixed(0) + " V",
+    settings: "burst of " + command.command_v.toFixed(0) + " V every " + command.interval_s + " s into 500 ohm, " +
+      (rate / 1e3).toFixed(0) + " kS/s" };
 }
 
 function keepBurst(name, captures) {
@@ -162,8 +163,11 @@ function tracingsOf(loads) {
     if (found === undefined) continue;
     const step = found.steps[found.steps.length - 1];
     const reading = step.reading;
-    const width = reading.width_s === null ? "width not measured" : (1e6 * reading.width_s).toFixed(1) + " us";
-    out.push({ condition: condition(name, step), label: name + ": " + step.command_v.toFixed(0) + " V commanded, " + width });
+    const width = reading.width_s === null ? "width not measured" : (1e6 * reading.width_s).toFixed(1) + " us per phase";
+    const command = bench.predict(name, 1);
+    out.push({ condition: condition(name, step), label: name + ", " + step.command_v.toFixed(0) + " V",
+      settings: "single pulse of " + step.command_v.toFixed(0) + " V into " + name + ", " + width + ", " +
+        (command.capture.rate_hz / 1e6).toFixed(1) + " MS/s" });
   }
   return out;
 }
@@ -236,8 +240,9 @@ function run(p) {
     const tracings = tracingsOf(loads);
     const long = burst(p);
     if (long !== null) tracings.push(long);
-    report.figure("Tracings", plot.tracings(tracings,
-      "Voltage (V) across and current (A) through the load, from the baseline before each pulse; the strongest command that the limits allow."));
+    // A figure each: a pulse and a burst have no time axis in common.
+    for (const tracing of tracings) report.figure("Tracing: " + tracing.settings, plot.tracings([tracing],
+      "From the baseline before the train; the strongest command that the limits allow."));
   }
   for (const table of tables(found)) report.table(table.caption, table.rows, table.columns);
   if (found.reasons.length > 0) report.text(found.reasons.slice(0, 12).join(". ") + ".");
