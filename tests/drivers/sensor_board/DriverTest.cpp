@@ -79,6 +79,7 @@ TEST_F(SensorBoardDriverTest, OpensTheFirstThatAnswersOrTheOneNamed) {
     ASSERT_TRUE(open("sensor:TSB-2").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
     EXPECT_EQ(devices_.sensor->identity().uri, "sensor:TSB-2");
+    EXPECT_FALSE(devices_.sensor->identity().simulated);
 }
 
 TEST_F(SensorBoardDriverTest, PassesOverABoardThatMayNotBeOpened) {

@@ -22,7 +22,7 @@ TEST(SensorBoard, SaysWhatItIs) {
     EXPECT_EQ(identity.name, "emulated sensor board");
     EXPECT_EQ(identity.serial, "EMU-0001");
     EXPECT_EQ(identity.firmware, TACTOSCOPE_VERSION);
-    EXPECT_FALSE(identity.simulated) << "it is the wire that tells, and that is real";
+    EXPECT_TRUE(identity.simulated) << "a serial number that begins with EMU- is an emulated board's";
     const auto streams = bench.board->streams();
     ASSERT_EQ(streams.size(), 3U);
     EXPECT_EQ(streams[0].kind, StreamKind::Acceleration);
