@@ -205,7 +205,7 @@ TEST_P(CalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
     EXPECT_GE(outcome.results["amplitude"]["readings"].size(), 4U);
-    EXPECT_FALSE(outcome.results.contains("verdict"));
+    EXPECT_TRUE(outcome.results["verdict"].is_null());
 }
 
 INSTANTIATE_TEST_SUITE_P(AtEachStep, CalibrationFault,
