@@ -32,12 +32,20 @@ Result<std::shared_ptr<SigrokLibrary>> SigrokLibrary::get() {
     return library;
 }
 
-Result<std::unique_lock<std::timed_mutex>> SigrokLibrary::calls() {
-    std::unique_lock lock(calls_, std::chrono::seconds(5));
-    if (!lock.owns_lock()) {
+Result<SigrokLibrary::Turn> SigrokLibrary::calls() {
+    std::unique_lock lock(mutex_);
+    if (!freed_.wait_for(lock, std::chrono::seconds(5), [&] { return !taken_; })) {
         return fail(ErrorCode::Timeout, "libsigrok has been busy with another instrument for 5 s; try again");
     }
-    return lock;
+    taken_ = true;
+    return Turn(*this);
+}
+
+SigrokLibrary::Turn::~Turn() {
+    if (library_ == nullptr) return;
+    const std::scoped_lock lock(library_->mutex_);
+    library_->taken_ = false;
+    library_->freed_.notify_one();
 }
 
 Error currentError(std::string_view what, unsigned before) noexcept {

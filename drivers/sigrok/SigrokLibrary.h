@@ -10,12 +10,14 @@
 // meanwhile. Sessions of different devices run at the same time, each on a thread of its own.
 #pragma once
 
+#include <condition_variable>
 #include <exception>
 #include <libsigrokcxx/libsigrokcxx.hpp>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/base/Result.h"
 
@@ -34,13 +36,27 @@ public:
     [[nodiscard]] static Result<std::shared_ptr<SigrokLibrary>> get();
 
     [[nodiscard]] const std::shared_ptr<sigrok::Context>& context() const noexcept { return context_; }
-    /// Errors: Timeout when another call has not come back for 5 s.
-    [[nodiscard]] Result<std::unique_lock<std::timed_mutex>> calls();
+    /// Held by one at a time; ends with it.
+    class Turn {
+    public:
+        explicit Turn(SigrokLibrary& library) noexcept : library_(&library) {}
+        ~Turn();
+        Turn(Turn&& other) noexcept : library_(std::exchange(other.library_, nullptr)) {}
+        Turn& operator=(Turn&&) = delete;
+
+    private:
+        SigrokLibrary* library_;
+    };
+    /// Errors: Timeout when another's turn has not ended for 5 s.
+    [[nodiscard]] Result<Turn> calls();
 
 private:
     explicit SigrokLibrary(std::shared_ptr<sigrok::Context> context) : context_(std::move(context)) {}
 
-    std::timed_mutex calls_;
+    // No timed mutex: the thread sanitizer does not know how the standard library locks one.
+    std::mutex mutex_;
+    std::condition_variable freed_;
+    bool taken_ = false;  // guarded by mutex_
     const std::shared_ptr<sigrok::Context> context_;
 };
 

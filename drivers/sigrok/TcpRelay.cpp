@@ -1,5 +1,6 @@
 #include "drivers/sigrok/TcpRelay.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -16,6 +17,7 @@ namespace tacto::sigrok_driver {
 namespace {
 
 using SteadyTime = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kBetweenQuestions(50);
 
 void setOption(int socket, int level, int option, int value) {
     ::setsockopt(socket, level, option, &value, sizeof value);
@@ -156,12 +158,27 @@ bool TcpRelay::reconnect() {
     return true;
 }
 
+bool TcpRelay::pace(std::string_view request) noexcept {
+    if (!request.starts_with(":TRIG:STAT?")) return true;
+    const auto due = asked_ + kBetweenQuestions;
+    while (SteadyTime::now() < due && !cut_) {
+        pollfd woken{wake_, POLLIN, 0};
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(due - SteadyTime::now());
+        ::poll(&woken, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    }
+    asked_ = SteadyTime::now();
+    return !cut_;
+}
+
 bool TcpRelay::pass(int from, int to) noexcept {
     std::array<char, 65536> buffer{};
     const auto read = ::recv(from, buffer.data(), buffer.size(), 0);
     if (read < 0) return errno == EAGAIN || errno == EINTR;
     if (read == 0) return false;
-    if (from == downstream_) setOption(from, IPPROTO_TCP, TCP_QUICKACK, 1);
+    if (from == downstream_) {
+        setOption(from, IPPROTO_TCP, TCP_QUICKACK, 1);
+        if (!pace({buffer.data(), static_cast<std::size_t>(read)})) return false;
+    }
     for (decltype(read + 0) sent = 0; sent < read;) {
         const auto part = ::send(to, buffer.data() + sent, static_cast<std::size_t>(read - sent), MSG_NOSIGNAL);
         if (part >= 0) {
