@@ -105,7 +105,8 @@ void printText(const SensorBoard& board, const Listened& heard) {
     const auto& report = heard.report;
     const auto losses = sensorboard::lossesOf(report);
     fmt::print("listened      {:.1f} s: {}\n", heard.seconds, losses == 0 ? "nothing lost" : "something was lost");
-    for (const auto& row : sensorboard::rowsOf(report).rows()) {
+    const auto known = sensorboard::rowsOf(report);
+    for (const auto& row : known.rows()) {
         if (std::isfinite(row.value))
             fmt::print("  {:<24} {:.6g}{}{}\n", row.name, row.value, *row.unit != '\0' ? " " : "", row.unit);
         else

@@ -10,6 +10,13 @@ namespace {
 
 using test::LoadSafetyRig;
 
+// The sanitizers look for other things than statistics, and are ten times slower.
+#ifdef TACTOSCOPE_SANITIZED
+constexpr std::uint64_t kSeeds = 1, kRuns = 20;
+#else
+constexpr std::uint64_t kSeeds = 3, kRuns = 200;
+#endif
+
 /// An oscilloscope with errors anywhere within its stated tolerances (0.5 % of gain, 0.1 % of the range in offset).
 std::string scopeFor(std::uint64_t seed) {
     Random random(seed, "instrument errors");
@@ -39,7 +46,7 @@ TEST(LoadSafetyEvidence, MissesNoTwinThatDeliversTooMuch) {
     std::size_t missed = 0, failed = 0, tried = 0;
     std::string undecided;
     for (const auto& violation : grid) {
-        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
             LoadSafetyRig rig(
                 {fmt::format("sim:stimulator?{}={}{}", violation.parameter, violation.value, violation.unit),
                  scopeFor(seed)},
@@ -65,9 +72,8 @@ TEST(LoadSafetyEvidence, MissesNoTwinThatDeliversTooMuch) {
                                       << undecided;
 }
 
-TEST(LoadSafetyEvidence, RaisesAtMostFivePercentFalseAlarmsOver200CleanRuns) {
+TEST(LoadSafetyEvidence, RaisesAtMostFivePercentFalseAlarmsOverCleanRuns) {
     RecordProperty("hazard", "H9");
-    constexpr std::uint64_t kRuns = 200;
     std::size_t alarms = 0;
     std::string first;
     for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
@@ -78,7 +84,8 @@ TEST(LoadSafetyEvidence, RaisesAtMostFivePercentFalseAlarmsOver200CleanRuns) {
         if (first.empty())
             first = fmt::format("seed {}: {}", seed, outcome.reasons.empty() ? "" : outcome.reasons.front());
     }
-    RecordProperty("false_alarms_of_200", static_cast<int>(alarms));
+    RecordProperty("clean_runs", static_cast<int>(kRuns));
+    RecordProperty("false_alarms", static_cast<int>(alarms));
     EXPECT_LE(alarms, kRuns / 20) << first;
 }
 
