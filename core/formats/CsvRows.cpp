@@ -5,7 +5,7 @@
 #include <fast_float/fast_float.h>
 #include <limits>
 
-#include "core/formats/NumberText.h"
+#include "core/formats/FieldNumber.h"
 
 namespace tacto {
 
@@ -25,6 +25,21 @@ const char* takeAnyNumber(const char* text, const char* end, char point, double&
     return error == std::errc() ? behind : nullptr;
 }
 
+/// A field that takeNumber() reads to its end: one with an exponent, or a plus.
+[[gnu::noinline]] bool takeLongField(const char* begin, const char* end, char point, double& into) {
+    double value = 0;
+    if (takeNumber(begin, point, value) != end) return false;
+    into = value;
+    return true;
+}
+
+[[gnu::always_inline]] inline bool takeField(const char* begin, const char* end, char point, double& into) {
+    double value = 0;
+    if (!fieldNumber(begin, end, point, value)) return takeLongField(begin, end, point, into);
+    into = value;
+    return true;
+}
+
 }  // namespace
 
 CsvRows::CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks& blocks)
@@ -38,13 +53,23 @@ CsvRows::CsvRows(const CsvLayout& layout, char separator, char point, TextBlocks
       skip_(layout.dataOffset) {
     if (layout.times != RowTimes::Counted) {
         batch_.times.resize(RowBatch::kRows);
-        uses_[layout.timeColumn].kind = Use::Kind::Time;
+        uses_[layout.timeColumn].ignored = false;
     }
     batch_.channels.assign(layout.channels.size(), std::vector<float>(RowBatch::kRows));
     batch_.lines.resize(RowBatch::kRows);
     for (std::size_t c = 0; c < layout.channels.size(); ++c) {
         const auto& channel = layout.channels[c];
-        uses_[channel.number - 1] = {Use::Kind::Channel, batch_.channels[c].data(), channel.factor};
+        auto& use = uses_[channel.number - 1];
+        use.ignored = false;
+        use.channel = c;
+        use.factor = channel.factor;
+        constexpr double kOrdinary = 1e15;
+        ordinaryFactors_ = ordinaryFactors_ && std::abs(channel.factor) < kOrdinary;
+    }
+    for (auto& use : uses_) {
+        use.values.resize(RowBatch::kRows);
+        into_.push_back(use.values.data());
+        anyIgnored_ = anyIgnored_ || use.ignored;
     }
 }
 
@@ -54,6 +79,7 @@ double CsvRows::bytesPerRow() const noexcept {
 
 Result<const RowBatch*> CsvRows::next(const ReadWatch& watch) {
     batch_.rows = 0;
+    batch_.complete = ordinaryFactors_;
     while (batch_.rows < RowBatch::kRows) {
         if (text_.empty()) {
             const auto block = blocks_.next();
@@ -67,6 +93,7 @@ Result<const RowBatch*> CsvRows::next(const ReadWatch& watch) {
         if (auto taken = takeRows(); !taken) return failure(taken);
     }
     rows_ += batch_.rows;
+    deliver();
     return &batch_;
 }
 
@@ -77,6 +104,7 @@ Result<void> CsvRows::takeRows() {
         text = takeShortRows(text, end);
         const std::size_t row = batch_.rows;
         if (text == end || row == RowBatch::kRows) break;
+        batch_.complete = false;
         if (const char* const next = takePlainRow(text, end, row)) {
             batch_.lines[row] = line_++;
             ++batch_.rows;
@@ -100,43 +128,37 @@ Result<void> CsvRows::takeRows() {
 }
 
 const char* CsvRows::takeShortRows(const char* text, const char* end) {
-    const std::uint64_t points = eightTimes(point_);
-    const std::size_t width = uses_.size();
-    const Use* const uses = uses_.data();
+    if (anyIgnored_) return text;
+    const char separator = separator_;
+    const char point = point_;
+    const std::size_t others = uses_.size() - 1;  // columns before the last
+    double* const* const into = into_.data();
     for (;;) {
         ends_.look(text, end);
         const char* const base = text;
         std::size_t next = 0;  // end of the field at hand
-        while (next + width <= ends_.count() && batch_.rows < RowBatch::kRows) {
-            const std::size_t row = batch_.rows;
+        std::size_t row = batch_.rows;
+        bool whole = true;
+        while (next + others < ends_.count() && row < RowBatch::kRows) {
             const char* begin = text;
-            for (std::size_t c = 0; c < width; ++c) {
-                const char* fieldEnd = base + ends_[next + c];
-                const bool last = c + 1 == width;
-                // A row that ends before its last field, or a field too much; an end of line may be two characters.
-                if (last ? *fieldEnd != '\n' : *fieldEnd == '\n') return text;
-                const char* const following = fieldEnd + 1;
-                if (last) fieldEnd -= static_cast<int>(fieldEnd[-1] == '\r' && fieldEnd > begin);
-                const Use& use = uses[c];
-                if (use.kind == Use::Kind::Ignored) return text;
-                double value = 0;
-                if (!fieldNumber(begin, fieldEnd, points, value)) {
-                    // The same row may yet be numbers with exponents.
-                    if (takeNumber(begin, point_, value) != fieldEnd) return text;
-                }
-                if (use.kind == Use::Kind::Time) {
-                    batch_.times[row] = value;
-                } else {
-                    use.into[row] = static_cast<float>(value * use.factor);
-                }
-                begin = following;
+            for (std::size_t c = 0; c < others && whole; ++c) {
+                const char* const fieldEnd = base + ends_[next + c];
+                whole = *fieldEnd == separator && takeField(begin, fieldEnd, point, into[c][row]);
+                begin = fieldEnd + 1;
             }
-            batch_.lines[row] = line_++;
-            ++batch_.rows;
-            next += width;
-            text = begin;
+            // The last one ends with the line, for which two characters may stand.
+            const char* const lineEnd = base + ends_[next + others];
+            const char* const fieldEnd = lineEnd - static_cast<int>(lineEnd > begin && lineEnd[-1] == '\r');
+            if (!whole || *lineEnd != '\n' || !takeField(begin, fieldEnd, point, into[others][row])) {
+                whole = false;
+                break;
+            }
+            batch_.lines[row++] = line_++;
+            next += others + 1;
+            text = lineEnd + 1;
         }
-        if (text == base || text == end || batch_.rows == RowBatch::kRows) return text;
+        batch_.rows = row;
+        if (!whole || text == base || text == end || row == RowBatch::kRows) return text;
     }
 }
 
@@ -145,18 +167,14 @@ const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t
     for (std::size_t c = 0; c < width; ++c) {
         const Use& use = uses_[c];
         text = overBlanks(text, separator_);
-        if (use.kind == Use::Kind::Ignored) {
+        if (use.ignored) {
             while (*text != separator_ && *text != '\n' && *text != '"') ++text;
             if (*text == '"') return nullptr;
         } else {
             double value = 0;
             text = takeAnyNumber(text, end, point_, value);
             if (text == nullptr) return nullptr;
-            if (use.kind == Use::Kind::Time) {
-                batch_.times[row] = value;
-            } else {
-                use.into[row] = static_cast<float>(value * use.factor);
-            }
+            into_[c][row] = value;
             text = overBlanks(text, separator_);
         }
         if (c + 1 == width) break;
@@ -168,12 +186,16 @@ const char* CsvRows::takePlainRow(const char* text, const char* end, std::size_t
     return *text == '\n' ? text + 1 : nullptr;
 }
 
-void CsvRows::store(std::size_t column, std::size_t row, double value) {
-    const Use& use = uses_[column];
-    if (use.kind == Use::Kind::Time) batch_.times[row] = value;
-    if (use.kind == Use::Kind::Channel) {
-        sawInfinite_ = sawInfinite_ || std::isinf(value);
-        use.into[row] = static_cast<float>(value * use.factor);
+void CsvRows::deliver() {
+    for (const auto& use : uses_) {
+        if (use.ignored) continue;
+        const double* const from = use.values.data();
+        if (use.channel == Use::kTime) {
+            std::copy_n(from, batch_.rows, batch_.times.begin());
+            continue;
+        }
+        float* const into = batch_.channels[use.channel].data();
+        for (std::size_t i = 0; i < batch_.rows; ++i) into[i] = static_cast<float>(from[i] * use.factor);
     }
 }
 
@@ -187,14 +209,15 @@ Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
                     line_, fields_.size(), width);
     }
     for (std::size_t c = 0; c < width; ++c) {
-        if (uses_[c].kind == Use::Kind::Ignored) continue;
+        if (uses_[c].ignored) continue;
         const auto value =
             fields_[c].empty() ? std::numeric_limits<double>::quiet_NaN() : fieldNumber(fields_[c], point_);
         if (!value) {
             return fail(ErrorCode::ParseError, "{}:{}: '{}' in column '{}'; a number was expected", blocks_.name(),
                         line_, fields_[c].substr(0, 40), layout_.names[c]);
         }
-        store(c, row, *value);
+        sawInfinite_ = sawInfinite_ || std::isinf(*value);
+        into_[c][row] = *value;
     }
     return {};
 }

@@ -1,4 +1,4 @@
-// CsvRows.h - the rows of a table, a thousand at a time.
+// CsvRows.h - the rows of a table, some thousands at a time.
 //
 // Most rows are nothing but numbers of a few digits. Those are converted between field ends that were found for many
 // rows at once; numbers with exponents and blanks take a second way, and what is anything else (empty fields, quotes,
@@ -17,8 +17,9 @@ namespace tacto {
 
 /// Columns that are asked for, of consecutive rows.
 struct RowBatch {
-    static constexpr std::size_t kRows = 1024;
+    static constexpr std::size_t kRows = 4096;
     std::size_t rows = 0;
+    bool complete = false;                     ///< every value is known to be finite
     std::vector<double> times;                 ///< as the file has them; empty where no column is one
     std::vector<std::vector<float>> channels;  ///< in V, A or 1; not finite where the field is empty or says so
     std::vector<std::size_t> lines;            ///< in the file, from 1
@@ -39,10 +40,13 @@ public:
     [[nodiscard]] bool sawInfinite() const noexcept { return sawInfinite_; }
 
 private:
+    /// A column of the file; what is read of it waits here until the batch is full.
     struct Use {
-        enum class Kind : std::uint8_t { Ignored, Time, Channel } kind = Kind::Ignored;
-        float* into = nullptr;  ///< the channel's place in the batch
+        bool ignored = true;
+        std::vector<double> values{};
+        std::size_t channel = kTime;  ///< in the batch
         double factor = 1;
+        static constexpr std::size_t kTime = static_cast<std::size_t>(-1);
     };
     /// Takes rows from text_ until the batch is full or the block is used up.
     [[nodiscard]] Result<void> takeRows();
@@ -51,13 +55,15 @@ private:
     /// Reads the row at `text` into batch row `row`; the start of the next line, or null when it is no plain row.
     [[nodiscard]] const char* takePlainRow(const char* text, const char* end, std::size_t row);
     [[nodiscard]] Result<void> takeFields(std::string_view line, std::size_t row);
-    void store(std::size_t column, std::size_t row, double value);
+    /// The values that wait, into the batch.
+    void deliver();
 
     const CsvLayout& layout_;
     const char separator_;
     const char point_;
     TextBlocks& blocks_;
     std::vector<Use> uses_;
+    std::vector<double*> into_;  ///< of each column, its values; none is null
     FieldEnds ends_;
     RowBatch batch_;
     std::vector<std::string_view> fields_;
@@ -66,6 +72,8 @@ private:
     std::size_t skip_;       ///< bytes before the first row
     std::uint64_t bytes_ = 0;
     std::uint64_t rows_ = 0;
+    bool anyIgnored_ = false;
+    bool ordinaryFactors_ = true;  ///< no short number leaves the range of a float by them
     bool sawInfinite_ = false;
 };
 

@@ -45,21 +45,30 @@ public:
     }
 
     void add(const RowBatch& batch) {
+        if (batch.rows == 0) return;
         bool complete = true;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             const auto& from = batch.channels[c];
-            complete = complete && allFinite(from.data(), batch.rows);
+            complete = complete && (batch.complete || allFinite(from.data(), batch.rows));
             channels_[c].samples.insert(channels_[c].samples.end(), from.begin(),
                                         from.begin() + static_cast<std::ptrdiff_t>(batch.rows));
         }
+        if (complete) {
+            if (!batch.times.empty()) times.add(std::span(batch.times).first(batch.rows), batch.lines);
+            rows += batch.rows;
+            rowsWithValues = rows;
+            lastLine = batch.lines[batch.rows - 1];
+            return;
+        }
         for (std::size_t i = 0; i < batch.rows; ++i) {
-            const bool valued = complete || look(batch, i);
+            const bool valued = look(batch, i);
             if (!valued && rowsWithValues == rows) {
                 // What follows may be the padded end: the times are judged without it then.
                 times.keep();
                 firstEmptyLine = batch.lines[i];
             }
-            if (!batch.times.empty()) times.add(batch.times[i], batch.lines[i]);
+            if (!batch.times.empty())
+                times.add(std::span(batch.times).subspan(i, 1), std::span(batch.lines).subspan(i, 1));
             ++rows;
             lastLine = batch.lines[i];
             if (valued) rowsWithValues = rows;

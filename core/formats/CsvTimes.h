@@ -14,23 +14,16 @@ class CsvTimes {
 public:
     explicit CsvTimes(const CsvLayout& layout) noexcept : factor_(layout.timeFactor) {}
 
-    void add(double stamp, std::size_t line) noexcept {
-        const double t = stamp * factor_;
-        // Neither NaN nor infinite.
-        if (!(t - t == 0) && missingLine_ == 0) missingLine_ = line;
-        half_.add(t);
-        quarter_.add(t);
-    }
+    /// Stamps as the file has them; `lines` are theirs.
+    void add(std::span<const double> stamps, std::span<const std::size_t> lines);
 
     /// Remembers what was added so far, for dropBehindKept().
     void keep() noexcept {
-        keptHalf_ = half_;
-        keptQuarter_ = quarter_;
+        kept_ = even_.mark();
         keptMissingLine_ = missingLine_;
     }
-    void dropBehindKept() noexcept {
-        half_ = keptHalf_;
-        quarter_ = keptQuarter_;
+    void dropBehindKept() {
+        even_.takeBackTo(kept_);
         missingLine_ = keptMissingLine_;
     }
 
@@ -45,11 +38,9 @@ private:
                                         const CsvLayout& layout, std::size_t rows, const ReadWatch& watch) const;
 
     double factor_;
-    EvenSteps half_{0.5};      // accepted
-    EvenSteps quarter_{0.26};  // not worth a word: what rounding to half a step's digits does
+    EvenSteps even_;
     std::size_t missingLine_ = 0;
-    EvenSteps keptHalf_{0.5};
-    EvenSteps keptQuarter_{0.26};
+    EvenSteps::Mark kept_;
     std::size_t keptMissingLine_ = 0;
 };
 

@@ -8,7 +8,10 @@
 namespace tacto {
 
 TextBlocks::TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name)
-    : file_(std::move(file)), text_(text), name_(std::move(name)), buffer_(kBlockBytes + 1 + kNumberPadding) {}
+    : file_(std::move(file)),
+      text_(text),
+      name_(std::move(name)),
+      buffer_(kNumberPadding + kBlockBytes + 1 + kNumberPadding) {}
 
 Result<TextBlocks> TextBlocks::ofFile(const std::filesystem::path& path) {
     auto file = ByteFile::open(path);
@@ -27,25 +30,26 @@ Result<std::size_t> TextBlocks::fill(char* into, std::size_t count) {
 }
 
 Result<std::string_view> TextBlocks::next() {
-    std::memmove(buffer_.data(), buffer_.data() + used_, held_ - used_);
+    char* const begin = buffer_.data() + kNumberPadding;
+    std::memmove(begin, begin + used_, held_ - used_);
     held_ -= used_;
     used_ = 0;
     while (!ended_ && held_ < kBlockBytes) {
-        const auto got = fill(buffer_.data() + held_, kBlockBytes - held_);
+        const auto got = fill(begin + held_, kBlockBytes - held_);
         if (!got) return failure(got);
         const bool first = taken_ == 0;
         taken_ += *got;
         held_ += *got;
         if (*got == 0) ended_ = true;
         constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (first && std::string_view(buffer_.data(), held_).starts_with(kByteOrderMark)) {
-            std::memmove(buffer_.data(), buffer_.data() + kByteOrderMark.size(), held_ - kByteOrderMark.size());
+        if (first && std::string_view(begin, held_).starts_with(kByteOrderMark)) {
+            std::memmove(begin, begin + kByteOrderMark.size(), held_ - kByteOrderMark.size());
             held_ -= kByteOrderMark.size();
         }
     }
-    std::string_view held(buffer_.data(), held_);
+    std::string_view held(begin, held_);
     if (ended_) {
-        if (!held.empty() && held.back() != '\n') buffer_[held_++] = '\n';
+        if (!held.empty() && held.back() != '\n') begin[held_++] = '\n';
         used_ = held_;
     } else {
         const auto end = held.rfind('\n');
@@ -55,7 +59,7 @@ Result<std::string_view> TextBlocks::next() {
         }
         used_ = end + 1;
     }
-    return std::string_view(buffer_.data(), used_);
+    return std::string_view(begin, used_);
 }
 
 Result<void> TextBlocks::rewind() {

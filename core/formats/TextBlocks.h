@@ -13,8 +13,8 @@ namespace tacto {
 
 class TextBlocks {
 public:
-    /// Bytes of a block, and so of the longest line.
-    static constexpr std::size_t kBlockBytes = 1024 * 1024;
+    /// Bytes of a block, and so of the longest line. What is read stays in the processor's cache until it is parsed.
+    static constexpr std::size_t kBlockBytes = 256 * 1024;
 
     /// Errors: of ByteFile::open().
     [[nodiscard]] static Result<TextBlocks> ofFile(const std::filesystem::path& path);
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] static TextBlocks ofText(std::string_view text, std::string_view name);
 
     /// Whole lines, the last one ended by '\n' even where the file's is not; empty at the end. kNumberPadding bytes
-    /// behind it may be read. Without the byte-order mark.
+    /// before and behind it may be read. Without the byte-order mark.
     /// Errors: Io; ParseError for a line longer than a block.
     [[nodiscard]] Result<std::string_view> next();
 

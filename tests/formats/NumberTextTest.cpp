@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/Random.h"
-#include "core/formats/NumberText.h"
+#include "core/formats/FieldNumber.h"
 
 namespace tacto::test {
 namespace {
@@ -25,6 +25,21 @@ Taken take(std::string text, char point = '.') {
     }
     EXPECT_LE(result.length, length);
     return result;
+}
+
+/// Both ways, which must agree, with `around` before and behind the field.
+bool isField(const std::string& text, double& value, char around, char point = '.') {
+    const std::string margin(kNumberPadding, around);
+    const auto whole = margin + text + margin;
+    const char* const begin = whole.data() + kNumberPadding;
+    double other = 0;
+    const bool plain = plainFieldNumber(begin, begin + text.size(), point, other);
+    const bool taken = fieldNumber(begin, begin + text.size(), point, value);
+    EXPECT_EQ(plain, taken) << text;
+    if (plain && taken) {
+        EXPECT_EQ(other, value) << text;
+    }
+    return taken;
 }
 
 TEST(NumberText, TakesWhatOscilloscopesWrite) {
@@ -73,11 +88,9 @@ TEST(NumberText, GivesTheNearestDoubleOrNone) {
         if (random.below(2) == 0) text += fmt::format("e{}", static_cast<int>(random.below(40)) - 20);
         const auto ours = take(text);
         double field = 0;
-        const auto padded = text + std::string(kNumberPadding, k % 2 == 0 ? '.' : '7');
-        if (fieldNumber(padded.data(), padded.data() + text.size(), eightTimes('.'), field)) {
+        if (isField(text, field, k % 2 == 0 ? '.' : '7')) {
             ++fields;
             ASSERT_EQ(field, std::strtod(text.c_str(), nullptr)) << text;
-            ASSERT_EQ(std::signbit(field), text[0] == '-') << text;
         }
         if (!ours.taken) continue;
         ++taken;
@@ -92,14 +105,12 @@ TEST(NumberText, GivesTheNearestDoubleOrNone) {
 
 TEST(NumberText, AFieldIsANumberFromItsBeginToItsEnd) {
     for (const std::string text : {"", "-", "+", ".", "-.", "1.2.3", "1 ", " 1", "1e5", "nan", "12a", "1..", "--1",
-                                   "12345678901234567", "99999999999999.99", "1,5", "123456789.1x"}) {
+                                   "12345678901234567", "99999999999999.99", "1,5", "123456789.1x", "+1"}) {
         double value = 0;
-        const auto padded = text + std::string(kNumberPadding, '1');
-        EXPECT_FALSE(fieldNumber(padded.data(), padded.data() + text.size(), eightTimes('.'), value)) << text;
+        EXPECT_FALSE(isField(text, value, '1')) << text;
     }
     double value = 0;
-    const auto comma = "12345,678" + std::string(kNumberPadding, ',');
-    ASSERT_TRUE(fieldNumber(comma.data(), comma.data() + 9, eightTimes(','), value));
+    ASSERT_TRUE(isField("12345,678", value, ',', ','));
     EXPECT_EQ(value, 12345.678);
 }
 
