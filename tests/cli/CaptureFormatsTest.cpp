@@ -1,4 +1,5 @@
 // measure and convert on files of other instruments, and what the user knows better than they do.
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -68,6 +69,11 @@ TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
 }
 
 TEST(CaptureFormatsCommands, ConvertKeepsEveryValue) {
+    // libsigrok 0.5.2 loses memory for each .sr; the leak checker tells that from ours (tests/lsan.supp) by whole
+    // stacks.
+    const char* options = std::getenv("ASAN_OPTIONS");
+    setenv("ASAN_OPTIONS", ((options != nullptr ? options + std::string(":") : "") + "fast_unwind_on_malloc=0").c_str(),
+           1);
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
     for (const auto* name : {"out.csv", "out.wav", "out.sr"}) {

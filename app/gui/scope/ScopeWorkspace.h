@@ -55,6 +55,8 @@ public:
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.
     bool openCaptureFile(const QString& path);
+    /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
+    [[nodiscard]] static QString captureGlobs();
     /// Shows somebody else's capture; holds the bench's.
     void show(std::shared_ptr<const Capture> capture, const QString& source);
     void show(std::shared_ptr<const Capture> capture) { show(std::move(capture), tr("capture")); }

@@ -40,12 +40,16 @@ void ScopeWorkspace::buildMenu() {
     menu_->addAction(tr("Save visible data as CSV…"), this, [this] { askSave(tr("Capture (*.csv)"), "csv"); });
 }
 
-void ScopeWorkspace::askOpen() {
-    QStringList patterns;
+QString ScopeWorkspace::captureGlobs() {
+    QStringList globs;
     for (const auto suffix : captureFormats()->suffixes())
-        patterns << "*" + QString::fromUtf8(suffix.data(), qsizetype(suffix.size()));
+        globs << "*" + QString::fromUtf8(suffix.data(), qsizetype(suffix.size()));
+    return globs.join(' ');
+}
+
+void ScopeWorkspace::askOpen() {
     const auto path = QFileDialog::getOpenFileName(this, tr("Open a capture"), {},
-                                                   tr("Captures (%1);;All files (*)").arg(patterns.join(' ')));
+                                                   tr("Captures (%1);;All files (*)").arg(captureGlobs()));
     if (!path.isEmpty()) openCaptureFile(path);
 }
 

@@ -27,6 +27,7 @@
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/Tour.h"
+#include "app/run/CaptureFormatsList.h"
 
 namespace tacto::gui {
 
@@ -323,11 +324,12 @@ void MainWindow::openFile(const QString& path) {
     } else if (file.suffix() == "tacto") {
         opened = sessions_->openSession(path);
         if (opened) showWorkspace(kSessions);
-    } else if (file.suffix() == "csv") {
+    } else if (captureFormats()->knowsSuffix(path.toStdString())) {
         opened = scope_->openCaptureFile(path);
         if (opened) showScope();
     } else {
-        complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (*.csv)").arg(path));
+        complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (%2)")
+                     .arg(path, ScopeWorkspace::captureGlobs()));
     }
     if (opened) remember(path);
 }
@@ -336,7 +338,9 @@ void MainWindow::chooseFile() {
     auto* dialog = new QFileDialog(this, tr("Open"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
-    dialog->setNameFilters({tr("Recordings, sessions and captures (*.json *.tacto *.csv)"), tr("All files (*)")});
+    dialog->setNameFilters(
+        {tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeWorkspace::captureGlobs()),
+         tr("All files (*)")});
     connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openFile);
     dialog->open();
 }
