@@ -190,24 +190,29 @@ void warnOfQuality(ChannelMeasurement& result) {
 }
 
 void warnOfPulses(ChannelMeasurement& result) {
-    const auto warn = [&](const char* what, auto holds) {
-        const auto n = std::count_if(result.pulses.begin(), result.pulses.end(), holds);
+    // One walk, as for the figures.
+    std::size_t clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
+    for (const auto& pulse : result.pulses) {
+        const auto& flags = pulse.flags;
+        clipped += flags.clipped ? 1 : 0;
+        truncated += flags.truncated ? 1 : 0;
+        incomplete += flags.incomplete ? 1 : 0;
+        underSampled += flags.underSampled && !flags.truncated && !flags.incomplete ? 1 : 0;
+        coarse += flags.coarse && flags.measured() ? 1 : 0;
+        single += flags.measured() && !pulse.second ? 1 : 0;
+    }
+    const auto warn = [&](std::size_t n, std::string_view what) {
         if (n == 0) return;
         result.warnings.push_back(
             fmt::format("channel '{}': {} {} {}", result.name, n, n == 1 ? "pulse" : "pulses", what));
     };
-    warn("clipped by the input range: not measured", [](const auto& p) { return p.flags.clipped; });
-    warn("cut off by the record's ends: not measured", [](const auto& p) { return p.flags.truncated; });
-    warn("with missing samples: not measured", [](const auto& p) { return p.flags.incomplete; });
-    warn("with fewer than 10 samples in a phase: not measured",
-         [](const auto& p) { return p.flags.underSampled && !p.flags.truncated && !p.flags.incomplete; });
-    warn(fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.)",
-                     formatQuantity(result.uncertainty.width_s, "s", 2))
-             .c_str(),
-         [](const auto& p) { return p.flags.coarse && p.flags.measured(); });
-    if (result.states.count == StateCount::Three) {
-        warn("without a second phase", [](const auto& p) { return p.flags.measured() && !p.second; });
-    }
+    warn(clipped, "clipped by the input range: not measured");
+    warn(truncated, "cut off by the record's ends: not measured");
+    warn(incomplete, "with missing samples: not measured");
+    warn(underSampled, "with fewer than 10 samples in a phase: not measured");
+    warn(coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.)",
+                             formatQuantity(result.uncertainty.width_s, "s", 2)));
+    if (result.states.count == StateCount::Three) warn(single, "without a second phase");
 }
 
 }  // namespace

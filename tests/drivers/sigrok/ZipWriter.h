@@ -1,4 +1,4 @@
-// ZipWriter.h - small zip archives of stored entries, for files that no program would write.
+// ZipWriter.h - zip archives for tests: files that no program would write, and large ones soon written.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 namespace tacto::test {
 
-[[nodiscard]] std::string zipOf(const std::vector<std::pair<std::string, std::string>>& entries);
+/// `level`: zlib's, 0 = stored.
+[[nodiscard]] std::string zipOf(const std::vector<std::pair<std::string, std::string>>& entries, int level = 0);
 
 }  // namespace tacto::test
