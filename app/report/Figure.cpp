@@ -118,6 +118,17 @@ public:
         }
     }
 
+    /// Calls `read(Reader&)` for the object `key`, which may be missing.
+    template <class Read>
+    void object(const char* key, Read read) {
+        if (!has(key)) return;
+        const auto value = object_.value(QLatin1String(key));
+        if (!value.isObject()) complain(key, "an object");
+        Reader inner(where_ + "." + key, value.toObject());
+        read(inner);
+        adopt(inner);
+    }
+
     [[nodiscard]] QJsonArray list(const char* key) const { return object_.value(QLatin1String(key)).toArray(); }
 
     void complain(const char* key, const char* expected) {
@@ -262,6 +273,31 @@ CalibrationFigure readCalibration(Reader& in) {
     return figure;
 }
 
+TransitionsFigure::Map readMap(Reader& in, const char* key, const char* largest) {
+    TransitionsFigure::Map map;
+    if (!in.has(key)) in.complain(key, "rows of numbers or null");
+    const auto rows = in.list(key);
+    for (const auto& row : rows) {
+        std::vector<double> cells;
+        for (const auto& cell : row.toArray()) cells.push_back(cell.toDouble(kUnknown));
+        if (static_cast<qsizetype>(cells.size()) != rows.size()) in.complain(key, "as many columns as rows");
+        map.cells.push_back(std::move(cells));
+    }
+    in.object(largest, [&](Reader& place) {
+        map.largest = {place.number("roughness"), place.number("pressure"), place.number("jnd")};
+    });
+    return map;
+}
+
+TransitionsFigure readTransitions(Reader& in) {
+    TransitionsFigure figure;
+    figure.wanted_jnd = in.number("wanted_jnd");
+    if (!(figure.wanted_jnd > 0)) in.complain("wanted_jnd", "a number above 0");
+    figure.amplitude = readMap(in, "amplitude", "largest_amplitude");
+    figure.interval = readMap(in, "interval", "largest_interval");
+    return figure;
+}
+
 }  // namespace
 
 bool ExposureFigure::Row::evaluated() const { return std::isfinite(value); }
@@ -290,10 +326,12 @@ Result<Figure> parseFigure(const QJsonObject& json) {
         figure.content = readTimeline(in);
     } else if (type == "calibration") {
         figure.content = readCalibration(in);
+    } else if (type == "transitions") {
+        figure.content = readTransitions(in);
     } else {
         return fail(ErrorCode::InvalidArgument,
                     "A figure's type is \"{}\"; it can be conditions, plane, waveforms, confusion, exposure, "
-                    "timeline or calibration.",
+                    "timeline, calibration or transitions.",
                     type.toStdString());
     }
     figure.note = in.text("note");

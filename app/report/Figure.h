@@ -52,6 +52,13 @@
 //                "tolerance": ..}],
 //    "readings": [{"commanded": 10, "measured": 10.3, "direction": "up", "outlier": false}]}
 //
+//   {"type": "transitions",                     from analysis.transitions(), by plot.transitions()
+//    "wanted_jnd": 2,                           the largest step per train that is wanted
+//    "amplitude": [[0.5, null], ..],            just-noticeable differences, rows of P by columns of R, both from 0 to
+//    "interval": [[..], ..],                    1 inclusive; square, the same size; null = no train went there
+//    "largest_amplitude": {"roughness": 0.4, "pressure": 0, "jnd": 8.3},   optional: where the worst step is
+//    "largest_interval": {..}}
+//
 // Every type takes an optional "note": one sentence printed below the caption.
 //
 // Thread-safety: values; pure functions.
@@ -178,9 +185,24 @@ struct CalibrationFigure {
     std::vector<Reading> readings;
 };
 
+struct TransitionsFigure {
+    struct Place {
+        double roughness = kUnknown;
+        double pressure = kUnknown;
+        double jnd = kUnknown;
+    };
+    struct Map {
+        std::vector<std::vector<double>> cells;  ///< [P][R], square
+        Place largest;
+    };
+    double wanted_jnd = kUnknown;
+    Map amplitude;
+    Map interval;
+};
+
 struct Figure {
     std::variant<ConditionsFigure, PlaneFigure, WaveformsFigure, ConfusionFigure, ExposureFigure, TimelineFigure,
-                 CalibrationFigure>
+                 CalibrationFigure, TransitionsFigure>
         content;
     QString note;
 };

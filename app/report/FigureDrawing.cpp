@@ -53,7 +53,8 @@ std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated) {
                                  [&](const ConfusionFigure& content) { return drawConfusion(content, simulated); },
                                  [&](const ExposureFigure& content) { return drawExposure(content, simulated); },
                                  [&](const TimelineFigure& content) { return drawTimeline(content, simulated); },
-                                 [&](const CalibrationFigure& content) { return drawCalibration(content, simulated); }},
+                                 [&](const CalibrationFigure& content) { return drawCalibration(content, simulated); },
+                                 [&](const TransitionsFigure& content) { return drawTransitions(content, simulated); }},
                       figure.content);
 }
 
@@ -84,6 +85,13 @@ QString figureLegend(const Figure& figure) {
                    [](const CalibrationFigure& content) {
                        return content.errors ? QString("Dashed: the tolerance. Bars: expanded uncertainty, 95\u202f%.")
                                              : QString("Each point is a reading.");
+                   },
+                   [](const TransitionsFigure& content) {
+                       return QString(
+                                  "A cell holds the largest step, in just-noticeable differences, that a finger feels "
+                                  "between two trains on its way through; amber is more than the %1 wanted, the frame "
+                                  "marks where the largest is.")
+                           .arg(content.wanted_jnd);
                    }},
         figure.content);
     if (!figure.note.isEmpty()) text = (figure.note + " " + text).trimmed();

@@ -20,6 +20,7 @@ public:
     /// Begins at a point with a train that has been felt long enough to count as the one before.
     void rest(double R, double P) {
         last_ = *encoder_.encode(R, P);
+        way_ = {R, R, P, P};
         started_ = now_;
         scheduler_.off();
         scheduler_ = {};
@@ -30,15 +31,17 @@ public:
     /// One control step at (R, P). A train that goes out is handed to `found`.
     void step(double R, double P, const auto& found) {
         now_ += kStep;
+        way_ = {std::min(way_.lowR, R), std::max(way_.highR, R), std::min(way_.lowP, P), std::max(way_.highP, P)};
         const Command wanted = *encoder_.encode(R, P);
         const Seconds since = Seconds(now_ - *scheduler_.lastOnset());
         const Command next = encoder_.limited(last_, wanted, since);
         scheduler_.setInterval(next.interval, now_);
         if (!scheduler_.isDue(now_)) return;
         scheduler_.trainAt(now_);
-        found(TransitionStep{R, P, last_, next, amplitudeDistance(last_.amplitude, next.amplitude),
+        found(TransitionStep{R, P, way_, last_, next, amplitudeDistance(last_.amplitude, next.amplitude),
                              intervalDistance(last_.interval, next.interval)});
         last_ = next;
+        way_ = {R, R, P, P};
     }
 
     [[nodiscard]] Instant elapsed() const noexcept { return now_ - started_; }
@@ -49,6 +52,7 @@ private:
     Instant now_{0};
     Instant started_{0};
     Command last_;
+    PlaneExtent way_;  // since the last train
 };
 
 /// Until a jump has worn off: many of the longest intervals, since slew limits stretch it.

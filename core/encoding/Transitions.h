@@ -22,10 +22,17 @@ struct TransitionSweep {
     Seconds traverse{5};  ///< from one end of the plane to the other, and the same back; > 0
 };
 
+/// Where a finger was between two trains, both ends of its way included.
+struct PlaneExtent {
+    double lowR = 0, highR = 0;
+    double lowP = 0, highP = 0;
+};
+
 /// A step from one train to the next.
 struct TransitionStep {
     double R = 0;  ///< at the later train
     double P = 0;
+    PlaneExtent way;  ///< since the earlier
     Command from;
     Command to;
     double amplitude = 0;  ///< just-noticeable differences

@@ -28,7 +28,8 @@ std::vector<std::string> shippedNames() {
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
     EXPECT_EQ(shippedNames(),
-              (std::vector<std::string>{"live", "load-safety", "massager", "separability", "stimulator-calibration"}));
+              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager", "separability",
+                                        "stimulator-calibration", "transitions"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
@@ -38,6 +39,8 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     RunBench rig(true, "sim:", 1, true, {declared.needs.begin(), declared.needs.end()});
     std::map<std::string, std::string> settings;
     if (GetParam() == "separability") settings["repeats"] = "2";
+    if (GetParam() == "transitions") settings["repeats"] = "1";
+    if (GetParam() == "encoding-comparison") settings = {{"repeats", "2"}, {"level_repeats", "2"}};
     if (GetParam() == "live" || GetParam() == "massager") settings["duration"] = "5";
     if (GetParam() == "load-safety") settings["steps"] = "2";
     const auto outcome = runShipped(rig, GetParam(), settings);

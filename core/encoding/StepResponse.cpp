@@ -1,0 +1,73 @@
+#include "core/encoding/StepResponse.h"
+
+#include "core/encoding/TrainScheduler.h"
+#include "core/encoding/Transitions.h"
+
+namespace tacto {
+namespace {
+
+// What was not measured, NaN, is neither near nor far.
+bool near(Volts a, Volts b) noexcept { return amplitudeDistance(a, b) <= kCarried; }
+bool near(Seconds a, Seconds b) noexcept { return intervalDistance(a, b) <= kCarried; }
+bool far(Volts a, Volts b) noexcept { return amplitudeDistance(a, b) > kCarried; }
+bool far(Seconds a, Seconds b) noexcept { return intervalDistance(a, b) > kCarried; }
+
+}  // namespace
+
+StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains) noexcept {
+    StepResponse found;
+    const auto intervalBefore = [&](std::size_t k) {
+        return k == 0 ? trains[0].onset + ends.sinceOnset : trains[k].onset - trains[k - 1].onset;
+    };
+    for (std::size_t k = 0; k < trains.size(); ++k) {
+        const Seconds interval = intervalBefore(k);
+        const Volts amplitude = trains[k].amplitude;
+        if (!found.latency && (far(amplitude, ends.before.amplitude) || far(interval, ends.before.interval))) {
+            found.latency = trains[k].onset;
+        }
+        if (found.trains || k + 1 >= trains.size()) continue;
+        // The first may come late and yet at once: more than the new interval had passed when the finger pressed.
+        const bool inTime = near(interval, ends.after.interval) || (k == 0 && interval > ends.after.interval);
+        if (inTime && near(amplitude, ends.after.amplitude) && near(intervalBefore(k + 1), ends.after.interval)) {
+            found.trains = static_cast<int>(k) + 1;
+        }
+    }
+    return found;
+}
+
+Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, const StepEnds& ends) {
+    constexpr std::size_t kMost = 10'000;
+    constexpr std::size_t kAfterArrival = 2;
+    if (auto valid = validate(profile); !valid) return failure(valid);
+    const double since = ends.sinceOnset.count();
+    if (!(since >= 0 && since <= ends.before.interval.count())) {
+        return fail(ErrorCode::InvalidArgument, "a step {} s after an onset; 0 to {} s, the interval, is expected",
+                    since, ends.before.interval.count());
+    }
+    const Encoder encoder(profile);
+    TrainScheduler scheduler;
+    scheduler.start(Instant(0), ends.before.interval);
+    scheduler.trainAt(Instant(0));
+    const Instant step = toInstant(ends.sinceOnset);
+    Instant now = step, lastOnset{0};
+    Command last = ends.before;
+    std::vector<StepTrain> trains;
+    std::size_t left = kAfterArrival + 1;
+    while (left > 0) {
+        if (trains.size() == kMost) {
+            return fail(ErrorCode::InvalidArgument,
+                        "the slew limits of {} V/s and {} per train let a step take more than {} trains",
+                        profile.amplitudeSlew_V_per_s, profile.intervalRatioPerTrain, kMost);
+        }
+        scheduler.setInterval(encoder.limited(last, ends.after, Seconds(now - lastOnset)).interval, now);
+        now = *scheduler.due();
+        last = encoder.limited(last, ends.after, Seconds(now - lastOnset));
+        lastOnset = now;
+        scheduler.trainAt(now);
+        trains.push_back({Seconds(now - step), last.amplitude});
+        if (last == ends.after) --left;
+    }
+    return trains;
+}
+
+}  // namespace tacto

@@ -1,0 +1,49 @@
+// StepResponse.h - a step of the finger seen in the trains: which one carries it first, and how many the change takes.
+//
+// The same definition serves trains as an oscilloscope saw them and trains as the design has them, so that both may be
+// compared. A train carries a step when its amplitude, or the interval since the train before it, has left what was
+// there by more than a noticeable fraction (kCarried); the step has arrived with the train that is as near to the new
+// ones and is followed by one at the new interval.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/encoding/Encoder.h"
+
+namespace tacto {
+
+/// Just-noticeable differences. A quarter is 2.4 % of an amplitude and 3.8 % of an interval: above what an oscilloscope
+/// leaves open, and below what anybody feels.
+inline constexpr double kCarried = 0.25;
+
+/// A train after the step.
+struct StepTrain {
+    Seconds onset{0};  ///< since the step, ≥ 0
+    Volts amplitude{0};
+};
+
+/// The last train before the step, and what the step leads to.
+struct StepEnds {
+    Seconds sinceOnset{0};  ///< from that train's onset to the step
+    Command before;         ///< of that train
+    Command after;          ///< what is wanted from the step on
+};
+
+struct StepResponse {
+    std::optional<Seconds> latency;  ///< to the onset of the first train that carries the step; none did: empty
+    std::optional<int> trains;       ///< after the step until it has arrived, 1 being at once; it did not: empty
+};
+
+/// `trains` in time order.
+[[nodiscard]] StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains) noexcept;
+
+/// The trains that the scheduler sends after the step, slew limits and all: until the step has arrived, and two more.
+/// Errors: InvalidArgument for a profile that is not valid, a `sinceOnset` that is not 0 to the interval before, and
+/// slew limits so tight that the step takes more than 10000 trains.
+[[nodiscard]] Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, const StepEnds& ends);
+
+}  // namespace tacto

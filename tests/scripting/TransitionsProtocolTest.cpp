@@ -1,0 +1,209 @@
+// The transitions protocol on twins: its latency is the scheduler's, and it fails where it must.
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+using testing::HasSubstr;
+using Settings = std::map<std::string, std::string>;
+
+const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
+
+RunRequest requestFor(RunBench& rig, const Settings& settings) {
+    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
+    auto source = shipped.find("transitions").value();
+    const auto declaration = readDeclaration(source).value();
+    auto request = rig.request(std::move(source));
+    request.parameters = applySettings(declaration, settings).value().parameters;
+    return request;
+}
+
+ScriptOutcome sweep(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
+    RunBench rig(true, device, seed, false, kNeeded);
+    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    EXPECT_TRUE(rig.outputOff());
+    return outcome;
+}
+
+TEST(TransitionsProtocol, FailsTheProfileWhoseStepsAreTooLargeAndSaysWhere) {
+    const auto outcome = sweep("sim:", {{"repeats", "2"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail);
+    const auto& found = outcome.results["transitions"];
+    EXPECT_NEAR(found["abrupt"]["amplitude"]["jnd"].get<double>(), std::log(4) / std::log(1.1), 1e-9);
+    EXPECT_NEAR(found["abrupt"]["interval"]["jnd"].get<double>(), std::log(4) / std::log(1.16), 1e-9);
+    EXPECT_GT(found["gradual"]["largest_jnd"].get<double>(), 2);
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("just-noticeable differences, at R"));
+    EXPECT_EQ(found["amplitude_map"].size(), 11U);
+    EXPECT_EQ(outcome.results["latency"]["verdict"], "pass") << outcome.results["latency"].dump(1);
+}
+
+TEST(TransitionsProtocol, MeasuresTheSchedulersLatencyInEveryDirection) {
+    const auto outcome = sweep("sim:", {{"repeats", "10"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& steps = outcome.results["steps"];
+    ASSERT_EQ(steps.size(), 40U);
+    const double period_s = toSeconds(ControlLoop::kPeriod);
+    std::set<std::string> pulled;
+    for (const auto& step : steps) {
+        const auto name = step["name"].get<std::string>();
+        const double since = step["since_onset_s"].get<double>();
+        // By hand, not by the code under test: T is 2 s to 0.5 s, 1.25 s while texture changes.
+        const double due = name == "pressure up" ? 0.5 : name == "pressure down" ? 2 : 1.25;
+        const double design = std::max(0.0, due - since);
+        ASSERT_TRUE(step["latency_s"].is_number()) << step.dump(1);
+        EXPECT_NEAR(step["latency_s"].get<double>(), design, period_s + 1e-3) << step.dump(1);
+        EXPECT_NEAR(step["designed_latency_s"].get<double>(), design, 1e-6) << name;
+        EXPECT_EQ(step["trains"], 1) << step.dump(1);
+        if (name == "pressure up") pulled.insert(design > 0 ? "forward" : "to now");
+    }
+    EXPECT_EQ(pulled.size(), 2U) << "steps before and after the new interval has passed";
+    for (const auto& group : outcome.results["latency"]["groups"]) {
+        EXPECT_EQ(group["n"], 10);
+        EXPECT_EQ(group["verdict"], "pass");
+        EXPECT_EQ(group["latency_s"]["n"], 10);
+    }
+}
+
+TEST(TransitionsProtocol, PassesWithSuitableSlewLimitsAndCountsTheTrains) {
+    const auto outcome = sweep("sim:", {{"repeats", "1"}, {"slew", "given"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
+    EXPECT_LE(outcome.results["transitions"]["abrupt"]["largest_jnd"].get<double>(), 2);
+    for (const auto& group : outcome.results["latency"]["groups"]) {
+        const double trains = group["trains"]["max"].get<double>();
+        EXPECT_EQ(trains, group["designed_trains"]["max"].get<double>()) << group.dump(1);
+        // 30 V at 1 V/s and 1.25 s a train are 24; ln 4 / ln 1.3 is 5.3. The last quarter of a difference is not felt.
+        if (group["name"].get<std::string>().starts_with("texture")) {
+            EXPECT_NEAR(trains, 24, 1) << group.dump(1);
+        } else {
+            EXPECT_NEAR(trains, 6, 1) << group.dump(1);
+        }
+    }
+}
+
+TEST(TransitionsProtocol, FailsAStimulatorThatIsLate) {
+    RecordProperty("hazard", "H9");
+    // 30 ms from command to onset: every train has them, so that a press felt at once is where they show.
+    const auto outcome = sweep("sim:stimulator?latency=30ms", {{"repeats", "6"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& found = outcome.results["latency"];
+    EXPECT_EQ(found["verdict"], "fail") << found.dump(1);
+    EXPECT_NEAR(found["groups"][0]["difference_s"]["max"].get<double>(), 0.03, 0.006) << found.dump(1);
+    EXPECT_EQ(found["groups"][0]["verdict"], "fail");
+    EXPECT_EQ(found["groups"][2]["verdict"], "pass") << "texture waits for its train either way";
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail);
+}
+
+TEST(TransitionsProtocol, NothingMeasuredIsNoPass) {
+    RecordProperty("hazard", "H9");
+    const auto outcome = sweep("sim:stimulator?load=1.5kohm", {{"slew", "given"}, {"load", "1400"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["transitions"]["verdict"], "pass");
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("known-reference check failed"));
+}
+
+TEST(TransitionsProtocol, UnmeasuredStepsMakeALatencyIndeterminate) {
+    RecordProperty("hazard", "H9");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    const auto outcome = rig.run(test::withRun(
+        "const good = { name: 'a', latency_s: 0.201, designed_latency_s: 0.2, trains: 1, designed_trains: 1 };\n"
+        "const blind = { name: 'b', latency_s: null, designed_latency_s: 0.2, trains: null, designed_trains: 1 };\n"
+        "const late = { name: 'b', latency_s: 0.3, designed_latency_s: 0.2, trains: 1, designed_trains: 1 };\n"
+        "const slow = { name: 'b', latency_s: 0.2, designed_latency_s: 0.2, trains: 3, designed_trains: 1 };\n"
+        "const judge = (steps, names) => analysis.latency(steps, { tolerance_s: 0.02, names: names }).verdict;\n"
+        "return verdict({ verdict: null, all: judge([good], ['a']), blind: judge([good, blind], ['a', 'b']),\n"
+        "  missing: judge([good], ['a', 'b']), late: judge([good, late], ['a', 'b']), none: judge([], []),\n"
+        "  slow: judge([good, slow], ['a', 'b']) });"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["all"], "pass");
+    for (const char* key : {"blind", "missing", "none"}) EXPECT_EQ(outcome.results[key], "indeterminate") << key;
+    for (const char* key : {"late", "slow"}) EXPECT_EQ(outcome.results[key], "fail") << key;
+}
+
+TEST(TransitionsProtocol, SameSeedSameMoments) {
+    const auto phases = [](std::uint64_t seed) {
+        std::string out;
+        const auto outcome = sweep("sim:", {{"repeats", "2"}}, seed);
+        for (const auto& step : outcome.results["steps"])
+            out += step["name"].get<std::string>() + step["since_onset_s"].dump();
+        return out;
+    };
+    const auto first = phases(4);
+    EXPECT_FALSE(first.empty());
+    EXPECT_EQ(first, phases(4));
+    EXPECT_NE(first, phases(5));
+}
+
+TEST(TransitionsProtocol, ReportsTheMapAndTheTables) {
+    RunBench rig(true, "sim:", 1, true, kNeeded);
+    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "1"}})).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    int maps = 0, tables = 0;
+    const auto rows = reader.reportItems().value();
+    for (const auto& row : rows) {
+        maps += row.body.value("figure", nlohmann::json::object()).value("type", "") == "transitions" ? 1 : 0;
+        tables += row.body.value("kind", "") == "table" ? 1 : 0;
+    }
+    EXPECT_EQ(maps, 1);
+    EXPECT_EQ(tables, 3);
+    EXPECT_EQ(reader.trials().value().size(), 4U);
+}
+
+/// Devices fail while the reference is checked and while steps are measured.
+class TransitionsFault : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(TransitionsFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    const auto [device, at_s] = GetParam();
+    RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
+    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "3"}})).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_TRUE(rig.outputOff());
+    EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
+    ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
+    EXPECT_TRUE(outcome.results["partial"].get<bool>());
+    EXPECT_TRUE(outcome.results["verdict"].is_null()) << outcome.results["verdict"];
+    EXPECT_EQ(outcome.results["transitions"]["verdict"], "fail");
+    EXPECT_EQ(outcome.results["steps"].empty(), at_s < 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, TransitionsFault,
+                         ::testing::Combine(::testing::Values("stimulator?fault=unplug", "stimulator?fault=open",
+                                                              "oscilloscope?fault=unplug", "oscilloscope?fault=stale"),
+                                            ::testing::Values(0.0, 2.0, 20.0, 35.3)));
+
+class TransitionsCancel : public ::testing::TestWithParam<int> {};
+
+TEST_P(TransitionsCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    auto request = requestFor(rig, {{"repeats", "3"}});
+    Bench& bench = rig.bench();
+    int steps = 0;
+    request.onTrial = [&](const nlohmann::json&) {
+        if (++steps == GetParam()) bench.stop("the test");
+    };
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    EXPECT_TRUE(rig.outputOff());
+    ASSERT_TRUE(outcome.results.is_object());
+    EXPECT_TRUE(outcome.results["partial"].get<bool>());
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, TransitionsCancel, ::testing::Values(1, 5, 11));
+
+}  // namespace
+}  // namespace tacto
