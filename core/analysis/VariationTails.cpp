@@ -1,0 +1,23 @@
+// Boost.Math in a file of its own: its headers take seconds to compile.
+#include <boost/math/special_functions/beta.hpp>
+
+#include "core/analysis/VariationTrials.h"
+
+namespace tacto {
+
+namespace {
+// Errors as values: no exception leaves a noexcept function.
+using Quiet =
+    boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
+                                  boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
+}  // namespace
+
+double binomialAtLeast(std::size_t k, std::size_t n, double p) noexcept {
+    if (k == 0) return 1;
+    if (k > n || !(p > 0)) return 0;
+    if (p >= 1) return 1;
+    return boost::math::ibeta(static_cast<double>(k), static_cast<double>(n - k + 1), p, Quiet());
+}
+
+}  // namespace tacto
