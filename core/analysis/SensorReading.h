@@ -1,0 +1,59 @@
+// SensorReading.h - what a fingertip said while it rested, slid or carried a weight: samples in, features out.
+//
+// The same chain reads them as the live bench (core/dsp), so a scale that is measured here means the same there.
+//
+// Thread-safety: values; pure functions.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Statistics.h"
+#include "core/base/Stream.h"
+#include "core/dsp/RoughnessChain.h"
+
+namespace tacto {
+
+struct SensorSamples {
+    std::vector<StreamInfo> streams;
+    std::vector<SampleBlock> blocks;  ///< one per stream
+};
+
+/// The fingertip at rest, touching nothing.
+struct SensorRest {
+    RestLevels levels;
+    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< of levels.slidingMeanSquare, squared
+};
+
+/// All samples are taken as rest. Errors: InvalidArgument where they are fewer than 250 ms can hold, or where no rest
+/// can be told from them; as RoughnessChain::create().
+[[nodiscard]] Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSettings& settings);
+
+/// One slide over one surface. Features are arithmetic means over its frames (h over sliding frames, v over contact
+/// frames, as bench.measureReference() takes them); NaN: the rig does not have it, or it was absent throughout.
+struct SlideReading {
+    double h = std::numeric_limits<double>::quiet_NaN();
+    double hAbs = std::numeric_limits<double>::quiet_NaN();  ///< (m/s2/N)2
+    double vStatic = std::numeric_limits<double>::quiet_NaN();
+    double vDynamic = std::numeric_limits<double>::quiet_NaN();
+    double force_n = std::numeric_limits<double>::quiet_NaN();  ///< in the force stream's unit; NaN without one
+    std::size_t slidingFrames = 0;
+    double framePeriod_s = 0;
+    std::vector<RoughnessFrame> frames;  ///< with the features that the settings choose
+};
+
+/// Errors: as RoughnessChain::create(); Device when nothing was felt sliding or in contact.
+[[nodiscard]] Result<SlideReading> readSlide(const SensorSamples& samples, const RoughnessSettings& settings,
+                                             const SensorRest& rest);
+
+/// Mean R of the slide's sliding frames under `settings`, smoothed as the bench does; NaN with no feature present.
+[[nodiscard]] double roughnessOf(const SlideReading& slide, const RoughnessSettings& settings);
+
+/// Statistics of one channel over all finite samples; n = 0 where there is no such stream.
+[[nodiscard]] Statistics levelOf(const SensorSamples& samples, StreamKind kind, std::size_t channel = 0);
+/// Nothing where there is no such stream.
+[[nodiscard]] const StreamInfo* streamOf(const SensorSamples& samples, StreamKind kind) noexcept;
+
+}  // namespace tacto
