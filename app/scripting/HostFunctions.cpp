@@ -9,7 +9,7 @@ const std::vector<HostFunction>& hostFunctions() {
         for (auto* part : {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
                            recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions,
                            loadSafetyFunctions, calibrationFunctions, calibrationStoreFunctions,
-                           sensorCalibrationFunctions, sensorProfileFunctions, transitionFunctions, stepFunctions}) {
+                           transitionFunctions, stepFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }
