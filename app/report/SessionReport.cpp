@@ -241,7 +241,9 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     const auto events = reader->events();
     if (!events) return failure(events);
     Instant last{0};
+    QString calibration;
     for (const auto& row : *events) {
+        if (row.name == "calibration") calibration = sentenceOf(objectOf(row.body));
         last = std::max(last, row.at);
         if (!isQuiet(row.name)) addEvent(model, row);
     }
@@ -257,6 +259,13 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
         for (const auto& exposure : std::get<ExposureFigure>(figure->content).rows) addExposure(model, exposure);
     }
     for (const auto& row : *items) last = std::max(last, row.at);
+    const bool stimulates = std::any_of(model.devices.begin(), model.devices.end(),
+                                        [](const ReportDevice& device) { return device.role == "stimulator"; });
+    if (stimulates) {
+        model.identity.insert(model.identity.begin(),
+                              {"Stimulator calibration",
+                               calibration.isEmpty() ? "not calibrated, as far as this session says" : calibration});
+    }
     model.duration_s = toSeconds(last);
     if (auto filled = fillVerdict(*reader, model, *events); !filled) return failure(filled);
     return model;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "app/run/KnownCalibration.h"
+
 namespace tacto {
 
 namespace {
@@ -75,6 +77,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.limits = order.limits.sets;
     config.session = run->session_.get();
     config.tap = tap;
+    applyKnown(knownCalibration(config.devices), config);
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     run->bench_ = std::move(*bench);

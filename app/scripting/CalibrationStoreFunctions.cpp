@@ -45,6 +45,14 @@ Result<Json> calibration(ScriptSession& session, const Json&) {
                 {"valid_until", dateText(found->validUntil)}};
 }
 
+Result<Json> useCalibration(ScriptSession& session, const Json& list) {
+    const Arguments arguments("bench.useCalibration", list);
+    const Json use = arguments.at(0);
+    if (!use.is_boolean()) return arguments.wrong("use", use, "true or false");
+    if (auto changed = session.bench().useCalibration(use.get<bool>()); !changed) return failure(changed);
+    return Json();
+}
+
 Result<std::optional<CalibrationDate>> dueDate(const Arguments& arguments, const Json& options) {
     auto text = arguments.text(options, "scope_due", "");
     if (!text) return failure(text);
@@ -119,6 +127,15 @@ std::vector<HostFunction> calibrationStoreFunctions() {
          "valid_until }.",
          "Throws without a stimulator, or when the store is damaged.",
          calibration},
+        {"bench",
+         "useCalibration",
+         HostKind::Function,
+         {{"use", "boolean", "", "false: the stimulator is told the commands as they are; true: as at the start"}},
+         "Leaves the stored calibration aside for the rest of the run, as a new one must, or takes it up again. The "
+         "output must be disarmed.",
+         "",
+         "Throws while armed.",
+         useCalibration},
         {"record",
          "calibration",
          HostKind::Function,

@@ -41,7 +41,9 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
     out["captures"] = ids;
-    const double commanded = session.bench().telemetry().trainAmplitude;
+    // A calibrated stimulator is told something else than what it is to deliver.
+    double commanded = session.bench().telemetry().trainAmplitude;
+    if (const auto& calibration = session.bench().calibration()) commanded = calibration->delivered(commanded);
     out["commanded"] = std::isfinite(commanded) ? Json(commanded) : Json();
     return out;
 }

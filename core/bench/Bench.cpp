@@ -33,6 +33,7 @@ struct Bench::State {
     BenchConfig config;
     VirtualClock* virtualClock = nullptr;  // null on the steady clock
     SourceTraits source;
+    std::optional<AmplitudeCalibration> applied;  // config.calibration, or nothing while it is left aside
     SafetyGate gate;
     Interlock interlock;
     Heartbeat heartbeat;
@@ -64,6 +65,7 @@ struct Bench::State {
         : config(std::move(given)),
           virtualClock(dynamic_cast<VirtualClock*>(config.clock.get())),
           source(traitsOf(config.devices)),
+          applied(config.calibration),
           gate(*config.clock) {}
 
     ~State() {
@@ -125,7 +127,7 @@ struct Bench::State {
         return FingerInput::create(*sensor, profile.roughness);
     }
     [[nodiscard]] std::unique_ptr<TrainPlanner> makePlanner(const Profile& profile) {
-        return std::make_unique<TrainPlanner>(profile.encoding, source, gate);
+        return std::make_unique<TrainPlanner>(profile.encoding, source, gate, applied);
     }
 
     [[nodiscard]] Result<void> open();
@@ -145,6 +147,7 @@ struct Bench::State {
         refusalsSeen = loop->refusals();
         return fail(ErrorCode::LimitExceeded, "{}", loop->telemetry().lastRefusal.view());
     }
+    void noteCalibration();
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
     [[nodiscard]] ArmCommand armCommandFor(const ArmRequest& request, const Load& load) const;
 };
@@ -193,8 +196,17 @@ Result<void> Bench::State::open() {
     loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
     if (const auto connected = interlock.connect(); !connected) return connected;
     nextTick = outputDue = config.clock->now();
+    noteCalibration();
     if (virtualClock == nullptr) startThreads();
     return {};
+}
+
+void Bench::State::noteCalibration() {
+    if (!recorder || config.calibrationText.empty()) return;
+    const AmplitudeCalibration told = applied.value_or(AmplitudeCalibration{});
+    recorder->event(config.clock->now(), "calibration", {{"gain", told.gain}, {"offset", told.offset}},
+                    config.calibration && !applied ? "left aside: the stimulator is told the commands as they are"
+                                                   : std::string_view(config.calibrationText));
 }
 
 void Bench::State::startThreads() {
@@ -276,6 +288,7 @@ GateSetup Bench::State::setupFor(const Load& load) const {
     setup.check = config.profile.encoding.train;
     setup.check.pulses = 1;
     setup.person = config.person;
+    setup.calibration = applied;
     return setup;
 }
 
@@ -491,6 +504,22 @@ Result<void> Bench::setProfile(const Profile& profile) {
     s.config.profile = profile;
     if (*finger) s.loop->replaceFinger(std::move(*finger));
     if (!armed) s.loop->replacePlanner(s.makePlanner(profile));
+    return {};
+}
+
+const std::optional<AmplitudeCalibration>& Bench::calibration() const noexcept { return state_->applied; }
+
+Result<void> Bench::useCalibration(bool use) {
+    auto& s = *state_;
+    const auto state = s.interlock.state();
+    if (state != InterlockState::Disarmed && state != InterlockState::Disconnected) {
+        return fail(ErrorCode::NotArmed, "the calibration cannot change while {}: disarm first", nameOf(state));
+    }
+    const auto wanted = use ? s.config.calibration : std::nullopt;
+    if (wanted == s.applied) return {};
+    s.applied = wanted;
+    s.loop->replacePlanner(s.makePlanner(s.config.profile));
+    s.noteCalibration();
     return {};
 }
 

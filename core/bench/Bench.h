@@ -34,6 +34,10 @@ struct BenchConfig {
     std::optional<PersonSetup> person;  ///< required in person mode
     SessionWriter* session = nullptr;   ///< not owned; null records nothing
     BenchTap* tap = nullptr;            ///< not owned; null shows nothing
+    /// Of the stimulator: applied to every train, and known to the gate. Nothing: it is told the commands as they are,
+    /// and a person is refused.
+    std::optional<AmplitudeCalibration> calibration;
+    std::string calibrationText;  ///< for the session: which one, or why there is none; empty records nothing
 };
 
 /// What the operator states when arming.
@@ -77,6 +81,11 @@ public:
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
     [[nodiscard]] Result<void> setProfile(const Profile& profile);
+    /// The calibration that is applied now.
+    [[nodiscard]] const std::optional<AmplitudeCalibration>& calibration() const noexcept;
+    /// Leaves the stimulator's calibration aside, or takes it up again: a new one must see the stimulator as it is.
+    /// Errors: NotArmed unless disarmed.
+    [[nodiscard]] Result<void> useCalibration(bool use);
     [[nodiscard]] const Profile& profile() const noexcept;
     [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
 

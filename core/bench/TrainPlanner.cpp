@@ -13,8 +13,9 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
             .pulsesMax = source.pulsesMax};
 }
 
-TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate)
-    : encoder_(profile), source_(source), gate_(gate) {}
+TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
+                           const std::optional<AmplitudeCalibration>& calibration)
+    : encoder_(profile), source_(source), calibration_(calibration), gate_(gate) {}
 
 Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure, Instant now) {
     const auto encoded = encoder_.encode(roughness, pressure);
@@ -59,7 +60,7 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     const Command command = begin(onset);
     const auto train = trainFor(source_.drive, encoder_.profile(), command.amplitude, impedance);
     if (!train) return failure(train);
-    const auto rounded = roundToDevice(*train, gridOf(source_));
+    const auto rounded = roundToDevice(toldFor(*train, calibration_), gridOf(source_));
     if (!rounded) return failure(rounded);
     auto approved = gate_.approve(TrainRequest{rounded->train, command.interval, onset});
     if (!approved) return failure(approved);

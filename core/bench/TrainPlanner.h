@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "core/encoding/AmplitudeCalibration.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Rounding.h"
 #include "core/encoding/TrainScheduler.h"
@@ -28,8 +29,10 @@ struct PlannedBurst {
 
 class TrainPlanner {
 public:
-    /// `profile` has passed validate(); `gate` outlives the planner.
-    TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate);
+    /// `profile` has passed validate(); `gate` outlives the planner. With a `calibration` the stimulator is told what
+    /// makes it deliver the command; the gate must know of the same one.
+    TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
+                 const std::optional<AmplitudeCalibration>& calibration = {});
 
     /// What is wanted from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then
     /// nothing is wanted.
@@ -55,6 +58,7 @@ private:
 
     const Encoder encoder_;
     const SourceTraits source_;
+    const std::optional<AmplitudeCalibration> calibration_;
     SafetyGate& gate_;
     TrainScheduler scheduler_;
     std::optional<Command> wanted_;

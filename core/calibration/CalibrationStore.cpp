@@ -169,18 +169,4 @@ std::filesystem::path calibrationFile() {
            "calibrations.jsonl";
 }
 
-Result<double> commandFor(const StoredCalibration& calibration, double wanted) {
-    if (!(wanted >= 0) || !std::isfinite(wanted)) {
-        return fail(ErrorCode::InvalidArgument, "an amplitude of {} {}; 0 or more was expected", wanted,
-                    calibration.unit);
-    }
-    if (wanted == 0) return 0.0;
-    const double command = (wanted - calibration.offset) / calibration.gain;
-    if (!(command > 0)) {
-        return fail(ErrorCode::InvalidArgument, "{} {} cannot be had from a stimulator whose offset is {} {}", wanted,
-                    calibration.unit, calibration.offset, calibration.unit);
-    }
-    return command;
-}
-
 }  // namespace tacto

@@ -84,8 +84,4 @@ private:
 /// $XDG_DATA_HOME/tactoscope/calibrations.jsonl, or ~/.local/share/tactoscope/calibrations.jsonl.
 [[nodiscard]] std::filesystem::path calibrationFile();
 
-/// What the device has to be told so that it delivers `wanted`, in the calibration's unit; 0 stays 0. Errors:
-/// InvalidArgument for a value that is not finite or negative, or one that the offset alone exceeds.
-[[nodiscard]] Result<double> commandFor(const StoredCalibration& calibration, double wanted);
-
 }  // namespace tacto

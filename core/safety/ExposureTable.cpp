@@ -6,7 +6,7 @@
 namespace tacto {
 
 namespace gate {
-ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool currentSource) noexcept {
+ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool commandComputed) noexcept {
     const LimitRow& wanted = limit.row;
     ExposureRow row;
     row.quantity = wanted.quantity;
@@ -19,7 +19,7 @@ ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool c
     row.judged = wanted.judged;
     row.strict = wanted.strict;
     row.evaluated = areaKnown || !needsArea(wanted.quantity);
-    row.within = row.evaluated && keepsLimit(wanted, value, currentSource);
+    row.within = row.evaluated && keepsLimit(wanted, value, commandComputed);
     if (!row.evaluated) row.reason = "the electrode area is not given";
     return row;
 }

@@ -34,11 +34,14 @@ enum Check : int {
     PersonImpedanceBounds,
     PersonVoltageSource,
     PersonMonophasicCheck,
+    PersonCalibration,
+    BadCalibration,
     // updateImpedance()
     ImpedanceValue,
     ImpedanceFromFuture,
     ImpedanceOutOfRange,
     // approve()
+    MoreThanTold,
     MeterFull,
     MalformedTrain,
     SourceKind,

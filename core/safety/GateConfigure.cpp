@@ -98,6 +98,9 @@ Result<void> checkPerson(const GateSetup& setup) {
     if (checks(PersonMonophasicCheck) && setup.check.shape == PulseShape::Monophasic) {
         return invalid("a monophasic check pulse is refused for a person; a biphasic one is needed");
     }
+    if (checks(PersonCalibration) && !setup.calibration) {
+        return invalid("the stimulator is not calibrated; a valid calibration is needed before a person");
+    }
     if (checks(PersonDiscomfort) && !positive(person.discomfortLimit.value())) {
         return invalid("the personal discomfort limit is {} mA; a finite current above 0 is needed",
                        person.discomfortLimit.value());
@@ -126,6 +129,9 @@ Result<void> checkSetup(const GateSetup& setup) {
     }
     if (checks(BadArea) && setup.electrodeArea && !positive(setup.electrodeArea->value())) {
         return invalid("the electrode area is {} cm2; a finite area above 0 is needed", setup.electrodeArea->value());
+    }
+    if (checks(BadCalibration) && setup.calibration) {
+        if (auto sound = validate(*setup.calibration); !sound) return sound;
     }
     if (auto personal = checkPerson(setup); !personal) return personal;
     if (checks(BadCheckTrain)) {

@@ -23,9 +23,20 @@ double SafetyGate::State::carriedAt(Instant now) const noexcept {
     return left;
 }
 
+PulseTrain SafetyGate::State::judgedAs(const PulseTrain& train) const noexcept {
+    const PulseTrain delivered = deliveredBy(train, setup->calibration);
+    return siValue(delivered.amplitude) > siValue(train.amplitude) && checks(MoreThanTold) ? delivered : train;
+}
+
+double SafetyGate::State::commandShare(const PulseTrain& train) const noexcept {
+    const double told = siValue(train.amplitude);
+    const double delivered = siValue(deliveredBy(train, setup->calibration).amplitude);
+    return told > delivered ? delivered / told : 1;
+}
+
 Result<void> SafetyGate::State::judge(const TrainExposure& overRange, const TrainExposure& at500,
-                                      const PulseTrain& train, Seconds interval, double carried_V) const {
-    const bool current = tacto::isCurrent(train.amplitude);
+                                      const PulseTrain& judged, double share, Seconds interval,
+                                      double carried_V) const {
     for (const ActiveLimit& limit : limits) {
         const LimitRow& row = limit.row;
         if (row.action != LimitAction::Refuse || !row.holdsAt(1 / interval.count())) continue;
@@ -33,11 +44,12 @@ Result<void> SafetyGate::State::judge(const TrainExposure& overRange, const Trai
         if (!checks(limitCheck(limit.ceiling ? RequestCeiling : RequestLimit, row.quantity))) continue;
         const bool into500 = row.judged == JudgedAt::Ohm500;
         const double value = (into500 ? at500 : overRange).at(row.quantity);
-        if (keepsLimit(row, value, current)) continue;
+        if (keepsLimit(row, value, commandIsComputed())) continue;
         std::string aside = " into 500 ohm";
         if (!into500) {
             const double nominal =
-                exposureOf(train, interval, load.nominal, setup->source, area, {carried_V}).at(row.quantity);
+                (row.quantity == Quantity::CommandVoltage ? share : 1) *
+                exposureOf(judged, interval, load.nominal, setup->source, area, {carried_V}).at(row.quantity);
             aside = fmt::format(" in the worst case ({:.4g} {} into {})", nominal, unitOf(row.quantity),
                                 load.nominal.text());
         }

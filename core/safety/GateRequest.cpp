@@ -70,9 +70,8 @@ Result<void> checkRequest(const PulseTrain& train, Seconds interval, const Sourc
     return {};
 }
 
-bool keepsLimit(const LimitRow& row, double value, bool currentSource) noexcept {
-    // I = A / |Z| and back again may end a few bits above A; a voltage source's command is exact.
-    const bool computed = row.quantity == Quantity::CommandVoltage && currentSource;
+bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept {
+    const bool computed = row.quantity == Quantity::CommandVoltage && commandComputed;
     return row.keeps(computed ? value * (1 - 1e-12) : value);
 }
 

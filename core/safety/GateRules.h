@@ -38,15 +38,16 @@ struct ActiveLimit {
 /// GateRequest.cpp: form, source and grid; no limits. Errors: InvalidArgument.
 [[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
 
-/// Whether `value` keeps the row; a command computed as I·|Z| may miss "≤" by its last bits.
-[[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool currentSource) noexcept;
+/// Whether `value` keeps the row; a command computed (I·|Z|, or through a calibration) may miss "≤" by its
+/// last bits.
+[[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept;
 
 /// "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than 10 mA
 /// (...)".
 [[nodiscard]] std::string refusalText(const ActiveLimit& limit, double value, const std::string& aside);
 
 /// ExposureTable.cpp: one line of a table; not evaluated when the row needs an area and there is none.
-[[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool currentSource) noexcept;
+[[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool commandComputed) noexcept;
 /// Shown in every table, without a limit where no set or ceiling has one.
 inline constexpr std::array kShown{Quantity::NetCharge, Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s};
 [[nodiscard]] ExposureRow shownRow(Quantity quantity, double value) noexcept;

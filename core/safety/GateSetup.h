@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/electrode/Load.h"
+#include "core/encoding/AmplitudeCalibration.h"
 #include "core/encoding/PulseTrain.h"
 #include "core/safety/Exposure.h"
 #include "core/safety/LimitSet.h"
@@ -63,6 +64,9 @@ struct GateSetup {
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     PulseTrain check;                   ///< shape and timing of the impedance check; its amplitude is the source's
     std::optional<PersonSetup> person;  ///< required in person mode
+    /// Of the stimulator that is connected; required in person mode. Trains are what it is told: the command is judged
+    /// by what it then delivers, everything else by the larger of told and delivered (H1, H9).
+    std::optional<AmplitudeCalibration> calibration;
 };
 
 }  // namespace tacto

@@ -36,9 +36,18 @@ struct SafetyGate::State {
     AcceptedLevels* levels = &nobody;              // Of the person set up now: in people
 
     [[nodiscard]] bool person() const noexcept { return setup->mode == OutputMode::Person; }
+    /// A / |Z| and back, or a calibration and back, may end a few bits above A; else a command is exact.
+    [[nodiscard]] bool commandIsComputed() const noexcept {
+        return setup && (setup->source.drive == Drive::Current || setup->calibration.has_value());
+    }
+    /// What a train counts as: the larger of what the stimulator is told and what it delivers by its calibration.
+    [[nodiscard]] PulseTrain judgedAs(const PulseTrain& train) const noexcept;
+    /// By how much the command, which is what is delivered, is smaller than that.
+    [[nodiscard]] double commandShare(const PulseTrain& train) const noexcept;
     [[nodiscard]] double carriedAt(Instant now) const noexcept;
+    /// `judged`: as judgedAs() gave it; `share`: how much of its amplitude is the command.
     [[nodiscard]] Result<void> judge(const TrainExposure& overRange, const TrainExposure& at500,
-                                     const PulseTrain& train, Seconds interval, double carried_V) const;
+                                     const PulseTrain& judged, double share, Seconds interval, double carried_V) const;
     [[nodiscard]] Result<void> judgeMetered(const TrainExposure& overRange, const TrainExposure& at500, double hz,
                                             Instant now) const;
     [[nodiscard]] bool agreesWithDeclared(double ohm) const noexcept;

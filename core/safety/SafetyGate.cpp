@@ -121,7 +121,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
                         toSeconds(now - s.impedanceAt));
         }
         if (checks(PersonLevel)) {
-            if (auto permitted = s.levels->permits(request.train); !permitted) return failure(permitted);
+            if (auto permitted = s.levels->permits(s.judgedAs(request.train)); !permitted) return failure(permitted);
         }
     }
     return grant(request.train, request.interval, epoch, now);
@@ -138,7 +138,7 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     }
     const Seconds interval = std::max(kCheckInterval, s.check.duration());
     if (s.person() && checks(CheckDiscomfort)) {
-        const double level = siValue(s.check.amplitude) * 1e3;
+        const double level = siValue(s.judgedAs(s.check).amplitude) * 1e3;
         if (!(level <= s.levels->discomfortLimit().value())) {
             return fail(ErrorCode::LimitExceeded,
                         "the check pulse of {:.4g} mA is above this person's discomfort limit of {:.4g} mA", level,
@@ -156,9 +156,12 @@ Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interva
                     s.meter.size());
     }
     const double carried = s.carriedAt(now);
-    const TrainExposure overRange = worstExposure(train, interval, s.load, s.setup->source, s.area, {carried});
-    const TrainExposure at500 = exposureOf(train, interval, Load::resistor(Ohms(500)), s.setup->source, s.area);
-    if (auto kept = s.judge(overRange, at500, train, interval, carried); !kept) return failure(kept);
+    const PulseTrain judged = s.judgedAs(train);
+    TrainExposure overRange = worstExposure(judged, interval, s.load, s.setup->source, s.area, {carried});
+    TrainExposure at500 = exposureOf(judged, interval, Load::resistor(Ohms(500)), s.setup->source, s.area);
+    const double share = s.commandShare(train);
+    for (TrainExposure* exposure : {&overRange, &at500}) exposure->values[indexOf(Quantity::CommandVoltage)] *= share;
+    if (auto kept = s.judge(overRange, at500, judged, share, interval, carried); !kept) return failure(kept);
     const double hz = 1 / interval.count();
     if (auto kept = s.judgeMetered(overRange, at500, hz, now); !kept) return failure(kept);
 
@@ -187,7 +190,7 @@ Result<void> SafetyGate::accept(const PulseTrain& train) {
     if (!state_->setup || !state_->person())
         return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
     if (auto sound = validate(train); !sound) return sound;
-    return state_->levels->accept(train);
+    return state_->levels->accept(state_->judgedAs(train));
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
@@ -250,7 +253,7 @@ void SafetyGate::exposure(std::vector<ExposureRow>& rows) const {
         } else {
             value = s.meter.largest(row.quantity, row.judged, now);
         }
-        rows.push_back(rowOf(limit, value, !std::isnan(s.area), false));
+        rows.push_back(rowOf(limit, value, !std::isnan(s.area), s.commandIsComputed()));
     }
     for (const auto quantity : kShown) {
         if (hasRow(rows, quantity)) continue;

@@ -38,6 +38,8 @@ protected:
         ASSERT_TRUE(limits) << limits.error().message;
         config.limits = std::move(*limits);
         config.session = session_;
+        config.calibration = calibration_;
+        config.calibrationText = "as the test says";
         auto bench = Bench::create(std::move(config));
         ASSERT_TRUE(bench) << bench.error().message;
         bench_ = std::move(*bench);
@@ -51,6 +53,7 @@ protected:
     std::uint64_t seed_ = 1;
     Profile profile_;
     SessionWriter* session_ = nullptr;
+    std::optional<AmplitudeCalibration> calibration_;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

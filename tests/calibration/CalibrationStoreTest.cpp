@@ -154,14 +154,5 @@ TEST(CalibrationDateText, ReadsDaysThatExist) {
     }
 }
 
-TEST(CalibrationCommand, UndoesGainAndOffset) {
-    const auto c = sample("A1");
-    EXPECT_NEAR(c.gain * commandFor(c, 40).value() + c.offset, 40, 1e-12);
-    EXPECT_EQ(commandFor(c, 0).value(), 0);
-    EXPECT_FALSE(commandFor(c, kNan));
-    EXPECT_FALSE(commandFor(c, -1));
-    EXPECT_FALSE(commandFor(c, 0.05));  // below the offset
-}
-
 }  // namespace
 }  // namespace tacto::test

@@ -58,6 +58,9 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(PersonConsent, person([](auto& s) { s.person->consentRecorded = false; }), "recorded consent");
     add(PersonPseudonym, person([](auto& s) { s.person->participant.clear(); }), "pseudonym");
     add(PersonArea, person([](auto& s) { s.electrodeArea.reset(); }), "electrode area");
+    add(PersonCalibration, person([](auto& s) { s.calibration.reset(); }), "not calibrated");
+    add(BadCalibration, bench([](auto& s) { s.calibration = AmplitudeCalibration{1.21, 0, 10, 40}; }), "out of order");
+    add(BadCalibration, bench([](auto& s) { s.calibration = AmplitudeCalibration{1, kNaN, 10, 40}; }), "offset");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
     add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");
@@ -143,6 +146,13 @@ void addStateCases(std::vector<GateCase>& cases) {
         const bool refused = refuses(rig.ask(volts(10)), ErrorCode::LimitExceeded, "out of range");
         const bool checked = rig.gate.approveCheck(rig.clock.now()).has_value();
         return refused && checked && rig.gate.updateImpedance(Ohms(1000), rig.clock.now()) && rig.ask(volts(10));
+    });
+    add(MoreThanTold, "a stimulator that delivers more than it is told", [] {
+        GateSetup setup = benchSetup();
+        setup.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 11)})};
+        const bool fine = Rig(setup).ask(volts(10)).has_value();
+        setup.calibration = AmplitudeCalibration{1.15, 0, 5, 40};
+        return fine && refuses(Rig(setup).ask(volts(10)), ErrorCode::LimitExceeded, "11.5");
     });
     add(MeterFull, "more trains than the meter holds", [] {
         Rig rig(benchSetup());

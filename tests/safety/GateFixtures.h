@@ -66,6 +66,7 @@ inline GateSetup personSetup() {
     person.discomfortLimit = Milliamps(5);
     person.rampStep = Milliamps(0.5);
     setup.person = person;
+    setup.calibration = AmplitudeCalibration{1, 0, 0.1, 50};
     return setup;
 }
 

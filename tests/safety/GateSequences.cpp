@@ -103,6 +103,9 @@ private:
             accepted_ = 0;
             seriesOf_.reset();
         }
+        device_ = {};
+        if (dice_.chance(0.3)) device_ = {dice_.between(0.85, 1.15), dice_.between(-0.2, 0.2)};
+        if (allowed.person || device_.gain != 1) setup.calibration = {device_.gain, device_.offset, 5, 50};
         const bool sound = !dice_.chance(0.03);
         if (!sound) spoil(setup);
         const auto done = gate_.configure(setup);
@@ -118,7 +121,7 @@ private:
     }
 
     void spoil(GateSetup& setup) {
-        switch (dice_.pick(6)) {
+        switch (dice_.pick(7)) {
             case 0:
                 setup.limits.clear();
                 break;
@@ -133,6 +136,9 @@ private:
                 break;
             case 4:
                 setup.source.widthMax = Micros(-1);
+                break;
+            case 5:
+                setup.calibration = {dice_.chance(0.5) ? kNaN : 1.3, 0, 5, 50};
                 break;
             default:
                 setup.check.pulses = 0;
@@ -238,7 +244,12 @@ private:
         if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
         if (!gate_.isCurrent(next.approval)) return;
         if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
-        const PulseTrain& train = next.approval.train();
+        PulseTrain train = next.approval.train();
+        if (isCurrent(train.amplitude)) {
+            train.amplitude = Milliamps(device_.outOf(siValue(train.amplitude) * 1e3));
+        } else {
+            train.amplitude = Volts(device_.outOf(siValue(train.amplitude)));
+        }
         const double start = now();
         ++total_.trains;
         ++delivered_;
@@ -249,7 +260,7 @@ private:
         busyUntil_ = start + train.duration().count();
         note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
         referee(train, facts, next.interval);
-        if (allowed_.person && dice_.chance(0.7) && gate_.accept(train)) {
+        if (allowed_.person && dice_.chance(0.7) && gate_.accept(next.approval.train())) {
             if (!sameKind(train)) accepted_ = 0;
             seriesOf_ = train;
             accepted_ = std::max(accepted_, siValue(train.amplitude));

@@ -15,7 +15,7 @@ std::uint64_t wantedSequences() {
     if (const char* text = std::getenv("TACTOSCOPE_H1_SEQUENCES")) return std::strtoull(text, nullptr, 10);
 #if defined(TACTOSCOPE_SANITIZED)
     return 10'000;
-#elif defined(NDEBUG)
+#elif defined(__OPTIMIZE__)
     return 1'000'000;
 #else
     return 100'000;

@@ -46,6 +46,15 @@ struct Allowed {
     double low = 0, high = kInf;         // Ω, of a person
 };
 
+/// A device that does not deliver what it is told: a line between 5 and 50 V or mA, and through zero beyond its ends.
+struct Miscalibration {
+    double gain = 1, offset = 0;
+    [[nodiscard]] double outOf(double told) const {
+        const double end = told < 5 ? 5 : told > 50 ? 50 : told;
+        return told == 0 ? 0 : told * (gain * end + offset) / end;
+    }
+};
+
 class SequenceReferee {
 public:
     SequenceReferee(VirtualClock& clock, Dice& dice, SequenceCount& total)
@@ -78,7 +87,7 @@ protected:
 
     void setAmplitude(PulseTrain& train, double si) {
         const bool current = source_.drive == Drive::Current;
-        double own = current ? si * 1e3 : si;
+        double own = (current ? si * 1e3 : si) / device_.gain;
         if (source_.amplitudeStep > 0) own = std::floor(own / source_.amplitudeStep) * source_.amplitudeStep;
         own = std::max(own, 0.0);
         train.amplitude = current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
@@ -219,6 +228,7 @@ protected:
     Allowed allowed_;
     IndependentBody body_, at500_;  // What is connected, and a 500 Ω resistor beside it
     Near theme_ = Near::Count;      // None
+    Miscalibration device_;         // What it makes of what it is told
     bool close_ = false;
     double slowest_ = 0;      // Longest interval delivered, s
     double measured_ = 1000;  // A person's |Z| as told to the gate, Ω

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/report/Report.h"
+#include "app/run/KnownCalibration.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -347,6 +348,7 @@ void BenchDesk::openOnThread(const LiveOrder& order) {
     config.limits = limits_.sets;
     config.session = live->session.get();
     config.tap = live->tap.get();
+    applyKnown(knownCalibration(config.devices), config);
     auto bench = Bench::create(std::move(config));
     if (!bench) return give_up(bench.error());
     live->bench = std::move(*bench);

@@ -1,0 +1,22 @@
+// KnownCalibration.h - what the store knows of the stimulator that is connected, for a bench that is about to be made.
+//
+// What is missing, expired, damaged, impossible or of a simulated bench only is *not calibrated*; the text says why.
+//
+// Thread-safety: pure but for reading the store.
+#pragma once
+
+#include "core/bench/Bench.h"
+
+namespace tacto {
+
+struct KnownCalibration {
+    std::optional<AmplitudeCalibration> calibration;
+    std::string text;  ///< one sentence; empty without a stimulator
+};
+
+[[nodiscard]] KnownCalibration knownCalibration(const DeviceSet& devices);
+
+/// Has the bench apply it.
+void applyKnown(KnownCalibration known, BenchConfig& config);
+
+}  // namespace tacto

@@ -1,0 +1,98 @@
+// A bench that knows its stimulator's calibration delivers what is asked, and says so in the session.
+#include "core/measure/PulseMeasurement.h"
+#include "core/session/SessionReader.h"
+#include "tests/bench/BenchFixture.h"
+
+namespace tacto {
+namespace {
+
+class CalibratedBenchTest : public test::BenchFixture {
+protected:
+    /// Of the trains at full roughness and pressure, across the load.
+    [[nodiscard]] double deliveredAtFull() {
+        const auto captures = bench_->capture(3, ScopeSettings{});
+        if (!captures) {
+            ADD_FAILURE() << captures.error().message;
+            return 0;
+        }
+        return measureTrains(*captures, "voltage")->amplitude.mean;
+    }
+    const AmplitudeCalibration weak_{.gain = 0.95, .offset = 0, .lowest = 10, .highest = 40};
+};
+
+TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
+    RecordProperty("hazard", "H1");
+    open({"sim:stimulator?gain=0.95", "sim:oscilloscope?gain=1"});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    EXPECT_NEAR(deliveredAtFull(), 38, 0.3);
+
+    calibration_ = weak_;
+    open({"sim:stimulator?gain=0.95", "sim:oscilloscope?gain=1"});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    EXPECT_NEAR(deliveredAtFull(), 40, 0.3) << "told 42.1 V, and the paper's 40 V are judged by what comes out";
+    EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40 / 0.95, 0.01);
+    for (const auto& row : bench_->telemetry().exposure()) {
+        EXPECT_TRUE(row.within || !row.evaluated) << titleOf(row.quantity);
+    }
+}
+
+TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
+    RecordProperty("hazard", "H1");
+    // It says the stimulator is weak; it is not. What is told must keep every limit too: 42.1 V would make 10.2 mA RMS.
+    calibration_ = weak_;
+    open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
+    ASSERT_TRUE(arm("140 ohm"));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
+}
+
+TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
+    test::ScratchDir folder;
+    VirtualClock recording;
+    SessionAbout about;
+    auto writer = SessionWriter::create(folder.path() / "a.tacto", about, recording);
+    ASSERT_TRUE(writer) << writer.error().message;
+    session_ = writer->get();
+    calibration_ = weak_;
+    open({"sim:stimulator?gain=0.95"});
+    ASSERT_TRUE(arm());
+    const auto armed = bench_->useCalibration(false);
+    ASSERT_FALSE(armed);
+    EXPECT_EQ(armed.error().code, ErrorCode::NotArmed);
+    bench_->disarm();
+    ASSERT_TRUE(bench_->useCalibration(false));
+    EXPECT_FALSE(bench_->calibration());
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    EXPECT_NEAR(deliveredAtFull(), 38, 0.4);
+    bench_.reset();
+    ASSERT_TRUE((*writer)->close());
+    const auto reader = SessionReader::open(folder.path() / "a.tacto");
+    ASSERT_TRUE(reader) << reader.error().message;
+    std::vector<std::string> said;
+    const auto events = reader->events();
+    ASSERT_TRUE(events) << events.error().message;
+    for (const auto& event : *events) {
+        if (event.name == "calibration") said.push_back(event.body.dump());
+    }
+    ASSERT_EQ(said.size(), 2U);
+    EXPECT_NE(said[0].find("\"gain\":0.95"), std::string::npos) << said[0];
+    EXPECT_NE(said[1].find("left aside"), std::string::npos) << said[1];
+}
+
+TEST_F(CalibratedBenchTest, AnImpossibleCalibrationArmsNothing) {
+    RecordProperty("hazard", "H9");
+    calibration_ = AmplitudeCalibration{0.1, 0, 10, 40};
+    open({});
+    const auto armed = arm();
+    ASSERT_FALSE(armed);
+    EXPECT_NE(armed.error().message.find("out of order"), std::string::npos) << armed.error().message;
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+}  // namespace
+}  // namespace tacto
