@@ -57,6 +57,8 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> calibrationFunctions();
 [[nodiscard]] std::vector<HostFunction> calibrationStoreFunctions();
 [[nodiscard]] std::vector<HostFunction> benchLoadFunctions();
+[[nodiscard]] std::vector<HostFunction> sensorCalibrationFunctions();
+[[nodiscard]] std::vector<HostFunction> sensorProfileFunctions();
 [[nodiscard]] std::vector<HostFunction> tripFunctions();
 [[nodiscard]] std::vector<HostFunction> loadSafetyFunctions();
 [[nodiscard]] std::vector<HostFunction> transitionFunctions();

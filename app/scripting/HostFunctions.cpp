@@ -8,7 +8,7 @@ const std::vector<HostFunction>& hostFunctions() {
         std::vector<HostFunction> out;
         for (auto* part : {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
                            recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions,
-                           loadSafetyFunctions, calibrationFunctions, calibrationStoreFunctions,
+                           loadSafetyFunctions, calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
                            transitionFunctions, stepFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));

@@ -5,21 +5,12 @@
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
+#include "app/scripting/SurfaceSliding.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
 
-namespace {
-
-using Json = nlohmann::json;
-
-struct Sliding {
-    std::string material;
-    double speed_mm_s = 50;
-    double force_n = 1;
-};
-
-Result<Sliding> slidingFrom(const Arguments& arguments, const Json& options, const Sliding& usual) {
+Result<Sliding> slidingFrom(const Arguments& arguments, const nlohmann::json& options, const Sliding& usual) {
     auto material = arguments.text(options, "material", usual.material);
     if (!material) return failure(material);
     auto speed = arguments.number(options, "speed_mm_s", usual.speed_mm_s, {0, 1000});
@@ -29,7 +20,6 @@ Result<Sliding> slidingFrom(const Arguments& arguments, const Json& options, con
     return Sliding{*material, *speed, *force};
 }
 
-/// Puts a surface under the finger, or asks for it.
 Result<void> slide(ScriptSession& session, const Sliding& sliding) {
     if (auto& surface = session.bench().devices().surface) {
         return surface->present(sliding.material, MillimetresPerSecond(sliding.speed_mm_s), Newtons(sliding.force_n));
@@ -41,6 +31,10 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
     if (auto answer = session.ask(question); !answer) return failure(answer);
     return {};
 }
+
+namespace {
+
+using Json = nlohmann::json;
 
 /// Waits until R and P stayed within `tolerance` for half a second. False when they did not by `limit_s`.
 Result<bool> settle(Bench& bench, double tolerance, double limit_s) {

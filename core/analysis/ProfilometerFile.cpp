@@ -107,8 +107,8 @@ std::optional<Label> labelOf(std::string_view field) {
 }
 
 std::vector<std::string_view> fieldsOf(std::string_view line, char separator) {
-    // "Ra = 1,62 µm" in a file without other separators is one field.
-    if (separator == ',' && line.find('=') != std::string_view::npos && labelOf(line)) return {line};
+    // "Ra = 1,62 µm" or "Ra: 1,62 µm" in a file without other separators is one field.
+    if (separator == ',' && line.find_first_of("=:") != std::string_view::npos && labelOf(line)) return {line};
     std::vector<std::string_view> out;
     bool quoted = false;
     std::size_t begin = 0;

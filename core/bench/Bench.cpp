@@ -609,6 +609,7 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     return taken;
 }
 
+void Bench::listen(BenchTap* tap) { state_->loop->listen(tap); }
 bool Bench::sensorFinished() const noexcept { return state_->sensor && state_->sensor->finished(); }
 
 Telemetry Bench::telemetry() const {

@@ -110,6 +110,9 @@ public:
     /// What a request has brought so far, or why the oscilloscope failed. Empties it.
     [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
     void cancelCaptures() noexcept;
+    /// Also pushes the sensor's samples into `tap`, not owned, until null is passed; for a caller that wants them itself
+    /// and takes them between waits. On return nothing pushes into the one before.
+    void listen(BenchTap* tap);
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
 

@@ -219,7 +219,8 @@ void ControlLoop::readFinger(Instant now) noexcept {
             parts_.recorder->samples(parts_.sensorStreams[s], streams[s].channels, blocks[s]);
         }
     }
-    if (parts_.tap != nullptr) tapSamples();
+    if (parts_.tap != nullptr) tapSamples(*parts_.tap);
+    serveListener();
     for (const auto& frame : finger_->frames()) {
         if (parts_.tap != nullptr) parts_.tap->frames.push(frame);
         if (frame.contact && !std::isnan(frame.h) && frame.sliding) {
@@ -275,7 +276,19 @@ void ControlLoop::noteLosses(Instant now) noexcept {
     recordReport(*parts_.recorder, now, report, "something was lost between the fingertip sensor and this program");
 }
 
-void ControlLoop::tapSamples() noexcept {
+void ControlLoop::listen(BenchTap* tap) {
+    const std::scoped_lock lock(listenMutex_);
+    listener_ = tap;
+    listening_.store(tap != nullptr, std::memory_order_release);
+}
+
+void ControlLoop::serveListener() noexcept {
+    if (!listening_.load(std::memory_order_acquire)) return;
+    const std::scoped_lock lock(listenMutex_);
+    if (listener_ != nullptr) tapSamples(*listener_);
+}
+
+void ControlLoop::tapSamples(BenchTap& tap) noexcept {
     const auto blocks = finger_->blocks();
     const auto streams = finger_->session().device().streams();
     for (std::size_t s = 0; s < blocks.size(); ++s) {
@@ -288,7 +301,7 @@ void ControlLoop::tapSamples() noexcept {
             sample.t_s = blocks[s].t_s[i];
             for (std::size_t c = 0; c < shown; ++c)
                 sample.values[c] = static_cast<float>(blocks[s].values[i * all + c]);
-            parts_.tap->samples.push(sample);
+            tap.samples.push(sample);
         }
     }
 }

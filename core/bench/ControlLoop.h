@@ -67,6 +67,9 @@ public:
     void pauseOutput(bool paused) noexcept { paused_.store(paused, std::memory_order_release); }
     void replaceFinger(std::unique_ptr<FingerInput> finger);
     void replacePlanner(std::unique_ptr<TrainPlanner> planner);
+    /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned; null ends it, and on return
+    /// nothing pushes into the one before. From another thread.
+    void listen(BenchTap* tap);
 
     /// One turn at `now`. Does not allocate in a steady state.
     void step(Instant now) noexcept;
@@ -92,7 +95,8 @@ private:
     void readFinger(Instant now) noexcept;
     void watchSensor(Instant now) noexcept;
     void noteLosses(Instant now) noexcept;
-    void tapSamples() noexcept;
+    void tapSamples(BenchTap& tap) noexcept;
+    void serveListener() noexcept;
     void judgeReports() noexcept;
     void judge(const TrainReport& report) noexcept;
     void judgeBurst(const TrainReport& report) noexcept;
@@ -120,6 +124,9 @@ private:
     std::mutex inboxMutex_;  // held to move a setting in or out
     Inbox inbox_;
     std::atomic<bool> inboxFull_{false};
+    std::mutex listenMutex_;  // held to hand over the samples of one step
+    BenchTap* listener_ = nullptr;
+    std::atomic<bool> listening_{false};
     std::mutex armedMutex_;
     std::optional<Result<void>> armedResult_;
 

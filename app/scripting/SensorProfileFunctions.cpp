@@ -1,0 +1,125 @@
+// What a sensor calibration is made from and becomes: a profilometer's file in, a profile out.
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/ProfilometerFile.h"
+#include "core/analysis/ResultJson.h"
+#include "core/calibration/CalibrationStore.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Result<Json> profilometer(ScriptSession&, const Json& list) {
+    const Arguments arguments("bench.profilometer", list);
+    auto path = arguments.text(0, "path");
+    if (!path) return failure(path);
+    auto found = readProfilometer(*path);
+    if (!found) return failure(found);
+    return Json{{"ra_um", numberOrNull(found->ra_um)},
+                {"rz_um", numberOrNull(found->rz_um)},
+                {"ra_values", found->raValues},
+                {"rz_values", found->rzValues}};
+}
+
+/// Letters, digits, '-' and '_': a serial may hold anything.
+std::string fileWord(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+        out += plain ? c : '-';
+    }
+    return out.empty() ? "unnamed" : out;
+}
+
+/// Writes a file that is not there yet: an older calibration is superseded, never overwritten.
+Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, const std::string& stem,
+                                       const std::string& text) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    constexpr int kMostADay = 1000;
+    for (int i = 1; i < kMostADay; ++i) {
+        const auto path = folder / (stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".json");
+        std::FILE* file = std::fopen(path.c_str(), "wxe");
+        if (file == nullptr && errno == EEXIST) continue;
+        if (file == nullptr) {
+            return fail(ErrorCode::Io, "{} cannot be written: {}", path.string(), std::strerror(errno));
+        }
+        const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+        const bool closed = std::fclose(file) == 0;
+        if (written && closed) return path;
+        std::filesystem::remove(path, problem);
+        return fail(ErrorCode::Io, "{} cannot be written to its end; room on the disk is expected", path.string());
+    }
+    return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMostADay);
+}
+
+Result<Json> keep(ScriptSession& session, const Json& list) {
+    const Arguments arguments("record.sensorProfile", list);
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    auto options = arguments.options(1, {"store", "contact_area_cm2"});
+    if (!options) return failure(options);
+    if ((*found)->value("accepted", Json()) != Json(true) || !(*found)->value("roughness", Json()).is_object()) {
+        return arguments.wrong("found", **found, "an accepted result of analysis.sensorCalibration()");
+    }
+    auto roughness = roughnessSettingsFromJson((**found)["roughness"]);
+    if (!roughness) return failure(roughness);
+    auto area = arguments.number(*options, "contact_area_cm2", roughness->contactArea.value(), {0.01, 100});
+    if (!area) return failure(area);
+    roughness->contactArea = SquareCentimetres(*area);
+    const auto& sensor = session.bench().devices().sensor;
+    if (!sensor) return fail(ErrorCode::Unsupported, "record.sensorProfile: no sensor is connected");
+    const auto& identity = sensor->identity();
+    const auto today = dateText(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+
+    Profile profile = session.bench().profile();
+    profile.roughness = *roughness;
+    profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, today,
+                               identity.simulated ? " (simulated)" : "");
+    if (auto replaced = session.bench().setProfile(profile); !replaced) return failure(replaced);
+    Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
+    const Json store = options->value("store", Json(false));
+    if (!store.is_boolean()) return arguments.wrong("store", store, "true or false");
+    if (store != Json(true)) return out;
+    const auto stem = "fingertip-" + fileWord(identity.serial.empty() ? identity.name : identity.serial) + "-" + today;
+    auto path = writeNew(calibrationFile().parent_path() / "profiles", stem, out["profile"].dump(2) + "\n");
+    if (!path) return failure(path);
+    out["file"] = path->string();
+    return out;
+}
+
+}  // namespace
+
+std::vector<HostFunction> sensorProfileFunctions() {
+    return {
+        {"bench",
+         "profilometer",
+         HostKind::Function,
+         {{"path", "text", "", "of a CSV that a profilometer exported"}},
+         "Finds Ra and Rz in it, by name and unit.",
+         "{ ra_um, rz_um, ra_values, rz_values }: means over that many values; rz_um is null where it is not stated.",
+         "Throws with the line and the reason where no Ra with a unit is found.",
+         profilometer},
+        {"record",
+         "sensorProfile",
+         HostKind::Function,
+         {{"found", "object", "", "accepted, from analysis.sensorCalibration()"},
+          {"options.store", "boolean", "", "keep it as a file, in the folder profiles beside the calibrations", true},
+          {"options.contact_area_cm2", "number", "cm2", "0.01 to 100; the profile's where left out", true}},
+         "The bench's profile with the scales, surfaces and rest that were found; in force for the rest of the run. A "
+         "file is never overwritten: a later one gets a number.",
+         "{ name, file, profile }: file is null where it was not stored; what --profile takes.",
+         "Throws for a refused calibration, while armed with another encoding, or where the file cannot be written.",
+         keep},
+    };
+}
+
+}  // namespace tacto
