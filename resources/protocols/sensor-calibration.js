@@ -28,6 +28,7 @@ protocol({
     weight_tolerance_pct: { label: "Tolerance of the weights", unit: "%", min: 0, max: 10, value: 0.1 },
     gravity_m_s2: { label: "Local gravity", unit: "m/s2", min: 9.7, max: 9.9, value: 9.80665 },
     contact_area_cm2: { label: "Contact area under a weight (0: not known)", unit: "cm2", min: 0, max: 100, value: 1 },
+    reference_tolerance_pct: { label: "Known-reference check, ±", unit: "%", min: 0.1, max: 50, value: 10 },
     store: { label: "Keep the result as a profile", type: "boolean", value: false },
   },
 });
@@ -97,6 +98,15 @@ function slidesTable(surfaces) {
   return rows;
 }
 
+function massesOf(p) {
+  const masses = parts(p.weights_g).map((text) => numberIn(text, "a weight in g"));
+  masses.sort((a, b) => a - b);
+  if (masses.length === 1 || masses.some((mass, k) => k > 0 && mass === masses[k - 1])) {
+    throw new Error("weights_g is " + p.weights_g + "; two or more different weights, or none, are expected");
+  }
+  return masses;
+}
+
 function slideOver(p, surfaces, rest, results) {
   const order = random.blocks(surfaces.map((surface, index) => index), p.slides);
   for (const index of progress(order, "Slides")) {
@@ -114,11 +124,40 @@ function slideOver(p, surfaces, rest, results) {
   }
 }
 
+function setUp(p, surfaces) {
+  if (bench.devices.every((device) => device.simulated)) {
+    report.text("Set-up: the simulated fingertip on the simulated surfaces.");
+    return;
+  }
+  operator.confirm(
+    "setup",
+    "The fingertip is mounted as in use, the surfaces (" + surfaces.map((s) => s.name).join(", ") + ") are clean, and " +
+      "the Ra and Rz given are of these very specimens",
+  );
+}
+
+// Before anything is believed: the largest weight must read as what it is. In counts nobody knows what it should read;
+// then it must stand out from rest.
+function checkReference(p, rest, masses) {
+  const check = { mass_g: null, reference_n: null, measured: null, deviation_pct: null, allowed_pct: p.reference_tolerance_pct, passed: null };
+  if (masses.length === 0 || rest.force.n === 0) return check; // not evaluated: no weight, or no force sensor
+  const reading = bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 });
+  check.mass_g = reading.mass_g;
+  check.reference_n = reading.reference_n;
+  check.measured = reading.force === null ? null : reading.force - rest.force.mean;
+  check.unit = reading.force_unit;
+  if (check.measured === null) check.passed = false;
+  else if (reading.force_unit === "N") {
+    check.deviation_pct = 100 * Math.abs(check.measured / reading.reference_n - 1);
+    check.passed = check.deviation_pct <= p.reference_tolerance_pct;
+  } else check.passed = Math.abs(check.measured) > 5 * rest.force.sd;
+  record.measurement("known-reference check", check);
+  return check;
+}
+
 // Up and down, again and again: what stays behind when weight is taken off shows as hysteresis.
-function weigh(p, results) {
-  const masses = parts(p.weights_g).map((text) => numberIn(text, "a weight in g"));
+function weigh(p, masses, results) {
   if (masses.length === 0) return [];
-  masses.sort((a, b) => a - b);
   const steps = [];
   for (let repeat = 1; repeat <= p.weight_repeats; ++repeat) {
     for (const mass of masses) steps.push({ mass, direction: "up", repeat });
@@ -159,7 +198,7 @@ function taxelScales(p, weights) {
   if (weights.length === 0 || weights[0].taxels.length === 0) return [];
   if (!(p.contact_area_cm2 > 0)) {
     return weights[0].taxels.map((_, index) => ({
-      taxel: index + 1, scale: null, offset_pa: null, reason: "the contact area is not known; no pressure to compare with",
+      taxel: index + 1, unit: weights[0].taxel_unit, scale: null, offset_pa: null, reason: "the contact area is not known; no pressure to compare with",
     }));
   }
   const out = [];
@@ -192,8 +231,14 @@ function show(estimate, digits) {
 function writeScales(p, results) {
   const force = results.force;
   if (force.scale !== null) {
-    report.table("Force against weights (reading in " + force.unit + ")", force.levels, [
-      "commanded", "n", "mean", "mean_up", "mean_down", "s", "residual",
+    if (force.unit === "N") {
+      report.figure("Force against weights", plot.calibration(Object.assign({}, force, { quantity: "force", offset: force.offset_reading })));
+    }
+    const rows = force.levels.map((level) => ({
+      weight_n: level.commanded, n: level.n, mean: level.mean, mean_up: level.mean_up, mean_down: level.mean_down, s: level.s, residual: level.residual,
+    }));
+    report.table("Force against weights (reading in " + force.unit + ")", rows, [
+      "weight_n", "n", "mean", "mean_up", "mean_down", "s", "residual",
     ]);
     report.text(
       "Force: " + force.scale.toPrecision(5) + " ± " + force.scale_expanded_uncertainty.toPrecision(2) + " N per " + force.unit +
@@ -205,9 +250,19 @@ function writeScales(p, results) {
     report.text("Force: " + force.reason + ".");
   }
   if (results.taxels.length === 0) return;
-  report.table("Taxels against force over the contact area of " + p.contact_area_cm2 + " cm²", results.taxels);
+  const unit = results.taxels[0].unit || "unit";
+  report.table(
+    p.contact_area_cm2 > 0
+      ? "Taxels against force over the contact area of " + p.contact_area_cm2 + " cm² (scale in Pa per " + unit + ")"
+      : "Taxels",
+    results.taxels.map((t) => ({
+      taxel: t.taxel, scale: t.scale, "scale U": t.scale_expanded_uncertainty, offset_pa: t.offset_pa,
+      U_pa: t.offset_expanded_uncertainty_pa, residual_max_pct_fs: t.residual_max_pct_fs, remark: t.reason,
+    })),
+    ["taxel", "scale", "scale U", "offset_pa", "U_pa", "residual_max_pct_fs", "remark"],
+  );
   report.text(
-    "A taxel's scale is in Pa per unit of its reading and takes the weight as spread evenly over the contact area; it " +
+    "A taxel's scale takes the weight as spread evenly over the contact area; it " +
       "holds for a contact of that shape.",
   );
 }
@@ -238,7 +293,9 @@ function writeSurfaces(found) {
 
 function run(p) {
   const surfaces = surfacesOf(p);
-  const results = { sensor: bench.sensorStreams };
+  const masses = massesOf(p);
+  setUp(p, surfaces);
+  const results = { sensor: bench.sensorStreams, instruments: bench.devices };
   results.surfaces = surfaces.map((s) => ({ name: s.name, ra_um: s.ra_um, rz_um: s.rz_um, source: s.source }));
   report.table("Surfaces, as the profilometer describes them", results.surfaces, ["name", "ra_um", "rz_um", "source"]);
   record.partial(results);
@@ -248,7 +305,20 @@ function run(p) {
   record.measurement("fingertip at rest", rest);
   record.partial(results);
 
-  const weights = weigh(p, results);
+  results.reference = checkReference(p, rest, masses);
+  report.table("Known-reference check", [results.reference]);
+  record.partial(results);
+  if (results.reference.passed === false) {
+    const read = results.reference;
+    results.verdict = "indeterminate";
+    results.reasons = [
+      "the known-reference check failed: " + (read.measured === null ? "nothing" : read.measured.toPrecision(4) + " " + read.unit) +
+        " was read under " + read.reference_n.toPrecision(4) + " N; nothing was calibrated",
+    ];
+    return verdict(results);
+  }
+
+  const weights = weigh(p, masses, results);
   results.force = forceScale(p, weights, results);
   results.taxels = taxelScales(p, weights);
   record.measurement("force and taxels", { force: results.force, taxels: results.taxels });
@@ -264,15 +334,23 @@ function run(p) {
   writeSurfaces(found);
   writeScales(p, results);
   report.table("Slides", results.slides, ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"]);
-  report.table("At rest, nothing touched", [
-    { acceleration_mean_square: rest.mean_square, unit: "(" + rest.unit + ")²", taxel_floor: rest.taxel_floor, taxel_baselines: rest.taxel_baseline.length },
-  ]);
+  report.table(
+    "Taxels at rest, nothing touched",
+    rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor })),
+    ["taxel", "baseline", "floor"],
+  );
+  if (rest.mean_square !== null) {
+    report.text("Acceleration at rest, 5 Hz to 1 kHz: mean square " + rest.mean_square.toPrecision(3) + " (" + rest.unit + ")².");
+  }
 
   results.profile = null;
   if (found.accepted) {
     const options = { store: p.store };
     if (p.contact_area_cm2 > 0) options.contact_area_cm2 = p.contact_area_cm2;
     results.profile = record.sensorProfile(found, options);
+    results.reasons = [
+      surfaces[0].name + " and " + surfaces[1].name + " are told apart: d′ of R is " + show(found.d_prime.R, 3) + ", at least 1 is wanted",
+    ];
     record.event("sensor calibrated", { name: results.profile.name, file: results.profile.file });
     report.text(
       "The profile \"" + results.profile.name + "\" holds the scales" +
@@ -285,7 +363,7 @@ function run(p) {
     // What was asked for and does not follow the weights is a fault of the fingertip.
     if (one.scale !== null || weights.length === 0 || !(one.reason || "").includes("does not follow")) continue;
     results.verdict = "fail";
-    results.reasons = results.reasons.concat([one.reason]);
+    results.reasons = [one.reason].concat(results.reasons);
   }
   return verdict(results);
 }
