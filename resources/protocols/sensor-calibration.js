@@ -33,6 +33,7 @@ protocol({
   },
 });
 
+const SLIDE_COLUMNS = ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"];
 const SURFACE_COLUMNS = ["name", "ra_um", "rz_um", "slides", "h", "v", "R", "R_sd", "force_n"];
 
 function parts(text) {
@@ -119,9 +120,21 @@ function slideOver(p, surfaces, rest, results) {
     surface.slides.push(slide);
     record.trial(surface.name, withoutTrack(slide));
     results.slides = slidesTable(surfaces);
-    record.partial(results, [{ caption: "Slides", rows: results.slides }]);
+    keep(results);
     bench.lift();
   }
+}
+
+// What stands if the run ends early.
+function keep(results) {
+  const tables = [];
+  if (results.weights) {
+    tables.push({ caption: "Weights", rows: results.weights, columns: ["mass_g", "reference_n", "force", "direction", "repeat"] });
+  }
+  if (results.slides) {
+    tables.push({ caption: "Slides", rows: results.slides, columns: SLIDE_COLUMNS });
+  }
+  record.partial(results, tables);
 }
 
 function setUp(p, surfaces) {
@@ -169,9 +182,7 @@ function weigh(p, masses, results) {
     readings.push(Object.assign(reading, { direction: step.direction, repeat: step.repeat }));
     record.trial("weight " + step.mass + " g", reading);
     results.weights = readings;
-    record.partial(results, [
-      { caption: "Weights", rows: readings, columns: ["mass_g", "reference_n", "force", "direction", "repeat"] },
-    ]);
+    keep(results);
   }
   bench.lift();
   return readings;
@@ -298,16 +309,16 @@ function run(p) {
   const results = { sensor: bench.sensorStreams, instruments: bench.devices };
   results.surfaces = surfaces.map((s) => ({ name: s.name, ra_um: s.ra_um, rz_um: s.rz_um, source: s.source }));
   report.table("Surfaces, as the profilometer describes them", results.surfaces, ["name", "ra_um", "rz_um", "source"]);
-  record.partial(results);
+  keep(results);
 
   const rest = bench.measureRest({ duration_s: 3 });
   results.rest = rest;
   record.measurement("fingertip at rest", rest);
-  record.partial(results);
+  keep(results);
 
   results.reference = checkReference(p, rest, masses);
   report.table("Known-reference check", [results.reference]);
-  record.partial(results);
+  keep(results);
   if (results.reference.passed === false) {
     const read = results.reference;
     results.verdict = "indeterminate";
@@ -322,18 +333,18 @@ function run(p) {
   results.force = forceScale(p, weights, results);
   results.taxels = taxelScales(p, weights);
   record.measurement("force and taxels", { force: results.force, taxels: results.taxels });
-  record.partial(results);
+  keep(results);
 
   slideOver(p, surfaces, rest, results);
   const found = analysis.sensorCalibration(surfaces, rest);
   record.measurement("sensor calibration", found);
   Object.assign(results, found);
   results.surfaces = found.surfaces.map((row, k) => Object.assign({ source: surfaces[k].source }, row));
-  record.partial(results);
+  keep(results);
 
   writeSurfaces(found);
   writeScales(p, results);
-  report.table("Slides", results.slides, ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"]);
+  report.table("Slides", results.slides, SLIDE_COLUMNS);
   report.table(
     "Taxels at rest, nothing touched",
     rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor })),
