@@ -47,6 +47,13 @@ void addNumber(QCPAxisRect* axes, double x, double y, const QString& number, dou
     text->setText(number);
 }
 
+/// From 0 to 1, where the plane ends; the cells at its edges reach beyond.
+QSharedPointer<QCPAxisTicker> ends() {
+    auto ticks = QSharedPointer<QCPAxisTickerText>::create();
+    for (int fifth = 0; fifth <= 5; ++fifth) ticks->addTick(0.2 * fifth, QString::number(0.2 * fifth, 'f', 1));
+    return ticks;
+}
+
 void drawMap(PlotSheet& sheet, int column, const QString& title, const TransitionsFigure::Map& map, double wanted) {
     const QString largest =
         std::isfinite(map.largest.jnd) ? QString(": at most %1").arg(cellText(map.largest.jnd)) : QString();
@@ -60,12 +67,13 @@ void drawMap(PlotSheet& sheet, int column, const QString& title, const Transitio
         sheet.explain(axes, "No step was swept.");
         return;
     }
+    sheet.watermark(axes);
     const double step = 1.0 / static_cast<double>(n - 1);
     const double half = step / 2;
     for (const auto side : {QCPAxis::atBottom, QCPAxis::atLeft}) {
         axes->axis(side)->setRange(-half, 1 + half);
         axes->axis(side)->grid()->setVisible(false);
-        axes->axis(side)->setTicker(QSharedPointer<PlainTicker>::create(5, 0.2));
+        axes->axis(side)->setTicker(ends());
     }
     axes->axis(QCPAxis::atBottom)->setLabel("roughness R");
     axes->axis(QCPAxis::atLeft)->setLabel("pressure P");

@@ -63,5 +63,6 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> loadSafetyFunctions();
 [[nodiscard]] std::vector<HostFunction> transitionFunctions();
 [[nodiscard]] std::vector<HostFunction> stepFunctions();
+[[nodiscard]] std::vector<HostFunction> latencyFunctions();
 
 }  // namespace tacto

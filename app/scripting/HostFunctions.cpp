@@ -6,10 +6,11 @@ namespace tacto {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        for (auto* part : {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
-                           recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions,
-                           loadSafetyFunctions, calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
-                           transitionFunctions, stepFunctions}) {
+        for (auto* part :
+             {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
+              recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions, loadSafetyFunctions,
+              calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
+              transitionFunctions, stepFunctions, latencyFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }

@@ -62,10 +62,31 @@ ScopeSettings settingsFor(Bench& bench, double rate_hz, const Command& a, const 
     return settings;
 }
 
-/// What the oscilloscope has brought meanwhile, measured. Errors: of the device.
-Result<void> takeTrains(Bench& bench, std::vector<SeenTrain>& seen) {
+/// One record of every train from begin() to the end of its life, measured as they come.
+struct Recording {
+    Bench& bench;
+    ScopeSettings settings;
+    std::size_t left = 0;  // of those that were asked for
+    std::vector<SeenTrain> seen;
+
+    Recording(Bench& onBench, ScopeSettings with) : bench(onBench), settings(with) {}
+    ~Recording() { bench.cancelCaptures(); }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+    /// As many as may be asked for at once.
+    Result<void> begin() {
+        left = ScopeSession::kMaxCaptures;
+        return bench.requestCaptures(static_cast<int>(left), settings);
+    }
+    Result<void> take();
+};
+
+/// Errors: of the oscilloscope.
+Result<void> Recording::take() {
     auto captures = bench.takeCaptures();
     if (!captures) return failure(captures);
+    left -= std::min(left, captures->size());
     MeasureOptions options;
     const PulseTrain& expected = bench.profile().encoding.train;
     if (expected.pulses > 1) options.intraTrainRate = expected.rate;
@@ -81,7 +102,8 @@ Result<void> takeTrains(Bench& bench, std::vector<SeenTrain>& seen) {
         train.capture = std::move(capture);
         seen.push_back(std::move(train));
     }
-    return {};
+    if (left > 0) return {};
+    return begin();  // slew limits may stretch a step over more trains than may be asked for at once
 }
 
 /// Lets trains run until the encoder's command is `wanted`, slew limits and all, and a train with it has gone out.
@@ -102,12 +124,13 @@ Result<void> settle(Bench& bench, const Command& wanted) {
                 wanted.amplitude.value(), wanted.interval.count(), kLongest_s);
 }
 
-/// Waits until `enough(seen)` or `limit` has passed. False then.
+/// Waits until `enough()` or `limit` has passed. False then.
 template <class Enough>
-Result<bool> watch(Bench& bench, std::vector<SeenTrain>& seen, Seconds limit, const Enough& enough) {
+Result<bool> watch(Recording& recording, Seconds limit, const Enough& enough) {
+    Bench& bench = recording.bench;
     const Instant until = bench.clock().now() + toInstant(limit);
     for (;;) {
-        if (auto taken = takeTrains(bench, seen); !taken) return failure(taken);
+        if (auto taken = recording.take(); !taken) return failure(taken);
         if (enough()) return true;
         const Instant now = bench.clock().now();
         if (now >= until) return false;
@@ -125,18 +148,12 @@ std::vector<StepTrain> after(const std::vector<SeenTrain>& seen, double step_s, 
     return out;
 }
 
-/// The captures of a step are cancelled however it ends.
-struct Captures {
-    Bench& bench;
-    ~Captures() { bench.cancelCaptures(); }
-};
-
 Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
             const StepResponse& measured, const StepResponse& designed) {
     const auto inSeconds = [](const std::optional<Seconds>& time) { return time ? Json(time->count()) : Json(); };
     const auto count = [](const std::optional<int>& trains) { return trains ? Json(*trains) : Json(); };
     Json trains = Json::array();
-    std::vector<Capture> kept;  // the train before, and the one that carries it: what a reader wants to see
+    std::vector<Capture> kept;  // the train that carries it, then the one before
     double last_s = std::nan("");
     for (auto& train : seen) {
         const bool before = train.onset_s < step_s;
@@ -149,8 +166,10 @@ Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s,
         last_s = train.onset_s;
         if (before) kept.clear();
         const bool carries = measured.latency && after_s == measured.latency->count();
-        if (before || carries) kept.push_back(std::move(train.capture));
+        if (before || carries) kept.insert(kept.begin(), std::move(train.capture));
     }
+    Json ids = Json::array();
+    for (const auto& handle : session.hold(std::move(kept))) ids.push_back(handle["capture"]);
     return {{"step_s", step_s},
             {"since_onset_s", ends.sinceOnset.count()},
             {"latency_s", inSeconds(measured.latency)},
@@ -158,7 +177,7 @@ Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s,
             {"trains", count(measured.trains)},
             {"designed_trains", count(designed.trains)},
             {"onsets", trains},
-            {"captures", session.hold(std::move(kept))}};
+            {"captures", ids}};
 }
 
 Result<Json> step(ScriptSession& session, const Json& list) {
@@ -192,15 +211,11 @@ Result<Json> step(ScriptSession& session, const Json& list) {
     if (auto driven = bench.drive(DriveSource::Manual, from->roughness, from->pressure); !driven)
         return failure(driven);
     if (auto settled = settle(bench, *before); !settled) return failure(settled);
-    const Captures running{bench};
-    if (auto asked = bench.requestCaptures(static_cast<int>(ScopeSession::kMaxCaptures),
-                                           settingsFor(bench, *rate, *before, *wanted));
-        !asked) {
-        return failure(asked);
-    }
-    std::vector<SeenTrain> seen;
+    Recording recording(bench, settingsFor(bench, *rate, *before, *wanted));
+    if (auto asked = recording.begin(); !asked) return failure(asked);
+    auto& seen = recording.seen;
     const Seconds patience = 3 * profile.intervalMax + Seconds(1);
-    auto shown = watch(bench, seen, patience, [&] { return !seen.empty(); });
+    auto shown = watch(recording, patience, [&] { return !seen.empty(); });
     if (!shown) return failure(shown);
     if (!*shown) {
         return fail(ErrorCode::Timeout, "bench.step: the oscilloscope saw no train in {:.1f} s", patience.count());
@@ -221,7 +236,7 @@ Result<Json> step(ScriptSession& session, const Json& list) {
     const auto ready = [&] { return respond(ends, after(seen, step_s, gain)).trains.has_value(); };
     // A train that comes later than all of these has not carried the step.
     const Seconds longest = design->back().onset + 4 * profile.intervalMax + Seconds(1);
-    const auto finished = watch(bench, seen, longest, ready);
+    const auto finished = watch(recording, longest, ready);
     session.watchExposure();
     if (!finished) return failure(finished);
     const auto trains = after(seen, step_s, gain);
@@ -246,9 +261,8 @@ std::vector<HostFunction> stepFunctions() {
          "latency_s is from the step to the onset of the first train whose amplitude, or interval since the train "
          "before, has left what was there by a quarter of a just-noticeable difference; trains how many it takes until "
          "the new ones are reached; designed_ the same of the trains that the scheduler's design has; onsets { "
-         "after_step_s, amplitude_v, interval_s } as measured; captures the records of the train before the step and "
-         "of "
-         "the one that carries it. What was not measured is null.",
+         "after_step_s, amplitude_v, interval_s } as measured; captures those of the train that carries it and "
+         "of the train before the step, for record.trial(). What was not measured is null.",
          "Throws without an oscilloscope, when it sees no train before the step, or when the run is stopped.",
          step},
     };

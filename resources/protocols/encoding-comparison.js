@@ -16,9 +16,10 @@ protocol({
   },
 });
 
-const ASSIGNMENTS = { texture_to_amplitude: "texture to amplitude", swapped: "swapped" };
+const ASSIGNMENTS = { texture_to_amplitude: "R to A", swapped: "swapped" };
 const CURVES = ["linear", "logarithmic", "power"];
 const LEVELS = [0.25, 0.5, 0.75];
+const NAMES = ["smooth-low", "smooth-high", "rough-low", "rough-high"];
 
 // The first of them is the default that the others are compared with.
 function encodings() {
@@ -65,6 +66,8 @@ function measureAll(trials, encoding) {
 
 const best = (pair) => Math.max(pair.amplitude_jnd, pair.interval_jnd);
 const smallest = (values) => (values.length === 0 || values.some((x) => x === null || !isFinite(x)) ? null : Math.min.apply(null, values));
+// Of one axis: pairs that share its level are none of its business.
+const smallestApart = (pairs, key) => smallest(pairs.map((pair) => pair[key]).filter((x) => x === null || x > 1));
 const mean = (values) => (smallest(values) === null ? null : values.reduce((sum, x) => sum + x, 0) / values.length);
 
 // Neighbours differ by one level in R or in P; each pair counts on the axis that tells it best.
@@ -88,7 +91,7 @@ function compare(p, encoding, trials, between) {
     amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
   const sweep = analysis.transitions({ traverse_s: p.traverse_s });
   bench.arm({ load: p.load });
-  const found = analysis.separability(measureAll(trials, encoding), { conditions: conditionsOf(p).map((each) => each.name) });
+  const found = analysis.separability(measureAll(trials, encoding), { conditions: NAMES });
   const inBetween = analysis.separability(measureAll(between, encoding), { conditions: levels().map((each) => each.name) });
   bench.disarm();
   return {
@@ -97,8 +100,8 @@ function compare(p, encoding, trials, between) {
     curve: encoding.curve,
     conditions: found.conditions,
     pairs: found.pairs,
-    smallest_amplitude_jnd: smallest(found.pairs.map((pair) => pair.amplitude_jnd)),
-    smallest_interval_jnd: smallest(found.pairs.map((pair) => pair.interval_jnd)),
+    smallest_amplitude_jnd: smallestApart(found.pairs, "amplitude_jnd"),
+    smallest_interval_jnd: smallestApart(found.pairs, "interval_jnd"),
     smallest_pair_jnd: smallest(found.pairs.map(best)),
     mahalanobis_min: smallest(found.pairs.map((pair) => pair.mahalanobis)),
     amplitude_variation_max: Math.max.apply(null, found.conditions.map((each) => each.amplitude_variation)),
@@ -112,31 +115,45 @@ function compare(p, encoding, trials, between) {
   };
 }
 
+// A report shows thousandths: what is below is measurement, not encoding.
+const shown = (x) => (x === null || !isFinite(x) ? null : Math.round(1000 * x) / 1000);
+const percent = (x) => (x === null ? "?" : (100 * x).toFixed(1));
+
 function comparisonRow(each) {
   return {
     encoding: each.name,
-    pair_amplitude_jnd: each.smallest_amplitude_jnd,
-    pair_interval_jnd: each.smallest_interval_jnd,
-    pair_best_jnd: each.smallest_pair_jnd,
+    amplitude_jnd: shown(each.smallest_amplitude_jnd),
+    interval_jnd: shown(each.smallest_interval_jnd),
+    pair_jnd: shown(each.smallest_pair_jnd),
     mahalanobis: each.mahalanobis_min,
-    cv_pct: 100 * Math.max(each.amplitude_variation_max, each.interval_variation_max),
-    accuracy: each.accuracy.value,
-    accuracy_low: each.accuracy.low,
-    accuracy_high: each.accuracy.high,
-    step_jnd: each.gradual_jnd,
+    variation_pct: 100 * Math.max(each.amplitude_variation_max, each.interval_variation_max),
+    accuracy: percent(each.accuracy.value) + " % (" + percent(each.accuracy.low) + " to " + percent(each.accuracy.high) + ")",
+    step_jnd: shown(each.gradual_jnd),
     separable: each.separable,
   };
 }
 
 function levelRow(each) {
   const n = each.neighbours;
-  return { encoding: each.name, texture_min_jnd: n.texture_min_jnd, texture_mean_jnd: n.texture_mean_jnd,
-    pressure_min_jnd: n.pressure_min_jnd, pressure_mean_jnd: n.pressure_mean_jnd, all_min_jnd: n.min_jnd, all_mean_jnd: n.mean_jnd };
+  return {
+    encoding: each.name,
+    texture_min_jnd: shown(n.texture_min_jnd),
+    texture_mean_jnd: shown(n.texture_mean_jnd),
+    pressure_min_jnd: shown(n.pressure_min_jnd),
+    pressure_mean_jnd: shown(n.pressure_mean_jnd),
+    all_min_jnd: shown(n.min_jnd),
+    all_mean_jnd: shown(n.mean_jnd),
+  };
 }
 
-function conditionRows(each) {
-  return each.conditions.map((condition) => ({ encoding: each.name, condition: condition.name,
-    amplitude_v: condition.amplitude_v.mean, interval_s: condition.interval_s.mean }));
+// "13.00 V, 1.850 s" of each condition.
+function conditionRow(each) {
+  const row = { encoding: each.name };
+  for (const condition of each.conditions) {
+    const known = condition.amplitude_v.mean !== null && condition.interval_s.mean !== null;
+    row[condition.name] = known ? condition.amplitude_v.mean.toFixed(2) + " V, " + condition.interval_s.mean.toFixed(3) + " s" : null;
+  }
+  return row;
 }
 
 // Against the default, signed: where a condition's amplitude and interval went, and what that did to the distances.
@@ -147,43 +164,57 @@ function differenceRow(each, base) {
     row[condition.name + " amplitude_jnd"] = analysis.difference("amplitude", was.amplitude_v.mean, condition.amplitude_v.mean);
     row[condition.name + " interval_jnd"] = analysis.difference("interval", was.interval_s.mean, condition.interval_s.mean);
   });
-  row.pair_best_jnd = each.smallest_pair_jnd - base.smallest_pair_jnd;
+  row.pair_jnd = each.smallest_pair_jnd - base.smallest_pair_jnd;
   row.neighbours_min_jnd = each.neighbours.min_jnd - base.neighbours.min_jnd;
   row.neighbours_mean_jnd = each.neighbours.mean_jnd - base.neighbours.mean_jnd;
-  row.step_jnd = each.gradual_jnd - base.gradual_jnd;
+  row.per_train_jnd = each.gradual_jnd - base.gradual_jnd;
+  return row;
+}
+
+// Amplitude and interval of each condition went this far, in just-noticeable differences.
+function movedRow(difference) {
+  const row = { encoding: difference.encoding };
+  for (const name of NAMES) {
+    const moved = ["amplitude", "interval"].map((axis) => difference[name + " " + axis + "_jnd"]);
+    row[name] = moved.includes(null) ? null : moved.map((x) => (shown(x) > 0 ? "+" : "") + (shown(x) || 0).toFixed(2)).join(", ");
+  }
   return row;
 }
 
 function tablesOf(done) {
-  let conditions = [];
-  for (const each of done) conditions = conditions.concat(conditionRows(each));
+  const first = ["encoding"];
   const differences = done.slice(1).map((each) => differenceRow(each, done[0]));
-  const where = ["smooth-low", "smooth-high", "rough-low", "rough-high"];
-  const moved = (quantity) => where.map((name) => name + " " + quantity + "_jnd");
-  const out = [
-    { caption: "Six encodings side by side", rows: done.map(comparisonRow) },
-    { caption: "Levels in between: distance of neighbours", rows: done.map(levelRow) },
-    { caption: "The four conditions as measured", rows: conditions },
-  ];
-  if (differences.length === 0) return out;
-  return out.concat([
-    { caption: "Against the default: amplitude of each condition (JND)", rows: differences, columns: ["encoding"].concat(moved("amplitude")) },
-    { caption: "Against the default: interval of each condition (JND)", rows: differences, columns: ["encoding"].concat(moved("interval")) },
-    { caption: "Against the default: distances (JND)", rows: differences,
-      columns: ["encoding", "pair_best_jnd", "neighbours_min_jnd", "neighbours_mean_jnd", "step_jnd"] },
-  ]);
+  const changes = ["pair_jnd", "neighbours_min_jnd", "neighbours_mean_jnd", "per_train_jnd"];
+  const rounded = differences.map((each) => {
+    const row = { encoding: each.encoding };
+    for (const key of changes) row[key] = shown(each[key]);
+    return row;
+  });
+  return [
+    { caption: "Six encodings side by side", rows: done.map(comparisonRow),
+      columns: first.concat(["amplitude_jnd", "interval_jnd", "pair_jnd", "mahalanobis", "variation_pct", "accuracy", "step_jnd", "separable"]) },
+    { caption: "Levels in between: distance of neighbours", rows: done.map(levelRow),
+      columns: first.concat(["texture_min_jnd", "texture_mean_jnd", "pressure_min_jnd", "pressure_mean_jnd", "all_min_jnd", "all_mean_jnd"]) },
+    { caption: "The four conditions as measured", rows: done.map(conditionRow), columns: first.concat(NAMES) },
+    { caption: "Against the default: conditions moved by (amplitude, interval; JND)", rows: differences.map(movedRow), columns: first.concat(NAMES) },
+    { caption: "Against the default: distances (JND)", rows: rounded, columns: first.concat(changes) },
+  ].filter((table) => table.rows.length > 0);
 }
 
-// What the table says by itself, and where it ends.
+// All that come within a hundredth of the best: measurement does not tell them apart.
+function bestOf(done, key) {
+  const most = Math.max.apply(null, done.map(key));
+  return done.filter((each) => key(each) > most - 0.01).map((each) => each.name).join(" or ") + " (" + Math.abs(most).toFixed(2) + " JND)";
+}
+
+// What the tables say by themselves, and where they end.
 function conclusion(done) {
-  const by = (key) => done.slice().sort((a, b) => key(b) - key(a))[0];
-  const pair = by((each) => each.smallest_pair_jnd);
-  const level = by((each) => each.neighbours.min_jnd);
-  const gentle = by((each) => -each.gradual_jnd);
-  return "The table decides which encoding keeps conditions and levels farthest apart at constant Weber fractions (conditions: " +
-    pair.name + ", " + pair.smallest_pair_jnd.toFixed(1) + " JND; neighbouring levels: " + level.name + ", " +
-    level.neighbours.min_jnd.toFixed(2) + " JND) and which moves least per train (" + gentle.name + ", " +
-    gentle.gradual_jnd.toFixed(1) + " JND); equal entries are ties, and which one people tell apart, find natural or prefer it does not decide.";
+  return "The tables decide, at constant Weber fractions, which encoding keeps conditions farthest apart: " +
+    bestOf(done, (each) => each.smallest_pair_jnd) + "; neighbouring levels of texture: " +
+    bestOf(done, (each) => each.neighbours.texture_min_jnd) + ", of pressure: " +
+    bestOf(done, (each) => each.neighbours.pressure_min_jnd) + ", of both: " + bestOf(done, (each) => each.neighbours.min_jnd) +
+    "; and which moves least per train: " + bestOf(done, (each) => -each.gradual_jnd) +
+    "; which one people tell apart, find natural or prefer they do not decide.";
 }
 
 function run(p) {
@@ -195,7 +226,10 @@ function run(p) {
     done.push(compare(p, encoding, trials, between));
     record.partial({ encodings: done.slice() }, tablesOf(done));
   }
+  report.text("R to A: texture sets the amplitude, pressure the interval; swapped: the other way round. The default is " + done[0].name +
+    ". Conditions at R and P of " + p.low + " and " + p.high + ": at 0 and 1 all curves meet.");
   for (const table of tablesOf(done)) report.table(table.caption, table.rows, table.columns);
+  for (const each of done.filter((one) => one.curve === "linear")) report.figure("Four conditions: " + each.name, plot.conditions(each));
   report.figure("Exposure against limits", plot.exposure());
   const results = { default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])) };
   const missing = done.filter((each) => each.smallest_pair_jnd === null || each.neighbours.min_jnd === null);

@@ -28,8 +28,8 @@ protocol({
   },
 });
 
-const COLUMNS = ["step", "n", "not_measured", "mean_s", "sd_s", "median_s", "max_s", "designed_mean_s",
-  "largest_difference_s", "trains", "designed_trains", "verdict"];
+const COLUMNS = ["step", "n", "missing", "latency_s", "median_s", "max_s", "designed_s", "off_s", "trains", "verdict"];
+const LARGEST = ["movement", "of", "change", "jnd", "R", "P", "wanted"];
 
 // The two inputs, both directions each; the order of the steps is drawn, and so is the moment within the interval.
 function stepsOf(p) {
@@ -64,14 +64,13 @@ function checkReference(p) {
   }
   bench.arm({ load: p.load });
   bench.drive("manual", { roughness: 1, pressure: 1 });
-  bench.capture({ trains: 2 }); // slew limits do not matter here, a first train does
   const reading = measure.pulse(bench.capture({ trains: 1 }));
   const off = reading.load_ohm ? Math.abs(reading.load_ohm / p.load - 1) : null;
   const allowed = p.load_tolerance_pct / 100 + (reading.load_limit || 0);
   const check = { load_ohm: p.load, measured_ohm: reading.load_ohm || null, allowed_pct: 100 * allowed,
     passed: off !== null && off <= allowed };
   record.measurement("known-reference check", check);
-  report.table("Known-reference check", [check]);
+  report.table("Known-reference check", [check], ["load_ohm", "measured_ohm", "allowed_pct", "passed"]);
   return check;
 }
 
@@ -84,11 +83,10 @@ function largestRows(found) {
       rows.push({
         movement: movement === "gradual" ? "across in " + found.traverse_s + " s" : "jump between corners",
         of: axis,
+        change: worst["from_" + unit].toPrecision(3) + " to " + worst["to_" + unit].toPrecision(3) + (unit === "v" ? " V" : " s"),
         jnd: worst.jnd,
-        roughness: worst.roughness,
-        pressure: worst.pressure,
-        from: worst["from_" + unit].toPrecision(3) + " " + unit.toUpperCase().replace("S", "s"),
-        to: worst["to_" + unit].toPrecision(3) + " " + unit.toUpperCase().replace("S", "s"),
+        R: worst.roughness,
+        P: worst.pressure,
         wanted: worst.jnd <= found.wanted_jnd ? "yes" : "no",
       });
     }
@@ -100,29 +98,25 @@ function latencyRows(latency) {
   return latency.groups.map((group) => ({
     step: group.name,
     n: group.n,
-    not_measured: group.not_measured,
-    mean_s: group.latency_s.mean,
-    sd_s: group.latency_s.sd,
+    missing: group.not_measured,
+    latency_s: group.latency_s,
     median_s: group.latency_s.median,
     max_s: group.latency_s.max,
-    designed_mean_s: group.designed_latency_s.mean,
-    largest_difference_s: Math.max(Math.abs(group.difference_s.min), Math.abs(group.difference_s.max)),
-    trains: group.trains.max,
-    designed_trains: group.designed_trains.max,
+    designed_s: group.designed_latency_s,
+    off_s: group.n > 0 ? Math.max(Math.abs(group.difference_s.min), Math.abs(group.difference_s.max)) : null,
+    trains: group.trains.max === null ? null : group.trains.max + " / " + group.designed_trains.max,
     verdict: group.verdict,
   }));
 }
 
 function writeSweep(found) {
   report.figure("Largest step from train to train over the R-P plane", plot.transitions(found));
-  report.table("Largest step from train to train", largestRows(found));
-  const limited = found.amplitude_slew_v_per_s > 0 || found.interval_ratio_per_train > 0;
-  report.text(
-    limited
-      ? "Slew limits: amplitude " + (found.amplitude_slew_v_per_s || "without") + " V/s, interval " +
-          (found.interval_ratio_per_train || "without") + " times per train."
-      : "No slew limits: a change is taken in one train.",
-  );
+  report.table("Largest step from train to train (at most " + found.wanted_jnd + " differences are wanted)", largestRows(found), LARGEST);
+  const slew = found.amplitude_slew_v_per_s, ratio = found.interval_ratio_per_train;
+  const limits = [];
+  if (slew > 0) limits.push("amplitude by at most " + slew + " V/s");
+  if (ratio > 0) limits.push("the interval at most " + ratio + " times from train to train");
+  report.text(limits.length === 0 ? "No slew limits: a change is taken in one train." : "Slew limits: " + limits.join(", ") + ".");
 }
 
 function run(p) {
@@ -132,7 +126,7 @@ function run(p) {
 
   const sweep = analysis.transitions({ lines: p.lines, traverse_s: p.traverse_s, jumps: p.jumps });
   const results = { transitions: sweep, latency: null, steps: [] };
-  record.partial(results, [{ caption: "Largest step from train to train", rows: largestRows(sweep) }]);
+  record.partial(results, [{ caption: "Largest step from train to train", rows: largestRows(sweep), columns: LARGEST }]);
   writeSweep(sweep);
   results.reference = checkReference(p);
 
@@ -144,17 +138,18 @@ function run(p) {
     record.trial(step.name, seen);
     results.latency = analysis.latency(results.steps, options);
     record.partial(results, [
-      { caption: "Largest step from train to train", rows: largestRows(sweep) },
+      { caption: "Largest step from train to train", rows: largestRows(sweep), columns: LARGEST },
       { caption: "Latency of a step", rows: latencyRows(results.latency), columns: COLUMNS },
     ]);
   }
   bench.disarm();
   if (!results.reference.passed) results.latency = analysis.latency([], options);
 
-  report.table("Latency: from the step to the first train that carries it", latencyRows(results.latency), COLUMNS);
+  report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(results.latency), COLUMNS);
   report.text(
     "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest " +
-      "amplitude. Steps fall on moments spread over the interval; trains is how many a change takes until it is complete.",
+      "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and its design; trains is " +
+      "how many a change takes until it is complete, measured / designed.",
   );
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());

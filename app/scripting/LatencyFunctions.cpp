@@ -1,0 +1,134 @@
+// The latency of steps, name by name: what was measured against what the scheduler's design says.
+#include <cmath>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/ResultJson.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Steps of one name: what was measured, what was not.
+struct StepGroup {
+    std::string name;
+    std::vector<double> latency_s, designed_s, error_s, trains, designedTrains;
+    std::size_t steps = 0;
+};
+
+void add(StepGroup& group, const Json& step) {
+    const auto value = [&step](const char* key) {
+        const auto at = step.find(key);
+        return at != step.end() && at->is_number() ? at->get<double>() : std::nan("");
+    };
+    ++group.steps;
+    const double latency = value("latency_s"), designed = value("designed_latency_s");
+    if (std::isfinite(designed)) group.designed_s.push_back(designed);
+    if (std::isfinite(latency) && std::isfinite(designed)) {
+        group.latency_s.push_back(latency);
+        group.error_s.push_back(latency - designed);
+    }
+    if (std::isfinite(value("trains"))) group.trains.push_back(value("trains"));
+    if (std::isfinite(value("designed_trains"))) group.designedTrains.push_back(value("designed_trains"));
+}
+
+std::string_view judge(const StepGroup& group, double tolerance_s, std::vector<std::string>& reasons) {
+    const Statistics error = statisticsOf(group.error_s);
+    const double worst = std::max(std::abs(error.min), std::abs(error.max));
+    if (group.error_s.empty() || group.error_s.size() < group.steps || group.trains.size() < group.steps) {
+        const std::size_t missing = group.steps - std::min(group.error_s.size(), group.trains.size());
+        reasons.push_back(fmt::format("{}: {} of {} steps were not measured", group.name, missing, group.steps));
+    }
+    if (!group.error_s.empty() && worst > tolerance_s) {
+        reasons.push_back(
+            fmt::format("{}: a train carried the step {:.4f} s off the design; at most {:.4f} s are "
+                        "accepted",
+                        group.name, worst, tolerance_s));
+        return "fail";
+    }
+    const Statistics took = statisticsOf(group.trains), meant = statisticsOf(group.designedTrains);
+    if (took.max > meant.max + 0.5) {
+        reasons.push_back(fmt::format("{}: a step took {:.0f} trains; the design says at most {:.0f}", group.name,
+                                      took.max, meant.max));
+        return "fail";
+    }
+    const bool whole = group.steps > 0 && group.error_s.size() == group.steps && group.trains.size() == group.steps;
+    return whole ? "pass" : "indeterminate";
+}
+
+Result<Json> latency(ScriptSession&, const Json& list) {
+    const Arguments arguments("analysis.latency", list);
+    auto rows = arguments.list(0, "steps");
+    if (!rows) return failure(rows);
+    auto options = arguments.options(1, {"tolerance_s", "names"});
+    if (!options) return failure(options);
+    auto tolerance = arguments.number(*options, "tolerance_s", 0.02, {0, 60});
+    if (!tolerance) return failure(tolerance);
+    std::vector<StepGroup> groups;
+    const auto groupOf = [&](const std::string& name) -> StepGroup& {
+        for (auto& group : groups) {
+            if (group.name == name) return group;
+        }
+        groups.emplace_back().name = name;
+        return groups.back();
+    };
+    for (const auto& name : options->value("names", Json::array())) {
+        if (!name.is_string()) return arguments.wrong("names", (*options)["names"], "a list of names");
+        groupOf(name.get<std::string>());
+    }
+    for (const auto& row : **rows) {
+        if (!row.is_object() || !row.value("name", Json()).is_string()) {
+            return arguments.wrong("a step", row, "what bench.step() returned, with a name,");
+        }
+        add(groupOf(row["name"].get<std::string>()), row);
+    }
+    std::vector<std::string> reasons;
+    Json out = Json::array();
+    bool failed = false, whole = !groups.empty();
+    for (const auto& group : groups) {
+        const auto verdict = judge(group, *tolerance, reasons);
+        failed = failed || verdict == "fail";
+        whole = whole && verdict == "pass";
+        out.push_back({{"name", group.name},
+                       {"n", group.latency_s.size()},
+                       {"not_measured", group.steps - group.latency_s.size()},
+                       {"latency_s", toJson(statisticsOf(group.latency_s))},
+                       {"designed_latency_s", toJson(statisticsOf(group.designed_s))},
+                       {"difference_s", toJson(statisticsOf(group.error_s))},
+                       {"trains", toJson(statisticsOf(group.trains))},
+                       {"designed_trains", toJson(statisticsOf(group.designedTrains))},
+                       {"verdict", verdict}});
+    }
+    if (groups.empty()) reasons.emplace_back("no step was measured");
+    return Json{{"tolerance_s", *tolerance},
+                {"groups", out},
+                {"verdict", failed  ? "fail"
+                            : whole ? "pass"
+                                    : "indeterminate"},
+                {"reasons", reasons}};
+}
+
+}  // namespace
+
+std::vector<HostFunction> latencyFunctions() {
+    return {
+        {"analysis",
+         "latency",
+         HostKind::Function,
+         {{"steps", "list", "", "from bench.step(), each with a name"},
+          {"options.tolerance_s", "number", "s", "accepted between measurement and design; 0.02 where left out", true},
+          {"options.names", "list", "", "names that must all be there, else the verdict cannot be a pass", true}},
+         "Judges the latency of steps, name by name, against the scheduler's design.",
+         "{ verdict, reasons, tolerance_s, groups }; a group is { name, n, not_measured, latency_s, "
+         "designed_latency_s, "
+         "difference_s, trains, designed_trains, verdict } with statistics { mean, sd, median, min, max, n }.",
+         "",
+         latency},
+    };
+}
+
+}  // namespace tacto
