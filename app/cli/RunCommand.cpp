@@ -146,7 +146,9 @@ int exitFor(const RunResult& result) {
 }
 
 void printSummary(const ScriptOutcome& outcome, const json& value) {
-    if (outcome.results.is_object() && outcome.results.contains("confusion"))
+    if (outcome.results.is_object() && outcome.results.contains("trials_needed"))
+        printVariation(outcome.results);
+    else if (outcome.results.is_object() && outcome.results.contains("confusion"))
         printSeparability(outcome.results);
     else if (outcome.results.is_object() && outcome.results.contains("loads"))
         printLoadSafety(outcome.results);

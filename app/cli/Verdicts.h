@@ -17,6 +17,8 @@ void printVerdict(std::string_view verdict, const std::vector<std::string>& reas
 void printCalibration(const nlohmann::json& results);
 /// The results of a load-safety check, a line per load, what is to be disclosed, and every row that did not pass.
 void printLoadSafety(const nlohmann::json& results);
+/// What analysis.variation() predicted, as tables.
+void printVariation(const nlohmann::json& results);
 /// Any other protocol's results, a line each.
 void printResults(const nlohmann::json& results);
 /// The results of a separability run or analysis, as a table on stdout, without the verdict.

@@ -298,6 +298,22 @@ TransitionsFigure readTransitions(Reader& in) {
     return figure;
 }
 
+CurvesFigure readCurves(Reader& in) {
+    CurvesFigure figure;
+    in.object("x", [&](Reader& axis) { figure.x = {axis.text("label"), axis.text("unit")}; });
+    in.object("y", [&](Reader& axis) { figure.y = {axis.text("label"), axis.text("unit")}; });
+    in.objects("curves", true, [&](Reader& item) {
+        CurvesFigure::Curve curve{item.text("label"),  item.numbers("x"),    item.numbers("y"),
+                                  item.numbers("low"), item.numbers("high"), item.flag("steps")};
+        if (curve.y.size() != curve.x.size()) item.complain("y", "as long as \"x\"");
+        if (!curve.low.empty() && curve.low.size() != curve.x.size()) item.complain("low", "as long as \"x\"");
+        if (curve.high.size() != curve.low.size()) item.complain("high", "as long as \"low\"");
+        figure.curves.push_back(std::move(curve));
+    });
+    in.objects("lines", false, [&](Reader& item) { figure.lines.push_back({item.text("label"), item.number("y")}); });
+    return figure;
+}
+
 }  // namespace
 
 bool ExposureFigure::Row::evaluated() const { return std::isfinite(value); }
@@ -328,6 +344,8 @@ Result<Figure> parseFigure(const QJsonObject& json) {
         figure.content = readCalibration(in);
     } else if (type == "transitions") {
         figure.content = readTransitions(in);
+    } else if (type == "curves") {
+        figure.content = readCurves(in);
     } else {
         return fail(ErrorCode::InvalidArgument,
                     "A figure's type is \"{}\"; it can be conditions, plane, waveforms, confusion, exposure, "

@@ -59,6 +59,15 @@
 //    "largest_amplitude": {"roughness": 0.4, "pressure": 0, "jnd": 8.3},   optional: where the worst step is
 //    "largest_interval": {..}}
 //
+//   {"type": "curves",                          curves over one pair of axes, from plot.predicted()
+//    "x": {"label": "Trials", "unit": ""},
+//    "y": {"label": "Width", "unit": "%"},
+//    "curves": [{"label": "one participant",
+//                "x": [8, 16, ..], "y": [..],   equally long; null = a gap
+//                "low": [..], "high": [..],     optional, drawn as a band
+//                "steps": true}],               optional: holds its value until the next point
+//    "lines": [{"label": "wanted", "y": 10}]}   optional, level
+//
 // Every type takes an optional "note": one sentence printed below the caption.
 //
 // Thread-safety: values; pure functions.
@@ -200,9 +209,28 @@ struct TransitionsFigure {
     Map interval;
 };
 
+struct CurvesFigure {
+    struct Axis {
+        QString label;
+        QString unit;
+    };
+    struct Curve {
+        QString label;
+        std::vector<double> x, y, low, high;  ///< as long as x, low and high may be empty
+        bool steps = false;
+    };
+    struct Line {
+        QString label;
+        double y = kUnknown;
+    };
+    Axis x, y;
+    std::vector<Curve> curves;
+    std::vector<Line> lines;
+};
+
 struct Figure {
     std::variant<ConditionsFigure, PlaneFigure, WaveformsFigure, ConfusionFigure, ExposureFigure, TimelineFigure,
-                 CalibrationFigure, TransitionsFigure>
+                 CalibrationFigure, TransitionsFigure, CurvesFigure>
         content;
     QString note;
 };

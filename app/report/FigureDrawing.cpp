@@ -54,7 +54,8 @@ std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated) {
                                  [&](const ExposureFigure& content) { return drawExposure(content, simulated); },
                                  [&](const TimelineFigure& content) { return drawTimeline(content, simulated); },
                                  [&](const CalibrationFigure& content) { return drawCalibration(content, simulated); },
-                                 [&](const TransitionsFigure& content) { return drawTransitions(content, simulated); }},
+                                 [&](const TransitionsFigure& content) { return drawTransitions(content, simulated); },
+                                 [&](const CurvesFigure& content) { return drawCurves(content, simulated); }},
                       figure.content);
 }
 
@@ -92,7 +93,8 @@ QString figureLegend(const Figure& figure) {
                                   "between two trains on its way through; amber is more than the %1 wanted, the frame "
                                   "marks where the largest is.")
                            .arg(content.wanted_jnd);
-                   }},
+                   },
+                   [](const CurvesFigure&) { return QString(); }},
         figure.content);
     if (!figure.note.isEmpty()) text = (figure.note + " " + text).trimmed();
     return text;

@@ -32,6 +32,7 @@ namespace tacto {
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawCalibration(const CalibrationFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTransitions(const TransitionsFigure& figure, bool simulated);
+[[nodiscard]] std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated);
 
 /// Points of a long series that can be seen: `keep` stretches, of each its extremes in their order, and a gap where
 /// the stretch has one. All indices when there are fewer.

@@ -170,7 +170,9 @@ private:
 
 void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     blocks.emplace_back(HeadingBlock{"What was used"});
-    if (model.simulated) {
+    if (model.simulated && model.devices.empty()) {
+        blocks.emplace_back(ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
+    } else if (model.simulated) {
         blocks.emplace_back(ParagraphBlock{
             "At least one device of this session was simulated. Its numbers say what the software does, not what "
             "hardware or a person would."});

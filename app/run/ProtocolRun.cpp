@@ -39,6 +39,8 @@ SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, cons
                                  device.firmware, device.simulated});
         about.simulated = about.simulated || device.simulated;
     }
+    // Without a device nothing is measured: what such a protocol says is predicted.
+    about.simulated = about.simulated || (protocol != nullptr && devices.identities().empty());
     about.profileJson = toJson(profile).dump();
     for (std::size_t i = 0; i < limits.sets.size(); ++i)
         about.limitSets.push_back({limits.sets[i].id, limits.sha256[i]});

@@ -63,6 +63,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> loadSafetyFunctions();
 [[nodiscard]] std::vector<HostFunction> transitionFunctions();
 [[nodiscard]] std::vector<HostFunction> stepFunctions();
+[[nodiscard]] std::vector<HostFunction> variationFunctions();
 [[nodiscard]] std::vector<HostFunction> latencyFunctions();
 
 }  // namespace tacto

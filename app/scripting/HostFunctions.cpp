@@ -10,7 +10,7 @@ const std::vector<HostFunction>& hostFunctions() {
              {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
               recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions, loadSafetyFunctions,
               calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
-              transitionFunctions, stepFunctions, latencyFunctions}) {
+              transitionFunctions, stepFunctions, variationFunctions, latencyFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }

@@ -29,7 +29,7 @@ std::vector<std::string> shippedNames() {
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
     EXPECT_EQ(shippedNames(),
               (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager", "separability",
-                                        "stimulator-calibration", "transitions"}));
+                                        "stimulator-calibration", "transitions", "variation"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
@@ -40,6 +40,7 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     std::map<std::string, std::string> settings;
     if (GetParam() == "separability") settings["repeats"] = "2";
     if (GetParam() == "transitions") settings["repeats"] = "1";
+    if (GetParam() == "variation") settings = {{"participants", "20"}, {"trials", "5"}};
     if (GetParam() == "encoding-comparison") settings = {{"repeats", "2"}, {"level_repeats", "2"}};
     if (GetParam() == "live" || GetParam() == "massager") settings["duration"] = "5";
     if (GetParam() == "load-safety") settings["steps"] = "2";

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/cli/Verdicts.h"
+
+namespace tacto::cli {
+
+namespace {
+
+using nlohmann::json;
+
+std::string text(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::string number(const json& object, const char* key, double factor = 1) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? fmt::format("{:.4g}", factor * found->get<double>()) : "–";
+}
+
+/// "14.5 (11.2 to 19.0)": the middle, 5 and 95 % of the participants.
+std::string range(const json& object, const char* key, const char* middle = "value", double factor = 1) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_object()) return "–";
+    if (!found->value(middle, json()).is_number()) return "–";
+    return fmt::format("{} ({} to {})", number(*found, middle, factor), number(*found, "low", factor),
+                       number(*found, "high", factor));
+}
+
+void printAim(const char* aim, const json& alone, const json& pooled) {
+    fmt::print("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
+               number(pooled, "total"), number(pooled, "per_participant"));
+}
+
+}  // namespace
+
+void printVariation(const json& results) {
+    fmt::print("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
+               results.value("participants", 0), results.value("complete", 0), results.value("refused", 0),
+               results.value("not_felt", 0));
+    fmt::print("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
+    for (const auto& pair : results.value("separability", json::array())) {
+        fmt::print("  {:<28} {:>26} {:>26} {:>26}\n", text(pair, "a") + " / " + text(pair, "b"), range(pair, "jnd"),
+                   range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
+    }
+    fmt::print("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
+               range(results, "information_bits", "median"));
+    const json needed = results.value("trials_needed", json());
+    if (!needed.is_object()) return;
+    fmt::print("\n  trials, so that with {} % probability\n", number(needed, "assurance", 100));
+    const json& alone = needed.at("per_participant");
+    const json& pooled = needed.at("pooled");
+    printAim(fmt::format("the interval is {} % wide or less", number(needed, "width", 100)).c_str(),
+             alone.at("for_width"), pooled.at("for_width"));
+    printAim("its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
+}
+
+}  // namespace tacto::cli

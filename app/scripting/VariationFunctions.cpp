@@ -1,0 +1,326 @@
+// Predictions without a device: virtual participants, the spread of benches, and their figures.
+#include <cmath>
+#include <stop_token>
+
+#include "app/scripting/Arguments.h"
+#include "app/scripting/HostFunction.h"
+#include "app/scripting/ScriptSession.h"
+#include "core/analysis/VariationJson.h"
+
+namespace tacto {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kMarked = "Simulated: predicted, not measured.";
+
+Result<Drive> sourceFrom(const Arguments& arguments, const Json& options) {
+    auto name = arguments.text(options, "source", "current");
+    if (!name) return failure(name);
+    if (*name == "current") return Drive::Current;
+    if (*name == "voltage") return Drive::Voltage;
+    return arguments.wrong("source", *name, "\"current\" or \"voltage\"");
+}
+
+struct NumberOption {
+    const char* key;
+    double* target;
+    NumberRange range;
+};
+
+Result<void> readNumbers(const Arguments& arguments, const Json& options, std::initializer_list<NumberOption> wanted) {
+    for (const auto& [key, target, range] : wanted) {
+        auto value = arguments.number(options, key, *target, range);
+        if (!value) return failure(value);
+        *target = *value;
+    }
+    return {};
+}
+
+/// The connected stimulator where it drives as asked, else one without flaws.
+SourceTraits traitsFor(Bench& bench, Drive drive) {
+    const auto& stimulator = bench.devices().stimulator;
+    if (stimulator && stimulator->traits().drive == drive) return stimulator->traits();
+    return idealSource(drive);
+}
+
+Result<void> readPopulation(const Arguments& arguments, const Json& options, PopulationModel& model) {
+    double discomfort = model.detection_ma.median * (1 + model.headroom.median);
+    double skinSpread = model.series_ohm.spread, thresholdSpread = model.detection_ma.spread;
+    double weberSpread = model.amplitudeWeber.spread;
+    const bool spreadGiven = options.contains("skin_spread");
+    auto read = readNumbers(arguments, options,
+                            {{"series_ohm", &model.series_ohm.median, {1, 1e6}},
+                             {"parallel_ohm", &model.parallel_ohm.median, {1, 1e8}},
+                             {"capacitance_nf", &model.capacitance_nf.median, {0.001, 1e5}},
+                             {"detection_ma", &model.detection_ma.median, {0.01, 100}},
+                             {"discomfort_ma", &discomfort, {0.01, 1000}},
+                             {"skin_spread", &skinSpread, {1, 10}},
+                             {"threshold_spread", &thresholdSpread, {1, 10}},
+                             {"weber_spread", &weberSpread, {1, 10}},
+                             {"weber_amplitude", &model.amplitudeWeber.median, {0.001, 1}},
+                             {"weber_interval", &model.intervalWeber.median, {0.001, 1}},
+                             {"lapse_most", &model.lapseMost, {0, 1}},
+                             {"noise_jnd", &model.noise_jnd, {0.01, 100}}});
+    if (!read) return read;
+    model.headroom.median = discomfort / model.detection_ma.median - 1;
+    if (!(model.headroom.median > 0)) {
+        return arguments.wrong("discomfort_ma", discomfort,
+                               fmt::format("more than the detection threshold of {:g} mA", model.detection_ma.median));
+    }
+    if (spreadGiven) {
+        for (auto* drawn : {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf}) drawn->spread = skinSpread;
+    }
+    model.detection_ma.spread = thresholdSpread;
+    model.amplitudeWeber.spread = model.intervalWeber.spread = weberSpread;
+    return {};
+}
+
+Result<VariationOptions> optionsFrom(ScriptSession& session, const Arguments& arguments, const Json& given) {
+    Bench& bench = session.bench();
+    const auto& profile = bench.profile();
+    VariationOptions out;
+    out.seed = session.request().seed;
+    const auto drive = sourceFrom(arguments, given);
+    if (!drive) return failure(drive);
+    auto& to = out.stimulation;
+    to.encoding = profile.encoding;
+    to.source = traitsFor(bench, *drive);
+    to.limits = bench.limits();
+    to.ceilings = profile.ceilings;
+    to.electrodeArea = profile.electrodeArea;
+    to.loadLow = profile.loadLow;
+    to.loadHigh = profile.loadHigh;
+    double participants = static_cast<double>(out.participants), trials = static_cast<double>(out.trials);
+    double pilot = static_cast<double>(out.wanted.participants), area = 0;
+    auto read = readNumbers(arguments, given,
+                            {{"participants", &participants, {1, 100'000, true}},
+                             {"trials", &trials, {1, 10'000, true}},
+                             {"width", &out.wanted.width, {0.02, 1}},
+                             {"assurance", &out.wanted.assurance, {0.5, 0.999}},
+                             {"pilot", &pilot, {1, 100'000, true}},
+                             {"area_cm2", &area, {0, 1000}}});
+    if (!read) return failure(read);
+    out.participants = static_cast<std::size_t>(participants);
+    out.trials = static_cast<std::size_t>(trials);
+    out.wanted.participants = static_cast<std::size_t>(pilot);
+    if (area > 0) to.electrodeArea = SquareCentimetres(area);
+    if (auto population = readPopulation(arguments, given, out.population); !population) return failure(population);
+    auto levels = arguments.text(given, "levels", nameOf(to.levels));
+    if (!levels) return failure(levels);
+    const auto known = amplitudeLevelsFrom(*levels);
+    if (!known) return failure(known);
+    to.levels = *known;
+    auto guess = arguments.text(given, "guess", nameOf(out.guess));
+    if (!guess) return failure(guess);
+    const auto answer = guessBehaviourFrom(*guess);
+    if (!answer) return failure(answer);
+    out.guess = *answer;
+    return out;
+}
+
+Result<Json> variation(ScriptSession& session, const Json& list) {
+    const Arguments arguments("analysis.variation", list);
+    auto given = arguments.options(0, {"participants",   "trials",
+                                       "levels",         "source",
+                                       "guess",          "width",
+                                       "assurance",      "pilot",
+                                       "area_cm2",       "series_ohm",
+                                       "parallel_ohm",   "capacitance_nf",
+                                       "detection_ma",   "discomfort_ma",
+                                       "skin_spread",    "threshold_spread",
+                                       "weber_spread",   "weber_amplitude",
+                                       "weber_interval", "lapse_most",
+                                       "noise_jnd",      "label"});
+    if (!given) return failure(given);
+    auto label = arguments.text(*given, "label", "Virtual participants");
+    if (!label) return failure(label);
+    const auto options = optionsFrom(session, arguments, *given);
+    if (!options) return failure(options);
+
+    // The bench's stop is asked for while the threads work: a wait of no time fails once it came.
+    std::stop_source stop;
+    std::optional<Error> stopped;
+    const auto found = predictVariation(*options, stop.get_token(), [&](std::size_t done, std::size_t total) {
+        session.progress({*label, done, total});
+        if (stopped) return;
+        if (auto waited = session.bench().wait(Seconds(0)); !waited) {
+            stopped = waited.error();
+            stop.request_stop();
+        }
+    });
+    if (!found && found.error().code != ErrorCode::Stopped) return failure(found);
+    if (stopped) {
+        // What is done by then stands as a partial result, in the run's outcome and its report.
+        if (found) session.keepPartial(toJson(*found, *options), Json::array());
+        return tl::unexpected<Error>(*stopped);
+    }
+    if (!found) return failure(found);
+    return toJson(*found, *options);
+}
+
+Result<Json> uncertainBench(ScriptSession& session, const Json& list) {
+    const Arguments arguments("analysis.uncertainBench", list);
+    auto given = arguments.options(0, {"draws", "source", "gain_pct", "offset_v", "load_pct", "scope_gain_pct",
+                                       "scope_offset_pct", "clock_ppm", "jitter_us"});
+    if (!given) return failure(given);
+    const auto drive = sourceFrom(arguments, *given);
+    if (!drive) return failure(drive);
+    BenchTolerances tolerances;
+    double draws = 4000, gain = 100 * tolerances.stimulatorGain, offset = tolerances.stimulatorOffset.value();
+    double load = 100 * tolerances.load, scopeGain = 100 * tolerances.scopeGain;
+    double scopeOffset = 100 * tolerances.scopeOffset, clock = 1e6 * tolerances.clock;
+    double jitter = tolerances.jitter.count();
+    auto read = readNumbers(arguments, *given,
+                            {{"draws", &draws, {100, 1e6, true}},
+                             {"gain_pct", &gain, {0, 50}},
+                             {"offset_v", &offset, {0, 1000}},
+                             {"load_pct", &load, {0, 50}},
+                             {"scope_gain_pct", &scopeGain, {0, 50}},
+                             {"scope_offset_pct", &scopeOffset, {0, 50}},
+                             {"clock_ppm", &clock, {0, 5e5}},
+                             {"jitter_us", &jitter, {0, 1e6}}});
+    if (!read) return failure(read);
+    tolerances = {gain / 100,        Volts(offset), load / 100,    scopeGain / 100,
+                  scopeOffset / 100, clock / 1e6,   Micros(jitter)};
+    const auto found = predictBench(session.bench().profile().encoding, *drive, tolerances,
+                                    static_cast<std::size_t>(draws), session.request().seed);
+    if (!found) return failure(found);
+    return toJson(*found);
+}
+
+/// Share of participants at or below each accuracy.
+Json accuracyCurve(const Json& found) {
+    Json x = Json::array(), y = Json::array();
+    const Json& values = found["accuracies"];
+    const double n = static_cast<double>(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        x.push_back(100 * values[i].get<double>());
+        y.push_back(100 * static_cast<double>(i + 1) / n);
+    }
+    return {{"type", "curves"},
+            {"x", {{"label", "Expected accuracy"}, {"unit", "%"}}},
+            {"y", {{"label", "Participants at or below"}, {"unit", "%"}}},
+            {"curves", {{{"label", "virtual participants"}, {"x", x}, {"y", y}, {"steps", true}}}},
+            {"note", kMarked}};
+}
+
+Json widthCurve(const Json& found) {
+    const Json trials = found.value("trials_needed", Json());
+    Json curves = Json::array();
+    Json lines = Json::array();
+    if (trials.is_object()) {
+        Json x = Json::array(), y = Json::array(), low = Json::array(), high = Json::array();
+        for (const auto& point : trials["curve"]) {
+            x.push_back(point["trials"]);
+            y.push_back(100 * point["width"]["value"].get<double>());
+            low.push_back(100 * point["width"]["low"].get<double>());
+            high.push_back(100 * point["width"]["high"].get<double>());
+        }
+        curves.push_back(
+            {{"label", "one participant, median and 5 to 95 %"}, {"x", x}, {"y", y}, {"low", low}, {"high", high}});
+        lines.push_back({{"label", "wanted"}, {"y", 100 * trials["width"].get<double>()}});
+    }
+    return {{"type", "curves"},
+            {"x", {{"label", "Trials of a participant"}, {"unit", ""}}},
+            {"y", {{"label", "Width of the 95 % interval"}, {"unit", "%"}}},
+            {"curves", curves},
+            {"lines", lines},
+            {"note", kMarked}};
+}
+
+Result<Json> predicted(ScriptSession&, const Json& list) {
+    const Arguments arguments("plot.predicted", list);
+    auto found = arguments.object(0, "found");
+    if (!found) return failure(found);
+    if (!(*found)->value("accuracies", Json()).is_array()) {
+        return arguments.wrong("found", **found, "what analysis.variation() returned");
+    }
+    auto view = arguments.text(1, "view");
+    if (!view) return failure(view);
+    if (*view == "accuracy") return accuracyCurve(**found);
+    if (*view == "width") return widthCurve(**found);
+    if (*view != "confusion") return arguments.wrong("view", *view, "\"confusion\", \"accuracy\" or \"width\"");
+    return Json{{"type", "confusion"},
+                {"labels", (**found)["labels"]},
+                {"columns", (**found)["columns"]},
+                {"confusion", (**found)["confusion"]},
+                {"note", kMarked}};
+}
+
+}  // namespace
+
+std::vector<HostFunction> variationFunctions() {
+    return {
+        {"analysis",
+         "variation",
+         HostKind::Function,
+         {{"options.participants", "number", "", "virtual people, 1 to 100000; 200 where left out", true},
+          {"options.trials", "number", "", "per condition and participant; 25", true},
+          {"options.levels", "text", "",
+           "personal: amplitudes between the participant's thresholds, as far as the profile allows; profile: the "
+           "profile's for everybody; personal",
+           true},
+          {"options.source", "text", "", "current: A / |Z|; voltage: as on the bench, refused for people; current",
+           true},
+          {"options.guess", "text", "", "what is said when nothing is felt: none or uniform; none", true},
+          {"options.width", "number", "", "wanted width of the 95 % interval of accuracy; 0.1", true},
+          {"options.assurance", "number", "", "with which a pilot is to reach it; 0.8", true},
+          {"options.pilot", "number", "", "participants of the pilot; 12", true},
+          {"options.area_cm2", "number", "cm2", "electrode area; the profile's", true},
+          {"options.series_ohm", "number", "ohm", "median R_s of the skin; 200", true},
+          {"options.parallel_ohm", "number", "ohm", "median R_p of the skin; 10000", true},
+          {"options.capacitance_nf", "number", "nF", "median C of the skin; 50", true},
+          {"options.detection_ma", "number", "mA", "median detection threshold at 150 us per phase; 3.5", true},
+          {"options.discomfort_ma", "number", "mA", "discomfort of the median participant; 13.8", true},
+          {"options.skin_spread", "number", "", "geometric standard deviation between people, 1 for none; 1.5 (C 1.3)",
+           true},
+          {"options.threshold_spread", "number", "", "the same of the detection threshold; 1.4", true},
+          {"options.weber_spread", "number", "", "the same of the Weber fractions; 1.25", true},
+          {"options.weber_amplitude", "number", "", "median Weber fraction of amplitude; 0.10", true},
+          {"options.weber_interval", "number", "", "median Weber fraction of interval; 0.16", true},
+          {"options.lapse_most", "number", "", "lapse rates lie between 0 and this; 0.06", true},
+          {"options.noise_jnd", "number", "JND", "standard deviation of what is felt; 1", true},
+          {"options.label", "text", "", "what the progress bar says", true}},
+         "Predicts how virtual participants tell the conditions apart, drawn with the run's seed: no person and no "
+         "device takes part. Works on all cores, with the same result whatever their number.",
+         "{ simulated, participants, seed, partial, conditions, separability: [{ a, b, jnd, amplitude_jnd, "
+         "interval_jnd "
+         "}], labels, columns, confusion, complete, accuracy: { median, low, high }, information_bits, refused, "
+         "not_felt, withheld, trials_needed: { per_participant, pooled, curve, assumptions } }: low and high are 5 and "
+         "95 % of the participants; accuracy and confusion are over those who were presented every condition.",
+         "Throws for an option that makes no sense, and when the run is stopped; what was predicted until then is kept "
+         "as partial.",
+         variation},
+        {"analysis",
+         "uncertainBench",
+         HostKind::Function,
+         {{"options.draws", "number", "", "benches, 100 to 1000000; 4000 where left out", true},
+          {"options.source", "text", "", "current or voltage; current", true},
+          {"options.gain_pct", "number", "%", "stimulator's gain, half-width; 2", true},
+          {"options.offset_v", "number", "V", "stimulator's offset, half-width; 0.1", true},
+          {"options.load_pct", "number", "%", "load's tolerance, half-width; 5; a current source's alone", true},
+          {"options.scope_gain_pct", "number", "%", "oscilloscope's gain, half-width; 0.5", true},
+          {"options.scope_offset_pct", "number", "%", "oscilloscope's offset, of the range, half-width; 0.1", true},
+          {"options.clock_ppm", "number", "ppm", "clocks against each other, half-width; 100", true},
+          {"options.jitter_us", "number", "us", "of one interval, half-width; 10", true}},
+         "Predicts what different benches within their tolerances would read of the same conditions (Monte Carlo).",
+         "{ draws, conditions: [{ name, amplitude_v, interval_s }], pairs: [{ a, b, amplitude_jnd, interval_jnd }] }, "
+         "each { value, low, high }: median, 5 and 95 % of the benches.",
+         "",
+         uncertainBench},
+        {"plot",
+         "predicted",
+         HostKind::Function,
+         {{"found", "object", "", "from analysis.variation()"},
+          {"view", "text", "",
+           "confusion; accuracy: its distribution over participants; width: of the interval against trials"}},
+         "A prediction's figures, marked as predicted.",
+         "A figure, for report.figure().",
+         "",
+         predicted},
+    };
+}
+
+}  // namespace tacto

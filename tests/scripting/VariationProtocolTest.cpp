@@ -1,0 +1,162 @@
+// The protocol that predicts a pilot: without a device, the same on every run with a seed, stopped in the middle.
+#include <atomic>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+
+RunRequest requestFor(RunBench& rig, const std::map<std::string, std::string>& settings) {
+    const ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
+    auto source = shipped.find("variation").value();
+    const auto declaration = readDeclaration(source).value();
+    EXPECT_TRUE(declaration.needs.empty());
+    auto request = rig.request(std::move(source));
+    request.parameters = applySettings(declaration, settings).value().parameters;
+    return request;
+}
+
+ScriptOutcome runVariation(RunBench& rig, const std::map<std::string, std::string>& settings) {
+    return runProtocol(requestFor(rig, settings)).value();
+}
+
+const std::map<std::string, std::string> kSmall = {{"participants", "40"}, {"trials", "5"}};
+
+TEST(VariationProtocol, PredictsWithoutADevice) {
+    RunBench rig(true, "sim:", 1, true, {});
+    std::size_t last = 0, total = 0;
+    auto request = requestFor(rig, kSmall);
+    request.onProgress = [&](const ScriptProgress& progress) {
+        last = progress.done;
+        total = progress.total;
+    };
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::None);
+    const auto& found = outcome.results;
+    EXPECT_EQ(found["simulated"], true);
+    EXPECT_EQ(found["measured"], false);
+    EXPECT_EQ(found["participants"], 40);
+    EXPECT_EQ(found["seed"], 1);
+    EXPECT_EQ(found["separability"].size(), 6U);
+    for (const auto& pair : found["separability"]) {
+        EXPECT_GT(pair["jnd"]["value"].get<double>(), 0);
+        EXPECT_LE(pair["jnd"]["low"], pair["jnd"]["value"]);
+        EXPECT_LE(pair["jnd"]["value"], pair["jnd"]["high"]);
+    }
+    EXPECT_EQ(found["confusion"].size(), 4U);
+    std::size_t answers = 0;
+    for (const auto& row : found["confusion"]) {
+        EXPECT_EQ(row.size(), 5U);
+        for (const auto& cell : row) answers += cell.get<std::size_t>();
+    }
+    EXPECT_EQ(answers, found["complete"].get<std::size_t>() * 4 * 5);
+    EXPECT_GT(found["complete"].get<int>(), 0);
+    EXPECT_GT(found["accuracy"]["median"].get<double>(), 0.25);
+    EXPECT_TRUE(found["trials_needed"]["per_participant"]["for_width"].is_number());
+    EXPECT_EQ(found["bench"]["conditions"].size(), 4U);
+    EXPECT_EQ(last, 40U);
+    EXPECT_EQ(total, 40U);
+
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    std::size_t figures = 0;
+    const auto items = reader.reportItems().value();
+    for (const auto& item : items) {
+        const auto kind = item.body.value("kind", "");
+        figures += kind == "figure" ? 1 : 0;
+        if (kind != "figure" && kind != "table") continue;
+        EXPECT_NE(item.body.value("caption", "").find("predicted, not measured"), std::string::npos)
+            << item.body.value("caption", "");
+    }
+    EXPECT_EQ(figures, 3U);
+}
+
+TEST(VariationProtocol, SameSeedSameResults) {
+    const auto resultsOf = [](std::uint64_t seed) {
+        RunBench rig(true, "sim:", seed, false, {});
+        return runVariation(rig, kSmall).results;
+    };
+    const auto first = resultsOf(5);
+    ASSERT_TRUE(first.is_object());
+    EXPECT_EQ(first, resultsOf(5));
+    EXPECT_NE(first["accuracies"], resultsOf(6)["accuracies"]);
+}
+
+TEST(VariationProtocol, ThePapersFixedAmplitudesAreComparedWithPersonalOnes) {
+    RunBench rig(true, "sim:", 2, false, {});
+    auto settings = kSmall;
+    settings["levels"] = "profile";
+    const auto outcome = runVariation(rig, settings);
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["levels"], "profile");
+    EXPECT_EQ(outcome.results["other_levels"]["levels"], "personal");
+    // 10 to 40 V span a factor of 4, and so does the range between the thresholds: few people bear all of it.
+    EXPECT_GT(outcome.results["refused"].get<int>() + outcome.results["not_felt"].get<int>(), 0);
+    EXPECT_LT(outcome.results["complete"], outcome.results["other_levels"]["complete"]);
+}
+
+TEST(VariationProtocol, NobodyWhoBearsTheAmplitudesIsAResultToo) {
+    RunBench rig(true, "sim:", 1, true, {});
+    const auto outcome =
+        runVariation(rig, {{"participants", "10"}, {"levels", "profile"}, {"detection", "0.1"}, {"discomfort", "0.2"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["complete"], 0);
+    EXPECT_EQ(outcome.results["refused"], 40);
+    EXPECT_TRUE(outcome.results["trials_needed"].is_null());
+    EXPECT_TRUE(outcome.results["accuracy"]["median"].is_null());
+}
+
+TEST(VariationProtocol, AStopEndsItAtOnceAndKeepsWhatIsDone) {
+    RunBench rig(false, "sim:", 1, true, {});
+    auto request = requestFor(rig, {{"participants", "20000"}, {"trials", "1000"}});
+    std::atomic<bool> begun{false};
+    request.onProgress = [&](const ScriptProgress& progress) {
+        if (progress.done < 3) return;
+        begun = true;
+        begun.notify_all();
+    };
+    auto run = ScriptRun::start(std::move(request)).value();
+    begun.wait(false);
+    const auto asked = std::chrono::steady_clock::now();
+    run->stop("the test");
+    const auto outcome = run->wait();
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
+    EXPECT_FALSE(outcome.abandoned);
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
+    ASSERT_TRUE(outcome.results.is_object()) << "what was predicted until then is kept";
+    EXPECT_EQ(outcome.results["partial"], true);
+    EXPECT_GE(outcome.results["participants"].get<int>(), 3);
+    EXPECT_LT(outcome.results["participants"].get<int>(), 20000);
+}
+
+TEST(VariationProtocol, WrongOptionsAreRefusedByName) {
+    RunBench rig(true, "sim:", 1, false, {});
+    const struct {
+        const char* call;
+        const char* names;
+    } wrong[] = {{"analysis.variation({ participants: 0 })", "participants"},
+                 {"analysis.variation({ levels: \"mine\" })", "mine"},
+                 {"analysis.variation({ source: \"water\" })", "water"},
+                 {"analysis.variation({ guess: \"maybe\" })", "maybe"},
+                 {"analysis.variation({ detection_ma: 5, discomfort_ma: 4 })", "discomfort_ma"},
+                 {"analysis.variation({ persons: 5 })", "persons"},
+                 {"analysis.uncertainBench({ load_pct: -1 })", "load_pct"},
+                 {"plot.predicted({}, \"width\")", "analysis.variation()"}};
+    for (const auto& [call, names] : wrong) {
+        const auto outcome = rig.run(test::withRun(call));
+        ASSERT_TRUE(outcome.error) << call;
+        EXPECT_NE(outcome.error->message.find(names), std::string::npos) << outcome.error->message;
+    }
+}
+
+}  // namespace
+}  // namespace tacto
