@@ -415,6 +415,7 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
         return finishArming(permitted);
     }
     impedance_ = evidence.impedance;
+    planner_->armedOn(impedance_);
     impedanceAt_ = report.statusAt;
     finishArming({});
 }

@@ -58,7 +58,9 @@ Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
     const Instant onset = std::max(scheduler_.due().value_or(now), now);
     const Command command = begin(onset);
-    const auto train = trainFor(source_.drive, encoder_.profile(), command.amplitude, impedance);
+    const auto held = heldAmplitude(encoder_.profile().hold, command.amplitude, armed_, impedance);
+    if (!held) return failure(held);
+    const auto train = trainFor(source_.drive, encoder_.profile(), *held, impedance);
     if (!train) return failure(train);
     const auto rounded = roundToDevice(toldFor(*train, calibration_), gridOf(source_));
     if (!rounded) return failure(rounded);

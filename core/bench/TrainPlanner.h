@@ -34,6 +34,9 @@ public:
     TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                  const std::optional<AmplitudeCalibration>& calibration = {});
 
+    /// |Z| when the output was armed: what a profile that holds charge or energy refers to.
+    void armedOn(std::optional<Ohms> impedance) noexcept { armed_ = impedance; }
+
     /// What is wanted from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then
     /// nothing is wanted.
     [[nodiscard]] Result<void> want(double roughness, std::optional<double> pressure, Instant now);
@@ -46,7 +49,8 @@ public:
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return command_; }
 
     /// Has the due train judged, for an onset at max(due, now). Whether it is approved or refused, the next one is an
-    /// interval later. Errors: as trainFor(), roundToDevice() and SafetyGate::approve().
+    /// interval later. Errors: as heldAmplitude(),
+    /// trainFor(), roundToDevice() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
     /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().
@@ -65,6 +69,7 @@ private:
     std::optional<Command> command_;  // wanted_ under the slew limits
     std::optional<Command> last_;     // of the last train
     Instant lastOnset_{0};
+    std::optional<Ohms> armed_;
 };
 
 /// The grid of a device as core/encoding rounds to it.

@@ -48,6 +48,22 @@ PulseTrain voltageTrain(const EncodingProfile& profile, Volts amplitude) noexcep
     return train;
 }
 
+Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> armed, std::optional<Ohms> now) {
+    if (hold == Hold::Voltage) return amplitude;
+    if (!armed || !now) {
+        return fail(ErrorCode::NotArmed,
+                    "the profile holds the {} constant and no impedance was measured; a stimulator that reads it back, "
+                    "or hold \"voltage\", is expected",
+                    nameOf(hold));
+    }
+    const double ratio = now->value() / armed->value();
+    if (!(ratio > 0) || !std::isfinite(ratio)) {
+        return fail(ErrorCode::InvalidArgument, "an impedance of {} ohm after {} ohm; finite ones above 0 are needed",
+                    now->value(), armed->value());
+    }
+    return amplitude * (hold == Hold::Charge ? ratio : std::sqrt(ratio));
+}
+
 Result<PulseTrain> currentTrain(const EncodingProfile& profile, Volts amplitude, std::optional<Ohms> impedance) {
     if (!impedance) {
         return fail(ErrorCode::NotArmed, "a current source is not given {:.4g} V before the impedance was measured",

@@ -43,6 +43,13 @@ private:
 /// The profile's train at `amplitude`, for a voltage source.
 [[nodiscard]] PulseTrain voltageTrain(const EncodingProfile& profile, Volts amplitude) noexcept;
 
+/// `amplitude` as it must be on a load of `now` so that what is held is what it would have been on `armed`: times
+/// (now / armed)^p, p = 0, 1 or 1/2 for voltage, charge and energy. Exact on loads that scale as a whole.
+/// Errors: NotArmed where an impedance is held against and not known; InvalidArgument when it is not finite and above
+/// 0.
+[[nodiscard]] Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> armed,
+                                          std::optional<Ohms> now);
+
 /// The profile's train at `amplitude` / `impedance`, for a current source. `impedance` is |Z| at the end of the leading
 /// phase, measured with the same kind of source, shape and width.
 /// Errors: NotArmed without a measured impedance; InvalidArgument when it is not finite and above 0.

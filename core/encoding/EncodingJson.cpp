@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 19> kKeys{"amplitude_min_v",
+constexpr std::array<std::string_view, 20> kKeys{"amplitude_min_v",
                                                  "amplitude_max_v",
                                                  "interval_min_s",
                                                  "interval_max_s",
@@ -30,6 +30,7 @@ constexpr std::array<std::string_view, 19> kKeys{"amplitude_min_v",
                                                  "rate_hz",
                                                  "amplitude_slew_v_per_s",
                                                  "interval_ratio_per_train",
+                                                 "hold",
                                                  "conditions"};
 
 template <class T>
@@ -41,6 +42,8 @@ constexpr std::array<Word<CurveKind>, 3> kCurves{
     {{"linear", CurveKind::Linear}, {"logarithmic", CurveKind::Logarithmic}, {"power", CurveKind::Power}}};
 constexpr std::array<Word<Assignment>, 2> kAssignments{
     {{"texture_to_amplitude", Assignment::TextureToAmplitude}, {"swapped", Assignment::Swapped}}};
+constexpr std::array<Word<Hold>, 3> kHolds{
+    {{"voltage", Hold::Voltage}, {"charge", Hold::Charge}, {"energy", Hold::Energy}}};
 constexpr std::array<Word<PulseShape>, 3> kShapes{{{"symmetric", PulseShape::SymmetricBiphasic},
                                                    {"asymmetric", PulseShape::AsymmetricBiphasic},
                                                    {"monophasic", PulseShape::Monophasic}}};
@@ -154,6 +157,7 @@ Result<EncodingProfile> encodingProfileFrom(const json& section) {
     read.number("rate_hz", [&](double x) { p.train.rate = Hertz(x); });
     read.number("amplitude_slew_v_per_s", [&](double x) { p.amplitudeSlew_V_per_s = x; });
     read.number("interval_ratio_per_train", [&](double x) { p.intervalRatioPerTrain = x; });
+    read.word("hold", kHolds, p.hold);
     read.conditions(p.conditions);
     if (!read.outcome()) return failure(read.outcome());
     if (auto valid = validate(p); !valid) return fail(valid.error().code, "encoding: {}", valid.error().message);
@@ -181,6 +185,7 @@ json toJson(const EncodingProfile& p) {
             {"rate_hz", p.train.rate.value()},
             {"amplitude_slew_v_per_s", p.amplitudeSlew_V_per_s},
             {"interval_ratio_per_train", p.intervalRatioPerTrain},
+            {"hold", nameOf(p.hold)},
             {"conditions", conditions}};
 }
 

@@ -53,6 +53,17 @@ std::string_view nameOf(CurveKind curve) noexcept {
     return "unknown";
 }
 
+std::string_view nameOf(Hold hold) noexcept {
+    switch (hold) {
+        case Hold::Charge:
+            return "charge";
+        case Hold::Energy:
+            return "energy";
+        default:
+            return "voltage";
+    }
+}
+
 std::string_view nameOf(Assignment assignment) noexcept {
     return assignment == Assignment::Swapped ? "swapped" : "texture_to_amplitude";
 }

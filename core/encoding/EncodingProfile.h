@@ -33,6 +33,15 @@ enum class Assignment {
 };
 [[nodiscard]] std::string_view nameOf(Assignment assignment) noexcept;  // "texture_to_amplitude", "swapped"
 
+/// What stays as it was encoded when the load's |Z| changes during delivery, within the gate's limits. The commands are
+/// of the |Z| that was measured when the output was armed.
+enum class Hold {
+    Voltage,  ///< the amplitude A
+    Charge,   ///< per phase: A follows |Z|
+    Energy,   ///< per pulse: A follows √|Z|
+};
+[[nodiscard]] std::string_view nameOf(Hold hold) noexcept;  // "voltage", "charge", "energy"
+
 /// A named point of the R–P plane.
 struct Condition {
     std::string name;
@@ -53,6 +62,7 @@ struct EncodingProfile {
     double amplitudeSlew_V_per_s = 0;  ///< largest change of the amplitude; 0 = no limit
     double intervalRatioPerTrain =
         0;  ///< an interval is at most this times (or 1/this of) the one before; 0 = no limit, else > 1
+    Hold hold = Hold::Voltage;
     std::vector<Condition> conditions = fourConditions(0, 1);
 
     /// smooth-low, smooth-high, rough-low, rough-high with R and P at `low` and `high`.
@@ -69,7 +79,7 @@ struct EncodingProfile {
 /// interval_min_s, interval_max_s, amplitude_curve, amplitude_beta, interval_curve, interval_beta, assignment,
 /// shape (symmetric, asymmetric, monophasic), polarity (positive, negative), phase_width_us, inter_phase_gap_us,
 /// recharge_ratio, pulses, rate_hz, amplitude_slew_v_per_s, interval_ratio_per_train,
-/// conditions [{name, R, P}].
+/// hold (voltage, charge, energy), conditions [{name, R, P}].
 /// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument as validate().
 [[nodiscard]] Result<EncodingProfile> encodingProfileFrom(const nlohmann::json& section);
 /// The section that reads back to the same profile.

@@ -40,6 +40,7 @@ enum Check : int {
     ImpedanceValue,
     ImpedanceFromFuture,
     ImpedanceOutOfRange,
+    ImpedanceJump,
     // approve()
     MoreThanTold,
     MeterFull,

@@ -13,6 +13,7 @@ using namespace gate;
 
 namespace {
 constexpr Instant kImpedanceAge = std::chrono::seconds(5);
+constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
 
 std::uint64_t firstEpoch() noexcept {
     static std::atomic<std::uint64_t> gates{0};
@@ -87,6 +88,16 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
                 : fmt::format(
                       "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
                       ohm, s.load.nominal.text()));
+    }
+    const bool recent = s.impedance && at - s.impedanceAt <= kImpedanceAge;
+    if (checks(ImpedanceJump) && s.person() && recent) {
+        const double before = s.impedance->value();
+        if (!(ohm <= kImpedanceJump * before && before <= kImpedanceJump * ohm)) {
+            return refuse(
+                ErrorCode::LimitExceeded,
+                fmt::format("the impedance went from {:.4g} to {:.4g} ohm in {:.3g} s; an electrode has moved", before,
+                            ohm, toSeconds(at - s.impedanceAt)));
+        }
     }
     s.disowned = false;
     s.impedance = magnitude;

@@ -123,6 +123,23 @@ TEST(SlewLimits, BoundTheAmplitudePerSecondAndTheIntervalPerTrain) {
     EXPECT_EQ(encoder.limited(low, low, Seconds(0.5)), low);
 }
 
+TEST(HeldAmplitude, FollowsTheImpedanceByWhatIsHeld) {
+    const auto held = [](Hold hold, double armed, double now) {
+        return heldAmplitude(hold, Volts(20), Ohms(armed), Ohms(now))->value();
+    };
+    EXPECT_DOUBLE_EQ(held(Hold::Voltage, 1000, 1210), 20);
+    EXPECT_DOUBLE_EQ(held(Hold::Charge, 1000, 1210), 24.2);
+    EXPECT_DOUBLE_EQ(held(Hold::Energy, 1000, 1210), 22);
+    EXPECT_DOUBLE_EQ(held(Hold::Charge, 1000, 800), 16);
+    EXPECT_EQ(*heldAmplitude(Hold::Voltage, Volts(20), std::nullopt, std::nullopt), Volts(20));
+    for (const auto hold : {Hold::Charge, Hold::Energy}) {
+        EXPECT_FALSE(heldAmplitude(hold, Volts(20), std::nullopt, Ohms(1000)));
+        EXPECT_FALSE(heldAmplitude(hold, Volts(20), Ohms(1000), std::nullopt));
+        EXPECT_FALSE(heldAmplitude(hold, Volts(20), Ohms(0), Ohms(1000)));
+        EXPECT_FALSE(heldAmplitude(hold, Volts(20), Ohms(1000), Ohms(std::numeric_limits<double>::quiet_NaN())));
+    }
+}
+
 TEST(TrainFor, GivesAVoltageSourceVolts) {
     EncodingProfile profile;
     profile.train.pulses = 3;

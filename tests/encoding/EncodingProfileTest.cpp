@@ -38,7 +38,7 @@ TEST(EncodingProfile, ReadsEveryKey) {
         "amplitude_curve": "power", "amplitude_beta": 2, "interval_curve": "logarithmic", "interval_beta": 3,
         "assignment": "swapped", "shape": "asymmetric", "polarity": "negative", "phase_width_us": 150,
         "inter_phase_gap_us": 50, "recharge_ratio": 8, "pulses": 4, "rate_hz": 80, "amplitude_slew_v_per_s": 20,
-        "interval_ratio_per_train": 1.5, "conditions": [{"name": "a", "R": 0.1, "P": 0.9}]})"));
+        "interval_ratio_per_train": 1.5, "hold": "energy", "conditions": [{"name": "a", "R": 0.1, "P": 0.9}]})"));
     ASSERT_TRUE(profile) << profile.error().message;
     EXPECT_EQ(profile->amplitudeMin, Volts(5));
     EXPECT_EQ(profile->amplitudeMax, Volts(30));
@@ -56,6 +56,7 @@ TEST(EncodingProfile, ReadsEveryKey) {
     EXPECT_EQ(profile->train.rate, Hertz(80));
     EXPECT_EQ(profile->amplitudeSlew_V_per_s, 20);
     EXPECT_EQ(profile->intervalRatioPerTrain, 1.5);
+    EXPECT_EQ(profile->hold, Hold::Energy);
     EXPECT_EQ(profile->conditions, (std::vector<Condition>{{"a", 0.1, 0.9}}));
     const auto again = encodingProfileFrom(toJson(*profile));
     ASSERT_TRUE(again) << again.error().message;
@@ -72,6 +73,7 @@ TEST(EncodingProfile, RefusesWrongTypesNamingKeyValueAndWhatIsAccepted) {
     EXPECT_THAT(refusal(R"({"amplitude_max_v": null})"), HasSubstr("null"));
     EXPECT_THAT(refusal(R"({"pulses": 1.5})"), AllOf(HasSubstr("pulses"), HasSubstr("1.5"), HasSubstr("whole number")));
     EXPECT_THAT(refusal(R"({"pulses": 1e99})"), HasSubstr("whole number"));
+    EXPECT_THAT(refusal(R"({"hold": "power"})"), AllOf(HasSubstr("power"), HasSubstr("charge")));
     EXPECT_THAT(refusal(R"({"shape": "square"})"), AllOf(HasSubstr("square"), HasSubstr("symmetric")));
     EXPECT_THAT(refusal(R"({"assignment": 3})"), HasSubstr("texture_to_amplitude"));
     EXPECT_THAT(refusal(R"({"conditions": 3})"), HasSubstr("conditions"));

@@ -135,6 +135,17 @@ void addStateCases(std::vector<GateCase>& cases) {
         Rig rig(personSetup());
         return refuses(rig.gate.updateImpedance(Ohms(499), rig.clock.now()), ErrorCode::LimitExceeded, "500 to 1e+04");
     });
+    add(ImpedanceJump, "a person's impedance that doubles between two trains", [] {
+        const auto after = [](double ohm, double wait_s) {
+            Rig rig(personSetup());
+            (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+            rig.wait(wait_s);
+            return rig.gate.updateImpedance(Ohms(ohm), rig.clock.now());
+        };
+        return refuses(after(4001, 2), ErrorCode::LimitExceeded, "an electrode has moved") &&
+               refuses(after(999, 2), ErrorCode::LimitExceeded, "an electrode has moved") &&
+               after(4000, 2).has_value() && after(1000, 2).has_value() && after(6000, 5.1).has_value();
+    });
     add(ImpedanceOutOfRange, "a bench load that is not the declared one", [] {
         Rig rig(benchSetup());
         return rig.gate.updateImpedance(Ohms(1190), rig.clock.now()).has_value() &&
