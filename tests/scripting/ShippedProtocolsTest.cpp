@@ -28,8 +28,8 @@ std::vector<std::string> shippedNames() {
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
     EXPECT_EQ(shippedNames(),
-              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager", "separability",
-                                        "stimulator-calibration", "transitions", "variation"}));
+              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager", "sensor-calibration",
+                                        "separability", "stimulator-calibration", "transitions", "variation"}));
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
@@ -44,6 +44,7 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     if (GetParam() == "encoding-comparison") settings = {{"repeats", "2"}, {"level_repeats", "2"}};
     if (GetParam() == "live" || GetParam() == "massager") settings["duration"] = "5";
     if (GetParam() == "load-safety") settings["steps"] = "2";
+    if (GetParam() == "sensor-calibration") settings = {{"more", ""}, {"slides", "3"}};
     const auto outcome = runShipped(rig, GetParam(), settings);
     EXPECT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_TRUE(rig.outputOff());
