@@ -249,7 +249,8 @@ function checkStored(p, stored, results) {
     const expected = stored.gain * level.commanded + stored.offset;
     const allowed = (stored.uncertainty_pct / 100) * level.commanded + level.expanded_uncertainty;
     const off = level.mean - expected;
-    return { commanded: level.commanded, expected, measured: level.mean, off, allowed, holds: Math.abs(off) <= allowed };
+    return { commanded: level.commanded, expected, measured: level.mean, off, allowed, unit: found.unit,
+      holds: Math.abs(off) <= allowed };
   });
   report.table("Check of the stored calibration (" + found.unit + ")", rows);
   results.check = rows;
@@ -274,6 +275,13 @@ function run(p) {
     const low = range.replace("%", "min");
     const high = range.replace("%", "max");
     if (!(p[low] < p[high])) throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
+  }
+  // What would be refused at the end is refused before an hour's work.
+  if (p.store && p.mode === "full") {
+    if (p.quantities !== "all" && p.quantities !== "amplitude")
+      throw new Error("quantities is " + p.quantities + "; amplitude or all is expected to keep a result");
+    if (p.scope_due !== "" && !/^\d{4}-\d{2}-\d{2}$/.test(p.scope_due))
+      throw new Error("scope_due is " + p.scope_due + "; a day such as 2027-03-01, or nothing, is expected");
   }
   const stored = bench.calibration;
   report.text("Stored calibration: " + stored.text + ".");
@@ -305,7 +313,6 @@ function run(p) {
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
   if (p.store) {
-    if (!results.amplitude) throw new Error("quantities is " + p.quantities + "; amplitude or all is expected to keep a result");
     results.stored = record.calibration(results.amplitude, { valid_days: p.valid_days, scope_due: p.scope_due });
     record.event("calibration stored", results.stored);
   }

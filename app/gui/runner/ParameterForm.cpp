@@ -38,7 +38,7 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
 }
 
 ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
-    Field field{parameter, {}, nullptr, nullptr};
+    Field field{parameter, {}, {}, nullptr, nullptr};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
@@ -49,17 +49,22 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
         box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         connect(box, &QComboBox::currentIndexChanged, this, &ParameterForm::judge);
         field.text = [box] { return box->currentData().toString(); };
+        field.write = [box](const QString& key) {
+            if (const int index = box->findData(key); index >= 0) box->setCurrentIndex(index);
+        };
         field.editor = box;
     } else if (parameter.type == ParameterType::Boolean) {
         auto* box = new QCheckBox(tr("yes"), this);
         box->setChecked(parameter.value.is_boolean() && parameter.value.get<bool>());
         connect(box, &QCheckBox::toggled, this, &ParameterForm::judge);
         field.text = [box] { return box->isChecked() ? QString("true") : QString("false"); };
+        field.write = [box](const QString& word) { box->setChecked(word == "true"); };
         field.editor = box;
     } else {
         auto* line = new QLineEdit(plain(parameter.value), this);
         connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
         field.text = [line] { return line->text(); };
+        field.write = [line](const QString& text) { line->setText(text); };
         field.editor = line;
     }
     field.editor->setObjectName(QString::fromStdString(parameter.name));
@@ -101,7 +106,10 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         if (!parameter.unit.empty())
             label += QString(" (%1)").arg(axisUnit(0, QString::fromStdString(parameter.unit)).unit);
         form->addRow(label, column);
-        if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) written->setBuddy(field.editor);
+        if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) {
+            written->setBuddy(field.editor);
+            written->setWordWrap(true);
+        }
         fields_.push_back(std::move(field));
     }
     if (fields_.empty()) {
@@ -124,6 +132,12 @@ QString ParameterForm::text(const std::string& name) const {
         if (field.parameter.name == name) return field.text().trimmed();
     }
     return {};
+}
+
+void ParameterForm::set(const std::string& name, const QString& text) {
+    for (const auto& field : fields_) {
+        if (field.parameter.name == name) field.write(text);
+    }
 }
 
 void ParameterForm::goToRefused() {

@@ -22,6 +22,8 @@ public:
     [[nodiscard]] Result<ProtocolSettings> read();
     /// The text of a parameter as it stands; empty for none of that name.
     [[nodiscard]] QString text(const std::string& name) const;
+    /// Writes into a field, as if it were typed; a name or a choice that is not there is left alone.
+    void set(const std::string& name, const QString& text);
     /// How many fields are refused as they stand.
     [[nodiscard]] int refused() const { return refused_; }
     /// The first refused field gets the focus.
@@ -34,6 +36,7 @@ private:
     struct Field {
         ProtocolParameter parameter;
         std::function<QString()> text;
+        std::function<void(const QString&)> write;
         QWidget* editor = nullptr;
         QLabel* trouble = nullptr;
     };

@@ -4,6 +4,8 @@
 #include <QFileInfo>
 #include <QScrollBar>
 
+#include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/calibrate/WiringPage.h"
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
@@ -23,6 +25,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr const char* kOfLoads = "load-safety";  // shows its loads before the first was measured
+constexpr const char* kOfCalibration = "stimulator-calibration";
 
 enum Step { kWiring, kSettings, kRun, kResult, kAllDone };
 
@@ -73,18 +76,35 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         panel_->say({});
         purpose_->setText(QString::fromStdString(declaration_->purpose));
         wiring_->show(*declaration_);
-        showLoads(source_.name == kOfLoads);
+        showPlot(plotOf());
+        const auto& needs = declaration_->needs;
+        const auto has = [&](Role role) { return std::find(needs.begin(), needs.end(), role) != needs.end(); };
+        tabs_->setTabVisible(tabs_->indexOf(drawing_), has(Role::Stimulator) && has(Role::Oscilloscope));
         form_->show(*declaration_);
     }
     steps_->setNote(kRun, {});
     steps_->setNote(kResult, {});
     steps_->setCurrent(kSettings);
-    // Settings scroll up and down only: nothing may be cut at the right.
-    before_->setMinimumWidth(before_->widget()->minimumSizeHint().width() +
-                             before_->verticalScrollBar()->sizeHint().width());
+    // Once the form is laid out: before that it does not know how wide it must be.
+    QTimer::singleShot(0, this, &ProtocolWorkspace::giveRoom);
     judge();
     showButtons();
     if (wasInForm) QTimer::singleShot(0, this, [this] { goTo(kSettings); });
+    if (declaration_) emit declaredAnew();
+}
+
+/// Settings scroll up and down only: nothing may be cut at the right.
+void ProtocolWorkspace::giveRoom() {
+    before_->setMinimumWidth(before_->widget()->minimumSizeHint().width() +
+                             before_->verticalScrollBar()->sizeHint().width());
+}
+
+ProtocolWorkspace::Plot ProtocolWorkspace::plotOf() const {
+    return source_.name == kOfLoads ? Plot::Loads : source_.name == kOfCalibration ? Plot::Calibration : Plot::Trials;
+}
+
+void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
+    if (!running_) form_->set(parameter, text);
 }
 
 void ProtocolWorkspace::goTo(int step) {
@@ -95,7 +115,8 @@ void ProtocolWorkspace::goTo(int step) {
             first->setFocus();
         else
             panel_->setFocus();
-        tabs_->setCurrentWidget(worstPage_);
+        const bool drawn = step == kWiring && tabs_->isTabVisible(tabs_->indexOf(drawing_));
+        tabs_->setCurrentWidget(drawn ? static_cast<QWidget*>(drawing_) : worstPage_);
     } else {
         tabs_->setCurrentWidget(step == kRun ? static_cast<QWidget*>(log_) : result_);
     }
@@ -180,7 +201,9 @@ void ProtocolWorkspace::runNow() {
     log_->clear();
     plane_->begin(false);
     loads_->begin();
-    showLoads(source_.name == kOfLoads);
+    calibration_->begin(asked_->settings.parameters);
+    calibration_->setSimulated(false);
+    showPlot(plotOf());
     wave_->show(nullptr);
     panel_->begin();
     steps_->setNote(kRun, {});
@@ -197,10 +220,15 @@ void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
     for (const auto& trial : feed.trials) {
         plane_->add(trial);
-        if (!LoadRows::isOfLoad(trial)) continue;
-        loads_->add(trial);
-        showLoads(true);
+        if (LoadRows::isOfLoad(trial)) {
+            loads_->add(trial);
+            showPlot(Plot::Loads);
+        } else if (CalibrationView::isReading(trial)) {
+            calibration_->add(trial);
+            showPlot(Plot::Calibration);
+        }
     }
+    calibration_->draw();
     if (!feed.captures.empty()) {
         wave_->show(feed.captures.back());
         emit captured(feed.captures.back());
@@ -220,6 +248,8 @@ void ProtocolWorkspace::ended(const FinishedRun& run) {
     const auto& error = run.result.outcome.error;
     plane_->setSimulated(run.result.simulated);
     loads_->end(run.result.outcome.results);
+    calibration_->setSimulated(run.result.simulated);
+    calibration_->end(run.result.outcome.results);
     panel_->end(error.has_value());
     result_->show(run);
     steps_->setCurrent(kAllDone);

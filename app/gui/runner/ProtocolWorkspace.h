@@ -22,6 +22,7 @@
 
 namespace tacto::gui {
 
+class CalibrationView;
 class CaptureStrip;
 class ExposureTable;
 class LoadRows;
@@ -32,6 +33,7 @@ class RunPanel;
 class ScriptEditor;
 class StepList;
 class TrialPlane;
+class WiringPage;
 class WiringPanel;
 
 class ProtocolWorkspace final : public QWidget {
@@ -40,8 +42,16 @@ public:
     ProtocolWorkspace(BenchDesk& desk, const QString& protocol, QWidget* parent = nullptr);
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] bool running() const { return running_; }
+    /// Whether a protocol was read and none runs here.
+    [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_; }
+    /// Sets a parameter of the form, by the name that the script has for it; one that it has not is left alone.
+    void set(const std::string& parameter, const QString& text);
+    /// As the Run button.
+    void runAsked();
 
 signals:
+    /// A protocol was read, and the form shows its parameters as the script has them.
+    void declaredAnew();
     /// A running protocol asks a question that must be seen here.
     void attentionWanted();
     /// The newest train of the running protocol.
@@ -57,7 +67,10 @@ private:
     [[nodiscard]] QWidget* buildTabs();
     void buildKeys();
     void placeWave();
-    void showLoads(bool loads);
+    void giveRoom();
+    enum class Plot { Trials, Loads, Calibration };
+    void showPlot(Plot plot);
+    [[nodiscard]] Plot plotOf() const;
 
     void fillChooser(const QString& select);
     void choose(const QString& nameOrPath);
@@ -65,7 +78,6 @@ private:
     void goTo(int step);
     void judge();
     void preview();
-    void runAsked();
     void runNow();
     void ended(const FinishedRun& run);
     void showButtons();
@@ -79,6 +91,7 @@ private:
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
     std::optional<RunOrder> asked_;  // waits for the second step
+    Plot plot_ = Plot::Trials;
     bool running_ = false;
     bool paused_ = false;  // asked for here, or seen
     bool seenPaused_ = false;
@@ -93,9 +106,11 @@ private:
     PromptPanel* prompt_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
-    LoadRows* loads_ = nullptr;  // in the plane's place where a protocol measures loads
+    LoadRows* loads_ = nullptr;               // in the plane's place where a protocol measures loads
+    CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
     CaptureStrip* wave_ = nullptr;
     QTabWidget* tabs_ = nullptr;
+    WiringPage* drawing_ = nullptr;
     QWidget* worstPage_ = nullptr;
     ExposureTable* worst_ = nullptr;
     QLabel* worstSays_ = nullptr;

@@ -5,6 +5,8 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 
+#include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/calibrate/WiringPage.h"
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
@@ -54,7 +56,10 @@ ProtocolWorkspace::ProtocolWorkspace(BenchDesk& desk, const QString& protocol, Q
     connect(&desk_, &BenchDesk::finished, this, [this](const std::shared_ptr<const FinishedRun>& run) { ended(*run); });
     connect(&desk_, &BenchDesk::changed, this, [this] {
         previewLater_.start();
-        if (const auto open = desk_.open(); running_ && open) plane_->setSimulated(open->simulated());
+        const auto open = desk_.open();
+        if (!running_ || !open) return;
+        plane_->setSimulated(open->simulated());
+        calibration_->setSimulated(open->simulated());
     });
     connect(&desk_.operatorDesk(), &OperatorDesk::asked, this, [this](const OperatorQuestion& question) {
         if (!running_) return;  // the other workspace's run
@@ -168,9 +173,12 @@ QWidget* ProtocolWorkspace::buildPlots() {
     plane_ = new TrialPlane(holder);
     loads_ = new LoadRows(holder);
     loads_->hide();
+    calibration_ = new CalibrationView(holder);
+    calibration_->hide();
     wave_ = new CaptureStrip(holder);
     plots_->addWidget(plane_, 3);
     plots_->addWidget(loads_, 3);
+    plots_->addWidget(calibration_, 4);
     plots_->addWidget(wave_, 2);
     return holder;
 }
@@ -190,6 +198,8 @@ QWidget* ProtocolWorkspace::buildTabs() {
            "Hatched: not evaluated, and never a pass."));
     column->addWidget(worst_, 1);
     tabs_->addTab(worstPage_, tr("&Worst case"));
+    drawing_ = new WiringPage(tabs_);
+    tabs_->setTabVisible(tabs_->addTab(drawing_, tr("W&iring")), false);
     log_ = new QPlainTextEdit(tabs_);
     log_->setReadOnly(true);
     log_->setTabChangesFocus(true);
@@ -216,9 +226,12 @@ QWidget* ProtocolWorkspace::buildTabs() {
     return tabs_;
 }
 
-void ProtocolWorkspace::showLoads(bool loads) {
-    loads_->setVisible(loads);
-    plane_->setVisible(!loads);
+void ProtocolWorkspace::showPlot(Plot plot) {
+    loads_->setVisible(plot == Plot::Loads);
+    calibration_->setVisible(plot == Plot::Calibration);
+    plane_->setVisible(plot == Plot::Trials);
+    plot_ = plot;
+    placeWave();
 }
 
 void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
@@ -226,10 +239,11 @@ void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
     placeWave();
 }
 
-/// Beside the trials where there is room, else a tab: two plots too narrow to read help nobody.
+/// Beside the trials where there is room, else a tab: plots too narrow to read help nobody. A calibration has two
+/// of its own.
 void ProtocolWorkspace::placeWave() {
     const int room = width() - fontMetrics().averageCharWidth() * kPathChars;
-    const bool beside = room >= fontMetrics().averageCharWidth() * kBesideChars;
+    const bool beside = plot_ != Plot::Calibration && room >= fontMetrics().averageCharWidth() * kBesideChars;
     const int tab = tabs_->indexOf(wave_);
     if (beside == (tab < 0)) return;
     if (beside) {

@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QTreeWidget>
 
+#include "app/gui/calibrate/CalibrationResult.h"
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
@@ -101,7 +102,9 @@ void ResultTables::show(const nlohmann::json& results) {
     for (const auto& [key, value] : results.items()) {
         if (key == "trials" || key == "reasons" || isOneCell(value) || value.empty()) continue;
         const auto title = titleOf(QString::fromStdString(key));
-        if (isRows(value))
+        if (CalibrationResult::isCalibration(value))
+            column_->addWidget(new CalibrationResult(key, value, body_));
+        else if (isRows(value))
             addRows(title, value);
         else if (isMatrix(value))
             addMatrix(title, value, results);

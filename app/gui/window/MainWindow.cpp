@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
@@ -48,7 +49,7 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
     new StopKeys([this](const char* by) { desk_.stop(by); }, this);
 
-    safety_ = new SafetyBar(desk_, this);
+    safety_ = new SafetyBar(desk_, calibrations_, this);
     auto* top = new QToolBar(tr("Safety"), this);
     top->setObjectName("safetyToolBar");
     top->setMovable(false);
@@ -120,16 +121,8 @@ void MainWindow::buildPages() {
     livePage_->addTab(live_, tr("&Touch"));
     livePage_->addTab(scope_, tr("&Oscilloscope"));
     pages_->addWidget(livePage_);
-    pages_->addWidget(new ComingWorkspace(
-        tr("Calibrate"),
-        tr("For technicians: what does the stimulator really deliver for what it is told, with which uncertainty, and "
-           "until when does that hold?"),
-        {tr("Stimulator calibration: amplitude, interval, phase width and gap, with residuals and a verdict"),
-         tr("Sensor calibration: baseline, smooth and rough reference surface, force and taxel scales"),
-         tr("Calibrations stored by serial number, with an expiry date")},
-        tr("Until then the Separability workspace measures a fixed set of commands on the oscilloscope, and reports "
-           "say \"not calibrated\"."),
-        pages_));
+    calibrate_ = new CalibrateWorkspace(desk_, calibrations_, pages_);
+    pages_->addWidget(calibrate_);
     safetyCheck_ = new ProtocolWorkspace(desk_, "load-safety", pages_);
     pages_->addWidget(safetyCheck_);
     separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
@@ -144,6 +137,7 @@ void MainWindow::buildPages() {
     pages_->addWidget(sessions_);
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
     pages_->addWidget(protocols_);
+    connect(&calibrate_->runner(), &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
     connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
     connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
@@ -171,7 +165,7 @@ void MainWindow::buildNavigation() {
     navigation_ = new QActionGroup(this);
     const std::pair<QString, QString> names[] = {
         {tr("Live"), tr("Touch, drive by hand, replay, and the oscilloscope")},
-        {tr("Calibrate"), tr("Stimulator and sensor calibration")},
+        {tr("Calibrate"), tr("What the stimulator really delivers, and until when that holds")},
         {tr("Safety check"), tr("Limits on resistor loads")},
         {tr("Separability"), tr("Can an oscilloscope tell the four conditions apart?")},
         {tr("Pilot"), tr("Sessions with volunteers")},
@@ -207,7 +201,7 @@ void MainWindow::buildDocks() {
         addDockWidget(Qt::RightDockWidgetArea, dock);
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
-    for (auto* protocol : {safetyCheck_, separability_, protocols_})
+    for (auto* protocol : {&calibrate_->runner(), safetyCheck_, separability_, protocols_})
         connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
@@ -227,7 +221,8 @@ void MainWindow::tick() {
     const bool measured = measurements_->isVisible();
     if (measured || (shown == livePage_ && livePage_->currentWidget() == scope_)) scope_->refresh(telemetry);
     if (measured) summary_->refresh(telemetry);
-    // One of the two takes what a run says: the one it was started from, told apart by themselves.
+    // One of them takes what a run says: the one it was started from, told apart by themselves.
+    calibrate_->runner().refresh(telemetry);
     safetyCheck_->refresh(telemetry);
     separability_->refresh(telemetry);
     protocols_->refresh(telemetry);

@@ -14,6 +14,7 @@
 #include <functional>
 #include <vector>
 
+#include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/desk/BenchDesk.h"
 #include "app/gui/look/Look.h"
 
@@ -21,6 +22,7 @@ class QTabWidget;
 
 namespace tacto::gui {
 
+class CalibrateWorkspace;
 class DeviceDock;
 class ExposureDock;
 class LiveWorkspace;
@@ -79,6 +81,7 @@ private:
     [[nodiscard]] QString declaredLoad() const;
 
     BenchDesk desk_;
+    CalibrationBook calibrations_{desk_};
     SafetyBar* safety_ = nullptr;
     QFrame* banner_ = nullptr;
     QLabel* bannerText_ = nullptr;
@@ -86,6 +89,7 @@ private:
     QTabWidget* livePage_ = nullptr;
     LiveWorkspace* live_ = nullptr;
     ScopeWorkspace* scope_ = nullptr;
+    CalibrateWorkspace* calibrate_ = nullptr;
     ProtocolWorkspace* safetyCheck_ = nullptr;
     ProtocolWorkspace* separability_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;

@@ -43,7 +43,8 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
 
 }  // namespace
 
-SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(desk) {
+SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent)
+    : QFrame(parent), desk_(desk), calibrations_(calibrations) {
     setObjectName("safetyBar");
     setAccessibleName(tr("Safety bar"));
     setFrameShape(QFrame::StyledPanel);
@@ -76,10 +77,10 @@ SafetyBar::SafetyBar(BenchDesk& desk, QWidget* parent) : QFrame(parent), desk_(d
     device_ = quietLabel(this);
     load_ = quietLabel(this);
     calibration_ = quietLabel(this);
+    calibration_->setObjectName("calibrationAge");
     load_->setToolTip(
         tr("Impedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
            "measured again before the next train."));
-    calibration_->setToolTip(tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     auto* facts = new QVBoxLayout;
     facts->setSpacing(0);
     for (auto* label : {device_, load_, calibration_}) facts->addWidget(label);
@@ -186,19 +187,39 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     if (!open) {
         device_->setText(desk_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
         load_->setText("–");
-        calibration_->setText("–");
+        showCalibration();
         return;
     }
     QString name = tr("no stimulator");
     for (const auto& device : open->about.devices) {
-        if (device.role == "stimulator" || (device.role == "massager" && !open->source)) name = QString::fromStdString(device.name);
+        if (device.role == "stimulator" || (device.role == "massager" && !open->source))
+            name = QString::fromStdString(device.name);
     }
     device_->setText(open->simulated() ? tr("%1 · simulated").arg(name) : name);
     load_->setText(
         std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
             : tr("impedance not measured"));
-    calibration_->setText(tr("not calibrated"));
+    showCalibration();
+}
+
+/// Amber where it does not count: a person may not be connected to what was never measured.
+void SafetyBar::showCalibration() {
+    const auto stimulator = calibrations_.connected();
+    const auto standing = stimulator ? std::optional(calibrations_.standing(*stimulator)) : std::nullopt;
+    const bool counts = !standing || standing->state == CalibrationState::Valid;
+    auto text = standing ? standingText(*standing) : QString("–");
+    if (!counts) text = "⚠ " + text;
+    if (calibration_->text() != text) {
+        calibration_->setText(text);
+        calibration_->setToolTip(standing
+                                     ? standingTip(*standing)
+                                     : tr("Calibration of the stimulator. Without a valid one it is for bench loads "
+                                          "only."));
+    }
+    auto palette = this->palette();
+    palette.setColor(QPalette::WindowText, counts ? colours().text : colours().amber);
+    if (calibration_->palette() != palette) calibration_->setPalette(palette);
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {

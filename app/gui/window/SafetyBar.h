@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <vector>
 
+#include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/desk/BenchDesk.h"
 #include "app/gui/window/LimitBar.h"
 
@@ -17,7 +18,7 @@ namespace tacto::gui {
 class SafetyBar final : public QFrame {
     Q_OBJECT
 public:
-    explicit SafetyBar(BenchDesk& desk, QWidget* parent = nullptr);
+    SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent = nullptr);
     /// Thirty times a second.
     void refresh(const Telemetry& telemetry);
 
@@ -31,11 +32,13 @@ private:
     void colourStop();
     void showState(const Telemetry& telemetry);
     void showDevice(const Telemetry& telemetry);
+    void showCalibration();
     void showExposure(const Telemetry& telemetry);
     void showButtons(InterlockState state);
     void pressAction();
 
     BenchDesk& desk_;
+    const CalibrationBook& calibrations_;
     QLabel* shape_;
     QLabel* word_;
     QLabel* reason_;

@@ -65,7 +65,8 @@ protected:
     }
     QString word() { return bar.findChild<QLabel*>("interlockState")->text(); }
     gui::BenchDesk desk{simulatedRegistry};
-    gui::SafetyBar bar{desk};
+    gui::CalibrationBook calibrations{desk};
+    gui::SafetyBar bar{desk, calibrations};
 };
 
 TEST_F(Bar, HasAWordAndAShapeForEveryState) {

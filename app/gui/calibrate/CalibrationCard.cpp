@@ -1,0 +1,180 @@
+#include "app/gui/calibrate/CalibrationCard.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kNameChars = 18;
+
+QString nameOf(const StimulatorId& one) {
+    const auto name = QString::fromStdString(one.name);
+    return one.serial.empty() ? name : QString("%1 · %2").arg(name, QString::fromStdString(one.serial));
+}
+
+QString day(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
+
+/// "oscilloscope X (serial), its own calibration due 2027-03-01".
+QString instrumentText(const CalibrationInstrument& one) {
+    const auto due = !one.due                ? QObject::tr("its own due date was not stated")
+                     : *one.due < utcToday() ? QObject::tr("⚠ its own calibration was due %1").arg(day(*one.due))
+                                             : QObject::tr("its own calibration due %1").arg(day(*one.due));
+    const auto name = QString::fromStdString(one.name);
+    return one.serial.empty() ? QObject::tr("%1 (%2)").arg(name, due)
+                              : QObject::tr("%1 %2 (%3)").arg(name, QString::fromStdString(one.serial), due);
+}
+
+QString factsOf(const StoredCalibration& c) {
+    const auto unit = QString::fromStdString(c.unit);
+    QStringList facts;
+    facts << QObject::tr("Delivers %1 times the command%2, ± %3 (95 %), from %4 to %5")
+                 .arg(c.gain, 0, 'f', 4)
+                 .arg(c.offset < 0 ? QObject::tr(" less %1").arg(quantityText(-c.offset, unit, 2))
+                                   : QObject::tr(" plus %1").arg(quantityText(c.offset, unit, 2)),
+                      quantityText(c.uncertainty_pct, "%", 2), settingText(c.lowest, unit),
+                      settingText(c.highest, unit));
+    facts << QObject::tr("made %1, valid until %2").arg(day(c.made), day(c.validUntil));
+    QStringList instruments;
+    for (const auto& one : c.instruments) instruments << instrumentText(one);
+    if (!instruments.isEmpty()) facts << QObject::tr("with %1").arg(instruments.join(", "));
+    if (c.simulated) facts << QObject::tr("simulated");
+    return facts.join(" · ");
+}
+
+}  // namespace
+
+CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFrame(parent), book_(book) {
+    setObjectName("calibrationCard");
+    setAccessibleName(tr("Calibration of the stimulator"));
+    setFrameShape(QFrame::StyledPanel);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(6, 6, 6, 6);
+    column->setSpacing(2);
+    auto* row = new QHBoxLayout;
+    word_ = new QLabel(this);
+    word_->setObjectName("calibrationState");
+    auto font = word_->font();
+    font.setPointSizeF(font.pointSizeF() * 1.15);
+    font.setBold(true);
+    word_->setFont(font);
+    word_->setWordWrap(true);
+    row->addWidget(word_, 1);
+    chooser_ = new QComboBox(this);
+    chooser_->setObjectName("stimulatorChooser");
+    chooser_->setAccessibleName(tr("Stimulator"));
+    chooser_->setToolTip(
+        tr("Whose calibration is shown: the stimulator that is open, those plugged in, and those calibrated before. "
+           "Which one is calibrated is chosen under Wiring."));
+    chooser_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    chooser_->setMinimumContentsLength(kNameChars);
+    connect(chooser_, &QComboBox::currentIndexChanged, this, [this](int index) {
+        if (index >= 0 && index < int(listed_.size())) tell(listed_[std::size_t(index)]);
+        emit stimulatorChosen();
+    });
+    row->addWidget(chooser_);
+    calibrate_ = new QPushButton(tr("Cali&brate"), this);
+    calibrate_->setObjectName("calibrateButton");
+    calibrate_->setToolTip(
+        tr("Runs the whole calibration with the settings below, and keeps its result for the stimulator's serial "
+           "number. An older one is superseded and stays in the list."));
+    connect(calibrate_, &QPushButton::clicked, this, &CalibrationCard::calibrateWanted);
+    check_ = new QPushButton(tr("C&heck"), this);
+    check_->setObjectName("checkButton");
+    connect(check_, &QPushButton::clicked, this, &CalibrationCard::checkWanted);
+    for (auto* button : {calibrate_, check_}) {
+        button->setAutoDefault(false);
+        row->addWidget(button);
+    }
+    column->addLayout(row);
+    facts_ = new QLabel(this);
+    facts_->setObjectName("calibrationFacts");
+    facts_->setWordWrap(true);
+    facts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    column->addWidget(facts_);
+    connect(&book_, &CalibrationBook::changed, this, &CalibrationCard::fill);
+    fill();
+}
+
+std::optional<StimulatorId> CalibrationCard::shown() const {
+    const int index = chooser_->currentIndex();
+    if (index < 0 || index >= int(listed_.size())) return std::nullopt;
+    return listed_[std::size_t(index)];
+}
+
+void CalibrationCard::fill() {
+    // What is opened comes to the front; else the operator's choice stays.
+    auto wanted = shown();
+    if (book_.last() != lastOpen_ || !wanted) wanted = book_.last();
+    lastOpen_ = book_.last();
+    listed_ = book_.known();
+    {
+        const QSignalBlocker quiet(chooser_);
+        chooser_->clear();
+        int current = 0;
+        for (const auto& one : listed_) {
+            if (wanted && wanted->serial == one.serial) current = chooser_->count();
+            chooser_->addItem(nameOf(one));
+        }
+        chooser_->setCurrentIndex(listed_.empty() ? -1 : current);
+    }
+    chooser_->setVisible(!listed_.empty());
+    if (const auto chosen = shown()) {
+        tell(*chosen);
+    } else {
+        counts_ = warns_ = false;
+        word_->setText(tr("◌ No stimulator has been open yet"));
+        facts_->setText(
+            tr("A calibration says what a stimulator really delivers for what it is told, and with which uncertainty. "
+               "Calibrate runs it on the devices named under Wiring: as they stand, the simulated bench."));
+        colour();
+        setReady(ready_);
+    }
+    emit stimulatorChosen();
+}
+
+void CalibrationCard::tell(const StimulatorId& stimulator) {
+    const auto standing = book_.standing(stimulator);
+    counts_ = standing.state == CalibrationState::Valid;
+    warns_ = !counts_;
+    word_->setText((counts_ ? "✔ " : "⚠ ") + standingText(standing));
+    QStringList facts;
+    if (!counts_) facts << standing.why + tr(" Bench loads only until then; Calibrate does it.");
+    if (standing.newest) facts << factsOf(*standing.newest) + ".";
+    facts_->setText(facts.join("\n"));
+    word_->setToolTip(standingTip(standing));
+    colour();
+    setReady(ready_);
+}
+
+void CalibrationCard::setReady(bool ready) {
+    ready_ = ready;
+    calibrate_->setEnabled(ready);
+    check_->setEnabled(ready && counts_);
+    check_->setToolTip(counts_ ? tr("Three levels up and down: does the stored calibration still hold? Takes a few "
+                                    "minutes; nothing is stored.")
+                               : tr("There is no valid calibration to check. Calibrate first."));
+}
+
+void CalibrationCard::colour() {
+    auto palette = this->palette();
+    palette.setColor(QPalette::WindowText, counts_ ? colours().good : warns_ ? colours().amber : colours().text);
+    word_->setPalette(palette);
+}
+
+void CalibrationCard::changeEvent(QEvent* event) {
+    QFrame::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && check_ != nullptr) colour();
+}
+
+void CalibrationCard::showEvent(QShowEvent* event) {
+    QFrame::showEvent(event);
+    book_.read();  // the command line may have added one
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,51 @@
+// CalibrationCard.h - does the calibration of a stimulator count today? In a word and a shape, then what it says, then
+// what to do.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QFrame>
+#include <QLabel>
+#include <QPushButton>
+
+#include "app/gui/calibrate/CalibrationBook.h"
+
+namespace tacto::gui {
+
+class CalibrationCard final : public QFrame {
+    Q_OBJECT
+public:
+    explicit CalibrationCard(CalibrationBook& book, QWidget* parent = nullptr);
+    /// The stimulator that is shown; nothing where none is known.
+    [[nodiscard]] std::optional<StimulatorId> shown() const;
+    /// While a run goes on, or nothing can run, none can be started.
+    void setReady(bool ready);
+
+signals:
+    void calibrateWanted();
+    void checkWanted();
+    void stimulatorChosen();
+
+protected:
+    void changeEvent(QEvent* event) override;
+    void showEvent(QShowEvent* event) override;
+
+private:
+    void fill();
+    void tell(const StimulatorId& stimulator);
+    void colour();
+    CalibrationBook& book_;
+    std::vector<StimulatorId> listed_;
+    QComboBox* chooser_;
+    QLabel* word_;
+    QLabel* facts_;
+    QPushButton* calibrate_;
+    QPushButton* check_ = nullptr;
+    std::optional<StimulatorId> lastOpen_;
+    bool counts_ = false;
+    bool warns_ = false;
+    bool ready_ = false;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,93 @@
+#include "app/gui/calibrate/CalibrationHistory.h"
+
+#include <QHeaderView>
+#include <QVBoxLayout>
+#include <set>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+
+enum Column { kState, kMade, kUntil, kGain, kOffset, kUncertainty, kRange, kInstruments, kColumns };
+
+QString day(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
+
+QString instrumentsOf(const StoredCalibration& c) {
+    QStringList all;
+    for (const auto& one : c.instruments) {
+        const auto due = one.due ? QObject::tr("due %1").arg(day(*one.due)) : QObject::tr("due date not stated");
+        all << QString("%1 %2, %3").arg(QString::fromStdString(one.name), QString::fromStdString(one.serial), due);
+    }
+    return all.isEmpty() ? QString("–") : all.join("; ");
+}
+
+}  // namespace
+
+CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
+    auto* column = new QVBoxLayout(this);
+    empty_ = new QLabel(this);
+    empty_->setObjectName("historyEmpty");
+    empty_->setWordWrap(true);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
+    column->addWidget(empty_);
+    table_ = new QTableWidget(0, kColumns, this);
+    table_->setObjectName("calibrationHistory");
+    table_->setAccessibleName(tr("Stored calibrations"));
+    table_->setToolTip(
+        tr("Every calibration of this stimulator. A newer one supersedes the older, which stays; what is "
+           "stored cannot be changed without being noticed."));
+    table_->setHorizontalHeaderLabels({tr("State"), tr("Made"), tr("Valid until"), tr("Gain"), tr("Offset"),
+                                       tr("U (95 %)"), tr("Range"), tr("Measured with")});
+    table_->verticalHeader()->hide();
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setAlternatingRowColors(true);
+    table_->setWordWrap(false);
+    table_->setTabKeyNavigation(false);
+    table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    column->addWidget(table_, 1);
+}
+
+void CalibrationHistory::list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator) {
+    const auto all = stimulator ? book.history(stimulator->serial) : std::vector<StoredCalibration>();
+    empty_->setText(!stimulator
+                        ? tr("No stimulator has been open yet. What is calibrated appears here.")
+                        : tr("Stimulator %1 was never calibrated. Calibrate measures what it delivers and keeps "
+                             "the result here, with the instruments it rests on and the day until which it "
+                             "holds.")
+                              .arg(QString::fromStdString(stimulator->serial)));
+    empty_->setVisible(all.empty());
+    table_->setVisible(!all.empty());
+    table_->setRowCount(int(all.size()));
+    std::set<std::string> newer;  // units that a newer one was met of
+    for (int row = 0; row < int(all.size()); ++row) {
+        const auto& c = all[std::size_t(row)];
+        const auto unit = QString::fromStdString(c.unit);
+        const bool newest = newer.insert(c.unit).second;
+        auto asIt = *stimulator;
+        asIt.unit = c.unit;
+        const bool counts = newest && book.standing(asIt).state == CalibrationState::Valid;
+        auto state = !newest ? tr("– superseded") : counts ? tr("✔ counts") : tr("⚠ does not count");
+        if (newest && c.validUntil < utcToday()) state = tr("⚠ expired");
+        if (c.simulated) state += tr(", simulated");
+        const QString cells[kColumns] = {state,
+                                         day(c.made),
+                                         day(c.validUntil),
+                                         QString::number(c.gain, 'f', 4),
+                                         quantityText(c.offset, unit, 2),
+                                         quantityText(c.uncertainty_pct, "%", 2),
+                                         tr("%1 to %2").arg(settingText(c.lowest, unit), settingText(c.highest, unit)),
+                                         instrumentsOf(c)};
+        for (int column = 0; column < kColumns; ++column) {
+            auto* item = new QTableWidgetItem(cells[column]);
+            const bool right = column >= kGain && column <= kUncertainty;
+            item->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+            table_->setItem(row, column, item);
+        }
+    }
+    table_->resizeColumnsToContents();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,26 @@
+// CalibrationHistory.h - every calibration of a stimulator, the newest first: which one counts, which were superseded.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QTableWidget>
+#include <QWidget>
+
+#include "app/gui/calibrate/CalibrationBook.h"
+
+namespace tacto::gui {
+
+class CalibrationHistory final : public QWidget {
+    Q_OBJECT
+public:
+    explicit CalibrationHistory(QWidget* parent = nullptr);
+    /// Nothing: no stimulator is known.
+    void list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator);
+
+private:
+    QLabel* empty_;
+    QTableWidget* table_;
+};
+
+}  // namespace tacto::gui

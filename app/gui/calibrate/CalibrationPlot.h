@@ -1,0 +1,58 @@
+// CalibrationPlot.h - a calibration's readings over their commands: as measured, with the fitted line; or as errors,
+// in the tolerance band, with each level's mean and its uncertainty. Going up and down are told apart, readings that
+// stand out are marked and kept.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <qcustomplot.h>
+#include <vector>
+
+#include "app/gui/calibrate/CalibrationReadings.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+class CalibrationPlot final : public QCustomPlot {
+    Q_OBJECT
+public:
+    enum class Kind { Measured, Errors };
+    explicit CalibrationPlot(Kind kind, QWidget* parent = nullptr);
+    void clear();
+    void show(const CalibrationReadings& of);
+    void setSimulated(bool simulated);
+
+    [[nodiscard]] int drawnUp() const { return up_->dataCount(); }
+    [[nodiscard]] int drawnDown() const { return down_->dataCount(); }
+    [[nodiscard]] int drawnMarked() const { return marked_->dataCount(); }
+    [[nodiscard]] int drawnMeans() const { return means_->dataCount(); }
+    [[nodiscard]] bool hasBand() const { return bandTop_->dataCount() > 0; }
+    [[nodiscard]] bool hasLine() const { return line_->dataCount() > 0; }
+
+protected:
+    void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void build();
+    void drawLine(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
+    void drawBand(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
+    void drawMeans(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
+    void drawReadings(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
+    [[nodiscard]] double shown(const CalibrationReading& reading) const;
+    void colour();
+    const Kind kind_;
+    QCPGraph* bandBottom_ = nullptr;
+    QCPGraph* bandTop_ = nullptr;
+    QCPGraph* line_ = nullptr;
+    QCPGraph* up_ = nullptr;
+    QCPGraph* down_ = nullptr;
+    QCPGraph* marked_ = nullptr;
+    QCPGraph* means_ = nullptr;
+    std::vector<QCPGraph*> named_;  ///< in the legend
+    QCPErrorBars* bars_ = nullptr;
+    QCPItemText* empty_ = nullptr;
+    QCPItemText* watermark_ = nullptr;
+};
+
+}  // namespace tacto::gui

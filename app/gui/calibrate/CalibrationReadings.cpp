@@ -1,0 +1,128 @@
+#include "app/gui/calibrate/CalibrationReadings.h"
+
+#include <QObject>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tacto::gui {
+
+namespace {
+
+struct Quantity {
+    const char* name;
+    const char* key;  ///< in a reading and in what was commanded
+};
+constexpr std::array kQuantities{Quantity{"amplitude", "amplitude"}, Quantity{"interval", "interval_s"},
+                                 Quantity{"width", "width_s"}, Quantity{"gap", "gap_s"}};
+/// A source that is told its current from a measured load is told a slightly different one each time.
+constexpr double kSameCurrent = 0.02;
+constexpr double kSameCommand = 1e-9;
+
+double number(const nlohmann::json& in, const char* key) {
+    if (!in.is_object()) return std::nan("");
+    const auto at = in.find(key);
+    return at != in.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
+
+std::string text(const nlohmann::json& in, const char* key) {
+    const auto at = in.find(key);
+    return at != in.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+const char* keyOf(const std::string& quantity) {
+    for (const auto& one : kQuantities) {
+        if (quantity == one.name) return one.key;
+    }
+    return nullptr;
+}
+
+SweepDirection directionOf(const std::string& word) {
+    return word == nameOf(SweepDirection::Up)     ? SweepDirection::Up
+           : word == nameOf(SweepDirection::Down) ? SweepDirection::Down
+                                                  : SweepDirection::None;
+}
+
+}  // namespace
+
+void CalibrationReadings::judge() {
+    fit.reset();
+    uncertainty.clear();
+    CalibrationOptions options;
+    options.sameLevel = unit == "mA" ? kSameCurrent : kSameCommand;
+    options.resolution = resolution;
+    auto found = fitCalibration(readings, options);
+    if (!found) return;  // one level so far: there is no line yet
+    readings = found->readings;
+    fit = std::move(*found);
+}
+
+std::string calibratedQuantity(const nlohmann::json& trial) {
+    if (!trial.is_object() || !trial.contains("commanded") || !trial["commanded"].is_object()) return {};
+    const auto condition = text(trial, "condition");
+    const auto word = condition.substr(0, condition.find(' '));
+    return keyOf(word) != nullptr ? word : std::string();
+}
+
+CalibrationReading readingFrom(const nlohmann::json& trial) {
+    const auto* key = keyOf(calibratedQuantity(trial));
+    CalibrationReading reading;
+    reading.commanded = std::nan("");
+    if (key == nullptr) return reading;
+    reading.commanded = number(trial["commanded"], key);
+    reading.measured = number(trial, key);
+    const auto condition = text(trial, "condition");
+    reading.direction = directionOf(condition.substr(condition.rfind(' ') + 1));
+    return reading;
+}
+
+QString unitFrom(const nlohmann::json& trial) {
+    return calibratedQuantity(trial) == "amplitude" ? QString::fromStdString(text(trial, "unit")) : QString("s");
+}
+
+double toleranceOf(const std::string& quantity, const nlohmann::json& parameters) {
+    const double found = number(parameters, quantity == "amplitude" ? "tolerance_pct" : "timing_tolerance_pct");
+    return std::isfinite(found) ? found : 0;
+}
+
+std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, const nlohmann::json& found) {
+    if (keyOf(quantity) == nullptr || !found.is_object() || !found.contains("readings") || !found.contains("levels"))
+        return std::nullopt;
+    CalibrationReadings out;
+    out.quantity = quantity;
+    out.unit = QString::fromStdString(text(found, "unit"));
+    const double tolerance = number(found, "tolerance_pct");
+    out.tolerance_pct = std::isfinite(tolerance) ? tolerance : 0;
+    for (const auto& row : found["readings"]) {
+        CalibrationReading reading;
+        reading.commanded = number(row, "commanded");
+        reading.measured = number(row, "measured");
+        reading.direction = directionOf(text(row, "direction"));
+        reading.outlier = row.value("outlier", false);
+        out.readings.push_back(reading);
+    }
+    Calibration fit;
+    fit.gain = number(found, "gain");
+    fit.offset = number(found, "offset");
+    for (const auto& row : found["levels"]) {
+        CalibrationLevel level;
+        level.commanded = number(row, "commanded");
+        level.mean = number(row, "mean");
+        level.meanUp = number(row, "mean_up");
+        level.meanDown = number(row, "mean_down");
+        fit.levels.push_back(level);
+        out.uncertainty.push_back(number(row, "expanded_uncertainty"));
+    }
+    out.fit = std::move(fit);
+    return out;
+}
+
+QString quantityTitle(const std::string& quantity) {
+    if (quantity == "amplitude") return QObject::tr("Amplitude");
+    if (quantity == "interval") return QObject::tr("Interval");
+    if (quantity == "width") return QObject::tr("Phase width");
+    if (quantity == "gap") return QObject::tr("Inter-phase gap");
+    return QString::fromStdString(quantity);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,68 @@
+// The safety bar's word on calibration, in the whole window.
+#include <gmock/gmock.h>
+
+#include "app/gui/look/Look.h"
+#include "tests/gui/calibrate/CalibrationLab.h"
+#include "tests/gui/window/WindowFixture.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class CalibrateWindow : public Window {
+protected:
+    ~CalibrateWindow() override { gui::applyTheme(gui::Theme::Light); }
+    [[nodiscard]] QLabel& label() { return *window.findChild<QLabel*>("calibrationAge"); }
+    [[nodiscard]] std::string says() { return label().text().toStdString(); }
+    [[nodiscard]] QColor ink() { return label().palette().color(QPalette::WindowText); }
+
+private:
+    OwnDataHome home_;
+};
+
+TEST_F(CalibrateWindow, NotCalibratedWarnsAndTeaches) {
+    RecordProperty("hazard", "H1");
+    open();
+    EXPECT_EQ(says(), "⚠ not calibrated");
+    EXPECT_EQ(ink(), gui::colours().amber);
+    EXPECT_THAT(label().toolTip().toStdString(), HasSubstr("bench loads only"));
+}
+
+TEST_F(CalibrateWindow, AnExpiredOneWarns) {
+    RecordProperty("hazard", "H1");
+    store(calibration(400, 365));
+    open();
+    ASSERT_TRUE(comesTrue([this] { return says() == "⚠ calibration expired 35 d ago"; })) << says();
+    EXPECT_EQ(ink(), gui::colours().amber);
+    window.resize(1024, 640);
+    window.showWorkspace(1);
+    QTest::qWait(100);
+    shot(window, "calibrate_window_small");
+    gui::applyTheme(gui::Theme::Dark);
+    QTest::qWait(100);
+    shot(window, "calibrate_window_small_dark");
+}
+
+TEST_F(CalibrateWindow, ARunTurnsTheWord) {
+    RecordProperty("hazard", "H1");
+    open();
+    ASSERT_EQ(says(), "⚠ not calibrated");
+    window.showWorkspace(1);
+    auto* calibrate = find<QPushButton>(window, "calibrateButton");
+    ASSERT_NE(calibrate, nullptr);
+    ASSERT_TRUE(comesTrue([&] { return calibrate->isEnabled(); }));
+    window.findChild<QLineEdit*>("warm_up_s")->setText("0");
+    bool over = false;
+    QObject::connect(&window.desk(), &gui::BenchDesk::finished, &window, [&] { over = true; });
+    click(*calibrate);
+    ASSERT_TRUE(comesTrue([&] { return over; }, 90'000));
+    QTest::qWait(100);
+    shot(window, "calibrate_window_done");
+    open();
+    ASSERT_TRUE(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
+    EXPECT_NE(ink(), gui::colours().amber);
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,141 @@
+// The Calibrate workspace on the simulated bench: from "never" to "calibrated today", and a check of it.
+#include <QComboBox>
+#include <QTest>
+#include <QTimer>
+#include <gmock/gmock.h>
+
+#include "app/gui/calibrate/CalibrateWorkspace.h"
+#include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/look/Look.h"
+#include "app/gui/runner/ProtocolWorkspace.h"
+#include "tests/gui/calibrate/CalibrationLab.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Calibrate : public testing::Test {
+protected:
+    Calibrate() {
+        QObject::connect(&desk, &gui::BenchDesk::finished,
+                         [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
+        QObject::connect(&frame, &QTimer::timeout, [this] {
+            workspace.runner().refresh(desk.telemetry());
+            drawnWhileRunning = std::max(drawnWhileRunning, drawn());
+        });
+        frame.start(33);
+    }
+    ~Calibrate() override { gui::applyTheme(gui::Theme::Light); }
+    void show(QSize size) {
+        workspace.resize(size);
+        workspace.show();
+        ASSERT_TRUE(comesTrue([this] { return button("calibrateButton")->isEnabled(); }));
+    }
+    [[nodiscard]] QPushButton* button(const char* name) { return workspace.findChild<QPushButton*>(name); }
+    [[nodiscard]] std::string says(const char* label) {
+        return workspace.findChild<QLabel*>(label)->text().toStdString();
+    }
+    [[nodiscard]] std::size_t drawn() {
+        if (desk.activity() != gui::Activity::Running) return 0;
+        return workspace.findChild<gui::CalibrationView*>()->readings();
+    }
+    void type(const char* field, const QString& text) { workspace.findChild<QLineEdit*>(field)->setText(text); }
+    void amplitudeOnly() {
+        auto* box = workspace.findChild<QComboBox*>("quantities");
+        box->setCurrentIndex(box->findData("amplitude"));
+        type("warm_up_s", "0");
+    }
+    [[nodiscard]] bool ends() {
+        return comesTrue([this] { return ended != nullptr; }, 90'000) && ended->result.outcome.error == std::nullopt;
+    }
+    OwnDataHome home;
+    gui::BenchDesk desk{simulatedRegistry};
+    gui::CalibrationBook book{desk};
+    gui::CalibrateWorkspace workspace{desk, book};
+    std::shared_ptr<const gui::FinishedRun> ended;
+    std::size_t drawnWhileRunning = 0;
+    QTimer frame;
+};
+
+TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
+    RecordProperty("hazard", "H1");
+    show({1300, 820});
+    EXPECT_THAT(says("calibrationState"), HasSubstr("No stimulator has been open yet"));
+    EXPECT_FALSE(button("checkButton")->isEnabled());
+    shot(workspace, "calibrate_first");
+    amplitudeOnly();
+    click(*button("calibrateButton"));
+    EXPECT_FALSE(button("calibrateButton")->isEnabled());
+    ASSERT_TRUE(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
+    EXPECT_EQ(ended->result.verdict(), "pass");
+    EXPECT_GT(drawnWhileRunning, 0U);
+    EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today, until "));
+    EXPECT_THAT(says("calibrationFacts"), HasSubstr("simulated oscilloscope"));
+    EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
+    auto* errors = workspace.findChild<gui::CalibrationPlot*>("calibrationErrors");
+    EXPECT_EQ(errors->drawnUp(), 55);
+    EXPECT_EQ(errors->drawnDown(), 55);
+    EXPECT_EQ(errors->drawnMeans(), 11);
+    const auto* budget = workspace.findChild<QTableWidget*>("calibrationBudget");
+    ASSERT_NE(budget, nullptr);
+    EXPECT_EQ(budget->item(0, 0)->text(), "repeatability");
+    EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
+    shot(workspace, "calibrate_done");
+    gui::applyTheme(gui::Theme::Dark);
+    shot(workspace, "calibrate_done_dark");
+
+    // Then the short run, which stores nothing.
+    ended = nullptr;
+    ASSERT_TRUE(comesTrue([this] { return button("checkButton")->isEnabled(); }));
+    click(*button("checkButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_EQ(ended->result.verdict(), "pass");
+    EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
+    EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
+    shot(workspace, "calibrate_checked_dark");
+}
+
+TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
+    RecordProperty("hazard", "H1");
+    store(calibration(400, 365));
+    show({760, 500});
+    EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ calibration expired 35 d ago"));
+    EXPECT_FALSE(button("checkButton")->isEnabled());
+    shot(workspace, "calibrate_expired_small");
+    amplitudeOnly();
+    click(*button("calibrateButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
+    EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 2);
+    shot(workspace, "calibrate_done_small");
+}
+
+TEST_F(Calibrate, AWrongLoadStoresNothing) {
+    RecordProperty("hazard", "H9");
+    show({1000, 640});
+    amplitudeOnly();
+    type("load", "1000");
+    workspace.findChild<QLineEdit*>("devices")->setText("sim:stimulator?load=2kohm sim:");
+    click(*button("calibrateButton"));
+    ASSERT_TRUE(comesTrue([this] { return ended != nullptr; }, 60'000));
+    EXPECT_NE(ended->result.verdict(), "pass");
+    EXPECT_FALSE(std::filesystem::exists(calibrationFile()));
+    EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ not calibrated"));
+    shot(workspace, "calibrate_wrong_load");
+}
+
+TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
+    show({1024, 640});
+    auto* wiring = find<QPushButton>(workspace, "Wiring");
+    ASSERT_NE(wiring, nullptr);
+    click(*wiring);
+    const auto* drawing = workspace.findChild<QLabel*>("wiringDrawing");
+    ASSERT_NE(drawing, nullptr);
+    EXPECT_TRUE(drawing->isVisible());
+    shot(workspace, "calibrate_wiring");
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,56 @@
+// CalibrationLab.h - a store of calibrations of the test's own, and calibrations to put into it.
+#pragma once
+
+#include <QTemporaryDir>
+#include <chrono>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+#include "core/calibration/CalibrationStore.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+
+/// $XDG_DATA_HOME is a folder of its own while it lives.
+class OwnDataHome {
+public:
+    OwnDataHome() : before_(qgetenv("XDG_DATA_HOME")) { qputenv("XDG_DATA_HOME", folder_.path().toUtf8()); }
+    ~OwnDataHome() { qputenv("XDG_DATA_HOME", before_); }
+    OwnDataHome(const OwnDataHome&) = delete;
+    OwnDataHome& operator=(const OwnDataHome&) = delete;
+
+private:
+    const QByteArray before_;
+    const QTemporaryDir folder_;
+};
+
+inline CalibrationDate daysFromNow(int days) {
+    return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()) + std::chrono::days(days);
+}
+
+/// Of the simulated bench's stimulator.
+inline StoredCalibration calibration(int madeDaysAgo, int validForDays) {
+    StoredCalibration c;
+    c.serial = "SIM-1";
+    c.device = "simulated stimulator";
+    c.unit = "V";
+    c.gain = 1.0123;
+    c.offset = -0.05;
+    c.uncertainty_pct = 0.8;
+    c.lowest = 10;
+    c.highest = 40;
+    c.made = daysFromNow(-madeDaysAgo);
+    c.validUntil = daysFromNow(validForDays - madeDaysAgo);
+    c.simulated = true;
+    c.instruments = {{"oscilloscope X", "O-7", daysFromNow(validForDays - madeDaysAgo)}};
+    return c;
+}
+
+inline void store(const StoredCalibration& one) {
+    auto opened = CalibrationStore::open(calibrationFile());
+    ASSERT_TRUE(opened.has_value()) << opened.error().message;
+    const auto added = opened->add(one);
+    ASSERT_TRUE(added.has_value()) << added.error().message;
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,121 @@
+// Readings of a calibration as they come: which way, which stand out, in which band.
+#include <gmock/gmock.h>
+
+#include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/calibrate/CalibrationView.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::CalibrationPlot;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+Json reading(const char* condition, double commanded, double measured) {
+    return {{"condition", condition},
+            {"unit", "V"},
+            {"amplitude", measured},
+            {"width_s", 2e-4},
+            {"instrument", {{"resolution", 0.025}}},
+            {"commanded", {{"amplitude", commanded}, {"width_s", 2e-4}}}};
+}
+
+class View : public testing::Test {
+protected:
+    View() {
+        view.resize(1000, 420);
+        view.show();
+        view.begin({{"tolerance_pct", 2.0}, {"timing_tolerance_pct", 1.0}});
+    }
+    [[nodiscard]] CalibrationPlot& errors() { return *view.findChild<CalibrationPlot*>("calibrationErrors"); }
+    [[nodiscard]] CalibrationPlot& measured() { return *view.findChild<CalibrationPlot*>("calibrationMeasured"); }
+    [[nodiscard]] std::string says() { return view.findChild<QLabel*>("calibrationSays")->text().toStdString(); }
+    /// Five repeats of three levels, both ways; one of them far off.
+    void sweep() {
+        for (int repeat = 0; repeat < 5; ++repeat) {
+            for (const double volts : {10.0, 25.0, 40.0}) {
+                const double wobble = 0.01 * (repeat - 2);
+                view.add(reading("amplitude up", volts, 1.002 * volts + wobble));
+                const bool odd = repeat == 3 && volts > 20 && volts < 30;
+                view.add(reading("amplitude down", volts, 1.004 * volts + wobble + (odd ? 3 : 0)));
+            }
+        }
+        view.draw();
+    }
+    gui::CalibrationView view;
+};
+
+TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
+    shot(view, "calibrate_view_empty");
+    sweep();
+    EXPECT_EQ(view.readings(), 30U);
+    for (auto* plot : {&errors(), &measured()}) {
+        EXPECT_EQ(plot->drawnUp(), 15);
+        EXPECT_EQ(plot->drawnDown(), 15);
+        EXPECT_EQ(plot->drawnMarked(), 1);
+    }
+    EXPECT_TRUE(errors().hasBand());
+    EXPECT_TRUE(measured().hasLine());
+    EXPECT_THAT(says(), HasSubstr("marked and kept"));
+    shot(view, "calibrate_view");
+}
+
+TEST_F(View, TheFirstReadingIsDrawnBeforeThereIsALine) {
+    view.add(reading("amplitude up", 10, 10.02));
+    view.draw();
+    EXPECT_EQ(errors().drawnUp(), 1);
+    EXPECT_FALSE(measured().hasLine());
+    EXPECT_THAT(says(), testing::Not(HasSubstr("gain")));
+}
+
+TEST_F(View, AReadingThatWasNotMeasuredIsCountedAndNotDrawn) {
+    RecordProperty("hazard", "H9");
+    auto none = reading("amplitude up", 10, 0);
+    none["amplitude"] = nullptr;
+    view.add(none);
+    view.draw();
+    EXPECT_EQ(view.readings(), 1U);
+    EXPECT_EQ(errors().drawnUp(), 0);
+}
+
+TEST_F(View, FollowsTheRunUntilOneIsChosen) {
+    sweep();
+    view.add(reading("width up", 40, 40));
+    view.draw();
+    EXPECT_EQ(view.quantityShown(), "Phase width");
+    view.findChild<QTabBar*>("quantities")->setCurrentIndex(0);
+    EXPECT_EQ(errors().drawnUp(), 15);
+    view.add(reading("gap up", 40, 40));
+    view.draw();
+    EXPECT_EQ(view.quantityShown(), "Amplitude");
+}
+
+TEST_F(View, OtherTrialsAreNone) {
+    EXPECT_FALSE(gui::CalibrationView::isReading({{"condition", "rough-high"}, {"amplitude_v", 30}}));
+    EXPECT_FALSE(gui::CalibrationView::isReading({{"condition", "amplitude up"}, {"commanded", 30}}));
+    EXPECT_TRUE(gui::CalibrationView::isReading(reading("gap down", 1, 1)));
+}
+
+TEST_F(View, TheResultHasTheLastWord) {
+    sweep();
+    Json levels = Json::array();
+    for (const double volts : {10.0, 25.0, 40.0})
+        levels.push_back({{"commanded", volts}, {"mean", 1.003 * volts}, {"expanded_uncertainty", 0.1}});
+    view.end(
+        {{"amplitude",
+          {{"unit", "V"},
+           {"gain", 1.003},
+           {"offset", 0.0},
+           {"tolerance_pct", 2.0},
+           {"levels", levels},
+           {"readings",
+            Json::array({{{"commanded", 10.0}, {"measured", 10.03}, {"direction", "up"}, {"outlier", true}},
+                         {{"commanded", 40.0}, {"measured", 40.1}, {"direction", "down"}, {"outlier", false}}})}}}});
+    EXPECT_EQ(errors().drawnMeans(), 3);
+    EXPECT_EQ(errors().drawnUp(), 1);
+    EXPECT_EQ(errors().drawnMarked(), 1);
+}
+
+}  // namespace
+}  // namespace tacto::test
