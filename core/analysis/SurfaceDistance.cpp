@@ -18,11 +18,25 @@ double noncentralityAt(double t, double degreesOfFreedom, double p) noexcept {
     // Far beyond either end: T spreads by about √(1 + t²/2ν), and 2.5 % lie within a few of those.
     const double reach = 8 * std::sqrt(1 + t * t / (2 * degreesOfFreedom)) + 8;
     double low = t - reach, high = t + reach;
-    for (int i = 0; i < 80 && high - low > 1e-10 * (1 + std::abs(t)); ++i) {
+    const auto excess = [&](double noncentrality) { return noncentralT(t, degreesOfFreedom, noncentrality) - p; };
+    // Halve where the curve is flat, then follow it (false position after the Illinois rule).
+    for (int i = 0; i < 8; ++i) {
         const double middle = (low + high) / 2;
-        (noncentralT(t, degreesOfFreedom, middle) > p ? low : high) = middle;
+        (excess(middle) > 0 ? low : high) = middle;
     }
-    return (low + high) / 2;
+    double atLow = excess(low), atHigh = excess(high), guess = (low + high) / 2;
+    int side = 0;
+    for (int i = 0; i < 60 && atLow != atHigh; ++i) {
+        guess = (low * atHigh - high * atLow) / (atHigh - atLow);
+        const double at = excess(guess);
+        if (std::abs(at) < 1e-11) break;
+        const int now = at > 0 ? 1 : -1;
+        (now > 0 ? low : high) = guess;
+        (now > 0 ? atLow : atHigh) = at;
+        if (now == side) (now > 0 ? atHigh : atLow) /= 2;
+        side = now;
+    }
+    return guess;
 }
 
 Result<Statistics> readingsOf(std::span<const double> readings) {
@@ -56,7 +70,7 @@ double noncentralT(double t, double degreesOfFreedom, double noncentrality) noex
         return s > 0 ? std::exp((nu - 1) * std::log(s) - nu * (s * s - 1) / 2) : (nu > 1 ? 0.0 : std::exp(nu / 2));
     };
     const auto integral = [&](double a, double b, const auto& f) {
-        constexpr int kCells = 600;
+        constexpr int kCells = 240;
         if (!(b > a)) return 0.0;
         const double step = (b - a) / kCells;
         double sum = f(a) + f(b);
