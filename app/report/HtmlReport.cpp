@@ -35,6 +35,7 @@ dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
 code, pre { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: 13px; }
 pre { background: var(--tint); padding: 12px 14px; border-radius: 4px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .simulated { color: var(--quiet); text-transform: uppercase; letter-spacing: .08em; font-size: 13px; }
+.signatures { width: 100%; } .signatures td, .signatures th[scope=row] { height: 44px; vertical-align: bottom; }
 footer { border-top: 1px solid var(--rule); margin-top: 40px; padding-top: 12px; font-size: 13px; color: var(--quiet); }
 @media print {
   :root { --text: #222; --quiet: #5f666d; --page: #fff; --rule: #dfe3e7; --tint: #f3f4f6; }
@@ -106,6 +107,17 @@ public:
                 escaped(block.caption) + "</strong>";
         if (!block.legend.isEmpty()) out_ += "<span>" + escaped(block.legend) + "</span>";
         out_ += "</figcaption>\n</figure>\n";
+    }
+
+    void operator()(const SignaturesBlock& block) {
+        out_ += "<table class=\"signatures\"><thead><tr><th scope=\"col\"></th>";
+        for (const auto& column : block.columns) out_ += "<th scope=\"col\">" + escaped(column) + "</th>";
+        out_ += "</tr></thead>\n<tbody>\n";
+        for (const auto& role : block.roles) {
+            out_ += "<tr><th scope=\"row\">" + escaped(role) + "</th>" +
+                    QString("<td></td>").repeated(block.columns.size()) + "</tr>\n";
+        }
+        out_ += "</tbody></table>\n";
     }
 
     void operator()(const CodeBlock& block) { out_ += "<pre>" + escaped(block.lines.join('\n')) + "</pre>\n"; }

@@ -109,6 +109,32 @@ public:
         pages_.advance(kGap + 6);
     }
 
+    /// A ruled line for each role, long enough to write on.
+    void operator()(const SignaturesBlock& block) {
+        constexpr double kLine = 40;
+        constexpr double kRoleColumn = 90;
+        const auto columns = static_cast<double>(block.columns.size());
+        const double width = (PdfPages::kWidth - kRoleColumn) / columns;
+        for (const auto& role : block.roles) {
+            pages_.require(kLine + 18);
+            pages_.advance(kLine);
+            if (auto* painter = pages_.painter()) {
+                painter->setPen(QPen(ink::kQuiet, 0.7));
+                for (int c = 0; c < block.columns.size(); ++c) {
+                    const double left = kRoleColumn + c * width;
+                    painter->drawLine(QPointF(left, pages_.y()), QPointF(left + width - 14, pages_.y()));
+                }
+            }
+            pages_.text(0, kRoleColumn - 10, role, textFont(kTextSize), ink::kText);
+            double height = 0;
+            for (int c = 0; c < block.columns.size(); ++c) {
+                height = pages_.text(kRoleColumn + c * width, width - 14, block.columns[c], textFont(11), ink::kQuiet);
+            }
+            pages_.advance(height + 4);
+        }
+        pages_.advance(kGap);
+    }
+
     void operator()(const CodeBlock& block) {
         const QFont font = monoFont(11);
         for (const auto& line : block.lines) {
@@ -130,6 +156,7 @@ public:
         if (const auto* paragraph = std::get_if<ParagraphBlock>(&block)) {
             return PdfPages::textHeight(PdfPages::kWidth, paragraph->text, textFont(kTextSize));
         }
+        if (std::holds_alternative<SignaturesBlock>(block)) return 150;  // all of them on one page
         return 90;
     }
     void keepWithNext(double height) { keepWithNext_ = height; }

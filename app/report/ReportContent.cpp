@@ -150,12 +150,13 @@ TableBlock eventsTable(const ReportModel& model, const QString& caption) {
     return table;
 }
 
-/// Numbers figures and tables, and marks their captions.
+/// Numbers headings, figures and tables, and marks the captions.
 class Captions {
 public:
     explicit Captions(bool simulated) : simulated_(simulated) {}
     QString figure(const QString& text) { return numbered("Figure", ++figures_, text); }
     QString table(const QString& text) { return numbered("Table", ++tables_, text); }
+    HeadingBlock heading(const QString& text) { return {QString("%1  %2").arg(++headings_).arg(text)}; }
 
 private:
     [[nodiscard]] QString numbered(const char* kind, int number, const QString& text) const {
@@ -166,12 +167,19 @@ private:
     bool simulated_;
     int figures_ = 0;
     int tables_ = 0;
+    int headings_ = 0;
 };
 
+/// Tells two reports apart, also those of one session that has grown since.
+QString reportNumber(const ReportModel& model) {
+    return model.session + (model.chainHead.isEmpty() ? QString() : "-" + model.chainHead.left(8));
+}
+
 void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
-    blocks.emplace_back(HeadingBlock{"What was used"});
+    blocks.emplace_back(captions.heading("What was used"));
     if (model.simulated && model.devices.empty()) {
-        blocks.emplace_back(ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
+        blocks.emplace_back(
+            ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
     } else if (model.simulated) {
         blocks.emplace_back(ParagraphBlock{
             "At least one device of this session was simulated. Its numbers say what the software does, not what "
@@ -185,7 +193,11 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
         blocks.emplace_back(std::move(devices));
     }
     FactsBlock facts;
-    facts.facts = model.settings;
+    if (!model.session.isEmpty()) {
+        facts.facts.push_back({"Report number", reportNumber(model)});
+        facts.facts.push_back({"Raw data", model.session + ".tacto"});
+    }
+    facts.facts.insert(facts.facts.end(), model.settings.begin(), model.settings.end());
     facts.facts.insert(facts.facts.end(), model.identity.begin(), model.identity.end());
     facts.facts.push_back({"Chain head",
                            model.chainHead.isEmpty() ? QString("none: the session has no rows yet") : model.chainHead,
@@ -195,7 +207,7 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
 
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
-    blocks.emplace_back(HeadingBlock{"Results"});
+    blocks.emplace_back(captions.heading("Results"));
     for (const auto& item : model.items) {
         if (const auto* figure = std::get_if<ReportFigure>(&item)) {
             blocks.emplace_back(FigureBlock{captions.figure(figure->caption), figureLegend(figure->figure),
@@ -230,7 +242,7 @@ ReportContent contentOf(const ReportModel& model) {
     addUsed(model, captions, blocks);
     addItems(model, captions, blocks);
 
-    blocks.emplace_back(HeadingBlock{"Exposure against limits"});
+    blocks.emplace_back(captions.heading("Exposure against limits"));
     if (model.exposure.empty()) {
         blocks.emplace_back(ParagraphBlock{
             "Not evaluated: this session holds no exposure. Nothing here says that it was within limits."});
@@ -240,16 +252,18 @@ ReportContent contentOf(const ReportModel& model) {
                                         figureLegend(figure), drawFigure(figure, model.simulated)});
         blocks.emplace_back(exposureTable(model, captions.table("Exposure")));
     }
-    blocks.emplace_back(HeadingBlock{"Events"});
+    blocks.emplace_back(captions.heading("Events"));
     if (model.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"No fault, refusal or stop was recorded.", true});
     } else {
         blocks.emplace_back(eventsTable(model, captions.table("Faults, refusals, stops and remarks")));
     }
     if (!model.reproduce.isEmpty()) {
-        blocks.emplace_back(HeadingBlock{"How to reproduce"});
+        blocks.emplace_back(captions.heading("How to reproduce"));
         blocks.emplace_back(CodeBlock{model.reproduce});
     }
+    blocks.emplace_back(captions.heading("Signatures"));
+    blocks.emplace_back(SignaturesBlock{{"Operator", "Reviewer"}, {"Name", "Date", "Signature"}});
     blocks.emplace_back(ParagraphBlock{
         "Tactoscope is a research bench, not a medical device. The chain head identifies the session's contents: "
         "“tactoscope-cli verify” must print the same one.",

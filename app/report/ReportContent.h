@@ -1,7 +1,7 @@
 // ReportContent.h - the report as a sequence of blocks, worded once: PDF and HTML only set them.
 //
 // Order: title, verdict with its reasons, what was used, the script's figures and tables, exposure against limits,
-// events, how to reproduce. Thread-safety: the GUI thread (drawn figures are widgets).
+// events, how to reproduce, signatures. Thread-safety: the GUI thread (drawn figures are widgets).
 #pragma once
 
 #include <QString>
@@ -50,12 +50,17 @@ struct FigureBlock {
     QString legend;
     std::unique_ptr<PlotSheet> sheet;
 };
+/// Lines to be filled in by hand: who did it, who checked it.
+struct SignaturesBlock {
+    QStringList roles;    ///< a line each
+    QStringList columns;  ///< what is written on it
+};
 struct CodeBlock {
     QStringList lines;
 };
 
 using ReportBlock = std::variant<TitleBlock, VerdictBlock, HeadingBlock, ParagraphBlock, FactsBlock, TableBlock,
-                                 FigureBlock, CodeBlock>;
+                                 FigureBlock, SignaturesBlock, CodeBlock>;
 
 struct ReportContent {
     QString documentTitle;

@@ -6,6 +6,7 @@
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/calibration/CalibrationStore.h"
+#include "core/session/SessionWriter.h"
 
 namespace tacto {
 
@@ -94,6 +95,7 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     made.device = (*stimulator)->identity().name;
     made.unit = amplitude.value("unit", "");
     if (made.unit != unitOf(**stimulator)) return arguments.wrong("unit", made.unit, unitOf(**stimulator));
+    if (const auto* writer = session.writer()) made.session = writer->path().filename().string();
     made.gain = amplitude.value("gain", std::nan(""));
     made.offset = amplitude.value("offset", std::nan(""));
     const Json& levels = amplitude.at("levels");

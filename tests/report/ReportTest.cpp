@@ -46,6 +46,9 @@ TEST_F(Report, PutsTheVerdictAndItsReasonsFirst) {
     EXPECT_LT(text.find("What was used"), text.find("Figure 1."));
     EXPECT_LT(text.find("Figure 1."), text.find("Exposure against limits"));
     EXPECT_LT(text.find("Exposure against limits"), text.find("How to reproduce"));
+    EXPECT_LT(text.find("How to reproduce"), text.find("Signatures"));
+    EXPECT_LT(text.find("Signatures"), text.find("Reviewer"));
+    EXPECT_NE(text.find("Report number"), text.npos);
 }
 
 TEST_F(Report, SaysEveryVerdictInAWord) {
