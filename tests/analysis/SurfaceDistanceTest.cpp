@@ -27,8 +27,8 @@ TEST(SurfaceDistance, AgreesWithScipy) {
         surfaceDistance(std::vector{1.1, 1.4, 0.9, 1.2, 1.3}, std::vector{2.0, 2.3, 1.8, 2.2, 2.6}).value();
     EXPECT_NEAR(far.pooledSd, 0.2539685019840059, 1e-12);
     EXPECT_NEAR(far.d.value, 3.93749615479079, 1e-10);
-    EXPECT_NEAR(far.d.low, 1.6421009851847919, 1e-5);
-    EXPECT_NEAR(far.d.high, 6.166534823871678, 1e-5);
+    EXPECT_NEAR(far.d.low, 1.6421009851847919, 1e-6);
+    EXPECT_NEAR(far.d.high, 6.166534823871678, 1e-6);
     EXPECT_TRUE(far.toldApart());
     const auto near = surfaceDistance(std::vector{1.0, 1.2, 0.8, 1.1}, std::vector{1.1, 1.3, 0.9, 1.0, 1.25}).value();
     EXPECT_NEAR(near.d.value, 0.5034965460952296, 1e-10);
@@ -71,7 +71,7 @@ class DistanceCoverage : public ::testing::TestWithParam<Truth> {};
 
 TEST_P(DistanceCoverage, HoldsTheTruthIn95OfA100) {
     const auto [delta, n] = GetParam();
-    constexpr int kRuns = 2000;
+    constexpr int kRuns = 1000;
     Random random(7, "surface distance");
     int covered = 0;
     for (int run = 0; run < kRuns; ++run) {
@@ -85,8 +85,8 @@ TEST_P(DistanceCoverage, HoldsTheTruthIn95OfA100) {
     }
     const double share = static_cast<double>(covered) / kRuns;
     RecordProperty("coverage", std::to_string(share));
-    EXPECT_GE(share, 0.935);  // 95 % ± 3 standard errors of 2000 runs
-    EXPECT_LE(share, 0.965);
+    EXPECT_GE(share, 0.929);  // 95 % ± 3 standard errors of 1000 runs
+    EXPECT_LE(share, 0.971);
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, DistanceCoverage,

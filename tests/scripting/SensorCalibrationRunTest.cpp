@@ -1,0 +1,277 @@
+// The sensor calibration on the simulated bench: what it finds, what it refuses, and what becomes of it when something
+// breaks or somebody stops it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/bench/Profile.h"
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+using testing::HasSubstr;
+using Settings = std::map<std::string, std::string>;
+
+const std::set<Role> kNeeded{Role::Sensor};
+/// The least that a calibration takes: two surfaces, three slides, no weights.
+const Settings kShort{{"more", ""}, {"slides", "3"}, {"duration_s", "2"}, {"weights_g", ""}};
+
+Settings with(Settings settings, const Settings& changes) {
+    for (const auto& [key, value] : changes) settings[key] = value;
+    return settings;
+}
+
+RunRequest requestFor(RunBench& rig, const Settings& settings) {
+    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
+    auto source = shipped.find("sensor-calibration").value();
+    const auto declaration = readDeclaration(source).value();
+    auto request = rig.request(std::move(source));
+    request.parameters = applySettings(declaration, settings).value().parameters;
+    return request;
+}
+
+ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
+    RunBench rig(true, device, seed, false, kNeeded);
+    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    EXPECT_TRUE(rig.outputOff());
+    return outcome;
+}
+
+TEST(SensorCalibrationRun, FindsScalesRankingForceAndTaxelsOfTheTwin) {
+    const auto outcome = calibrate("sim:", {});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
+    const auto& results = outcome.results;
+    ASSERT_EQ(results["surfaces"].size(), 6U);
+    EXPECT_EQ(results["surfaces"][1]["name"], "P120");
+    EXPECT_EQ(results["surfaces"][1]["rz_um"], 290);
+    EXPECT_NEAR(results["surfaces"][1]["h"].get<double>(), kSimulatedH.rough, 0.1 * kSimulatedH.rough);
+    EXPECT_NEAR(results["surfaces"][0]["v"].get<double>(), kSimulatedVStatic.smooth, 0.15 * kSimulatedVStatic.smooth);
+    for (const char* key : {"h", "v", "R"}) {
+        EXPECT_TRUE(results["d_prime"][key]["told_apart"].get<bool>()) << key;
+        EXPECT_GT(results["d_prime"][key]["low"].get<double>(), 1) << key;
+    }
+    EXPECT_GE(results["spearman"]["value"].get<double>(), 0.9);
+    EXPECT_EQ(results["spearman"]["n"], 6);
+    // The twin's sensors are true: 1 N reads 1 N, and 1 Pa 1 Pa on the average taxel.
+    EXPECT_NEAR(results["force"]["scale"].get<double>(), 1, 0.01);
+    EXPECT_NEAR(results["force"]["offset"].get<double>(), 0, 0.02);
+    ASSERT_EQ(results["taxels"].size(), 8U);
+    double sum = 0;
+    for (const auto& taxel : results["taxels"]) sum += taxel["scale"].get<double>();
+    EXPECT_NEAR(sum / 8, 1, 0.02);
+    EXPECT_TRUE(results["reference"]["passed"].get<bool>());
+    EXPECT_FALSE(results.contains("partial"));
+}
+
+TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
+    RecordProperty("hazard", "H7");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    const auto outcome = runProtocol(requestFor(rig, with(kShort, {{"contact_area_cm2", "0.8"}}))).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& kept = outcome.results["profile"];
+    EXPECT_TRUE(kept["file"].is_null());
+    const auto profile = parseProfile(kept["profile"].dump(), "the result").value();
+    EXPECT_TRUE(profile.roughness.calibrated);
+    EXPECT_TRUE(profile.roughness.restMeanSquare);
+    EXPECT_EQ(profile.roughness.contactArea, SquareCentimetres(0.8));
+    EXPECT_EQ(profile.roughness.roughSurface->name, "P120");
+    EXPECT_THAT(profile.name, HasSubstr("SIM-1"));
+    EXPECT_EQ(rig.bench().profile().roughness, profile.roughness) << "in force for the rest of the run";
+}
+
+TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
+    // A finger that never lifts: on a rig without a presenter nobody else would notice.
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    rig.bench().devices().surface.reset();
+    auto request = rig.request(test::withRun("bench.measureRest({ duration_s: 2 });"));
+    PresetOperator desk(Settings{{"rest", "yes"}});
+    request.operatorDesk = &desk;
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THAT(outcome.error->message, HasSubstr("it was in contact"));
+}
+
+/// A store of its own for each test.
+class SensorProfileKept : public ::testing::Test {
+protected:
+    SensorProfileKept() { ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1); }
+    ~SensorProfileKept() override { ::unsetenv("XDG_DATA_HOME"); }
+    SensorProfileKept(const SensorProfileKept&) = delete;
+    SensorProfileKept& operator=(const SensorProfileKept&) = delete;
+    test::ScratchDir folder;
+};
+
+TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
+    const auto settings = with(kShort, {{"store", "true"}});
+    const auto first = calibrate("sim:", settings), second = calibrate("sim:", settings, 2);
+    ASSERT_FALSE(first.error) << first.error->message;
+    ASSERT_FALSE(second.error) << second.error->message;
+    const auto one = first.results["profile"]["file"].get<std::string>();
+    const auto two = second.results["profile"]["file"].get<std::string>();
+    EXPECT_NE(one, two);
+    const auto profile = loadProfile(one).value();
+    EXPECT_TRUE(profile.roughness.calibrated);
+    EXPECT_EQ(toJson(profile), first.results["profile"]["profile"]);
+    EXPECT_NE(loadProfile(two).value().roughness, profile.roughness);
+}
+
+TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
+    RecordProperty("hazard", "H7");
+    // Two smooth surfaces, and taxels whose noise is far above what either does to them.
+    const auto outcome = calibrate("sim:finger?taxelnoise=1000", with(kShort, {{"store", "true"},
+                                                                               {"smooth", "glass"},
+                                                                               {"smooth_ra_um", "0.01"},
+                                                                               {"smooth_rz_um", "0.07"},
+                                                                               {"rough", "plastic"},
+                                                                               {"rough_ra_um", "1.6"},
+                                                                               {"rough_rz_um", "11"},
+                                                                               {"duration_s", "1"}}));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail) << outcome.results["d_prime"].dump();
+    ASSERT_FALSE(outcome.reasons.empty());
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("v_static of the two references is d′"));
+    EXPECT_TRUE(outcome.results["profile"].is_null());
+    EXPECT_FALSE(outcome.results["roughness"]["calibrated"].get<bool>());
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(SensorCalibrationRun, TakesRaFromTheProfilometersFile) {
+    test::ScratchDir folder;
+    const auto rough = folder.write("p120.csv", "Ra;42,4;µm\nRz;301;µm\n");
+    const auto outcome = calibrate("sim:", with(kShort, {{"rough_file", rough.string()}}));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_NEAR(outcome.results["surfaces"][1]["ra_um"].get<double>(), 42.4, 1e-9);
+    EXPECT_EQ(outcome.results["surfaces"][1]["source"], rough.string());
+    const auto bad = folder.write("bad.csv", "lc;0,8;mm\nRa;42,4\n");
+    const auto refused = calibrate("sim:", with(kShort, {{"rough_file", bad.string()}}));
+    ASSERT_TRUE(refused.error);
+    EXPECT_THAT(refused.error->message, HasSubstr("line 2: Ra is 42.4 without a unit"));
+}
+
+TEST(SensorCalibrationRun, RefusesTypingErrorsBeforeAnythingMoves) {
+    const std::pair<Settings, const char*> wrong[] = {
+        {{{"rough_ra_um", "1"}, {"rough_rz_um", "5"}}, "Ra of the rough reference is 1 um"},
+        {{{"rough_rz_um", "5"}}, "Rz of P120 is 5 um"},
+        {{{"more", "paper"}}, "more has \"paper\""},
+        {{{"more", "paper 3 21; paper 4 21"}}, "paper is named twice"},
+        {{{"more", "paper x3"}}, "no such file"},
+        {{{"weights_g", "20; 20"}}, "two or more different weights"},
+        {{{"weights_g", "20; heavy"}}, "heavy; a number above 0"}};
+    for (const auto& [changes, message] : wrong) {
+        const auto outcome = calibrate("sim:", with(kShort, changes));
+        ASSERT_TRUE(outcome.error) << message;
+        EXPECT_THAT(outcome.error->message, HasSubstr(message));
+        EXPECT_TRUE(outcome.results.is_null() || !outcome.results.contains("rest")) << message;
+    }
+}
+
+TEST(SensorCalibrationRun, WithoutAContactAreaTaxelsAreNotCalibratedAndItSaysSo) {
+    const auto outcome =
+        calibrate("sim:", with(kShort, {{"contact_area_cm2", "0"}, {"weights_g", "50; 200"}, {"weight_repeats", "2"}}));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    ASSERT_EQ(outcome.results["taxels"].size(), 8U);
+    EXPECT_TRUE(outcome.results["taxels"][0]["scale"].is_null());
+    EXPECT_THAT(outcome.results["taxels"][0]["reason"], HasSubstr("contact area is not known"));
+    EXPECT_NEAR(outcome.results["force"]["scale"].get<double>(), 1, 0.02);
+    EXPECT_TRUE(outcome.results["spearman"].is_null()) << "two surfaces";
+}
+
+TEST(SensorCalibrationRun, TheSameSeedGivesTheSameResultAndAnotherSeedAnother) {
+    const auto surfaces = [](std::uint64_t seed) { return calibrate("sim:", kShort, seed).results["surfaces"].dump(); };
+    const auto first = surfaces(4);
+    EXPECT_GT(first.size(), 100U);
+    EXPECT_EQ(first, surfaces(4));
+    EXPECT_NE(first, surfaces(5));
+}
+
+TEST(SensorCalibrationRun, TheSessionHoldsEverySlideAndWeight) {
+    RecordProperty("hazard", "H8");
+    RunBench rig(true, "sim:", 1, true, kNeeded);
+    const auto outcome =
+        runProtocol(requestFor(rig, with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "2"}}))).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    EXPECT_EQ(reader.trials().value().size(), 2U * 3 + 2 * 2 * 2);
+    std::string captions;
+    const auto rows = reader.reportItems().value();
+    for (const auto& row : rows) captions += row.body.value("caption", "") + "\n";
+    for (const char* caption : {"Known-reference check", "Surfaces, under the scale", "Distance of the two references",
+                                "Force against weights", "Taxels against force", "Slides", "Taxels at rest"}) {
+        EXPECT_THAT(captions, HasSubstr(caption));
+    }
+}
+
+TEST(SensorCalibrationRun, ListensOnTheSteadyClockToo) {
+    RunBench rig(false, "sim:", 1, false, kNeeded);
+    const auto outcome =
+        rig.run(test::withRun("verdict({ verdict: 'pass', rest: bench.measureRest({ duration_s: 0.5 }), at: "
+                              "bench.measureWeight(200, { duration_s: 0.5 }) });"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& rest = outcome.results["rest"];
+    EXPECT_EQ(rest["taxel_baseline"].size(), 8U);
+    EXPECT_GT(rest["mean_square"].get<double>(), 0);
+    EXPECT_GE(rest["force"]["n"].get<int>(), 50);  // 200 Hz; a busy machine hands over some of them late
+    EXPECT_NEAR(outcome.results["at"]["force"].get<double>(), 1.96, 0.1);
+    EXPECT_TRUE(rig.outputOff());
+}
+
+/// The sensor fails at every step in turn: at rest, under the weights, while sliding.
+class SensorCalibrationFault : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(SensorCalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    const auto [fault, at_s] = GetParam();
+    RunBench rig(true, fmt::format("sim:finger?fault={}@{}s", fault, at_s), 1, false, kNeeded);
+    const auto settings = with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}});
+    const auto outcome = runProtocol(requestFor(rig, settings)).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_TRUE(rig.outputOff());
+    EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
+    ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
+    EXPECT_TRUE(outcome.results["partial"].get<bool>());
+    EXPECT_TRUE(outcome.results["verdict"].is_null());
+    EXPECT_EQ(outcome.results.contains("rest"), at_s > 4) << outcome.error->message;
+    EXPECT_EQ(outcome.results.contains("weights"), at_s > 11) << outcome.error->message;
+    EXPECT_EQ(outcome.results.contains("slides"), at_s > 25) << outcome.error->message;
+    EXPECT_FALSE(outcome.results.contains("profile"));
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, SensorCalibrationFault,
+                         ::testing::Combine(::testing::Values("unplug", "stale"),
+                                            ::testing::Values(2.0, 6.0, 14.0, 30.0)));
+
+/// The operator stops at the n-th reading.
+class SensorCalibrationCancel : public ::testing::TestWithParam<int> {};
+
+TEST_P(SensorCalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
+    RecordProperty("hazard", "H2");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    auto request = requestFor(rig, with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
+    Bench& bench = rig.bench();
+    int readings = 0;
+    request.onTrial = [&](const nlohmann::json&) {
+        if (++readings == GetParam()) bench.stop("the test");
+    };
+    const auto outcome = runProtocol(std::move(request)).value();
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Stopped);
+    EXPECT_TRUE(rig.outputOff());
+    ASSERT_TRUE(outcome.results.is_object());
+    EXPECT_TRUE(outcome.results["partial"].get<bool>());
+    // A reading counts as kept once record.partial() saw it; the one at which it was stopped does too.
+    const auto kept = outcome.results.value("weights", nlohmann::json::array()).size() +
+                      outcome.results.value("slides", nlohmann::json::array()).size();
+    EXPECT_GE(kept, static_cast<std::size_t>(GetParam() - 1));
+    EXPECT_LE(kept, static_cast<std::size_t>(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(AtEachStep, SensorCalibrationCancel, ::testing::Values(1, 3, 4, 5, 8));
+
+}  // namespace
+}  // namespace tacto
