@@ -349,7 +349,7 @@ Result<Figure> parseFigure(const QJsonObject& json) {
     } else {
         return fail(ErrorCode::InvalidArgument,
                     "A figure's type is \"{}\"; it can be conditions, plane, waveforms, confusion, exposure, "
-                    "timeline, calibration or transitions.",
+                    "timeline, calibration, transitions or curves.",
                     type.toStdString());
     }
     figure.note = in.text("note");

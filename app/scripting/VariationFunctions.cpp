@@ -5,6 +5,7 @@
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
+#include "app/scripting/VariationArguments.h"
 #include "core/analysis/VariationJson.h"
 
 namespace tacto {
@@ -14,111 +15,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kMarked = "Simulated: predicted, not measured.";
-
-Result<Drive> sourceFrom(const Arguments& arguments, const Json& options) {
-    auto name = arguments.text(options, "source", "current");
-    if (!name) return failure(name);
-    if (*name == "current") return Drive::Current;
-    if (*name == "voltage") return Drive::Voltage;
-    return arguments.wrong("source", *name, "\"current\" or \"voltage\"");
-}
-
-struct NumberOption {
-    const char* key;
-    double* target;
-    NumberRange range;
-};
-
-Result<void> readNumbers(const Arguments& arguments, const Json& options, std::initializer_list<NumberOption> wanted) {
-    for (const auto& [key, target, range] : wanted) {
-        auto value = arguments.number(options, key, *target, range);
-        if (!value) return failure(value);
-        *target = *value;
-    }
-    return {};
-}
-
-/// The connected stimulator where it drives as asked, else one without flaws.
-SourceTraits traitsFor(Bench& bench, Drive drive) {
-    const auto& stimulator = bench.devices().stimulator;
-    if (stimulator && stimulator->traits().drive == drive) return stimulator->traits();
-    return idealSource(drive);
-}
-
-Result<void> readPopulation(const Arguments& arguments, const Json& options, PopulationModel& model) {
-    double discomfort = model.detection_ma.median * (1 + model.headroom.median);
-    double skinSpread = model.series_ohm.spread, thresholdSpread = model.detection_ma.spread;
-    double weberSpread = model.amplitudeWeber.spread;
-    const bool spreadGiven = options.contains("skin_spread");
-    auto read = readNumbers(arguments, options,
-                            {{"series_ohm", &model.series_ohm.median, {1, 1e6}},
-                             {"parallel_ohm", &model.parallel_ohm.median, {1, 1e8}},
-                             {"capacitance_nf", &model.capacitance_nf.median, {0.001, 1e5}},
-                             {"detection_ma", &model.detection_ma.median, {0.01, 100}},
-                             {"discomfort_ma", &discomfort, {0.01, 1000}},
-                             {"skin_spread", &skinSpread, {1, 10}},
-                             {"threshold_spread", &thresholdSpread, {1, 10}},
-                             {"weber_spread", &weberSpread, {1, 10}},
-                             {"weber_amplitude", &model.amplitudeWeber.median, {0.001, 1}},
-                             {"weber_interval", &model.intervalWeber.median, {0.001, 1}},
-                             {"lapse_most", &model.lapseMost, {0, 1}},
-                             {"noise_jnd", &model.noise_jnd, {0.01, 100}}});
-    if (!read) return read;
-    model.headroom.median = discomfort / model.detection_ma.median - 1;
-    if (!(model.headroom.median > 0)) {
-        return arguments.wrong("discomfort_ma", discomfort,
-                               fmt::format("more than the detection threshold of {:g} mA", model.detection_ma.median));
-    }
-    if (spreadGiven) {
-        for (auto* drawn : {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf}) drawn->spread = skinSpread;
-    }
-    model.detection_ma.spread = thresholdSpread;
-    model.amplitudeWeber.spread = model.intervalWeber.spread = weberSpread;
-    return {};
-}
-
-Result<VariationOptions> optionsFrom(ScriptSession& session, const Arguments& arguments, const Json& given) {
-    Bench& bench = session.bench();
-    const auto& profile = bench.profile();
-    VariationOptions out;
-    out.seed = session.request().seed;
-    const auto drive = sourceFrom(arguments, given);
-    if (!drive) return failure(drive);
-    auto& to = out.stimulation;
-    to.encoding = profile.encoding;
-    to.source = traitsFor(bench, *drive);
-    to.limits = bench.limits();
-    to.ceilings = profile.ceilings;
-    to.electrodeArea = profile.electrodeArea;
-    to.loadLow = profile.loadLow;
-    to.loadHigh = profile.loadHigh;
-    double participants = static_cast<double>(out.participants), trials = static_cast<double>(out.trials);
-    double pilot = static_cast<double>(out.wanted.participants), area = 0;
-    auto read = readNumbers(arguments, given,
-                            {{"participants", &participants, {1, 100'000, true}},
-                             {"trials", &trials, {1, 10'000, true}},
-                             {"width", &out.wanted.width, {0.02, 1}},
-                             {"assurance", &out.wanted.assurance, {0.5, 0.999}},
-                             {"pilot", &pilot, {1, 100'000, true}},
-                             {"area_cm2", &area, {0, 1000}}});
-    if (!read) return failure(read);
-    out.participants = static_cast<std::size_t>(participants);
-    out.trials = static_cast<std::size_t>(trials);
-    out.wanted.participants = static_cast<std::size_t>(pilot);
-    if (area > 0) to.electrodeArea = SquareCentimetres(area);
-    if (auto population = readPopulation(arguments, given, out.population); !population) return failure(population);
-    auto levels = arguments.text(given, "levels", nameOf(to.levels));
-    if (!levels) return failure(levels);
-    const auto known = amplitudeLevelsFrom(*levels);
-    if (!known) return failure(known);
-    to.levels = *known;
-    auto guess = arguments.text(given, "guess", nameOf(out.guess));
-    if (!guess) return failure(guess);
-    const auto answer = guessBehaviourFrom(*guess);
-    if (!answer) return failure(answer);
-    out.guess = *answer;
-    return out;
-}
 
 Result<Json> variation(ScriptSession& session, const Json& list) {
     const Arguments arguments("analysis.variation", list);
@@ -136,7 +32,7 @@ Result<Json> variation(ScriptSession& session, const Json& list) {
     if (!given) return failure(given);
     auto label = arguments.text(*given, "label", "Virtual participants");
     if (!label) return failure(label);
-    const auto options = optionsFrom(session, arguments, *given);
+    const auto options = variationOptionsFrom(session, arguments, *given);
     if (!options) return failure(options);
 
     // The bench's stop is asked for while the threads work: a wait of no time fails once it came.
@@ -165,7 +61,7 @@ Result<Json> uncertainBench(ScriptSession& session, const Json& list) {
     auto given = arguments.options(0, {"draws", "source", "gain_pct", "offset_v", "load_pct", "scope_gain_pct",
                                        "scope_offset_pct", "clock_ppm", "jitter_us"});
     if (!given) return failure(given);
-    const auto drive = sourceFrom(arguments, *given);
+    const auto drive = variationSourceFrom(arguments, *given);
     if (!drive) return failure(drive);
     BenchTolerances tolerances;
     double draws = 4000, gain = 100 * tolerances.stimulatorGain, offset = tolerances.stimulatorOffset.value();
@@ -195,7 +91,11 @@ Json accuracyCurve(const Json& found) {
     Json x = Json::array(), y = Json::array();
     const Json& values = found["accuracies"];
     const double n = static_cast<double>(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    // More points than a page can show would only make the report large; the last one is always there.
+    constexpr std::size_t kPoints = 400;
+    const std::size_t step = 1 + values.size() / kPoints;
+    const std::size_t first = values.empty() ? 0 : (values.size() - 1) % step;
+    for (std::size_t i = first; i < values.size(); i += step) {
         x.push_back(100 * values[i].get<double>());
         y.push_back(100 * static_cast<double>(i + 1) / n);
     }

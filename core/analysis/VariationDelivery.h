@@ -4,7 +4,8 @@
 // case over the load range, the exact response of the skin's circuit. What would be refused is refused here too and
 // keeps its reason; nothing is made smaller so that it fits.
 //
-// A participant's |Z|, thresholds and the range between them are taken as known without error.
+// A participant's |Z|, thresholds and the range between them are taken as known without error, and skin as linear: its
+// R_p does not fall with intensity, it does not drift, contact is not lost.
 //
 // Thread-safety: values and pure functions.
 #pragma once

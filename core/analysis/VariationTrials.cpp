@@ -92,7 +92,7 @@ PooledTrials pooled(std::optional<std::size_t> independent, double rho, const Tr
     if (!(people > need * rho)) return out;
     // people·m / (1 + (m - 1)·rho) ≥ need, solved for m
     const double trials = need * (1 - rho) / (people - need * rho);
-    if (!(trials * people <= static_cast<double>(wanted.most) * people)) return out;
+    if (!(trials <= static_cast<double>(wanted.most))) return out;
     const auto block = static_cast<double>(wanted.conditions);
     const double whole = std::max(1.0, std::ceil(trials / block)) * block;
     out.perParticipant = static_cast<std::size_t>(whole);

@@ -41,7 +41,7 @@ TEST(Figure, ReadsNullAsNotKnownAndNeverAsZero) {
 TEST(Figure, NamesWhatIsWrongAndWhere) {
     EXPECT_EQ(refusal({{"type", "pie"}}),
               "A figure's type is \"pie\"; it can be conditions, plane, waveforms, confusion, exposure, timeline, "
-              "calibration or transitions.");
+              "calibration, transitions or curves.");
     EXPECT_EQ(refusal({{"type", "plane"}}), "A figure of type \"plane\": \"trials\" must be a list.");
     EXPECT_EQ(refusal({{"type", "plane"}, {"trials", QJsonArray{QJsonObject{{"amplitude_v", "ten"}}}}}),
               "A figure of type \"plane\".trials[0]: \"amplitude_v\" must be a number.");
