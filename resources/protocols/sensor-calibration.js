@@ -234,8 +234,13 @@ function taxelScales(p, weights) {
   return out;
 }
 
+// What one repeat cannot tell is not known, and is not 0.
+function digitsOf(value, digits) {
+  return value === null || value === undefined ? "–" : value.toPrecision(digits);
+}
+
 function show(estimate, digits) {
-  const one = (value) => (value === null ? "–" : value.toPrecision(digits));
+  const one = (value) => digitsOf(value, digits);
   return one(estimate.value) + " (95 %: " + one(estimate.low) + " to " + one(estimate.high) + ")";
 }
 
@@ -252,10 +257,10 @@ function writeScales(p, results) {
       "weight_n", "n", "mean", "mean_up", "mean_down", "s", "residual",
     ]);
     report.text(
-      "Force: " + force.scale.toPrecision(5) + " ± " + force.scale_expanded_uncertainty.toPrecision(2) + " N per " + force.unit +
-        ", offset " + force.offset.toPrecision(3) + " ± " + force.offset_expanded_uncertainty.toPrecision(2) +
-        " N (95 %); hysteresis " + force.hysteresis_pct_fs.toPrecision(2) + " % and repeatability " +
-        force.repeatability_pct_fs.toPrecision(2) + " % of the largest weight.",
+      "Force: " + digitsOf(force.scale, 5) + " ± " + digitsOf(force.scale_expanded_uncertainty, 2) + " N per " + force.unit +
+        ", offset " + digitsOf(force.offset, 3) + " ± " + digitsOf(force.offset_expanded_uncertainty, 2) +
+        " N (95 %); hysteresis " + digitsOf(force.hysteresis_pct_fs, 2) + " % and repeatability " +
+        digitsOf(force.repeatability_pct_fs, 2) + " % of the largest weight.",
     );
   } else {
     report.text("Force: " + force.reason + ".");
