@@ -350,8 +350,9 @@ function run(p) {
   writeSurfaces(found);
   writeScales(p, results);
   report.table("Slides", results.slides, SLIDE_COLUMNS);
-  report.table(
-    "Taxels at rest, nothing touched",
+  const taxels = results.sensor.find((stream) => stream.kind === "taxels");
+  if (taxels) report.table(
+    "Taxels at rest, nothing touched (" + taxels.unit + ")",
     rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor })),
     ["taxel", "baseline", "floor"],
   );
