@@ -149,9 +149,11 @@ std::vector<StepTrain> after(const std::vector<SeenTrain>& seen, double step_s, 
 }
 
 Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
-            const StepResponse& measured, const StepResponse& designed) {
+            const StepResponse& measured, std::span<const StepTrain> design) {
     const auto inSeconds = [](const std::optional<Seconds>& time) { return time ? Json(time->count()) : Json(); };
     const auto count = [](const std::optional<int>& trains) { return trains ? Json(*trains) : Json(); };
+    const StepResponse designed = respond(ends, design);
+    const ResponseRange range = rangeOf(ends, design);
     Json trains = Json::array();
     std::vector<Capture> kept;  // the train that carries it, then the one before
     double last_s = std::nan("");
@@ -174,8 +176,11 @@ Json answer(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s,
             {"since_onset_s", ends.sinceOnset.count()},
             {"latency_s", inSeconds(measured.latency)},
             {"designed_latency_s", inSeconds(designed.latency)},
+            {"designed_latency_low_s", inSeconds(range.first.latency)},
+            {"designed_latency_high_s", inSeconds(range.last.latency)},
             {"trains", count(measured.trains)},
             {"designed_trains", count(designed.trains)},
+            {"designed_trains_high", count(range.last.trains)},
             {"onsets", trains},
             {"captures", ids}};
 }
@@ -240,7 +245,7 @@ Result<Json> step(ScriptSession& session, const Json& list) {
     session.watchExposure();
     if (!finished) return failure(finished);
     const auto trains = after(seen, step_s, gain);
-    return answer(session, seen, step_s, ends, respond(ends, trains), respond(ends, *design));
+    return answer(session, seen, step_s, ends, respond(ends, trains), *design);
 }
 
 }  // namespace
@@ -260,7 +265,9 @@ std::vector<HostFunction> stepFunctions() {
          "{ step_s, since_onset_s, latency_s, designed_latency_s, trains, designed_trains, onsets, captures }: "
          "latency_s is from the step to the onset of the first train whose amplitude, or interval since the train "
          "before, has left what was there by a quarter of a just-noticeable difference; trains how many it takes until "
-         "the new ones are reached; designed_ the same of the trains that the scheduler's design has; onsets { "
+         "the new ones are reached; designed_ the same of the trains that the scheduler's design has, with _low_s and "
+         "_high "
+         "as a reading that is off by 0.05 of a difference finds them; onsets { "
          "after_step_s, amplitude_v, interval_s } as measured; captures those of the train that carries it and "
          "of the train before the step, for record.trial(). What was not measured is null.",
          "Throws without an oscilloscope, when it sees no train before the step, or when the run is stopped.",

@@ -4,35 +4,40 @@
 #include "core/encoding/Transitions.h"
 
 namespace tacto {
-namespace {
 
-// What was not measured, NaN, is neither near nor far.
-bool near(Volts a, Volts b) noexcept { return amplitudeDistance(a, b) <= kCarried; }
-bool near(Seconds a, Seconds b) noexcept { return intervalDistance(a, b) <= kCarried; }
-bool far(Volts a, Volts b) noexcept { return amplitudeDistance(a, b) > kCarried; }
-bool far(Seconds a, Seconds b) noexcept { return intervalDistance(a, b) > kCarried; }
-
-}  // namespace
-
-StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains) noexcept {
+StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, double carried) noexcept {
     StepResponse found;
+    // What was not measured, NaN, is neither near nor far.
+    const auto near = [carried](double distance) { return distance <= carried; };
+    const auto far = [carried](double distance) { return distance > carried; };
     const auto intervalBefore = [&](std::size_t k) {
         return k == 0 ? trains[0].onset + ends.sinceOnset : trains[k].onset - trains[k - 1].onset;
     };
     for (std::size_t k = 0; k < trains.size(); ++k) {
         const Seconds interval = intervalBefore(k);
         const Volts amplitude = trains[k].amplitude;
-        if (!found.latency && (far(amplitude, ends.before.amplitude) || far(interval, ends.before.interval))) {
+        if (!found.latency && (far(amplitudeDistance(amplitude, ends.before.amplitude)) ||
+                               far(intervalDistance(interval, ends.before.interval)))) {
             found.latency = trains[k].onset;
         }
         if (found.trains || k + 1 >= trains.size()) continue;
         // The first may come late and yet at once: more than the new interval had passed when the finger pressed.
-        const bool inTime = near(interval, ends.after.interval) || (k == 0 && interval > ends.after.interval);
-        if (inTime && near(amplitude, ends.after.amplitude) && near(intervalBefore(k + 1), ends.after.interval)) {
+        const bool inTime =
+            near(intervalDistance(interval, ends.after.interval)) || (k == 0 && interval > ends.after.interval);
+        if (inTime && near(amplitudeDistance(amplitude, ends.after.amplitude)) &&
+            near(intervalDistance(intervalBefore(k + 1), ends.after.interval))) {
             found.trains = static_cast<int>(k) + 1;
         }
     }
     return found;
+}
+
+ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed) noexcept {
+    constexpr double kOff = 0.2;
+    const StepResponse early = respond(ends, designed, (1 - kOff) * kCarried);
+    const StepResponse late = respond(ends, designed, (1 + kOff) * kCarried);
+    // What leaves sooner under a small threshold arrives later under it.
+    return {{early.latency, late.trains}, {late.latency, early.trains}};
 }
 
 Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, const StepEnds& ends) {

@@ -38,8 +38,17 @@ struct StepResponse {
     std::optional<int> trains;       ///< after the step until it has arrived, 1 being at once; it did not: empty
 };
 
-/// `trains` in time order.
-[[nodiscard]] StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains) noexcept;
+/// `trains` in time order; `carried` in just-noticeable differences, above 0.
+[[nodiscard]] StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains,
+                                   double carried = kCarried) noexcept;
+
+/// What a measurement of `designed` may find: under slew limits the amplitude creeps past kCarried, and a reading that
+/// is off by a fifth of that moves it to the train before or after.
+struct ResponseRange {
+    StepResponse first;  ///< the earliest latency, the fewest trains
+    StepResponse last;
+};
+[[nodiscard]] ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed) noexcept;
 
 /// The trains that the scheduler sends after the step, slew limits and all: until the step has arrived, and two more.
 /// Errors: InvalidArgument for a profile that is not valid, a `sinceOnset` that is not 0 to the interval before, and

@@ -2,6 +2,11 @@
 //
 // The same trials in the same order under both assignments and the three curves, each judged on what the oscilloscope
 // saw. R and P are set directly, so that the encoding alone makes the difference.
+//
+// Results: { default, encodings: [{ name, assignment, curve, conditions, pairs, smallest_amplitude_jnd,
+// smallest_interval_jnd, smallest_pair_jnd, mahalanobis_min, amplitude_variation_max, interval_variation_max, accuracy,
+// separable, neighbours, levels, gradual_jnd, abrupt_jnd }], differences, conclusion, reference }; verdict null: a
+// comparison has none unless something was not measured (indeterminate).
 protocol({
   title: "Encoding comparison",
   purpose: "Both assignments and the three curves side by side, in just-noticeable differences",
@@ -12,6 +17,7 @@ protocol({
     low: { label: "R or P of a smooth or low condition", min: 0, max: 1, value: 0.1 },
     high: { label: "R or P of a rough or high condition", min: 0, max: 1, value: 0.9 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, value: 1e3 },
+    load_tolerance_pct: { label: "Tolerance of the load", unit: "%", min: 0.001, max: 20, value: 5 },
     traverse_s: { label: "A finger crosses the plane in", unit: "s", min: 0.1, max: 600, value: 5 },
   },
 });
@@ -28,6 +34,28 @@ function encodings() {
     for (const curve of CURVES) out.push({ assignment, curve, name: ASSIGNMENTS[assignment] + ", " + curve });
   }
   return out;
+}
+
+// Before anything is believed: the wiring as drawn, and the known load must read as what it is.
+function checkReference(p) {
+  if (bench.devices.some((device) => !device.simulated)) {
+    operator.confirm(
+      "wiring",
+      "The load of " + p.load + " ohm is connected as drawn: both oscilloscope grounds at one node, the shunt in the " +
+        "low side, its drop subtracted from the voltage",
+      { drawing: "wiring" },
+    );
+  }
+  bench.arm({ load: p.load });
+  bench.drive("manual", { roughness: 1, pressure: 1 });
+  const reading = measure.pulse(bench.capture({ trains: 1 }));
+  const off = reading.load_ohm ? Math.abs(reading.load_ohm / p.load - 1) : null;
+  const allowed = p.load_tolerance_pct / 100 + (reading.load_limit || 0);
+  const check = { load_ohm: p.load, measured_ohm: reading.load_ohm || null, allowed_pct: 100 * allowed,
+    passed: off !== null && off <= allowed };
+  record.measurement("known-reference check", check);
+  report.table("Known-reference check", [check], ["load_ohm", "measured_ohm", "allowed_pct", "passed"]);
+  return check;
 }
 
 function conditionsOf(p) {
@@ -219,19 +247,24 @@ function conclusion(done) {
 
 function run(p) {
   if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
+  const reference = checkReference(p);
+  bench.disarm();
+  if (!reference.passed) {
+    return verdict({ verdict: "indeterminate", reference, encodings: [], reasons: ["the known-reference check failed; nothing was compared"] });
+  }
   const trials = random.blocks(conditionsOf(p), p.repeats);
   const between = random.blocks(levels(), p.level_repeats);
   const done = [];
   for (const encoding of encodings()) {
     done.push(compare(p, encoding, trials, between));
-    record.partial({ encodings: done.slice() }, tablesOf(done));
+    record.partial({ reference, encodings: done.slice() }, tablesOf(done));
   }
   report.text("R to A: texture sets the amplitude, pressure the interval; swapped: the other way round. The default is " + done[0].name +
     ". Conditions at R and P of " + p.low + " and " + p.high + ": at 0 and 1 all curves meet.");
   for (const table of tablesOf(done)) report.table(table.caption, table.rows, table.columns);
-  for (const each of done.filter((one) => one.curve === "linear")) report.figure("Four conditions: " + each.name, plot.conditions(each));
+  report.figure("Four conditions under the default, " + done[0].name, plot.conditions(done[0]));
   report.figure("Exposure against limits", plot.exposure());
-  const results = { default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])) };
+  const results = { reference, default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])) };
   const missing = done.filter((each) => each.smallest_pair_jnd === null || each.neighbours.min_jnd === null);
   // A comparison has no pass: it has a verdict only where it could not be made.
   results.verdict = missing.length > 0 ? "indeterminate" : null;

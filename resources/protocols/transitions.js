@@ -2,6 +2,9 @@
 //
 // The R-P plane is swept with the bench's own encoding; then the finger steps, and the first train that carries the
 // step is looked for in the oscilloscope's records. Definitions: science.md sections 4 and 10.
+//
+// Results: { transitions: from analysis.transitions(), steps: [{ name, and what bench.step() returned }], latency: from
+// analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed }, verdict, reasons }.
 protocol({
   title: "Transitions",
   purpose: "The largest step from train to train in just-noticeable differences, and the latency of a step",

@@ -52,6 +52,24 @@ TEST(StepResponse, SlewLimitsSpreadAStepOverTrains) {
     EXPECT_EQ(designOf(slow, {Seconds(0.4), at(10, 1.25), at(40, 1.25)}).trains, 3);
 }
 
+TEST(StepResponse, LeavesOpenWhichTrainOfACreepingAmplitudeCarriesIt) {
+    EncodingProfile slow;
+    slow.amplitudeSlew_V_per_s = 0.25;  // 0.3125 V a train: at 40 V a twelfth of a difference
+    const StepEnds down{Seconds(0.4), at(40, 1.25), at(10, 1.25)};
+    const auto trains = designedTrains(slow, down).value();
+    const auto range = rangeOf(down, trains);
+    // 0.2 and 0.3 differences below 40 V are 0.76 and 1.13 V: the third and the fourth train.
+    EXPECT_NEAR(range.first.latency.value().count(), 0.85 + 2 * 1.25, 1e-8);
+    EXPECT_NEAR(range.last.latency.value().count(), 0.85 + 3 * 1.25, 1e-8);
+    EXPECT_LE(range.first.trains.value(), respond(down, trains).trains.value());
+    EXPECT_GE(range.last.trains.value(), respond(down, trains).trains.value());
+
+    const StepEnds jump{Seconds(0.4), at(40, 1.25), at(10, 1.25)};
+    const auto whole = rangeOf(jump, designedTrains({}, jump).value());
+    EXPECT_EQ(whole.first.latency, whole.last.latency) << "a whole step leaves nothing open";
+    EXPECT_EQ(whole.first.trains, whole.last.trains);
+}
+
 TEST(StepResponse, OfTrainsThatNeverChangeIsNothing) {
     const StepEnds ends{Seconds(0.4), at(10, 1), at(40, 1)};
     const std::vector<StepTrain> same{

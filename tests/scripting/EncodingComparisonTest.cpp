@@ -111,6 +111,17 @@ TEST(EncodingComparison, AtTheEndsTheCurvesAreTheSame) {
     EXPECT_THAT(outcome.results["conclusion"].get<std::string>(), HasSubstr("they do not decide"));
 }
 
+TEST(EncodingComparison, OnAnotherLoadThanStatedComparesNothing) {
+    RecordProperty("hazard", "H9");
+    auto other = kShort;
+    other["load"] = "900";
+    const auto outcome = compare(other);
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_TRUE(outcome.results["encodings"].empty());
+    EXPECT_THAT(outcome.reasons.front(), HasSubstr("known-reference check failed"));
+}
+
 TEST(EncodingComparison, ReportsSideBySideAndAgainstTheDefault) {
     RunBench rig(true, "sim:", 1, true, kNeeded);
     const auto outcome = runProtocol(requestFor(rig, kShort)).value();

@@ -88,6 +88,17 @@ TEST(TransitionsProtocol, PassesWithSuitableSlewLimitsAndCountsTheTrains) {
     }
 }
 
+TEST(TransitionsProtocol, FollowsAStepOverMoreTrainsThanAnOscilloscopeIsAskedForAtOnce) {
+    const auto outcome = sweep("sim:", {{"repeats", "1"}, {"slew", "given"}, {"slew_v_per_s", "0.25"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& texture = outcome.results["latency"]["groups"][2];
+    EXPECT_EQ(texture["name"], "texture up");
+    EXPECT_GT(texture["trains"]["max"].get<double>(), 90);  // 30 V at 0.25 V/s and 1.25 s a train are 96
+    // A train adds a twelfth of a difference: a reading may find the step complete a train sooner or later.
+    EXPECT_NEAR(texture["trains"]["max"].get<double>(), texture["designed_trains"]["max"].get<double>(), 1);
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
+}
+
 TEST(TransitionsProtocol, FailsAStimulatorThatIsLate) {
     RecordProperty("hazard", "H9");
     // 30 ms from command to onset: every train has them, so that a press felt at once is where they show.
