@@ -144,7 +144,7 @@ void CalibrationCard::tell(const StimulatorId& stimulator) {
     warns_ = !counts_;
     word_->setText((counts_ ? "✔ " : "⚠ ") + standingText(standing));
     QStringList facts;
-    if (!counts_) facts << standing.why + tr(" Bench loads only until then; Calibrate does it.");
+    if (!counts_) facts << standing.why + tr(" Until then the stimulator is for bench loads only.");
     if (standing.newest) facts << factsOf(*standing.newest) + ".";
     facts_->setText(facts.join("\n"));
     word_->setToolTip(standingTip(standing));
@@ -162,9 +162,10 @@ void CalibrationCard::setReady(bool ready) {
 }
 
 void CalibrationCard::colour() {
-    auto palette = this->palette();
-    palette.setColor(QPalette::WindowText, counts_ ? colours().good : warns_ ? colours().amber : colours().text);
-    word_->setPalette(palette);
+    // As a sheet: a label's own palette is lost when the theme's sheet changes.
+    const auto& ink = counts_ ? colours().good : warns_ ? colours().amber : colours().text;
+    const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
+    if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);
 }
 
 void CalibrationCard::changeEvent(QEvent* event) {

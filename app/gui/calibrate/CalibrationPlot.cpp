@@ -11,7 +11,10 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kBandAlpha = 40;
 constexpr int kTicks = 5;
-constexpr int kOneRowChars = 60;  // the legend stands in one row from this width on
+constexpr int kEdge = 4;  // pixels around the axes
+constexpr int kLeastChars = 24;
+constexpr int kLeastLines = 10;
+constexpr int kOneRowChars = 76;  // the legend stands in one row from this width on
 
 /// The smallest range that holds all it was shown; NaN is passed over.
 struct Reach {
@@ -42,7 +45,8 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
                            "went. A cross marks a reading that stands out: it is kept."));
     build();
     addPlotMenu(*this, errors ? "calibration-errors" : "calibration");
-    setMinimumHeight(fontMetrics().height() * 11);
+    // Stated, or the legend in one row would say how narrow the window may become.
+    setMinimumSize(fontMetrics().averageCharWidth() * kLeastChars, fontMetrics().height() * kLeastLines);
     clear();
 }
 
@@ -60,19 +64,8 @@ void CalibrationPlot::build() {
     marked_->setName(tr("stands out"));
     means_->setName(tr("mean ± U"));
     bandTop_->setName(tr("tolerance"));
-    line_->setName(tr("fitted line"));
-    axisRect()->insetLayout()->take(legend);
-    plotLayout()->insertRow(0);
-    plotLayout()->addElement(0, 0, legend);
-    plotLayout()->setRowStretchFactor(0, 0.001);
-    legend->setMaximumSize(100000, 100000);  // else an empty one narrows the axes to nothing
-    legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
-    legend->clearItems();
-    if (kind_ == Kind::Errors)
-        named_ = {up_, down_, marked_, means_, bandTop_};
-    else
-        named_ = {up_, down_, marked_, line_};
-    for (auto* graph : named_) graph->addToLegend();
+    axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));
+    if (kind_ == Kind::Errors) addLegend();
     watermark_ = addWatermark(*axisRect());
     watermark_->setVisible(false);
     empty_ = new QCPItemText(this);
@@ -80,6 +73,20 @@ void CalibrationPlot::build() {
     empty_->position->setCoords(0.5, 0.5);
     empty_->setText(kind_ == Kind::Errors ? tr("... and its error here,\nagainst the tolerance.")
                                           : tr("Each reading appears here\nagainst its command ..."));
+}
+
+/// One for both plots, above the wider one.
+void CalibrationPlot::addLegend() {
+    axisRect()->insetLayout()->take(legend);
+    plotLayout()->insertRow(0);
+    plotLayout()->addElement(0, 0, legend);
+    plotLayout()->setRowStretchFactor(0, 0.001);
+    plotLayout()->setRowSpacing(0);
+    legend->setMaximumSize(100000, 100000);  // else an empty one narrows the axes to nothing
+    legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    legend->clearItems();
+    named_ = {up_, down_, marked_, means_, bandTop_};
+    for (auto* graph : named_) graph->addToLegend();
 }
 
 void CalibrationPlot::clear() {
@@ -131,7 +138,7 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         axis->setTicker(QSharedPointer<PlainTicker>::create(kTicks));
     }
     empty_->setVisible(false);
-    legend->setVisible(true);
+    legend->setVisible(kind_ == Kind::Errors);
     replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -208,7 +215,7 @@ void CalibrationPlot::colour() {
 void CalibrationPlot::resizeEvent(QResizeEvent* event) {
     // Names in one row where they fit, else three in a row.
     const int wrap = width() < fontMetrics().averageCharWidth() * kOneRowChars ? 3 : 0;
-    if (legend->wrap() != wrap) {
+    if (!named_.empty() && legend->wrap() != wrap) {
         legend->setWrap(wrap);
         // A grid keeps its cells where they were: put them in anew.
         for (auto* graph : named_) graph->removeFromLegend();

@@ -1,6 +1,6 @@
 // CalibrationPlot.h - a calibration's readings over their commands: as measured, with the fitted line; or as errors,
 // in the tolerance band, with each level's mean and its uncertainty. Going up and down are told apart, readings that
-// stand out are marked and kept.
+// stand out are marked and kept. The errors carry the legend of both.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -35,6 +35,7 @@ protected:
 
 private:
     void build();
+    void addLegend();
     void drawLine(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void drawBand(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void drawMeans(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);

@@ -217,9 +217,9 @@ void SafetyBar::showCalibration() {
                                      : tr("Calibration of the stimulator. Without a valid one it is for bench loads "
                                           "only."));
     }
-    auto palette = this->palette();
-    palette.setColor(QPalette::WindowText, counts ? colours().text : colours().amber);
-    if (calibration_->palette() != palette) calibration_->setPalette(palette);
+    // As a sheet: a label's own palette is lost when the theme's sheet changes.
+    const auto sheet = QString("QLabel { color: %1; }").arg((counts ? colours().text : colours().amber).name());
+    if (calibration_->styleSheet() != sheet) calibration_->setStyleSheet(sheet);
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {

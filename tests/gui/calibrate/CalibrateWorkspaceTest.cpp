@@ -82,6 +82,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     ASSERT_NE(budget, nullptr);
     EXPECT_EQ(budget->item(0, 0)->text(), "repeatability");
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
+    QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     gui::applyTheme(gui::Theme::Dark);
     shot(workspace, "calibrate_done_dark");
@@ -103,12 +104,15 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     show({760, 500});
     EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ calibration expired 35 d ago"));
     EXPECT_FALSE(button("checkButton")->isEnabled());
+    EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_expired_small");
     amplitudeOnly();
     click(*button("calibrateButton"));
     ASSERT_TRUE(ends());
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 2);
+    QTest::qWait(20);  // drawn with the next event
+    EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_done_small");
 }
 
@@ -126,6 +130,20 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     shot(workspace, "calibrate_wrong_load");
 }
 
+class CalibrateInLargeText : public Calibrate {
+protected:
+    CalibrateInLargeText() { gui::applyTextSize(200); }
+    ~CalibrateInLargeText() override { gui::applyTextSize(100); }
+};
+
+TEST_F(CalibrateInLargeText, FitsALargeWindow) {
+    store(calibration(12, 365));
+    show({1600, 1000});
+    QTest::qWait(50);  // laid out anew
+    EXPECT_LE(workspace.width(), 1600);
+    shot(workspace, "calibrate_200");
+}
+
 TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     show({1024, 640});
     auto* wiring = find<QPushButton>(workspace, "Wiring");
@@ -134,6 +152,7 @@ TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     const auto* drawing = workspace.findChild<QLabel*>("wiringDrawing");
     ASSERT_NE(drawing, nullptr);
     EXPECT_TRUE(drawing->isVisible());
+    QTest::qWait(50);  // laid out anew
     shot(workspace, "calibrate_wiring");
 }
 

@@ -1,4 +1,5 @@
 // Readings of a calibration as they come: which way, which stand out, in which band.
+#include <QTest>
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
@@ -58,6 +59,7 @@ TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
     EXPECT_TRUE(errors().hasBand());
     EXPECT_TRUE(measured().hasLine());
     EXPECT_THAT(says(), HasSubstr("marked and kept"));
+    QTest::qWait(20);  // drawn with the next event
     shot(view, "calibrate_view");
 }
 
