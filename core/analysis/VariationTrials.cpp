@@ -101,15 +101,30 @@ PooledTrials pooled(std::optional<std::size_t> independent, double rho, const Tr
     return out;
 }
 
+/// P(X = k) for k = 0..n, the mean over people: for every outcome at once far cheaper than one tail after the other.
+std::vector<double> outcomes(std::span<const double> accuracies, std::size_t n) {
+    std::vector<double> logFactorial(n + 1, 0.0), out(n + 1, 0.0);
+    for (std::size_t k = 1; k <= n; ++k) logFactorial[k] = logFactorial[k - 1] + std::log(static_cast<double>(k));
+    const double share = 1 / static_cast<double>(accuracies.size());
+    for (const double p : accuracies) {
+        if (p <= 0 || p >= 1) {
+            out[p <= 0 ? 0 : n] += share;
+            continue;
+        }
+        const double right = std::log(p), wrong = std::log1p(-p);
+        for (std::size_t k = 0; k <= n; ++k) {
+            const double ways = logFactorial[n] - logFactorial[k] - logFactorial[n - k];
+            out[k] += share * std::exp(ways + static_cast<double>(k) * right + static_cast<double>(n - k) * wrong);
+        }
+    }
+    return out;
+}
+
 /// Quantiles of the width: the mass of each outcome, gathered in order of width.
 Estimate widthsAt(std::span<const double> accuracies, std::size_t n) {
     std::vector<std::pair<double, double>> mass;
-    double above = 1;
-    for (std::size_t k = 0; k <= n; ++k) {
-        const double next = over(accuracies, [&](double p) { return binomialAtLeast(k + 1, n, p); });
-        mass.emplace_back(widthOf(k, n), std::max(0.0, above - next));
-        above = next;
-    }
+    const auto shares = outcomes(accuracies, n);
+    for (std::size_t k = 0; k <= n; ++k) mass.emplace_back(widthOf(k, n), shares[k]);
     std::ranges::stable_sort(mass, {}, &std::pair<double, double>::first);
     const auto quantile = [&mass](double q) {
         double sum = 0;

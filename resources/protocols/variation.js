@@ -53,6 +53,12 @@ function percent(accuracy) {
   return { value: 100 * accuracy.median, low: 100 * accuracy.low, high: 100 * accuracy.high };
 }
 
+// A thousandth of a just-noticeable difference says nothing.
+function rounded(estimate) {
+  const digits = (x) => (x === null ? null : Math.round(1000 * x) / 1000);
+  return { value: digits(estimate.value), low: digits(estimate.low), high: digits(estimate.high) };
+}
+
 function summary(name, found) {
   return { amplitudes: name, participants: found.participants, presented_all: found.complete,
     refused: found.refused, not_felt: found.not_felt, accuracy_pct: percent(found.accuracy),
@@ -97,15 +103,16 @@ function run(p) {
   report.text("In every table a value is the median, and in brackets stand 5 and 95 %, of participants or of benches.");
   report.table("Which amplitudes" + MARK, [summary(names[p.levels], found), summary(names[other], compared)],
     ["amplitudes", "participants", "presented_all", "refused", "not_felt", "accuracy_pct", "information_bits"]);
-  report.table("Conditions" + MARK, found.conditions,
+  report.table("Conditions" + MARK, found.conditions.map((each) => Object.assign({}, each, { interval_s: each.interval_s.value })),
     ["name", "presented", "refused", "not_felt", "current_ma", "voltage_v", "interval_s"]);
-  report.table("Separability" + MARK, found.separability, ["a", "b", "participants", "jnd", "amplitude_jnd", "interval_jnd"]);
+  report.table("Separability" + MARK, found.separability, ["a", "b", "jnd", "amplitude_jnd", "interval_jnd"]);
   report.table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(found.trials_needed),
     ["aim", "one_participant", "pooled_each", "pooled_trials", "design_effect", "participants_at_least"]);
   if (found.trials_needed !== null) report.text(found.trials_needed.assumptions);
   report.table("Withheld, participants times conditions" + MARK, found.withheld, ["reason", "count"]);
   report.table("Benches within their tolerances" + MARK, bench.conditions, ["name", "amplitude_v", "interval_s"]);
-  report.table("Benches: distance of the conditions" + MARK, bench.pairs, ["a", "b", "amplitude_jnd", "interval_jnd"]);
+  report.table("Benches: distance of the conditions" + MARK, bench.pairs.map((each) => ({ a: each.a, b: each.b,
+    amplitude_jnd: rounded(each.amplitude_jnd), interval_jnd: rounded(each.interval_jnd) })), ["a", "b", "amplitude_jnd", "interval_jnd"]);
 
   const results = Object.assign({ verdict: null, levels: p.levels, source: p.source }, found);
   results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete,
