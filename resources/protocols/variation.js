@@ -103,8 +103,8 @@ function run(p) {
   report.text("In every table a value is the median, and in brackets stand 5 and 95 %, of participants or of benches.");
   report.table("Which amplitudes" + MARK, [summary(names[p.levels], found), summary(names[other], compared)],
     ["amplitudes", "participants", "presented_all", "refused", "not_felt", "accuracy_pct", "information_bits"]);
-  report.table("Conditions" + MARK, found.conditions.map((each) => Object.assign({}, each, { interval_s: each.interval_s.value })),
-    ["name", "presented", "refused", "not_felt", "current_ma", "voltage_v", "interval_s"]);
+  report.table("Conditions" + MARK, found.conditions,
+    ["name", "presented", "refused", "not_felt", "current_ma", "voltage_v"]);
   report.table("Separability" + MARK, found.separability, ["a", "b", "jnd", "amplitude_jnd", "interval_jnd"]);
   report.table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(found.trials_needed),
     ["aim", "one_participant", "pooled_each", "pooled_trials", "design_effect", "participants_at_least"]);
