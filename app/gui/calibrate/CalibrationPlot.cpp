@@ -71,8 +71,8 @@ void CalibrationPlot::build() {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(kind_ == Kind::Errors ? tr("... and its error here,\nagainst the tolerance.")
-                                          : tr("Each reading appears here\nagainst its command ..."));
+    empty_->setText(kind_ == Kind::Errors ? tr("Each reading's error appears here\nagainst the tolerance.")
+                                          : tr("Each reading appears here\nagainst its command."));
 }
 
 /// One for both plots, above the wider one.

@@ -130,11 +130,13 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     shot(workspace, "calibrate_wrong_load");
 }
 
-class CalibrateInLargeText : public Calibrate {
+/// Before anything measures its text, as the program does it.
+class LargeText {
 protected:
-    CalibrateInLargeText() { gui::applyTextSize(200); }
-    ~CalibrateInLargeText() override { gui::applyTextSize(100); }
+    LargeText() { gui::applyTextSize(200); }
+    ~LargeText() { gui::applyTextSize(100); }
 };
+class CalibrateInLargeText : private LargeText, public Calibrate {};
 
 TEST_F(CalibrateInLargeText, FitsALargeWindow) {
     store(calibration(12, 365));
