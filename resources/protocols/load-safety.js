@@ -25,7 +25,7 @@ protocol({
 
 const LOAD_COLUMNS = ["name", "serial", "nominal_ohm", "measured_ohm", "peak_v", "peak_ma", "rms_train_ma", "rms_1s_ma",
   "rms_5s_ma", "charge_uc", "net_charge_uc", "energy_mj", "power_density_w_cm2", "verdict"];
-const ROW_COLUMNS = ["load", "title", "value", "expanded_uncertainty", "limit", "unit", "source", "verdict"];
+const ROW_COLUMNS = ["title", "load", "value", "expanded_uncertainty", "limit", "unit", "verdict"];
 
 function newRecord(name) {
   return { name: name, steps: [], refusals: [] };
@@ -172,8 +172,24 @@ function tracingsOf(loads) {
   return out;
 }
 
+function byTitle(rows) {
+  const titles = rows.map((row) => row.title).filter((title, i, all) => all.indexOf(title) === i);
+  return titles.reduce((sorted, title) => sorted.concat(rows.filter((row) => row.title === title)), []);
+}
+
+// Where each limit comes from, once, and not on every row.
+function sources(rows) {
+  const said = [];
+  for (const row of rows) {
+    const text = row.title + ": " + row.source;
+    if (row.source && row.set !== "gate" && row.set !== "interlock" && !said.includes(text)) said.push(text);
+  }
+  return said.length === 0 ? "" : "Sources of the limits. " + said.join("; ") + ".";
+}
+
 function tables(found) {
-  const of = (set) => found.rows.filter((row) => row.set === set);
+  // By requirement, so that a page shows one of them over all loads.
+  const of = (set) => byTitle(found.rows.filter((row) => row.set === set));
   return [
     { caption: "Loads", rows: found.loads, columns: LOAD_COLUMNS },
     { caption: "Outputs that the FDA guidance asks to be stated", rows: found.disclosed,
@@ -184,7 +200,7 @@ function tables(found) {
     { caption: "The laboratory's own", rows: of("laboratory"), columns: ROW_COLUMNS },
     { caption: "Asked for and refused", rows: of("gate"), columns: ["load", "title", "source", "verdict", "reason"] },
     { caption: "What must end output by itself", rows: of("interlock"), columns: ["title", "value", "unit", "verdict", "reason"] },
-    { caption: "Worst case over the permitted loads, extrapolated", rows: found.worst_case.rows, columns: ROW_COLUMNS },
+    { caption: "Worst case over the permitted loads, extrapolated", rows: byTitle(found.worst_case.rows), columns: ROW_COLUMNS },
   ];
 }
 
@@ -251,6 +267,8 @@ function run(p) {
       "From the baseline before the train; the strongest command that the limits allow."));
   }
   for (const table of tables(found)) report.table(table.caption, table.rows, table.columns);
+  const from = sources(found.rows.concat(found.worst_case.rows));
+  if (from !== "") report.text(from);
   if (found.reasons.length > 0) report.text(found.reasons.slice(0, 12).join(". ") + ".");
   return verdict(found);
 }
