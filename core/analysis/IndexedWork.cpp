@@ -16,6 +16,14 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{50};
 
+/// A thread inherits the vector registers of the one that starts it. Where that one has left their upper halves in use,
+/// as the scripts' engine does, scalar mathematics waits for them at every step: measured 7 to 10 times slower.
+void clearUpperHalves() noexcept {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx")) asm volatile("vzeroupper");
+#endif
+}
+
 /// Shared by the caller and its threads for one call.
 struct Crew {
     Crew(const IndexedWork& work, std::stop_token token) : wanted(work), stop(std::move(token)) {}
@@ -30,6 +38,7 @@ struct Crew {
     std::string reason;       // guarded by mutex
 
     void run() {
+        clearUpperHalves();
         while (!stop.stop_requested() && !broken) {
             const std::size_t index = next.fetch_add(1);
             if (index >= wanted.count) break;
