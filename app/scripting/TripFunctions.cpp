@@ -183,7 +183,9 @@ Result<Json> bySilence(ScriptSession& session, const Json& list) {
     session.noteExpectedFault();
     if (auto reset = bench.resetFault(); !reset) return failure(reset);
     const bool quiet = seen.trainsDelivered <= delivered + 1;  // one may have been under way
-    return trial("dead-man", true, quiet, toSeconds(Heartbeat::kSilence), seen.reason.view());
+    const auto after = bench.silencedAfter();
+    return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : std::nan(""),
+                 seen.reason.view());
 }
 
 }  // namespace

@@ -470,6 +470,12 @@ Result<void> Bench::withholdHeartbeat(Seconds duration) {
     return {};
 }
 
+std::optional<Seconds> Bench::silencedAfter() const noexcept {
+    const auto& stimulator = state_->stimulator;
+    if (!stimulator || stimulator->silencedAfter() == Instant(0)) return std::nullopt;
+    return Seconds(stimulator->silencedAfter());
+}
+
 Result<void> Bench::drive(DriveSource source, double roughness, double pressure) {
     auto& s = *state_;
     if (source == DriveSource::Sensor && !s.sensor) {

@@ -74,6 +74,8 @@ public:
     /// of a bench load needs. The device threads go on, and end the output when they notice; the loop then finds a
     /// fault. Errors: Unsupported outside bench loads; InvalidArgument unless above 0 and at most 10 s; Stopped.
     [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
+    /// How long the loop had been silent when the stimulator was switched off for it; nothing if that never happened.
+    [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
 
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor.
@@ -110,8 +112,8 @@ public:
     /// What a request has brought so far, or why the oscilloscope failed. Empties it.
     [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
     void cancelCaptures() noexcept;
-    /// Also pushes the sensor's samples into `tap`, not owned, until null is passed; for a caller that wants them itself
-    /// and takes them between waits. On return nothing pushes into the one before.
+    /// Also pushes the sensor's samples into `tap`, not owned, until null is passed; for a caller that wants them
+    /// itself and takes them between waits. On return nothing pushes into the one before.
     void listen(BenchTap* tap);
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;

@@ -147,6 +147,8 @@ void StimulatorSession::feedDeadMan(Instant now) noexcept {
         // when it comes back.
         if (!std::exchange(silenced_, true) && everServed_) {
             device_.forceOff();
+            const auto silence = heartbeat_.silence(clock_.now()).value_or(Instant(0));
+            silencedAfter_.store(silence.count(), std::memory_order_relaxed);
             TrainReport silent;
             silent.outcome = TrainOutcome::LoopSilent;
             silent.onset = silent.statusAt = now;

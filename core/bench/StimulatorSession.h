@@ -46,6 +46,12 @@ public:
         return Instant(longestGap_.load(std::memory_order_relaxed));
     }
 
+    /// How long the loop had been silent when the output had been switched off for it, the last time; 0 = never. Any
+    /// thread.
+    [[nodiscard]] Instant silencedAfter() const noexcept {
+        return Instant(silencedAfter_.load(std::memory_order_relaxed));
+    }
+
     /// Does what is due and returns when it wants to be called again.
     Instant serve(Instant now) noexcept;
 
@@ -76,6 +82,7 @@ private:
     SpscRing<TrainReport> reports_{16};
     std::atomic<bool> healthAsked_{false};
     std::atomic<Instant::rep> longestGap_{0};
+    std::atomic<Instant::rep> silencedAfter_{0};
     std::optional<Result<void>> health_;  // guarded by mailbox_
 
     // The device thread's own:

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <limits>
+#include <optional>
 
 #include "core/base/Units.h"
 
@@ -24,6 +25,12 @@ public:
     [[nodiscard]] bool alive(Instant now) const noexcept {
         const auto last = last_.load(std::memory_order_acquire);
         return last != kNever && now.count() - last <= kSilence.count();
+    }
+    /// How long ago the last beat was; nothing before the first and after end().
+    [[nodiscard]] std::optional<Instant> silence(Instant now) const noexcept {
+        const auto last = last_.load(std::memory_order_acquire);
+        if (last == kNever) return std::nullopt;
+        return now - Instant(last);
     }
 
 private:

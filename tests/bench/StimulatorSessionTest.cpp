@@ -98,12 +98,14 @@ TEST_F(StimulatorSessionTest, SwitchesOffWhenTheLoopIsSilent) {
     device_.traits_.deadMan = Seconds(2);
     passTo(200ms);
     EXPECT_EQ(device_.offs, 0);
+    EXPECT_EQ(session_.silencedAfter(), 0ms);
     const int kept = device_.keptAlive;
     EXPECT_GE(kept, 1);
     // Nobody beats any more.
     clock_.advanceTo(301ms);
     session_.serve(clock_.now());
     EXPECT_EQ(device_.offs, 1);
+    EXPECT_EQ(session_.silencedAfter(), 101ms);
     clock_.advanceTo(5s);
     session_.serve(clock_.now());
     EXPECT_EQ(device_.keptAlive, kept) << "a hung program must not hold off the dead-man switch";

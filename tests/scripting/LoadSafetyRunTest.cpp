@@ -66,12 +66,17 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
     LoadSafetyRig rig({});
     const auto outcome = rig.run();
     std::size_t trips = 0;
+    double silence_s = 0;
     for (const auto& row : outcome.results["rows"]) {
         if (row["item"] != "trip") continue;
         ++trips;
         EXPECT_EQ(row["verdict"], "pass") << row.dump();
-        EXPECT_TRUE(row["value"].is_number()) << row.dump();
+        ASSERT_TRUE(row["value"].is_number()) << row.dump();
+        if (row["title"] != "trip: dead-man") continue;
+        silence_s = row["value"].get<double>();
     }
+    EXPECT_GT(silence_s, 0.1) << "measured, and more than the silence that is waited for";
+    EXPECT_LT(silence_s, 0.15);
     EXPECT_EQ(trips, 6U);
     EXPECT_EQ(outcome.expectedFaults, 4U) << "open, short, loose contact, silence; arming is refused without a fault";
 }
