@@ -1,6 +1,7 @@
 // KnownCalibration.h - what the store knows of the stimulator that is connected, for a bench that is about to be made.
 //
-// What is missing, expired, damaged, impossible or of a simulated bench only is *not calibrated*; the text says why.
+// What is missing, expired, damaged or of a simulated bench only is *not calibrated*; the text says why. The gate
+// judges by the last that is known all the same, and arms no stimulator that is out of order by it (H1, H9).
 //
 // Thread-safety: pure but for reading the store.
 #pragma once
@@ -10,8 +11,9 @@
 namespace tacto {
 
 struct KnownCalibration {
-    std::optional<AmplitudeCalibration> calibration;
-    std::string text;  ///< one sentence; empty without a stimulator
+    std::optional<AmplitudeCalibration> calibration;  ///< the last, whatever its date
+    bool holds = false;                               ///< today, for this device
+    std::string text;                                 ///< one sentence; empty without a stimulator
 };
 
 [[nodiscard]] KnownCalibration knownCalibration(const DeviceSet& devices);

@@ -6,6 +6,7 @@
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/calibration/CalibrationStore.h"
+#include "core/devices/DeviceUri.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -31,7 +32,8 @@ Result<Json> calibration(ScriptSession& session, const Json&) {
     const auto& device = (*stimulator)->identity();
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);
-    const auto found = store->valid(device.serial, unitOf(**stimulator), today(), device.simulated);
+    const auto found =
+        store->valid(calibratedOutput(device.serial, device.uri), unitOf(**stimulator), today(), device.simulated);
     if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
     return Json{{"calibrated", true},
                 {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
@@ -90,9 +92,15 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     if (amplitude.value("quantity", "") != "amplitude" || amplitude.value("complete", Json()) != Json(true)) {
         return arguments.wrong("found", amplitude, "a complete calibration of amplitude, from analysis.calibration(),");
     }
+    if (amplitude.value("verdict_iec", "") != "pass") {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: the stimulator is not within 20 % of what it is told, uncertainty included "
+                    "(IEC 60601-2-10); a calibration is kept of one that is in order");
+    }
     StoredCalibration made;
-    made.serial = (*stimulator)->identity().serial;
-    made.device = (*stimulator)->identity().name;
+    const auto& device = (*stimulator)->identity();
+    made.serial = calibratedOutput(device.serial, device.uri);
+    made.device = device.name;
     made.unit = amplitude.value("unit", "");
     if (made.unit != unitOf(**stimulator)) return arguments.wrong("unit", made.unit, unitOf(**stimulator));
     if (const auto* writer = session.writer()) made.session = writer->path().filename().string();
@@ -104,9 +112,9 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     made.highest = levels.back().value("commanded", std::nan(""));
     made.made = today();
     made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(static_cast<int>(*days));
-    for (const auto& device : session.bench().devices().identities()) {
-        made.simulated = made.simulated || device.simulated;
-        if (device.role == Role::Oscilloscope) made.instruments.push_back({device.name, device.serial, *due});
+    for (const auto& each : session.bench().devices().identities()) {
+        made.simulated = made.simulated || each.simulated;
+        if (each.role == Role::Oscilloscope) made.instruments.push_back({each.name, each.serial, *due});
     }
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);

@@ -18,7 +18,11 @@ using Json = nlohmann::json;
 class Listening {
 public:
     explicit Listening(Bench& bench) : bench_(bench), tap_(std::make_unique<BenchTap>()) { bench_.listen(tap_.get()); }
-    ~Listening() { bench_.listen(nullptr); }
+    /// The finger drives nothing afterwards that nobody asked it to.
+    ~Listening() {
+        bench_.listen(nullptr);
+        static_cast<void>(bench_.drive(DriveSource::Off));
+    }
     Listening(const Listening&) = delete;
     Listening& operator=(const Listening&) = delete;
 
@@ -31,6 +35,8 @@ public:
             }
         }
     }
+
+    [[nodiscard]] std::uint64_t dropped() const noexcept { return tap_->samples.dropped(); }
 
 private:
     Bench& bench_;
@@ -55,6 +61,11 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
         const double left = std::max(0.005, end - toSeconds(session.now()));
         if (auto waited = bench.wait(Seconds(std::min(kStep_s, left))); !waited) return failure(waited);
         listening.takeInto(samples);
+    }
+    if (listening.dropped() > 0) {
+        return fail(ErrorCode::Device,
+                    "{} samples of the fingertip were lost here: this computer was too busy; none may be",
+                    listening.dropped());
     }
     for (std::size_t s = 0; s < samples.streams.size(); ++s) {
         const auto& info = samples.streams[s];

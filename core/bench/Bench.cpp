@@ -65,7 +65,7 @@ struct Bench::State {
         : config(std::move(given)),
           virtualClock(dynamic_cast<VirtualClock*>(config.clock.get())),
           source(traitsOf(config.devices)),
-          applied(config.calibration),
+          applied(config.calibrationHolds ? config.calibration : std::nullopt),
           gate(*config.clock) {}
 
     ~State() {
@@ -205,8 +205,9 @@ void Bench::State::noteCalibration() {
     if (!recorder || config.calibrationText.empty()) return;
     const AmplitudeCalibration told = applied.value_or(AmplitudeCalibration{});
     recorder->event(config.clock->now(), "calibration", {{"gain", told.gain}, {"offset", told.offset}},
-                    config.calibration && !applied ? "left aside: the stimulator is told the commands as they are"
-                                                   : std::string_view(config.calibrationText));
+                    config.calibration && config.calibrationHolds && !applied
+                        ? "left aside: the stimulator is told the commands as they are"
+                        : std::string_view(config.calibrationText));
 }
 
 void Bench::State::startThreads() {
@@ -288,7 +289,8 @@ GateSetup Bench::State::setupFor(const Load& load) const {
     setup.check = config.profile.encoding.train;
     setup.check.pulses = 1;
     setup.person = config.person;
-    setup.calibration = applied;
+    setup.calibration = config.calibration;
+    setup.calibrated = applied.has_value();
     return setup;
 }
 
@@ -521,7 +523,7 @@ Result<void> Bench::useCalibration(bool use) {
     if (state != InterlockState::Disarmed && state != InterlockState::Disconnected) {
         return fail(ErrorCode::NotArmed, "the calibration cannot change while {}: disarm first", nameOf(state));
     }
-    const auto wanted = use ? s.config.calibration : std::nullopt;
+    const auto wanted = use && s.config.calibrationHolds ? s.config.calibration : std::nullopt;
     if (wanted == s.applied) return {};
     s.applied = wanted;
     s.loop->replacePlanner(s.makePlanner(s.config.profile));

@@ -34,10 +34,11 @@ struct BenchConfig {
     std::optional<PersonSetup> person;  ///< required in person mode
     SessionWriter* session = nullptr;   ///< not owned; null records nothing
     BenchTap* tap = nullptr;            ///< not owned; null shows nothing
-    /// Of the stimulator: applied to every train, and known to the gate. Nothing: it is told the commands as they are,
-    /// and a person is refused.
+    /// The last of the stimulator that is known. The gate judges by it in any case; a stimulator that is out of order
+    /// by it is not armed.
     std::optional<AmplitudeCalibration> calibration;
-    std::string calibrationText;  ///< for the session: which one, or why there is none; empty records nothing
+    bool calibrationHolds = true;  ///< it is applied to every train; else commands go out as they are, and to no person
+    std::string calibrationText;   ///< for the session: which one, or why there is none; empty records nothing
 };
 
 /// What the operator states when arming.

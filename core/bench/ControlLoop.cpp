@@ -485,6 +485,7 @@ void ControlLoop::sendTrain(Instant now) noexcept {
     if (parts_.recorder != nullptr) {
         parts_.recorder->command(planned->onset, "train",
                                  {{"amplitude_v", planned->command.amplitude.value()},
+                                  {"held_v", planned->held.value()},
                                   {"interval_s", planned->command.interval.count()},
                                   {"roughness", shown_.roughness},
                                   {"pressure", shown_.pressure},

@@ -68,7 +68,7 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (!approved) return failure(approved);
     last_ = command;
     lastOnset_ = onset;
-    return PlannedTrain{std::move(*approved), onset, command, *rounded};
+    return PlannedTrain{std::move(*approved), onset, command, *held, *rounded};
 }
 
 }  // namespace tacto

@@ -18,6 +18,7 @@ struct PlannedTrain {
     ApprovedTrain approved;
     Instant onset;
     Command command;        ///< what was asked for, in volts
+    Volts held;             ///< what it became on this impedance
     RoundedTrain rounding;  ///< and how far the device's step took it from that
 };
 

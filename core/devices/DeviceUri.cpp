@@ -38,4 +38,16 @@ std::string DeviceUri::text() const {
     return out;
 }
 
+std::string calibratedOutput(std::string_view serial, std::string_view uri) {
+    std::string output(serial);
+    const auto parsed = DeviceUri::parse(uri);
+    if (output.empty() || !parsed) return output;
+    for (const std::string_view chosen : {"connector", "channel", "level"}) {
+        for (const auto& [key, value] : parsed->parameters) {
+            if (key == chosen) output += " " + key + "=" + value;
+        }
+    }
+    return output;
+}
+
 }  // namespace tacto

@@ -1,5 +1,6 @@
 #include "core/encoding/AmplitudeCalibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tacto {
@@ -30,7 +31,18 @@ double AmplitudeCalibration::told(double wanted) const noexcept {
     return (wanted - offset) / gain;
 }
 
-Result<void> validate(const AmplitudeCalibration& c) {
+double AmplitudeCalibration::atMost(double told) const noexcept {
+    const double line = told > 0 ? gain * told + offset : told;
+    const double ratio = delivered(told);
+    return std::max(line, ratio);
+}
+
+double AmplitudeCalibration::atLeast(double told) const noexcept {
+    const double line = told > 0 ? std::max(gain * told + offset, 0.0) : told;
+    return std::min(line, delivered(told));
+}
+
+Result<void> validateNumbers(const AmplitudeCalibration& c) {
     if (!(std::isfinite(c.gain) && c.gain > 0 && std::isfinite(c.offset))) {
         return fail(ErrorCode::InvalidArgument,
                     "the stimulator's calibration has the gain {} and the offset {}; finite numbers and a gain above 0 "
@@ -41,6 +53,11 @@ Result<void> validate(const AmplitudeCalibration& c) {
         return fail(ErrorCode::InvalidArgument,
                     "the stimulator's calibration covers {} to {}; a range above 0 is needed", c.lowest, c.highest);
     }
+    return {};
+}
+
+Result<void> validate(const AmplitudeCalibration& c) {
+    if (auto sound = validateNumbers(c); !sound) return sound;
     for (const double told : {c.lowest, c.highest}) {
         const double off = c.delivered(told) / told - 1;
         if (!(std::abs(off) <= kLargestMiscalibration)) {
@@ -60,7 +77,12 @@ PulseTrain toldFor(PulseTrain train, const std::optional<AmplitudeCalibration>& 
 
 PulseTrain deliveredBy(PulseTrain train, const std::optional<AmplitudeCalibration>& calibration) noexcept {
     if (!calibration) return train;
-    return withAmplitude(train, [&](double told) { return calibration->delivered(told); });
+    return withAmplitude(train, [&](double told) { return calibration->atMost(told); });
+}
+
+PulseTrain leastDeliveredBy(PulseTrain train, const std::optional<AmplitudeCalibration>& calibration) noexcept {
+    if (!calibration) return train;
+    return withAmplitude(train, [&](double told) { return calibration->atLeast(told); });
 }
 
 }  // namespace tacto

@@ -25,6 +25,9 @@ struct AmplitudeCalibration {
     /// Both for values of 0 and more; NaN stays NaN.
     [[nodiscard]] double delivered(double told) const noexcept;
     [[nodiscard]] double told(double delivered) const noexcept;
+    /// The most and the least that may be delivered: outside the range the line, too, may go on. For judging.
+    [[nodiscard]] double atMost(double told) const noexcept;
+    [[nodiscard]] double atLeast(double told) const noexcept;
     bool operator==(const AmplitudeCalibration&) const = default;
 
 private:
@@ -33,13 +36,17 @@ private:
 
 inline constexpr double kLargestMiscalibration = 0.2;
 
+/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, or a range that is none.
+[[nodiscard]] Result<void> validateNumbers(const AmplitudeCalibration& calibration);
 /// Errors: InvalidArgument for numbers that are not finite, a range that is none, or an output more than 20 % from what
 /// is told at either end of it.
 [[nodiscard]] Result<void> validate(const AmplitudeCalibration& calibration);
 
 /// `train` with the amplitude that the stimulator must be told; as it is without a calibration.
 [[nodiscard]] PulseTrain toldFor(PulseTrain train, const std::optional<AmplitudeCalibration>& calibration) noexcept;
-/// `train` with the amplitude that the stimulator then delivers.
+/// `train` with the most, and with the least, that the stimulator then delivers.
 [[nodiscard]] PulseTrain deliveredBy(PulseTrain train, const std::optional<AmplitudeCalibration>& calibration) noexcept;
+[[nodiscard]] PulseTrain leastDeliveredBy(PulseTrain train,
+                                          const std::optional<AmplitudeCalibration>& calibration) noexcept;
 
 }  // namespace tacto

@@ -61,6 +61,13 @@ Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> arme
         return fail(ErrorCode::InvalidArgument, "an impedance of {} ohm after {} ohm; finite ones above 0 are needed",
                     now->value(), armed->value());
     }
+    constexpr double kMost = 2;
+    if (!(ratio <= kMost && ratio >= 1 / kMost)) {
+        return fail(
+            ErrorCode::LimitExceeded,
+            "the impedance went from {:.4g} ohm when armed to {:.4g} ohm; the {} is held up to twice or half of it",
+            armed->value(), now->value(), nameOf(hold));
+    }
     return amplitude * (hold == Hold::Charge ? ratio : std::sqrt(ratio));
 }
 

@@ -46,7 +46,7 @@ private:
 /// `amplitude` as it must be on a load of `now` so that what is held is what it would have been on `armed`: times
 /// (now / armed)^p, p = 0, 1 or 1/2 for voltage, charge and energy. Exact on loads that scale as a whole.
 /// Errors: NotArmed where an impedance is held against and not known; InvalidArgument when it is not finite and above
-/// 0.
+/// 0; LimitExceeded when it has doubled or halved since the output was armed: that is no drift to be followed.
 [[nodiscard]] Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> armed,
                                           std::optional<Ohms> now);
 

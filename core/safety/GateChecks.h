@@ -59,6 +59,7 @@ enum Check : int {
     PersonMonophasic,
     PersonNoImpedance,
     PersonStaleImpedance,
+    PersonBeyondCalibration,
     PersonLevel,
     CheckDiscomfort,
     BurstIntensity,

@@ -98,7 +98,7 @@ Result<void> checkPerson(const GateSetup& setup) {
     if (checks(PersonMonophasicCheck) && setup.check.shape == PulseShape::Monophasic) {
         return invalid("a monophasic check pulse is refused for a person; a biphasic one is needed");
     }
-    if (checks(PersonCalibration) && !setup.calibration) {
+    if (checks(PersonCalibration) && !(setup.calibration && setup.calibrated)) {
         return invalid("the stimulator is not calibrated; a valid calibration is needed before a person");
     }
     if (checks(PersonDiscomfort) && !positive(person.discomfortLimit.value())) {
@@ -131,7 +131,8 @@ Result<void> checkSetup(const GateSetup& setup) {
         return invalid("the electrode area is {} cm2; a finite area above 0 is needed", setup.electrodeArea->value());
     }
     if (checks(BadCalibration) && setup.calibration) {
-        if (auto sound = validate(*setup.calibration); !sound) return sound;
+        const auto& known = *setup.calibration;
+        if (auto sound = setup.calibrated ? validate(known) : validateNumbers(known); !sound) return sound;
     }
     if (auto personal = checkPerson(setup); !personal) return personal;
     if (checks(BadCheckTrain)) {

@@ -28,10 +28,16 @@ PulseTrain SafetyGate::State::judgedAs(const PulseTrain& train) const noexcept {
     return siValue(delivered.amplitude) > siValue(train.amplitude) && checks(MoreThanTold) ? delivered : train;
 }
 
+PulseTrain SafetyGate::State::feltAs(const PulseTrain& train) const noexcept {
+    const PulseTrain delivered = leastDeliveredBy(train, setup->calibration);
+    return siValue(delivered.amplitude) < siValue(train.amplitude) ? delivered : train;
+}
+
 double SafetyGate::State::commandShare(const PulseTrain& train) const noexcept {
     const double told = siValue(train.amplitude);
     const double delivered = siValue(deliveredBy(train, setup->calibration).amplitude);
-    return told > delivered ? delivered / told : 1;
+    const double judged = std::max(told, delivered);
+    return judged > 0 ? (setup->calibrated ? delivered : told) / judged : 1;
 }
 
 Result<void> SafetyGate::State::judge(const TrainExposure& overRange, const TrainExposure& at500,

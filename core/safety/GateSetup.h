@@ -64,9 +64,12 @@ struct GateSetup {
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     PulseTrain check;                   ///< shape and timing of the impedance check; its amplitude is the source's
     std::optional<PersonSetup> person;  ///< required in person mode
-    /// Of the stimulator that is connected; required in person mode. Trains are what it is told: the command is judged
-    /// by what it then delivers, everything else by the larger of told and delivered (H1, H9).
+    /// The last that is known of the stimulator that is connected, also where it has expired or is left aside. Trains
+    /// are what the stimulator is told; everything is judged by the larger of told and delivered (H1, H9).
     std::optional<AmplitudeCalibration> calibration;
+    /// Whether it holds and trains are told by it: then what is delivered is the command, else what is told. Required
+    /// in person mode.
+    bool calibrated = false;
 };
 
 }  // namespace tacto

@@ -29,7 +29,8 @@ struct SafetyGate::State {
 
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
-    bool disowned = false;  // The last reading was no number or out of range
+    std::optional<Ohms> lastGood;  // Since configure(), whatever came after it
+    bool disowned = false;         // The last reading was no number or out of range
 
     std::map<std::string, AcceptedLevels> people;  // Who comes back has not forgotten
     AcceptedLevels nobody;                         // Permits nothing
@@ -40,10 +41,12 @@ struct SafetyGate::State {
     [[nodiscard]] bool commandIsComputed() const noexcept {
         return setup && (setup->source.drive == Drive::Current || setup->calibration.has_value());
     }
-    /// What a train counts as: the larger of what the stimulator is told and what it delivers by its calibration.
+    /// What a train counts as: the larger of what the stimulator is told and what it may deliver.
     [[nodiscard]] PulseTrain judgedAs(const PulseTrain& train) const noexcept;
-    /// By how much the command, which is what is delivered, is smaller than that.
+    /// How much of that is the command: of a calibrated stimulator what it delivers, else what it is told.
     [[nodiscard]] double commandShare(const PulseTrain& train) const noexcept;
+    /// What an accepted level counts as: the smaller of what the stimulator was told and what it may have delivered.
+    [[nodiscard]] PulseTrain feltAs(const PulseTrain& train) const noexcept;
     [[nodiscard]] double carriedAt(Instant now) const noexcept;
     /// `judged`: as judgedAs() gave it; `share`: how much of its amplitude is the command.
     [[nodiscard]] Result<void> judge(const TrainExposure& overRange, const TrainExposure& at500,

@@ -35,6 +35,7 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
     s.lastTrain = s.check;
     s.load = setup.load;
     s.impedance.reset();
+    s.lastGood.reset();
     s.impedanceAt = Instant(std::numeric_limits<Instant::rep>::min());
     s.disowned = false;
     if (setup.mode == OutputMode::Person && setup.person) {
@@ -89,18 +90,17 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
                       "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
                       ohm, s.load.nominal.text()));
     }
-    const bool recent = s.impedance && at - s.impedanceAt <= kImpedanceAge;
-    if (checks(ImpedanceJump) && s.person() && recent) {
-        const double before = s.impedance->value();
+    if (checks(ImpedanceJump) && s.person() && s.lastGood) {
+        const double before = s.lastGood->value();
         if (!(ohm <= kImpedanceJump * before && before <= kImpedanceJump * ohm)) {
             return refuse(
                 ErrorCode::LimitExceeded,
-                fmt::format("the impedance went from {:.4g} to {:.4g} ohm in {:.3g} s; an electrode has moved", before,
-                            ohm, toSeconds(at - s.impedanceAt)));
+                fmt::format("the impedance went from {:.4g} to {:.4g} ohm between two readings; an electrode has moved",
+                            before, ohm));
         }
     }
     s.disowned = false;
-    s.impedance = magnitude;
+    s.impedance = s.lastGood = magnitude;
     s.impedanceAt = at;
     if (s.person()) s.load = LoadRange::measured(magnitude);
     return {};
@@ -130,6 +130,14 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
         if (checks(PersonStaleImpedance) && s.impedance && !(now - s.impedanceAt <= kImpedanceAge)) {
             return fail(ErrorCode::LimitExceeded, "the impedance was measured {:.3g} s ago; at most 5 s is accepted",
                         toSeconds(now - s.impedanceAt));
+        }
+        const double highest = s.setup->calibration ? s.setup->calibration->highest : 0;
+        const double most = highest * (1 + kLargestMiscalibration);
+        const double told = std::visit([](auto amplitude) { return amplitude.value(); }, request.train.amplitude);
+        if (checks(PersonBeyondCalibration) && !(told <= most)) {
+            return fail(ErrorCode::LimitExceeded,
+                        "{:.4g} mA is beyond the range in which the stimulator was calibrated, up to {:.4g} mA", told,
+                        highest);
         }
         if (checks(PersonLevel)) {
             if (auto permitted = s.levels->permits(s.judgedAs(request.train)); !permitted) return failure(permitted);
@@ -201,7 +209,7 @@ Result<void> SafetyGate::accept(const PulseTrain& train) {
     if (!state_->setup || !state_->person())
         return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
     if (auto sound = validate(train); !sound) return sound;
-    return state_->levels->accept(state_->judgedAs(train));
+    return state_->levels->accept(state_->feltAs(train));
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {

@@ -94,7 +94,7 @@ public:
     /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with 0.7 to 1.3 of it; on a
     /// bench load it must agree with the declared range. An older one than the last is ignored.
     /// Errors: LimitExceeded when it lies outside the profile's (bench: the declared) range, or, for a person, has
-    /// doubled or halved since a reading at most 5 s older (an electrode that lifts or slips, H3); InvalidArgument for
+    /// doubled or halved since the good reading before it (an electrode that lifts or slips, H3); InvalidArgument for
     /// NaN, 0 or less, or a stamp from the future. After an error nothing but check pulses is approved until a good
     /// reading.
     [[nodiscard]] Result<void> updateImpedance(Ohms magnitude, Instant at);

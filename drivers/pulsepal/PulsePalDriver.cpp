@@ -63,7 +63,7 @@ public:
         if (!port->obstacle.empty()) return fail(ErrorCode::Io, "device \"{}\": {}", uri.text(), port->obstacle);
         auto itself = uri;
         itself.path = nameOf(*port);
-        auto opened = PulsePalStimulator::open(connectTo(*port), itself.text(), nameOf(*port), *channel, context.clock);
+        auto opened = PulsePalStimulator::open(connectTo(*port), itself.text(), port->serial, *channel, context.clock);
         if (!opened) return fail(opened.error().code, "device \"{}\": {}", uri.text(), opened.error().message);
         into.stimulator = std::move(*opened);
         return {};

@@ -92,7 +92,9 @@ function measureAll(trials, encoding) {
   return rows;
 }
 
-const best = (pair) => Math.max(pair.amplitude_jnd, pair.interval_jnd);
+// What was not measured has no largest: Math.max takes null for 0.
+const largest = (values) => (values.some((x) => x === null || !isFinite(x)) ? null : Math.max.apply(null, values));
+const best = (pair) => largest([pair.amplitude_jnd, pair.interval_jnd]);
 const smallest = (values) => (values.length === 0 || values.some((x) => x === null || !isFinite(x)) ? null : Math.min.apply(null, values));
 // Of one axis: pairs that share its level are none of its business.
 const smallestApart = (pairs, key) => smallest(pairs.map((pair) => pair[key]).filter((x) => x === null || x > 1));
@@ -116,7 +118,7 @@ function neighbours(pairs) {
 
 function compare(p, encoding, trials, between) {
   bench.setEncoding({ assignment: encoding.assignment, amplitude_curve: encoding.curve, interval_curve: encoding.curve,
-    amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
+    amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0, hold: "voltage" });
   const sweep = analysis.transitions({ traverse_s: p.traverse_s });
   bench.arm({ load: p.load });
   const found = analysis.separability(measureAll(trials, encoding), { conditions: NAMES });
@@ -132,8 +134,8 @@ function compare(p, encoding, trials, between) {
     smallest_interval_jnd: smallestApart(found.pairs, "interval_jnd"),
     smallest_pair_jnd: smallest(found.pairs.map(best)),
     mahalanobis_min: smallest(found.pairs.map((pair) => pair.mahalanobis)),
-    amplitude_variation_max: Math.max.apply(null, found.conditions.map((each) => each.amplitude_variation)),
-    interval_variation_max: Math.max.apply(null, found.conditions.map((each) => each.interval_variation)),
+    amplitude_variation_max: largest(found.conditions.map((each) => each.amplitude_variation)),
+    interval_variation_max: largest(found.conditions.map((each) => each.interval_variation)),
     accuracy: found.accuracy,
     separable: found.verdict,
     neighbours: neighbours(inBetween.pairs),
@@ -145,6 +147,7 @@ function compare(p, encoding, trials, between) {
 
 // A report shows thousandths: what is below is measurement, not encoding.
 const shown = (x) => (x === null || !isFinite(x) ? null : Math.round(1000 * x) / 1000);
+const inPercent = (x) => (x === null ? null : 100 * x);
 const percent = (x) => (x === null ? "?" : (100 * x).toFixed(1));
 
 function comparisonRow(each) {
@@ -154,7 +157,7 @@ function comparisonRow(each) {
     interval_jnd: shown(each.smallest_interval_jnd),
     pair_jnd: shown(each.smallest_pair_jnd),
     mahalanobis: each.mahalanobis_min,
-    variation_pct: 100 * Math.max(each.amplitude_variation_max, each.interval_variation_max),
+    variation_pct: inPercent(largest([each.amplitude_variation_max, each.interval_variation_max])),
     accuracy: percent(each.accuracy.value) + " % (" + percent(each.accuracy.low) + " to " + percent(each.accuracy.high) + ")",
     step_jnd: shown(each.gradual_jnd),
     separable: each.separable,

@@ -199,7 +199,10 @@ function scaleOf(name, readings, tolerance_pct) {
 function forceScale(p, weights, results) {
   const at = (w) => ({ commanded: w.reference_n, measured: w.force, direction: w.direction });
   if (weights.length === 0) return { scale: null, reason: "no weights were given; force was not evaluated" };
-  if (weights[0].force === null) return { scale: null, reason: "this fingertip has no force sensor; force was not evaluated" };
+  if (!bench.sensorStreams.some((stream) => stream.kind === "force")) {
+    return { scale: null, reason: "this fingertip has no force sensor; force was not evaluated" };
+  }
+  if (weights.some((w) => w.force === null)) return { scale: null, asked: true, reason: "a weight's force was not read; force was not evaluated" };
   const force = scaleOf("force", weights.map(at), p.weight_tolerance_pct);
   force.unit = weights[0].force_unit;
   return force;
@@ -375,6 +378,10 @@ function run(p) {
     );
   } else {
     report.text("Refused: " + found.reasons.join("; ") + ". The profile stays as it was, and R uncalibrated or as calibrated before.");
+  }
+  if (results.force.asked && results.verdict === "pass") {
+    results.verdict = "indeterminate";
+    results.reasons = [results.force.reason].concat(results.reasons);
   }
   for (const one of [results.force].concat(results.taxels)) {
     // What was asked for and does not follow the weights is a fault of the fingertip.

@@ -124,6 +124,7 @@ function writeSweep(found) {
 
 function run(p) {
   if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
+  bench.setEncoding({ hold: "voltage" });
   if (p.slew === "given") bench.setEncoding({ amplitude_slew_v_per_s: p.slew_v_per_s, interval_ratio_per_train: p.slew_ratio });
   if (p.slew === "off") bench.setEncoding({ amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
 

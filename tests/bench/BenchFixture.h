@@ -39,6 +39,7 @@ protected:
         config.limits = std::move(*limits);
         config.session = session_;
         config.calibration = calibration_;
+        config.calibrationHolds = calibrationHolds_;
         config.calibrationText = "as the test says";
         auto bench = Bench::create(std::move(config));
         ASSERT_TRUE(bench) << bench.error().message;
@@ -54,6 +55,7 @@ protected:
     Profile profile_;
     SessionWriter* session_ = nullptr;
     std::optional<AmplitudeCalibration> calibration_;
+    bool calibrationHolds_ = true;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

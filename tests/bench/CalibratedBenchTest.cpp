@@ -50,6 +50,27 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
 }
 
+TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
+    RecordProperty("hazard", "H1");
+    // 40 V told and, by the old calibration, 47.2 V delivered: 8.4 mA RMS of the told ones would pass.
+    calibration_ = AmplitudeCalibration{1.18, 0, 10, 40};
+    calibrationHolds_ = false;
+    open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
+    ASSERT_TRUE(arm("150 ohm"));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
+    EXPECT_FALSE(bench_->calibration());
+
+    // The command is what is told: 40 V on 1 kohm go out as they are.
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    EXPECT_NEAR(deliveredAtFull(), 40, 0.3);
+    EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40, 1e-9);
+}
+
 TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
     test::ScratchDir folder;
     VirtualClock recording;

@@ -17,6 +17,13 @@ TEST(AmplitudeCalibration, FollowsTheLineInItsRangeAndTheNearerEndsRatioBeyond) 
     EXPECT_DOUBLE_EQ(kMeasured.delivered(80), 2 * 39.4);
     EXPECT_DOUBLE_EQ(kMeasured.delivered(5), 5.0);  // 10 gives 10
     EXPECT_EQ(kMeasured.delivered(0), 0);
+    // For judging, outside its range: whichever of line and ratio is more, or less.
+    EXPECT_DOUBLE_EQ(kMeasured.atMost(5), 5.1);
+    EXPECT_DOUBLE_EQ(kMeasured.atLeast(5), 5.0);
+    EXPECT_DOUBLE_EQ(kMeasured.atMost(80), 2 * 39.4);
+    EXPECT_DOUBLE_EQ(kMeasured.atLeast(80), 78.6);
+    EXPECT_EQ(kMeasured.atMost(0), 0);
+    EXPECT_DOUBLE_EQ(kMeasured.atMost(25), 24.7);
     EXPECT_NEAR(kMeasured.told(39.4), 40, 1e-12);
     EXPECT_NEAR(kMeasured.told(40), 40 * 40 / 39.4, 1e-12);
     EXPECT_TRUE(std::isnan(kMeasured.told(std::numeric_limits<double>::quiet_NaN())));
@@ -55,6 +62,7 @@ TEST(AmplitudeCalibration, ChangesAmplitudesOnlyAndOnlyWhereThereIsOne) {
     PulseTrain expected = train;
     expected.amplitude = Milliamps(kMeasured.delivered(20));
     EXPECT_EQ(deliveredBy(train, kMeasured), expected);
+    EXPECT_EQ(leastDeliveredBy(train, kMeasured), expected);
     EXPECT_NEAR(siValue(toldFor(expected, kMeasured).amplitude), 0.02, 1e-15);
 }
 

@@ -131,6 +131,9 @@ TEST(HeldAmplitude, FollowsTheImpedanceByWhatIsHeld) {
     EXPECT_DOUBLE_EQ(held(Hold::Charge, 1000, 1210), 24.2);
     EXPECT_DOUBLE_EQ(held(Hold::Energy, 1000, 1210), 22);
     EXPECT_DOUBLE_EQ(held(Hold::Charge, 1000, 800), 16);
+    EXPECT_DOUBLE_EQ(held(Hold::Charge, 1000, 2000), 40);
+    EXPECT_FALSE(heldAmplitude(Hold::Charge, Volts(1), Ohms(1000), Ohms(2001))) << "no drift";
+    EXPECT_FALSE(heldAmplitude(Hold::Energy, Volts(1), Ohms(1000), Ohms(499)));
     EXPECT_EQ(*heldAmplitude(Hold::Voltage, Volts(20), std::nullopt, std::nullopt), Volts(20));
     for (const auto hold : {Hold::Charge, Hold::Energy}) {
         EXPECT_FALSE(heldAmplitude(hold, Volts(20), std::nullopt, Ohms(1000)));

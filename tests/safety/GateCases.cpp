@@ -59,7 +59,12 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(PersonPseudonym, person([](auto& s) { s.person->participant.clear(); }), "pseudonym");
     add(PersonArea, person([](auto& s) { s.electrodeArea.reset(); }), "electrode area");
     add(PersonCalibration, person([](auto& s) { s.calibration.reset(); }), "not calibrated");
-    add(BadCalibration, bench([](auto& s) { s.calibration = AmplitudeCalibration{1.21, 0, 10, 40}; }), "out of order");
+    add(PersonCalibration, person([](auto& s) { s.calibrated = false; }), "not calibrated");
+    add(BadCalibration, bench([](auto& s) {
+            s.calibration = AmplitudeCalibration{1.21, 0, 10, 40};
+            s.calibrated = true;
+        }),
+        "out of order");
     add(BadCalibration, bench([](auto& s) { s.calibration = AmplitudeCalibration{1, kNaN, 10, 40}; }), "offset");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
@@ -144,7 +149,13 @@ void addStateCases(std::vector<GateCase>& cases) {
         };
         return refuses(after(4001, 2), ErrorCode::LimitExceeded, "an electrode has moved") &&
                refuses(after(999, 2), ErrorCode::LimitExceeded, "an electrode has moved") &&
-               after(4000, 2).has_value() && after(1000, 2).has_value() && after(6000, 5.1).has_value();
+               refuses(after(6000, 60), ErrorCode::LimitExceeded, "an electrode has moved") &&
+               after(4000, 2).has_value() && after(1000, 2).has_value();
+    });
+    add(ImpedanceJump, "the same reading again after a jump", [] {
+        Rig rig(personSetup());
+        for (const double ohm : {2000, 9000}) (void)rig.gate.updateImpedance(Ohms(ohm), rig.clock.now());
+        return refuses(rig.gate.updateImpedance(Ohms(9000), rig.clock.now()), ErrorCode::LimitExceeded, "has moved");
     });
     add(ImpedanceOutOfRange, "a bench load that is not the declared one", [] {
         Rig rig(benchSetup());
@@ -193,6 +204,14 @@ void addStateCases(std::vector<GateCase>& cases) {
         PulseTrain train = milliamps(0.4);
         train.shape = PulseShape::Monophasic;
         return refuses(rig.ask(train), ErrorCode::LimitExceeded, "monophasic");
+    });
+    add(PersonBeyondCalibration, "a person beyond the calibrated range", [] {
+        GateSetup setup = personSetup();
+        setup.calibration->highest = 0.3;
+        Rig rig(setup);
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+        return rig.ask(milliamps(0.36)).has_value() &&
+               refuses(rig.ask(milliamps(0.37)), ErrorCode::LimitExceeded, "beyond the range");
     });
     withPerson(PersonLevel, "a jump above the ramp", [](Rig& rig) {
         (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());

@@ -67,6 +67,7 @@ inline GateSetup personSetup() {
     person.rampStep = Milliamps(0.5);
     setup.person = person;
     setup.calibration = AmplitudeCalibration{1, 0, 0.1, 50};
+    setup.calibrated = true;
     return setup;
 }
 

@@ -46,13 +46,10 @@ struct Allowed {
     double low = 0, high = kInf;         // Ω, of a person
 };
 
-/// A device that does not deliver what it is told: a line between 5 and 50 V or mA, and through zero beyond its ends.
+/// A device that does not deliver what it is told, but on a line of its own.
 struct Miscalibration {
     double gain = 1, offset = 0;
-    [[nodiscard]] double outOf(double told) const {
-        const double end = told < 5 ? 5 : told > 50 ? 50 : told;
-        return told == 0 ? 0 : told * (gain * end + offset) / end;
-    }
+    [[nodiscard]] double outOf(double told) const { return told == 0 ? 0 : std::max(0.0, gain * told + offset); }
 };
 
 class SequenceReferee {
@@ -195,10 +192,11 @@ protected:
         }
     }
 
-    void referee(const PulseTrain& train, const PulseFacts& facts, double interval) {
+    /// `command`: SI; what the calibrated deliver, and the others are told.
+    void referee(const PulseTrain& train, const PulseFacts& facts, double interval, double command) {
         const double amplitude = siValue(train.amplitude);
         const bool current = source_.drive == Drive::Current;
-        hold(Near::Command, current ? amplitude * magnitude(train) : amplitude, 40, false, "the command in V");
+        hold(Near::Command, current ? command * magnitude(train) : command, 40, false, "the command in V");
         if (facts.peakV > 500) violation("more than 500 V");
         hold(Near::Rms5s, std::sqrt(body_.worstI2(5) / 5), 0.010, true, "RMS over 5 s in A");
         slowest_ = std::max(slowest_, interval);

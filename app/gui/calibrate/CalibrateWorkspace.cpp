@@ -19,10 +19,16 @@ CalibrateWorkspace::CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, Q
     tabs_->setObjectName("calibratePages");
     tabs_->setDocumentMode(true);
     runner_ = new ProtocolWorkspace(desk_, "stimulator-calibration", tabs_);
+    sensor_ = new ProtocolWorkspace(desk_, "sensor-calibration", tabs_);
     history_ = new CalibrationHistory(tabs_);
     tabs_->addTab(runner_, tr("&Guided run"));
+    tabs_->setTabToolTip(0, tr("Levels up and down, read from the oscilloscope; fit, uncertainty and verdict"));
+    tabs_->addTab(sensor_, tr("Fingertip se&nsor"));
+    tabs_->setTabToolTip(1, tr("Rest, weights and reference surfaces: what R and the forces mean on this rig"));
     tabs_->addTab(history_, tr("S&tored calibrations"));
     column->addWidget(tabs_, 1);
+    for (auto* runner : runners())
+        connect(runner, &ProtocolWorkspace::attentionWanted, this, [this, runner] { tabs_->setCurrentWidget(runner); });
     connect(card_, &CalibrationCard::calibrateWanted, this, [this] { run("full"); });
     connect(card_, &CalibrationCard::checkWanted, this, [this] { run("check"); });
     const auto showHistory = [this] { history_->list(book_, card_->shown()); };

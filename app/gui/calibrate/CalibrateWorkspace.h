@@ -1,11 +1,12 @@
 // CalibrateWorkspace.h - the stimulator's calibration: how it stands, the guided run, a check of what is stored, and
-// everything that was stored before. The run is ProtocolWorkspace's.
+// everything that was stored before; and the fingertip sensor's. The runs are ProtocolWorkspace's.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTabWidget>
 #include <QWidget>
+#include <array>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 
@@ -20,6 +21,8 @@ class CalibrateWorkspace final : public QWidget {
 public:
     CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, QWidget* parent = nullptr);
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
+    /// The stimulator's and the sensor's.
+    [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
 
 private:
     void run(const QString& mode);
@@ -29,6 +32,7 @@ private:
     CalibrationCard* card_;
     QTabWidget* tabs_;
     ProtocolWorkspace* runner_;
+    ProtocolWorkspace* sensor_;
     CalibrationHistory* history_;
 };
 

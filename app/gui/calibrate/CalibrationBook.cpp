@@ -37,7 +37,7 @@ std::optional<StimulatorId> CalibrationBook::connected() const {
     for (const auto& device : open->about.devices) {
         if (device.role != nameOf(Role::Stimulator)) continue;
         const char* unit = !open->source ? "" : open->source->drive == Drive::Current ? "mA" : "V";
-        return StimulatorId{device.serial, device.name, unit, device.simulated};
+        return StimulatorId{calibratedOutput(device.serial, device.uri), device.name, unit, device.simulated};
     }
     return std::nullopt;
 }

@@ -137,7 +137,8 @@ void MainWindow::buildPages() {
     pages_->addWidget(sessions_);
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
     pages_->addWidget(protocols_);
-    connect(&calibrate_->runner(), &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
+    for (auto* runner : calibrate_->runners())
+        connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
     connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
     connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
@@ -201,12 +202,17 @@ void MainWindow::buildDocks() {
         addDockWidget(Qt::RightDockWidgetArea, dock);
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
-    for (auto* protocol : {&calibrate_->runner(), safetyCheck_, separability_, protocols_})
+    for (auto* protocol : runners())
         connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this,
             [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
     connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
+}
+
+std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
+    const auto [stimulator, sensor] = calibrate_->runners();
+    return {stimulator, sensor, safetyCheck_, separability_, protocols_};
 }
 
 void MainWindow::tick() {
@@ -222,10 +228,7 @@ void MainWindow::tick() {
     if (measured || (shown == livePage_ && livePage_->currentWidget() == scope_)) scope_->refresh(telemetry);
     if (measured) summary_->refresh(telemetry);
     // One of them takes what a run says: the one it was started from, told apart by themselves.
-    calibrate_->runner().refresh(telemetry);
-    safetyCheck_->refresh(telemetry);
-    separability_->refresh(telemetry);
-    protocols_->refresh(telemetry);
+    for (auto* protocol : runners()) protocol->refresh(telemetry);
 }
 
 void MainWindow::showWorkspace(int index) {

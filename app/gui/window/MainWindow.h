@@ -11,6 +11,7 @@
 #include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -67,6 +68,8 @@ private:
     void buildTour();
     void restore();
     void tick();
+    /// All that run protocols.
+    [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
     void sayFault(const Telemetry& telemetry);
     void complain(const QString& what);

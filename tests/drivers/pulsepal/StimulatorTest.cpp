@@ -367,6 +367,7 @@ TEST_F(PulsePal, IsRefusedForAPerson) {
     setup.limits.back().rows.push_back(row);
     setup.electrodeArea = SquareCentimetres(1);
     setup.calibration = AmplitudeCalibration{1, 0, 1, 10};
+    setup.calibrated = true;
     setup.person = PersonSetup{};
     setup.person->participant = "P01";
     setup.person->consentRecorded = true;

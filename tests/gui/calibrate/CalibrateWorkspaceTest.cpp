@@ -22,7 +22,7 @@ protected:
         QObject::connect(&desk, &gui::BenchDesk::finished,
                          [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
         QObject::connect(&frame, &QTimer::timeout, [this] {
-            workspace.runner().refresh(desk.telemetry());
+            for (auto* runner : workspace.runners()) runner->refresh(desk.telemetry());
             drawnWhileRunning = std::max(drawnWhileRunning, drawn());
         });
         frame.start(33);
@@ -96,6 +96,20 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
     EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
     shot(workspace, "calibrate_checked_dark");
+}
+
+TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
+    show({1300, 820});
+    auto* tabs = workspace.findChild<QTabWidget*>("calibratePages");
+    tabs->setCurrentWidget(workspace.runners()[1]);
+    ASSERT_TRUE(comesTrue([this] { return workspace.runners()[1]->ready(); }));
+    shot(workspace, "calibrate_sensor");
+    workspace.runners()[1]->runAsked();
+    ASSERT_TRUE(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
+    EXPECT_EQ(ended->order.script.name, "sensor-calibration");
+    EXPECT_EQ(ended->result.verdict(), "pass");
+    EXPECT_EQ(tabs->currentWidget(), workspace.runners()[1]);
+    shot(workspace, "calibrate_sensor_done");
 }
 
 TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
