@@ -154,7 +154,7 @@ Result<void> PulsePalStimulator::deliver(ApprovedTrain&& train) {
     const ApprovedTrain consumed = std::move(train);
     const auto offs = offs_.load(std::memory_order_acquire);
     const Instant now = clock_.now();
-    if (lost_) return fail(ErrorCode::Device, "Pulse Pal {} is lost; its status looks for it again", identity_.serial);
+    if (lost_) return fail(ErrorCode::Device, "{} is lost; its status looks for it again", identity_.uri);
     if (!(now <= consumed.expires())) {
         return fail(ErrorCode::Device, "Pulse Pal refused a train whose approval expired {:.1f} ms ago",
                     toSeconds(now - consumed.expires()) * 1e3);
@@ -193,7 +193,7 @@ Result<void> PulsePalStimulator::start(const ApprovedTrain& train, std::uint64_t
 Result<StimulatorStatus> PulsePalStimulator::status() {
     if (lost_) {
         if (const auto found = reconnect(); !found) {
-            return fail(ErrorCode::Device, "Pulse Pal {} is lost and could not be opened again: {}", identity_.serial,
+            return fail(ErrorCode::Device, "{} is lost and could not be opened again: {}", identity_.uri,
                         found.error().message);
         }
     }
@@ -209,7 +209,7 @@ Result<StimulatorStatus> PulsePalStimulator::status() {
 }
 
 Result<void> PulsePalStimulator::keepAlive() {
-    if (lost_) return fail(ErrorCode::Device, "Pulse Pal {} is lost; its status looks for it again", identity_.serial);
+    if (lost_) return fail(ErrorCode::Device, "{} is lost; its status looks for it again", identity_.uri);
     return {};
 }
 

@@ -120,8 +120,9 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
     EXPECT_EQ(outcomeOf(R"js(function run() {
         const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
                      "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
-                     "predict", "present", "replayed", "setElectrodeArea", "setEncoding", "setReferences", "time",
-                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "wait"];
+                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer", "replayed",
+                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "time",
+                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration", "wait"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }
