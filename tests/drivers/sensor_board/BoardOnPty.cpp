@@ -26,9 +26,16 @@ BoardOnPty::BoardOnPty(const Clock& clock, sensorboard::EmulatedBoardSettings se
     if (slave_ < 0 || tcgetattr(slave_, &raw) != 0) throw std::runtime_error(path_ + " cannot be opened");
     cfmakeraw(&raw);  // or what a client sends before it has set up the terminal comes back as an echo
     tcsetattr(slave_, TCSANOW, &raw);
-    // What nobody reads in time is lost, as on a wire.
+    // As on USB, where the host fetches: the board waits, and keeps meanwhile what its buffer holds. What nobody
+    // fetches within a second is lost.
     const auto send = [master = master_](std::span<const std::uint8_t> bytes) {
-        static_cast<void>(!::write(master, bytes.data(), bytes.size()));
+        while (!bytes.empty()) {
+            const auto written = ::write(master, bytes.data(), bytes.size());
+            if (written < 0 && errno != EAGAIN && errno != EINTR) return;
+            if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
+            pollfd room{master, POLLOUT, 0};
+            if (!bytes.empty() && poll(&room, 1, 1000) == 0) return;
+        }
     };
     feed_ = std::make_unique<BoardFeed>(clock, std::move(settings), send, std::move(signal));
     listener_ = std::thread([this] { listen(); });

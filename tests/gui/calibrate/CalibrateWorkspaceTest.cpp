@@ -39,11 +39,11 @@ protected:
     }
     [[nodiscard]] std::size_t drawn() {
         if (desk.activity() != gui::Activity::Running) return 0;
-        return workspace.findChild<gui::CalibrationView*>()->readings();
+        return workspace.runner().findChild<gui::CalibrationView*>()->readings();
     }
-    void type(const char* field, const QString& text) { workspace.findChild<QLineEdit*>(field)->setText(text); }
+    void type(const char* field, const QString& text) { workspace.runner().findChild<QLineEdit*>(field)->setText(text); }
     void amplitudeOnly() {
-        auto* box = workspace.findChild<QComboBox*>("quantities");
+        auto* box = workspace.runner().findChild<QComboBox*>("quantities");
         box->setCurrentIndex(box->findData("amplitude"));
         type("warm_up_s", "0");
     }
@@ -74,14 +74,14 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today, until "));
     EXPECT_THAT(says("calibrationFacts"), HasSubstr("simulated oscilloscope"));
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
-    auto* errors = workspace.findChild<gui::CalibrationPlot*>("calibrationErrors");
+    auto* errors = workspace.runner().findChild<gui::CalibrationPlot*>("calibrationErrors");
     EXPECT_EQ(errors->drawnUp(), 55);
     EXPECT_EQ(errors->drawnDown(), 55);
     EXPECT_EQ(errors->drawnMeans(), 11);
-    const auto* budget = workspace.findChild<QTableWidget*>("calibrationBudget");
+    const auto* budget = workspace.runner().findChild<QTableWidget*>("calibrationBudget");
     ASSERT_NE(budget, nullptr);
     EXPECT_EQ(budget->item(0, 0)->text(), "repeatability");
-    EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
+    EXPECT_EQ(workspace.runner().findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     gui::applyTheme(gui::Theme::Dark);
@@ -135,7 +135,7 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     show({1000, 640});
     amplitudeOnly();
     type("load", "1000");
-    workspace.findChild<QLineEdit*>("devices")->setText("sim:stimulator?load=2kohm sim:");
+    workspace.runner().findChild<QLineEdit*>("devices")->setText("sim:stimulator?load=2kohm sim:");
     click(*button("calibrateButton"));
     ASSERT_TRUE(comesTrue([this] { return ended != nullptr; }, 60'000));
     EXPECT_NE(ended->result.verdict(), "pass");
@@ -165,7 +165,7 @@ TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     auto* wiring = find<QPushButton>(workspace, "Wiring");
     ASSERT_NE(wiring, nullptr);
     click(*wiring);
-    const auto* drawing = workspace.findChild<QLabel*>("wiringDrawing");
+    const auto* drawing = workspace.runner().findChild<QLabel*>("wiringDrawing");
     ASSERT_NE(drawing, nullptr);
     EXPECT_TRUE(drawing->isVisible());
     QTest::qWait(50);  // laid out anew
