@@ -1,0 +1,130 @@
+// What the store knows of the stimulator that is open, as a bench gets it.
+#include <chrono>
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/run/KnownCalibration.h"
+#include "core/calibration/CalibrationStore.h"
+#include "core/devices/DeviceUri.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Known : public testing::Test {
+protected:
+    Known() {
+        ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
+        std::filesystem::create_directories(calibrationFile().parent_path());
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        Registry registry(std::move(drivers));
+        const std::vector<DeviceUri> uris{DeviceUri::parse("sim:").value()};
+        devices_ = registry.open(uris, {Role::Stimulator}, OpenContext{*clock_, 1, "1 kohm"}).value();
+    }
+    ~Known() override { ::unsetenv("XDG_DATA_HOME"); }
+    Known(const Known&) = delete;
+    Known& operator=(const Known&) = delete;
+
+    /// Of the open stimulator, made and valid until so many days from now.
+    void keep(double gain, int made, int until, const std::string& output = "SIM-1", const char* unit = "V") {
+        const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+        StoredCalibration c;
+        c.serial = output;
+        c.device = "simulated stimulator";
+        c.unit = unit;
+        c.gain = gain;
+        c.uncertainty_pct = 0.5;
+        c.lowest = 10;
+        c.highest = 40;
+        c.made = today + std::chrono::days(made);
+        c.validUntil = today + std::chrono::days(until);
+        c.simulated = true;
+        auto store = CalibrationStore::open(calibrationFile());
+        ASSERT_TRUE(store) << store.error().message;
+        const auto added = store->add(c);
+        ASSERT_TRUE(added) << added.error().message;
+    }
+
+    ScratchDir folder_;
+    std::shared_ptr<VirtualClock> clock_ = std::make_shared<VirtualClock>();
+    DeviceSet devices_;
+};
+
+TEST_F(Known, NothingIsKnownOfAStimulatorThatWasNeverCalibrated) {
+    RecordProperty("hazard", "H9");
+    const auto known = knownCalibration(devices_);
+    EXPECT_FALSE(known.calibration);
+    EXPECT_FALSE(known.holds);
+    EXPECT_THAT(known.text, HasSubstr("not calibrated: stimulator SIM-1"));
+}
+
+TEST_F(Known, AValidOneHoldsOnItsLastDayToo) {
+    keep(1.02, -10, 0);
+    const auto known = knownCalibration(devices_);
+    ASSERT_TRUE(known.calibration);
+    EXPECT_EQ(*known.calibration, (AmplitudeCalibration{1.02, 0, 10, 40}));
+    EXPECT_TRUE(known.holds);
+    EXPECT_THAT(known.text, HasSubstr("gain 1.02"));
+}
+
+TEST_F(Known, AnExpiredOneIsKnownAndDoesNotHold) {
+    RecordProperty("hazard", "H1");
+    keep(1.19, -400, -1);
+    const auto known = knownCalibration(devices_);
+    ASSERT_TRUE(known.calibration) << "the gate judges by it";
+    EXPECT_FALSE(known.holds);
+    EXPECT_THAT(known.text, HasSubstr("a newer one is expected"));
+}
+
+TEST_F(Known, OneThatIsOutOfOrderReachesTheGateWhichArmsNothing) {
+    RecordProperty("hazard", "H1");
+    keep(1.3, 0, 100);
+    auto known = knownCalibration(devices_);
+    ASSERT_TRUE(known.calibration);
+    EXPECT_THAT(known.text, HasSubstr("out of order"));
+
+    BenchConfig config;
+    config.devices = std::move(devices_);
+    config.clock = clock_;
+    config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+    applyKnown(std::move(known), config);
+    auto bench = Bench::create(std::move(config));
+    ASSERT_TRUE(bench) << bench.error().message;
+    const auto armed = (*bench)->arm({"1 kohm", true, true});
+    ASSERT_FALSE(armed);
+    EXPECT_THAT(armed.error().message, HasSubstr("out of order"));
+    // Left aside, it may be calibrated anew, and is judged by what it delivers.
+    ASSERT_TRUE((*bench)->useCalibration(false));
+    const auto again = (*bench)->arm({"1 kohm", true, true});
+    EXPECT_TRUE(again) << again.error().message;
+}
+
+TEST_F(Known, AnotherOutputOrUnitOfTheSameStimulatorIsAnother) {
+    RecordProperty("hazard", "H4");
+    keep(1.05, 0, 100, "SIM-1 channel=2");
+    keep(1.05, 0, 100, "SIM-1", "mA");
+    EXPECT_FALSE(knownCalibration(devices_).calibration);
+    EXPECT_EQ(calibratedOutput("PP-7", "pulsepal:PP-7?channel=2"), "PP-7 channel=2");
+    EXPECT_EQ(calibratedOutput("S1", "sciencemode:S1?level=mid&connector=yellow&keep=1"),
+              "S1 connector=yellow level=mid");
+    EXPECT_EQ(calibratedOutput("SIM-1", "sim:stimulator?gain=0.97"), "SIM-1");
+    EXPECT_EQ(calibratedOutput("", "pulsepal:1-1.2?channel=2"), "") << "a socket is no serial number";
+}
+
+TEST_F(Known, ADamagedStoreIsNoCalibration) {
+    RecordProperty("hazard", "H9");
+    keep(1.02, 0, 100);
+    std::ofstream(calibrationFile(), std::ios::app) << "{}\n{}\n";
+    const auto known = knownCalibration(devices_);
+    EXPECT_FALSE(known.calibration);
+    EXPECT_FALSE(known.holds);
+    EXPECT_THAT(known.text, HasSubstr("not calibrated: "));
+}
+
+}  // namespace
+}  // namespace tacto::test
