@@ -33,7 +33,8 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     EXPECT_NEAR(deliveredAtFull(), 40, 0.3) << "told 42.1 V, and the paper's 40 V are judged by what comes out";
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40 / 0.95, 0.01);
-    for (const auto& row : bench_->telemetry().exposure()) {
+    const auto seen = bench_->telemetry();
+    for (const auto& row : seen.exposure()) {
         EXPECT_TRUE(row.within || !row.evaluated) << titleOf(row.quantity);
     }
 }
