@@ -2,21 +2,10 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/Reach.h"
 
 namespace tacto {
 namespace {
-
-/// The smallest range that holds all it was shown.
-struct Reach {
-    double low = kUnknown, high = kUnknown;
-    void include(double value) {
-        if (!std::isfinite(value)) return;
-        low = std::fmin(low, value);
-        high = std::fmax(high, value);
-    }
-    [[nodiscard]] bool known() const { return std::isfinite(low); }
-    [[nodiscard]] double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
-};
 
 struct Points {
     QVector<double> x, y;

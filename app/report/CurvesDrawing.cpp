@@ -3,6 +3,7 @@
 
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
+#include "app/report/Reach.h"
 
 namespace tacto {
 namespace {
@@ -19,16 +20,6 @@ QCPGraph* addGraph(QCPAxisRect* axes, const std::vector<double>& x, const std::v
     graph->setData(vectorOf(x), vectorOf(y));
     return graph;
 }
-
-/// The smallest range that holds everything finite it was shown.
-struct Reach {
-    double low = kUnknown, high = kUnknown;
-    void include(double value) {
-        if (!std::isfinite(value)) return;
-        low = std::fmin(low, value);
-        high = std::fmax(high, value);
-    }
-};
 
 void addBand(QCPAxisRect* axes, const CurvesFigure::Curve& curve, QColor color) {
     if (curve.low.empty()) return;

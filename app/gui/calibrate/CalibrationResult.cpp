@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
+#include "app/gui/look/TableText.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -38,37 +39,19 @@ QString plusMinus(double value, double expanded, const QString& unit) {
                                                            : quantityText(value, unit);
 }
 
-void put(QTableWidget& table, int row, int column, const QString& text, bool right) {
-    auto* item = new QTableWidgetItem(text);
-    item->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    table.setItem(row, column, item);
-}
-
 /// Alike in prefix and decimals, so that they compare by eye.
 void putColumn(QTableWidget& table, int column, const std::vector<double>& values, const QString& unit) {
     const auto format = columnFormat(values, unit);
     for (int row = 0; row < int(values.size()); ++row) {
         const double value = values[std::size_t(row)];
-        put(table, row, column,
-            format && std::isfinite(value) ? quantityText(value, unit, *format) : quantityText(value, unit), true);
+        putText(table, row, column,
+                format && std::isfinite(value) ? quantityText(value, unit, *format) : quantityText(value, unit), true);
     }
 }
 
 QString verdictText(const QString& key) {
     const QString shape = key == "pass" ? "✔" : key == "fail" ? "✖" : "?";
     return shape + " " + key;
-}
-
-/// All rows in sight: the page scrolls, not the table.
-void fit(QTableWidget& table) {
-    table.resizeColumnsToContents();
-    table.resizeRowsToContents();
-    int height = table.horizontalHeader()->sizeHint().height() + 2 * table.frameWidth();
-    for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
-    int width = 2 * table.frameWidth();
-    for (int column = 0; column < table.columnCount(); ++column) width += table.columnWidth(column);
-    table.setMaximumWidth(width);
-    table.setFixedHeight(height + table.style()->pixelMetric(QStyle::PM_ScrollBarExtent) / 2);
 }
 
 }  // namespace
@@ -165,10 +148,10 @@ void CalibrationResult::addLevels(const json& levels) {
     }
     for (int row = 0; row < table->rowCount(); ++row) {
         const auto& level = levels[std::size_t(row)];
-        put(*table, row, 1, QString::number(level.value("n", 0)), true);
-        put(*table, row, table->columnCount() - 1, verdictText(words(level, "verdict")), false);
+        putText(*table, row, 1, QString::number(level.value("n", 0)), true);
+        putText(*table, row, table->columnCount() - 1, verdictText(words(level, "verdict")), false);
     }
-    fit(*table);
+    fitToRows(*table);
 }
 
 void CalibrationResult::addBudget(const json& budget) {
@@ -184,23 +167,23 @@ void CalibrationResult::addBudget(const json& budget) {
     for (int row = 0; row < int(rows.size()); ++row) {
         const auto& one = rows[std::size_t(row)];
         const double freedom = number(one, "degrees_of_freedom");
-        put(*table, row, 0, words(one, "name"), false);
-        put(*table, row, 1, words(one, "distribution"), false);
-        put(*table, row, 2, plain(number(one, "value"), 3), true);
-        put(*table, row, 3, plain(number(one, "divisor"), 4), true);
-        put(*table, row, 4, plain(number(one, "sensitivity"), 4), true);
-        put(*table, row, 5, plain(number(one, "contribution"), 3), true);
-        put(*table, row, 6, std::isfinite(freedom) ? plain(freedom, 3) : QString("∞"), true);
+        putText(*table, row, 0, words(one, "name"), false);
+        putText(*table, row, 1, words(one, "distribution"), false);
+        putText(*table, row, 2, plain(number(one, "value"), 3), true);
+        putText(*table, row, 3, plain(number(one, "divisor"), 4), true);
+        putText(*table, row, 4, plain(number(one, "sensitivity"), 4), true);
+        putText(*table, row, 5, plain(number(one, "contribution"), 3), true);
+        putText(*table, row, 6, std::isfinite(freedom) ? plain(freedom, 3) : QString("∞"), true);
     }
     const int last = int(rows.size());
     const double factor = number(budget, "coverage_factor");
-    put(*table, last, 0, tr("combined"), false);
-    put(*table, last, 1,
-        tr("%1%2").arg(words(budget, "method"),
-                       std::isfinite(factor) ? tr(", k = %1").arg(factor, 0, 'f', 2) : QString()),
-        false);
-    put(*table, last, 5, plain(number(budget, "combined"), 3), true);
-    fit(*table);
+    putText(*table, last, 0, tr("combined"), false);
+    putText(*table, last, 1,
+            tr("%1%2").arg(words(budget, "method"),
+                           std::isfinite(factor) ? tr(", k = %1").arg(factor, 0, 'f', 2) : QString()),
+            false);
+    putText(*table, last, 5, plain(number(budget, "combined"), 3), true);
+    fitToRows(*table);
 }
 
 }  // namespace tacto::gui

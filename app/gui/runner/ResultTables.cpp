@@ -9,6 +9,7 @@
 
 #include "app/gui/calibrate/CalibrationResult.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/look/TableText.h"
 
 namespace tacto::gui {
 
@@ -147,28 +148,7 @@ QTableWidget* ResultTables::addTable(const QString& title, int rows, const QStri
     return table;
 }
 
-namespace {
-
-void put(QTableWidget& table, int row, int column, const QString& text, bool right) {
-    auto* item = new QTableWidgetItem(text);
-    item->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    table.setItem(row, column, item);
-}
-
-/// All rows in sight: the page scrolls, not the table.
-void fit(QTableWidget& table) {
-    table.resizeColumnsToContents();
-    table.resizeRowsToContents();
-    int height = table.horizontalHeader()->sizeHint().height() + 2 * table.frameWidth();
-    for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
-    int width = 2 * table.frameWidth();
-    for (int column = 0; column < table.columnCount(); ++column) width += table.columnWidth(column);
-    table.setMaximumWidth(width);
-    // Room for its scroll bar, where the page is narrower than it.
-    table.setFixedHeight(height + table.style()->pixelMetric(QStyle::PM_ScrollBarExtent) / 2);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void ResultTables::addRows(const QString& title, const nlohmann::json& rows) {
     const auto columns = columnsOf(rows);
@@ -191,10 +171,10 @@ void ResultTables::addRows(const QString& title, const nlohmann::json& rows) {
             const auto text = at == row.end()                   ? QString("–")
                               : format && std::isfinite(number) ? quantityText(number, unit, *format)
                                                                 : shownValue(*at, key);
-            put(*table, r, c, text, at != row.end() && !at->is_string());
+            putText(*table, r, c, text, at != row.end() && !at->is_string());
         }
     }
-    fit(*table);
+    fitToRows(*table);
 }
 
 void ResultTables::addMatrix(const QString& title, const nlohmann::json& rows, const nlohmann::json& results) {
@@ -211,11 +191,11 @@ void ResultTables::addMatrix(const QString& title, const nlohmann::json& rows, c
     for (int c = 0; c < columns; ++c) header << (named ? names[c] : QString::number(c + 1));
     auto* table = addTable(title, int(rows.size()), header);
     for (int r = 0; r < int(rows.size()); ++r) {
-        put(*table, r, 0, named ? names[r] : QString::number(r + 1), false);
+        putText(*table, r, 0, named ? names[r] : QString::number(r + 1), false);
         for (int c = 0; c < columns; ++c)
-            put(*table, r, c + 1, shownValue(rows[std::size_t(r)][std::size_t(c)], {}), true);
+            putText(*table, r, c + 1, shownValue(rows[std::size_t(r)][std::size_t(c)], {}), true);
     }
-    fit(*table);
+    fitToRows(*table);
 }
 
 void ResultTables::addTree(const QString& title, const nlohmann::json& value) {
