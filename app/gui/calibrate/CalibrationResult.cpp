@@ -3,8 +3,6 @@
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QScrollBar>
-#include <QStyle>
 #include <QVBoxLayout>
 #include <cmath>
 
