@@ -12,7 +12,7 @@ namespace tacto {
 KnownCalibration knownCalibration(const DeviceSet& devices) {
     if (!devices.stimulator) return {};
     auto store = CalibrationStore::open(calibrationFile());
-    if (!store) return {{}, false, fmt::format("not calibrated: {}", store.error().message)};
+    if (!store) return {.calibration = {}, .until = {}, .text = fmt::format("not calibrated: {}", store.error().message)};
     const auto& device = devices.stimulator->identity();
     const auto output = calibratedOutput(device.serial, device.uri);
     const std::string_view unit = devices.stimulator->traits().drive == Drive::Current ? "mA" : "V";
@@ -22,6 +22,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
     const CalibrationDate today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     const auto found = store->valid(output, unit, today, device.simulated);
     known.holds = found.has_value();
+    if (found) known.until = found->validUntil;
     if (!found) {
         known.text = fmt::format("not calibrated: {}", found.error().message);
     } else if (const auto sound = validate(*known.calibration); !sound) {
@@ -38,6 +39,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
 void applyKnown(KnownCalibration known, BenchConfig& config) {
     config.calibration = known.calibration;
     config.calibrationHolds = known.holds;
+    config.calibratedUntil = known.until;
     config.calibrationText = std::move(known.text);
 }
 

@@ -48,6 +48,8 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     static const QRegularExpression presents(QStringLiteral(R"(\bbench\s*\.\s*(?:present|measureReference)\b)"));
     static const QRegularExpression fits(QStringLiteral(R"(\bbench\s*\.\s*fitLoad\b)"));
     static const QRegularExpression arms(QStringLiteral(R"(\bbench\s*\.\s*arm\b)"));
+    static const QRegularExpression wires(QStringLiteral(R"(\boperator\s*\.\s*wired\b)"));
+    if (wires.match(text).hasMatch()) declaration.questions.emplace_back("wiring");
     if (arms.match(text).hasMatch()) {
         declaration.questions.emplace_back("confirm-load");
         declaration.questions.emplace_back("confirm-arming");

@@ -51,6 +51,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> benchStateFunctions();
 [[nodiscard]] std::vector<HostFunction> operatorFunctions();
 [[nodiscard]] std::vector<HostFunction> recordFunctions();
+[[nodiscard]] std::vector<HostFunction> referenceFunctions();
 [[nodiscard]] std::vector<HostFunction> measureFunctions();
 [[nodiscard]] std::vector<HostFunction> plotFunctions();
 [[nodiscard]] std::vector<HostFunction> generalFunctions();

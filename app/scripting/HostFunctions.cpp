@@ -8,7 +8,7 @@ const std::vector<HostFunction>& hostFunctions() {
         std::vector<HostFunction> out;
         for (auto* part :
              {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
-              recordFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions, loadSafetyFunctions,
+              recordFunctions, referenceFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions, loadSafetyFunctions,
               calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
               transitionFunctions, stepFunctions, variationFunctions, latencyFunctions}) {
             auto functions = part();

@@ -82,6 +82,15 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
     out.verdict = summary == RowVerdict::Fail   ? Verdict::Fail
                   : summary == RowVerdict::Pass ? Verdict::Pass
                                                 : Verdict::Indeterminate;
+    if (out.verdict == Verdict::Pass) {
+        const auto count = [&verdicts](RowVerdict verdict) {
+            return std::count(verdicts.begin() + 1, verdicts.end(), verdict);
+        };
+        out.reasons.push_back(fmt::format(
+            "{} checks on {} loads passed, each with its uncertainty inside its limit, and {} commands that "
+            "must be refused were refused",
+            count(RowVerdict::Pass), out.loads.size(), count(RowVerdict::RefusedAsExpected)));
+    }
     for (const auto verdict : {RowVerdict::Fail, RowVerdict::Indeterminate, RowVerdict::NotEvaluated,
                                RowVerdict::NotApplicable, RowVerdict::Attention}) {
         collect(verdict);

@@ -9,6 +9,7 @@
 // caller (a script's thread, or the program).
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,9 @@ struct BenchConfig {
     std::optional<AmplitudeCalibration> calibration;
     bool calibrationHolds = true;  ///< it is applied to every train; else commands go out as they are, and to no person
     std::string calibrationText;   ///< for the session: which one, or why there is none; empty records nothing
+    /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
+    std::optional<std::chrono::sys_days> calibratedUntil;
+    std::chrono::sys_days (*today)() = nullptr;  ///< UTC; null asks the system
 };
 
 /// What the operator states when arming.

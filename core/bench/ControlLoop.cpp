@@ -5,62 +5,14 @@
 #include <utility>
 
 #include "core/bench/ReportRecord.h"
-#include "core/safety/TrainCheck.h"
 
 namespace tacto {
 
 namespace {
 
-/// IEC 60601-2-10 asks for an amplitude within 20 %; more than that above the command, and the limits were judged on
-/// a train that is not the one delivered.
-constexpr double kMostDelivered = 1.20;
 constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
 constexpr Instant kReportLook = std::chrono::milliseconds(100);
 constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
-
-FaultCause causeOf(TrainFinding finding) noexcept {
-    switch (finding) {
-        case TrainFinding::Open:
-            return FaultCause::OpenElectrode;
-        case TrainFinding::Short:
-            return FaultCause::ShortElectrode;
-        case TrainFinding::NetCharge:
-            return FaultCause::NetCharge;
-        case TrainFinding::StatusMissing:
-            return FaultCause::StatusMissing;
-        case TrainFinding::StuckOn:
-        case TrainFinding::Garbage:
-            return FaultCause::DeviceFault;
-        case TrainFinding::Pending:
-        case TrainFinding::Ok:
-            break;
-    }
-    return FaultCause::Internal;
-}
-
-ElectrodeReading readingOf(ElectrodeState state) noexcept {
-    switch (state) {
-        case ElectrodeState::NotMeasured:
-            return ElectrodeReading::NotMeasured;
-        case ElectrodeState::Ok:
-            return ElectrodeReading::Ok;
-        case ElectrodeState::Open:
-            return ElectrodeReading::Open;
-        case ElectrodeState::Short:
-            return ElectrodeReading::Short;
-    }
-    return ElectrodeReading::NotMeasured;
-}
-
-std::optional<double> present(double value) noexcept { return std::isnan(value) ? std::nullopt : std::optional(value); }
-
-TrainReadBack readBackOf(const TrainReport& report) noexcept {
-    return {.at = report.statusAt,
-            .delivering = report.stillDelivering,
-            .electrode = readingOf(report.electrode),
-            .imbalance = present(report.imbalance),
-            .imbalanceUncertainty = present(report.imbalanceUncertainty)};
-}
 
 }  // namespace
 
@@ -99,6 +51,12 @@ void ControlLoop::replaceFinger(std::unique_ptr<FingerInput> finger) {
 void ControlLoop::replacePlanner(std::unique_ptr<TrainPlanner> planner) {
     const std::scoped_lock lock(inboxMutex_);
     inbox_.planner = std::move(planner);
+    inboxFull_.store(true, std::memory_order_release);
+}
+
+void ControlLoop::noteLoad(const SeenLoad& seen) {
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.load = seen;
     inboxFull_.store(true, std::memory_order_release);
 }
 
@@ -145,6 +103,7 @@ void ControlLoop::takeCommands(Instant now) noexcept {
         impedance_.reset();
         planner_->wantNothing();
     }
+    if (taken.load) judgeLoad(*taken.load, now);
 }
 
 void ControlLoop::noteState(Instant now) noexcept {
@@ -182,6 +141,9 @@ void ControlLoop::beginCheck(Instant now) noexcept {
         arming_->evidence.impedanceAt = now;
         const auto permitted = parts_.interlock.arm(arming_->evidence, now);
         if (!permitted) parts_.interlock.disarm("arming was refused");
+        planner_->armedOn(arming_->declared);
+        impedanceHigh_ = arming_->evidence.impedanceHigh;
+        armedAt_ = now;
         return finishArming(permitted);
     }
     auto check = parts_.gate.approveCheck(now);
@@ -306,128 +268,6 @@ void ControlLoop::tapSamples(BenchTap& tap) noexcept {
     }
 }
 
-void ControlLoop::judgeReports() noexcept {
-    if (parts_.stimulator != nullptr) {
-        while (const auto report = parts_.stimulator->takeReport()) judge(*report);
-    } else if (parts_.massager != nullptr) {
-        while (const auto report = parts_.massager->takeReport()) judgeBurst(*report);
-    }
-}
-
-void ControlLoop::recordOutcome(const TrainReport& report, const char* name) noexcept {
-    if (parts_.recorder == nullptr) return;
-    parts_.recorder->command(report.onset, name,
-                             {{"is_check", report.isCheck ? 1.0 : 0.0},
-                              {"amplitude", report.amplitude},
-                              {"measured", report.measured},
-                              {"interval_s", report.interval_s},
-                              {"impedance_ohm", report.impedance_ohm},
-                              {"imbalance", report.imbalance}},
-                             report.error.view());
-}
-
-void ControlLoop::judge(const TrainReport& report) noexcept {
-    const Instant now = report.statusAt;
-    if (parts_.tap != nullptr) parts_.tap->trains.push(report);
-    if (report.outcome == TrainOutcome::LoopSilent) {
-        if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
-        return;
-    }
-    if (report.outcome == TrainOutcome::Voided) {
-        recordOutcome(report, "voided");
-        if (arming_ && report.isCheck) {
-            parts_.interlock.disarm("the impedance check was voided");
-            finishArming(fail(ErrorCode::Stopped, "arming ended: the impedance check was voided by a stop"));
-        }
-        return;
-    }
-    recordOutcome(report, report.outcome == TrainOutcome::Failed ? "failed"
-                          : report.isCheck                       ? "impedance check"
-                                                                 : "delivered");
-    if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
-    if (report.isCheck && arming_) return judgeCheck(report);
-
-    if (!report.isCheck) {
-        ++shown_.trainsDelivered;
-        shown_.trainAmplitude = report.amplitude;
-    }
-    shown_.imbalance = report.imbalance;
-    shown_.imbalanceUncertainty = report.imbalanceUncertainty;
-    const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);
-    if (judgement.stops()) return trip(causeOf(judgement.finding), judgement.reason.view(), now);
-    if (report.measured > kMostDelivered * report.amplitude) {
-        return trip(FaultCause::LimitBroken,
-                    fmt::format("the stimulator delivered {:.3g} where {:.3g} was commanded", report.measured,
-                                report.amplitude),
-                    now);
-    }
-    if (parts_.stimulator->device().traits().readsBack && mayPost(report.isCheck)) judgeImpedance(report);
-}
-
-void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
-    const Instant now = report.statusAt;
-    if (parts_.tap != nullptr) parts_.tap->trains.push(report);
-    if (report.outcome == TrainOutcome::LoopSilent) {
-        if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
-        return;
-    }
-    const bool delivered = report.outcome == TrainOutcome::Delivered;
-    recordOutcome(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
-    if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
-    if (!delivered) return;
-    ++shown_.trainsDelivered;
-    shown_.intensity = report.amplitude;
-}
-
-void ControlLoop::judgeImpedance(const TrainReport& report) noexcept {
-    const Instant now = report.statusAt;
-    if (std::isnan(report.impedance_ohm)) {
-        // A train too small to be read leaves the last reading to grow old; a check exists to be read.
-        if (report.isCheck) trip(FaultCause::StatusMissing, "the impedance check was not read back", now);
-        return;
-    }
-    const Ohms measured(report.impedance_ohm);
-    if (const auto updated = parts_.gate.updateImpedance(measured, now); !updated) {
-        return trip(FaultCause::LimitBroken, updated.error().message, now);
-    }
-    impedance_ = measured;
-    impedanceAt_ = now;
-}
-
-void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
-    const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, report.statusAt);
-    auto evidence = arming_->evidence;
-    if (judgement.stops()) {
-        parts_.interlock.disarm(judgement.reason.c_str());
-        return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", judgement.reason.view()));
-    }
-    if (std::isfinite(report.impedance_ohm)) evidence.impedance = Ohms(report.impedance_ohm);
-    evidence.impedanceAt = report.statusAt;
-    if (evidence.impedance) {
-        if (const auto updated = parts_.gate.updateImpedance(*evidence.impedance, report.statusAt); !updated) {
-            parts_.interlock.disarm("the measured impedance is outside its range");
-            return finishArming(updated);
-        }
-    }
-    const auto permitted = parts_.interlock.arm(evidence, report.statusAt);
-    if (!permitted) {
-        parts_.interlock.disarm("the impedance check did not pass");
-        return finishArming(permitted);
-    }
-    impedance_ = evidence.impedance;
-    planner_->armedOn(impedance_);
-    impedanceAt_ = report.statusAt;
-    finishArming({});
-}
-
-void ControlLoop::watchForSilence(Instant now) noexcept {
-    if (parts_.stimulator == nullptr || parts_.stimulator->idle()) return;
-    const auto judgement = judgeTrain(parts_.mode, std::nullopt, postedEnd_, now);
-    if (judgement.stops() && parts_.interlock.state() != InterlockState::Faulted) {
-        trip(FaultCause::StatusMissing, judgement.reason.view(), now);
-    }
-}
-
 void ControlLoop::updateWish(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     const bool permitted = state == InterlockState::Armed || state == InterlockState::Delivering;
@@ -462,7 +302,8 @@ void ControlLoop::updateWish(Instant now) noexcept {
         planner_->wantNothing();
         return;
     }
-    if (const auto wanted = planner_->want(frame.R, present(frame.P), now); !wanted) {
+    const auto pressure = std::isnan(frame.P) ? std::nullopt : std::optional(frame.P);
+    if (const auto wanted = planner_->want(frame.R, pressure, now); !wanted) {
         refused(now, wanted.error().message);
     }
 }

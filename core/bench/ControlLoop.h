@@ -15,6 +15,7 @@
 
 #include "core/base/Latest.h"
 #include "core/bench/BenchTap.h"
+#include "core/bench/CaptureLoad.h"
 #include "core/bench/FingerInput.h"
 #include "core/bench/MassagerSession.h"
 #include "core/bench/StimulatorSession.h"
@@ -36,6 +37,9 @@ struct DriveCommand {
 struct ArmCommand {
     GateSetup setup;
     ArmingEvidence evidence;  ///< its impedance is filled in from the check pulse
+    /// |Z| of the declared load, where captures will tell what becomes of it and the stimulator does not: what a
+    /// profile that holds charge or energy refers to.
+    std::optional<Ohms> declared{};
 };
 
 class ControlLoop {
@@ -70,6 +74,9 @@ public:
     /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned; null ends it, and on return
     /// nothing pushes into the one before. From another thread.
     void listen(BenchTap* tap);
+    /// What a capture showed of the load while trains are delivered. Judged where the stimulator cannot read it back:
+    /// a load outside its range, and an open one, end delivery. From another thread.
+    void noteLoad(const SeenLoad& seen);
 
     /// One turn at `now`. Does not allocate in a steady state.
     void step(Instant now) noexcept;
@@ -88,6 +95,7 @@ private:
         std::optional<DriveCommand> drive;
         std::unique_ptr<FingerInput> finger;
         std::unique_ptr<TrainPlanner> planner;
+        std::optional<SeenLoad> load;
     };
     void takeCommands(Instant now) noexcept;
     void beginCheck(Instant now) noexcept;
@@ -101,6 +109,8 @@ private:
     void judge(const TrainReport& report) noexcept;
     void judgeBurst(const TrainReport& report) noexcept;
     void judgeImpedance(const TrainReport& report) noexcept;
+    void judgeLoad(const SeenLoad& seen, Instant now) noexcept;
+    void updateImpedance(Ohms measured, Instant at) noexcept;
     void recordOutcome(const TrainReport& report, const char* name) noexcept;
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
@@ -141,7 +151,9 @@ private:
     Instant lossesDue_{0};  // not before then
     std::optional<Ohms> impedance_;
     Instant impedanceAt_{0};
-    Instant postedEnd_{0};  // when the train in the session ends
+    Instant armedAt_{0};
+    Ohms impedanceHigh_{0};  // of the load that was declared when arming
+    Instant postedEnd_{0};   // when the train in the session ends
     Telemetry shown_;
     std::vector<ExposureRow> exposure_;
     Instant exposureAt_{0};

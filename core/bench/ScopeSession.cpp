@@ -53,6 +53,11 @@ Result<void> ScopeSession::forceWhenDue(Instant now) {
     return forced_->forceTrigger();
 }
 
+bool ScopeSession::stale(const Capture& capture) const {
+    const std::scoped_lock lock(mutex_);
+    return capture.trigger_s < notBefore_s_;
+}
+
 Instant ScopeSession::serve(Instant now) noexcept {
     constexpr Instant kPollEvery = std::chrono::milliseconds(5);
     std::optional<ScopeSettings> settings;
@@ -84,6 +89,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
         } else {
             quietSince_ = now;
             forceAsked_ = false;
+            if (seen_ && !stale(**capture)) seen_(**capture);
             const std::scoped_lock lock(mutex_);
             if ((*capture)->trigger_s < notBefore_s_) continue;
             captures_.push_back(std::move(**capture));

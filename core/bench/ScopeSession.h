@@ -5,6 +5,7 @@
 // any thread. Captures are large: no more than kMaxCaptures may be asked for at once.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -18,8 +19,9 @@ class ScopeSession {
 public:
     static constexpr std::size_t kMaxCaptures = 64;
 
-    /// `device` outlives the session.
-    explicit ScopeSession(Oscilloscope& device) : device_(device), forced_(dynamic_cast<ForcedTrigger*>(&device)) {}
+    /// `device` outlives the session. `seen`, unless empty, is told of every capture that is kept, from serve().
+    explicit ScopeSession(Oscilloscope& device, std::function<void(const Capture&)> seen = {})
+        : device_(device), forced_(dynamic_cast<ForcedTrigger*>(&device)), seen_(std::move(seen)) {}
 
     /// Asks for `wanted` captures triggered from `now` on, with these settings; throws away older ones. The device
     /// is disarmed with the last of them, so that none is taken that nobody asked for.
@@ -42,9 +44,12 @@ public:
 
 private:
     [[nodiscard]] Result<void> forceWhenDue(Instant now);
+    /// Of an earlier request.
+    [[nodiscard]] bool stale(const Capture& capture) const;
 
     Oscilloscope& device_;
     ForcedTrigger* const forced_;  // the device's, or null
+    const std::function<void(const Capture&)> seen_;
     mutable std::mutex mutex_;
     std::optional<ScopeSettings> requested_;  // guarded
     std::size_t wanted_ = 0;                  // guarded

@@ -58,7 +58,7 @@ Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
     const Instant onset = std::max(scheduler_.due().value_or(now), now);
     const Command command = begin(onset);
-    const auto held = heldAmplitude(encoder_.profile().hold, command.amplitude, armed_, impedance);
+    const auto held = heldAmplitude(encoder_.profile().hold, command.amplitude, armed_, impedance ? impedance : armed_);
     if (!held) return failure(held);
     const auto train = trainFor(source_.drive, encoder_.profile(), *held, impedance);
     if (!train) return failure(train);

@@ -35,7 +35,8 @@ public:
     TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                  const std::optional<AmplitudeCalibration>& calibration = {});
 
-    /// |Z| when the output was armed: what a profile that holds charge or energy refers to.
+    /// |Z| when the output was armed: what a profile that holds charge or energy refers to, and takes until another
+    /// was measured.
     void armedOn(std::optional<Ohms> impedance) noexcept { armed_ = impedance; }
 
     /// What is wanted from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then

@@ -36,26 +36,12 @@ function encodings() {
   return out;
 }
 
-// Before anything is believed: the wiring as drawn, and the known load must read as what it is.
+// Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
 function checkReference(p) {
-  if (bench.devices.some((device) => !device.simulated)) {
-    operator.confirm(
-      "wiring",
-      "The load of " + p.load + " ohm is connected as drawn: both oscilloscope grounds at one node, the shunt in the " +
-        "low side, its drop subtracted from the voltage",
-      { drawing: "wiring" },
-    );
-  }
+  operator.wired(p.load);
   bench.arm({ load: p.load });
   bench.drive("manual", { roughness: 1, pressure: 1 });
-  const reading = measure.pulse(bench.capture({ trains: 1 }));
-  const off = reading.load_ohm ? Math.abs(reading.load_ohm / p.load - 1) : null;
-  const allowed = p.load_tolerance_pct / 100 + (reading.load_limit || 0);
-  const check = { load_ohm: p.load, measured_ohm: reading.load_ohm || null, allowed_pct: 100 * allowed,
-    passed: off !== null && off <= allowed };
-  record.measurement("known-reference check", check);
-  report.table("Known-reference check", [check], ["load_ohm", "measured_ohm", "allowed_pct", "passed"]);
-  return check;
+  return record.reference(measure.pulse(bench.capture({ trains: 1 })), p.load, p.load_tolerance_pct);
 }
 
 function conditionsOf(p) {
@@ -253,7 +239,7 @@ function run(p) {
   const reference = checkReference(p);
   bench.disarm();
   if (!reference.passed) {
-    return verdict({ verdict: "indeterminate", reference, encodings: [], reasons: ["the known-reference check failed; nothing was compared"] });
+    return verdict({ verdict: "indeterminate", reference, encodings: [], reasons: [reference.reason + "; nothing was compared"] });
   }
   const trials = random.blocks(conditionsOf(p), p.repeats);
   const between = random.blocks(levels(), p.level_repeats);

@@ -205,17 +205,7 @@ function tables(found) {
 }
 
 function run(p) {
-  const simulated = bench.devices.every((device) => device.simulated);
-  if (!simulated) {
-    operator.confirm(
-      "wiring",
-      "Connected as drawn: both oscilloscope grounds at one node, the shunt in the low side, its drop subtracted from " +
-        "the voltage; no person is connected",
-      { drawing: "wiring" },
-    );
-  } else {
-    report.text("Wiring: the simulated bench, wired as the drawing shows.");
-  }
+  operator.wired();
   if (p.area > 0) bench.setElectrodeArea(p.area);
   const tolerances = { load_pct: p.load_tolerance, amplitude_pct: p.amplitude_tolerance };
 

@@ -180,32 +180,7 @@ function checkReference(p) {
   bench.drive("manual", { roughness: 1, pressure: 1 });
   const reading = read(p, 1);
   bench.disarm();
-  const allowed = p.load_tolerance_pct / 100 + (reading.load_limit || 0);
-  const off = reading.load_ohm ? Math.abs(reading.load_ohm / p.load - 1) : null;
-  const check = {
-    load_ohm: p.load,
-    measured_ohm: reading.load_ohm || null,
-    deviation_pct: off === null ? null : 100 * off,
-    allowed_pct: 100 * allowed,
-    passed: off !== null && off <= allowed,
-  };
-  record.measurement("known-reference check", check);
-  report.table("Known-reference check", [check], ["load_ohm", "measured_ohm", "deviation_pct", "allowed_pct", "passed"]);
-  return { check, reading };
-}
-
-function wire(p) {
-  const real = bench.devices.filter((device) => !device.simulated);
-  if (real.length === 0) {
-    report.text("Wiring: the simulated bench, wired as the drawing shows.");
-    return;
-  }
-  operator.confirm(
-    "wiring",
-    "The load of " + p.load + " ohm is connected as drawn: both oscilloscope grounds at one node, the shunt in the " +
-      "low side, its drop subtracted from the voltage",
-    { drawing: "wiring" },
-  );
+  return { check: record.reference(reading, p.load, p.load_tolerance_pct), reading };
 }
 
 function warmUp(p) {
@@ -294,16 +269,12 @@ function run(p) {
   bench.useCalibration(false); // what it delivers for what it is told, not for what a calibration makes of it
   report.text("Stored calibration: " + stored.text + ".");
   if (p.mode === "check" && !stored.calibrated) throw new Error(stored.text + "; there is nothing to check");
-  wire(p);
+  operator.wired(p.load);
   const { check, reading } = checkReference(p);
   const results = { reference: check, instruments: bench.devices };
   if (!check.passed) {
-    const was = check.measured_ohm === null ? "nothing" : check.measured_ohm.toPrecision(4) + " ohm";
     results.verdict = "indeterminate";
-    results.reasons = [
-      "the known-reference check failed: " + was + " was measured where " + p.load + " ohm ± " +
-        check.allowed_pct.toPrecision(2) + " % is connected; nothing was calibrated",
-    ];
+    results.reasons = [check.reason + "; nothing was calibrated"];
     return verdict(results);
   }
   if (!(p.scope_gain_pct > 0) && !reading.instrument.gain_tolerance) {

@@ -55,26 +55,12 @@ function stepsOf(p) {
   };
 }
 
-// Before anything is believed: the wiring as drawn, and the known load must read as what it is.
+// Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
 function checkReference(p) {
-  if (bench.devices.some((device) => !device.simulated)) {
-    operator.confirm(
-      "wiring",
-      "The load of " + p.load + " ohm is connected as drawn: both oscilloscope grounds at one node, the shunt in the " +
-        "low side, its drop subtracted from the voltage",
-      { drawing: "wiring" },
-    );
-  }
+  operator.wired(p.load);
   bench.arm({ load: p.load });
   bench.drive("manual", { roughness: 1, pressure: 1 });
-  const reading = measure.pulse(bench.capture({ trains: 1 }));
-  const off = reading.load_ohm ? Math.abs(reading.load_ohm / p.load - 1) : null;
-  const allowed = p.load_tolerance_pct / 100 + (reading.load_limit || 0);
-  const check = { load_ohm: p.load, measured_ohm: reading.load_ohm || null, allowed_pct: 100 * allowed,
-    passed: off !== null && off <= allowed };
-  record.measurement("known-reference check", check);
-  report.table("Known-reference check", [check], ["load_ohm", "measured_ohm", "allowed_pct", "passed"]);
-  return check;
+  return record.reference(measure.pulse(bench.capture({ trains: 1 })), p.load, p.load_tolerance_pct);
 }
 
 function largestRows(found) {
@@ -158,7 +144,7 @@ function run(p) {
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
   results.reasons = sweep.reasons.concat(results.latency.reasons);
-  if (!results.reference.passed) results.reasons.unshift("the known-reference check failed; no latency was measured");
+  if (!results.reference.passed) results.reasons.unshift(results.reference.reason + "; no latency was measured");
   const verdicts = [sweep.verdict, results.latency.verdict];
   results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
   return verdict(results);

@@ -41,6 +41,10 @@ protected:
         config.calibration = calibration_;
         config.calibrationHolds = calibrationHolds_;
         config.calibrationText = "as the test says";
+        config.calibratedUntil = calibratedUntil_;
+        config.today = today_;
+        config.person = person_;
+        config.mode = person_ ? OutputMode::Person : OutputMode::BenchLoad;
         auto bench = Bench::create(std::move(config));
         ASSERT_TRUE(bench) << bench.error().message;
         bench_ = std::move(*bench);
@@ -56,6 +60,9 @@ protected:
     SessionWriter* session_ = nullptr;
     std::optional<AmplitudeCalibration> calibration_;
     bool calibrationHolds_ = true;
+    std::optional<std::chrono::sys_days> calibratedUntil_;
+    std::chrono::sys_days (*today_)() = nullptr;
+    std::optional<PersonSetup> person_;  ///< makes it a bench for a person
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
 };

@@ -106,6 +106,41 @@ TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
     EXPECT_NE(said[1].find("left aside"), std::string::npos) << said[1];
 }
 
+// Static: what a bench asks for the date has no context.
+std::chrono::sys_days pretended;
+
+TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
+    RecordProperty("hazard", "H9");
+    using namespace std::chrono_literals;
+    calibration_ = AmplitudeCalibration{.gain = 1, .offset = 0, .lowest = 0.1, .highest = 40};
+    profile_.electrodeArea = SquareCentimetres(3);
+    calibratedUntil_ = 2026y / 11 / 30;
+    today_ = [] { return pretended; };
+    person_ = PersonSetup{.participant = "P7",
+                          .consentRecorded = true,
+                          .discomfortLimit = Milliamps(20),
+                          .rampStep = Milliamps(1),
+                          .impedanceLow = Ohms(500),
+                          .impedanceHigh = Ohms(10'000)};
+    pretended = 2026y / 11 / 30;
+    open({"sim:stimulator?mode=current"}, {Role::Stimulator});
+    const auto onTheLastDay = arm();
+    ASSERT_TRUE(onTheLastDay) << onTheLastDay.error().message;
+    bench_->disarm();
+    pretended = 2026y / 12 / 1;
+    const auto after = arm();
+    ASSERT_FALSE(after);
+    EXPECT_EQ(after.error().code, ErrorCode::NotArmed);
+    EXPECT_NE(after.error().message.find("ended on 2026-11-30 and today is 2026-12-01"), std::string::npos)
+        << after.error().message;
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+
+    // A bench load needs no date.
+    person_.reset();
+    open({"sim:stimulator"}, {Role::Stimulator});
+    EXPECT_TRUE(arm());
+}
+
 TEST_F(CalibratedBenchTest, AnImpossibleCalibrationArmsNothing) {
     RecordProperty("hazard", "H9");
     calibration_ = AmplitudeCalibration{0.1, 0, 10, 40};

@@ -103,6 +103,8 @@ inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulato
     command.evidence.operatorConfirmed = true;
     command.evidence.impedanceLow = Ohms(800);
     command.evidence.impedanceHigh = Ohms(1200);
+    command.evidence.readsBack = device.traits().readsBack;
+    command.evidence.declaredLoadConfirmed = !device.traits().readsBack;
     loop.arm(std::move(command));
 }
 

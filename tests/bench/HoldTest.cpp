@@ -1,6 +1,8 @@
 // Delivering into a load that changes: what the profile holds stays, the limits hold, and what jumps ends it.
+#include "core/bench/CaptureLoad.h"
 #include "core/measure/PulseMeasurement.h"
 #include "tests/bench/BenchFixture.h"
+#include "tests/bench/LoopRig.h"
 
 namespace tacto {
 namespace {
@@ -79,6 +81,122 @@ TEST_F(HoldTest, ALoadThatLeavesItsRangeEndsDelivery) {
     ASSERT_FALSE(waited);
     EXPECT_EQ(state(), InterlockState::Faulted);
     EXPECT_NE(waited.error().message.find("20 % more or less"), std::string::npos) << waited.error().message;
+}
+
+/// A stimulator that cannot read its load back, on a bench whose oscilloscope sees it.
+class SeenLoadTest : public HoldTest {
+protected:
+    void deliver(Hold what, const std::string& load) {
+        profile_.encoding.hold = what;
+        open({"sim:stimulator?readback=no&" + load});
+        const auto armed = arm();
+        ASSERT_TRUE(armed) << armed.error().message;
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
+    }
+    /// Captures once a second; the error that ended it, or nothing after `times`.
+    [[nodiscard]] std::optional<Error> watch(int times) {
+        for (int k = 0; k < times; ++k) {
+            const auto captures = bench_->capture(1, ScopeSettings{});
+            if (!captures) return captures.error();
+            const auto waited = bench_->wait(Seconds(0.5));
+            if (!waited) return waited.error();
+        }
+        return std::nullopt;
+    }
+};
+
+TEST_F(SeenLoadTest, ChargeStaysByWhatTheCapturesShow) {
+    deliver(Hold::Charge, "load=1kohm, drift 1.5 %/s");
+    const auto before = next();
+    const auto ended = watch(9);
+    ASSERT_FALSE(ended) << ended->message;
+    const auto after = next();
+    EXPECT_NEAR(after.charge_uC / before.charge_uC, 1, 0.025) << "a second behind";
+    EXPECT_GT(after.voltage_V / before.voltage_V, 1.1);
+    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1140, 40);
+}
+
+TEST_F(SeenLoadTest, UntilACaptureThereIsTheDeclaredLoad) {
+    deliver(Hold::Charge, "load=1kohm, drift 1.5 %/s");
+    ASSERT_TRUE(bench_->wait(Seconds(5)));
+    EXPECT_TRUE(std::isnan(bench_->telemetry().impedance_ohm)) << "declared is not measured";
+    EXPECT_NEAR(bench_->telemetry().trainAmplitude, 25, 0.01);
+    EXPECT_GT(bench_->telemetry().trainsDelivered, 8U);
+}
+
+TEST_F(SeenLoadTest, ALoadThatLeavesItsRangeEndsDelivery) {
+    RecordProperty("hazard", "H3");
+    for (const auto what : {Hold::Voltage, Hold::Charge}) {
+        deliver(what, "load=1kohm, drift 3 %/s");
+        const auto ended = watch(20);
+        ASSERT_TRUE(ended) << nameOf(what);
+        EXPECT_EQ(state(), InterlockState::Faulted);
+        EXPECT_NE(ended->message.find("20 % more or less"), std::string::npos) << ended->message;
+    }
+}
+
+/// A stimulator that reports nothing of its electrode at all; the simulated one knows an open lead by itself.
+TEST(SeenLoad, WithoutAnyCurrentEndsDelivery) {
+    RecordProperty("hazard", "H3");
+    test::LoopRig rig(false);
+    const auto step = [&] {
+        rig.clock.advanceTo(rig.clock.now() + ControlLoop::kPeriod);
+        rig.loop.step(rig.clock.now());
+    };
+    step();
+    ASSERT_EQ(rig.interlock.state(), InterlockState::Armed);
+    rig.loop.noteLoad({Ohms(1100), true, rig.clock.now()});
+    step();
+    EXPECT_EQ(rig.interlock.state(), InterlockState::Armed) << "so little current is no news of a load of 1 kohm";
+    rig.loop.noteLoad({Ohms(5000), true, Instant(-1)});
+    step();
+    EXPECT_EQ(rig.interlock.state(), InterlockState::Armed) << "from before it was armed";
+    rig.loop.noteLoad({Ohms(5000), true, rig.clock.now()});
+    step();
+    EXPECT_EQ(rig.interlock.state(), InterlockState::Faulted);
+    EXPECT_NE(rig.interlock.reason().view().find("shows voltage and no current"), std::string_view::npos)
+        << rig.interlock.reason().view();
+    EXPECT_GT(rig.device.offs, 0);
+}
+
+TEST(SeenLoad, IsNothingWhereTheCaptureCannotTell) {
+    Capture capture;
+    capture.rate_hz = 1e6;
+    capture.trigger_s = 2;
+    CaptureChannel volts{.name = "voltage", .unit = "V", .samples = {}, .low = -50, .high = 50, .lsb = 0.4};
+    for (int i = 0; i < 1000; ++i) volts.samples.push_back(i >= 200 && i < 400 ? 20.0F : 0.0F);
+    CaptureChannel amps = volts;
+    amps.name = "current";
+    amps.unit = "A";
+    amps.low = -0.05;
+    amps.high = 0.05;
+    amps.lsb = 4e-4;
+    for (auto& sample : amps.samples) sample /= 1000;
+    capture.channels = {volts, amps};
+    const auto seen = loadSeenIn(capture);
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->impedance.value(), 1000, 1);
+    EXPECT_FALSE(seen->atLeast);
+    EXPECT_EQ(seen->at, toInstant(Seconds(2)));
+
+    auto without = capture;
+    without.channels.pop_back();
+    EXPECT_FALSE(loadSeenIn(without)) << "no current channel";
+    auto untriggered = capture;
+    untriggered.untriggered = true;
+    EXPECT_FALSE(loadSeenIn(untriggered));
+    auto reversed = capture;
+    for (auto& sample : reversed.channels[1].samples) sample = -sample;
+    EXPECT_FALSE(loadSeenIn(reversed)) << "a probe the wrong way round";
+
+    auto open = capture;
+    std::fill(open.channels[1].samples.begin(), open.channels[1].samples.end(), 4e-4F);
+    const auto least = loadSeenIn(open);
+    ASSERT_TRUE(least);
+    EXPECT_TRUE(least->atLeast);
+    EXPECT_NEAR(least->impedance.value(), 20 / 4e-3, 1);
+    open.channels[1].lsb = 0;
+    EXPECT_FALSE(loadSeenIn(open)) << "no telling what the channel could have shown";
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 namespace tacto::test {
 
 struct LoopRig {
-    LoopRig() {
+    explicit LoopRig(bool readsBack = true) {
+        device.traits_.readsBack = readsBack;
         armFake(loop, interlock, device, clock);
         loop.drive({DriveSource::Sensor, 0, 0});
     }

@@ -53,6 +53,13 @@ TEST(ProtocolDeclaration, ReadsEverythingInTheOrderWritten) {
     EXPECT_FALSE(read.hasOtherQuestions);
 }
 
+TEST(ProtocolDeclaration, KnowsWhatTheHostAsksOnItsOwn) {
+    const auto read = readDeclaration(probe(R"js(protocol({ title: "x" });
+function run() { operator.wired(500); bench.arm({ load: 500 }); bench.present("silk"); })js"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->questions, (std::vector<std::string>{"wiring", "confirm-load", "confirm-arming", "surface-*"}));
+}
+
 TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {
     const auto json = toJson(readDeclaration(probe(kFull)).value());
     EXPECT_EQ(json["name"], "probe");

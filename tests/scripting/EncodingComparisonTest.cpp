@@ -17,18 +17,9 @@ using Settings = std::map<std::string, std::string>;
 const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
 const Settings kShort{{"repeats", "2"}, {"level_repeats", "2"}};
 
-RunRequest requestFor(RunBench& rig, const Settings& settings) {
-    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
-    auto source = shipped.find("encoding-comparison").value();
-    const auto declaration = readDeclaration(source).value();
-    auto request = rig.request(std::move(source));
-    request.parameters = applySettings(declaration, settings).value().parameters;
-    return request;
-}
-
 ScriptOutcome compare(const Settings& settings) {
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    auto outcome = runProtocol(rig.shipped("encoding-comparison", settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
 }
@@ -124,7 +115,7 @@ TEST(EncodingComparison, OnAnotherLoadThanStatedComparesNothing) {
 
 TEST(EncodingComparison, ReportsSideBySideAndAgainstTheDefault) {
     RunBench rig(true, "sim:", 1, true, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, kShort)).value();
+    const auto outcome = runProtocol(rig.shipped("encoding-comparison", kShort)).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
@@ -147,7 +138,7 @@ TEST_P(ComparisonFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     const auto [device, at_s] = GetParam();
     RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, kShort)).value();
+    const auto outcome = runProtocol(rig.shipped("encoding-comparison", kShort)).value();
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
@@ -167,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(AtEachStep, ComparisonFault,
 TEST(EncodingComparison, StoppedKeepsTheEncodingsThatWereWhole) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = requestFor(rig, kShort);
+    auto request = rig.shipped("encoding-comparison", kShort);
     Bench& bench = rig.bench();
     int trials = 0;
     request.onTrial = [&](const Json&) {

@@ -1,4 +1,5 @@
-// RunBench.h - a simulated bench to run scripts on, with or without a session file.
+// RunBench.h - a simulated bench to run scripts on, with or without a session file; or one that looks like a
+// laboratory's own.
 #pragma once
 
 #include <chrono>
@@ -10,6 +11,7 @@
 #include "core/bench/Bench.h"
 #include "core/session/SessionWriter.h"
 #include "drivers/simulated/SimulatedDriver.h"
+#include "tests/scripting/Technician.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -27,7 +29,8 @@ class RunBench {
 public:
     explicit RunBench(bool virtualTime = true, std::string device = "sim:", std::uint64_t seed = 1,
                       bool recorded = false,
-                      std::set<Role> needed = {Role::Sensor, Role::Stimulator, Role::Oscilloscope}) {
+                      std::set<Role> needed = {Role::Sensor, Role::Stimulator, Role::Oscilloscope},
+                      bool looksReal = false) {
         if (virtualTime) {
             clock_ = std::make_shared<VirtualClock>();
         } else {
@@ -40,6 +43,7 @@ public:
         if (device != "sim:") uris.push_back(DeviceUri::parse("sim:").value());
         BenchConfig config;
         config.devices = registry.open(uris, needed, OpenContext{*clock_, seed, "1 kohm"}).value();
+        if (looksReal) technician_ = lookReal(config.devices);
         config.clock = clock_;
         config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
         if (recorded) {
@@ -61,6 +65,15 @@ public:
         out.bench = bench_.get();
         out.session = writer_.get();
         out.seed = seed_;
+        out.operatorDesk = technician_.get();
+        return out;
+    }
+    /// A shipped protocol, with what --set would give.
+    [[nodiscard]] RunRequest shipped(const std::string& protocol, const std::map<std::string, std::string>& settings) {
+        auto source = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find(protocol).value();
+        auto parameters = applySettings(readDeclaration(source).value(), settings).value().parameters;
+        auto out = request(std::move(source));
+        out.parameters = std::move(parameters);
         return out;
     }
     [[nodiscard]] ScriptOutcome run(std::string script) { return runProtocol(request(std::move(script))).value(); }
@@ -72,12 +85,15 @@ public:
         return state != InterlockState::Armed && state != InterlockState::Delivering &&
                state != InterlockState::Checking;
     }
+    /// Of a bench that looks real.
+    [[nodiscard]] Technician& technician() { return *technician_; }
     [[nodiscard]] const ScratchDir& folder() const { return folder_; }
     void closeBench() { bench_.reset(); }
 
 private:
     ScratchDir folder_;
     std::shared_ptr<Clock> clock_;
+    std::unique_ptr<Technician> technician_;
     std::unique_ptr<SessionWriter> writer_;
     std::unique_ptr<Bench> bench_;
     std::uint64_t seed_ = 1;

@@ -23,18 +23,9 @@ Settings with(Settings settings, const Settings& changes) {
     return settings;
 }
 
-RunRequest requestFor(RunBench& rig, const Settings& settings) {
-    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
-    auto source = shipped.find("sensor-calibration").value();
-    const auto declaration = readDeclaration(source).value();
-    auto request = rig.request(std::move(source));
-    request.parameters = applySettings(declaration, settings).value().parameters;
-    return request;
-}
-
 ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
     RunBench rig(true, device, seed, false, kNeeded);
-    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    auto outcome = runProtocol(rig.shipped("sensor-calibration", settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
 }
@@ -69,7 +60,8 @@ TEST(SensorCalibrationRun, FindsScalesRankingForceAndTaxelsOfTheTwin) {
 TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
     RecordProperty("hazard", "H7");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, with(kShort, {{"contact_area_cm2", "0.8"}}))).value();
+    const auto outcome =
+        runProtocol(rig.shipped("sensor-calibration", with(kShort, {{"contact_area_cm2", "0.8"}}))).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& kept = outcome.results["profile"];
     EXPECT_TRUE(kept["file"].is_null());
@@ -191,8 +183,9 @@ TEST(SensorCalibrationRun, TheSameSeedGivesTheSameResultAndAnotherSeedAnother) {
 TEST(SensorCalibrationRun, TheSessionHoldsEverySlideAndWeight) {
     RecordProperty("hazard", "H8");
     RunBench rig(true, "sim:", 1, true, kNeeded);
-    const auto outcome =
-        runProtocol(requestFor(rig, with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "2"}}))).value();
+    const auto outcome = runProtocol(rig.shipped("sensor-calibration",
+                                                 with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "2"}})))
+                             .value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
@@ -229,7 +222,7 @@ TEST_P(SensorCalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     const auto [fault, at_s] = GetParam();
     RunBench rig(true, fmt::format("sim:finger?fault={}@{}s", fault, at_s), 1, false, kNeeded);
     const auto settings = with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}});
-    const auto outcome = runProtocol(requestFor(rig, settings)).value();
+    const auto outcome = runProtocol(rig.shipped("sensor-calibration", settings)).value();
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
@@ -252,7 +245,7 @@ class SensorCalibrationCancel : public ::testing::TestWithParam<int> {};
 TEST_P(SensorCalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = requestFor(rig, with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
+    auto request = rig.shipped("sensor-calibration", with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
     Bench& bench = rig.bench();
     int readings = 0;
     request.onTrial = [&](const nlohmann::json&) {

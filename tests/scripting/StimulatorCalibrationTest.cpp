@@ -15,18 +15,9 @@ using Settings = std::map<std::string, std::string>;
 constexpr const char* kName = "stimulator-calibration";
 const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
 
-RunRequest requestFor(RunBench& rig, const Settings& settings) {
-    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
-    auto source = shipped.find(kName).value();
-    const auto declaration = readDeclaration(source).value();
-    auto request = rig.request(std::move(source));
-    request.parameters = applySettings(declaration, settings).value().parameters;
-    return request;
-}
-
 ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
     RunBench rig(true, device, seed, false, kNeeded);
-    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    auto outcome = runProtocol(rig.shipped(kName, settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
 }
@@ -127,7 +118,7 @@ TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
     RecordProperty("hazard", "H8");
     RunBench rig(true, "sim:", 1, true, kNeeded);
     const auto outcome =
-        runProtocol(requestFor(rig, {{"quantities", "amplitude"}, {"levels", "3"}, {"repeats", "2"}})).value();
+        runProtocol(rig.shipped(kName, {{"quantities", "amplitude"}, {"levels", "3"}, {"repeats", "2"}})).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
@@ -197,7 +188,7 @@ TEST_P(CalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     const auto [device, at_s] = GetParam();
     RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "2"}, {"levels", "4"}})).value();
+    const auto outcome = runProtocol(rig.shipped(kName, {{"repeats", "2"}, {"levels", "4"}})).value();
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
@@ -219,7 +210,7 @@ class CalibrationCancel : public ::testing::TestWithParam<int> {};
 TEST_P(CalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = requestFor(rig, {{"repeats", "2"}, {"levels", "4"}});
+    auto request = rig.shipped(kName, {{"repeats", "2"}, {"levels", "4"}});
     Bench& bench = rig.bench();
     int readings = 0;
     // From the script's own thread, at a moment that is the same in every run: the next call of the bench says so.

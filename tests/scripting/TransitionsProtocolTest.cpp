@@ -15,18 +15,9 @@ using Settings = std::map<std::string, std::string>;
 
 const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
 
-RunRequest requestFor(RunBench& rig, const Settings& settings) {
-    ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
-    auto source = shipped.find("transitions").value();
-    const auto declaration = readDeclaration(source).value();
-    auto request = rig.request(std::move(source));
-    request.parameters = applySettings(declaration, settings).value().parameters;
-    return request;
-}
-
 ScriptOutcome sweep(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
     RunBench rig(true, device, seed, false, kNeeded);
-    auto outcome = runProtocol(requestFor(rig, settings)).value();
+    auto outcome = runProtocol(rig.shipped("transitions", settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
 }
@@ -155,7 +146,7 @@ TEST(TransitionsProtocol, SameSeedSameMoments) {
 
 TEST(TransitionsProtocol, ReportsTheMapAndTheTables) {
     RunBench rig(true, "sim:", 1, true, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "1"}})).value();
+    const auto outcome = runProtocol(rig.shipped("transitions", {{"repeats", "1"}})).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
@@ -178,7 +169,7 @@ TEST_P(TransitionsFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     const auto [device, at_s] = GetParam();
     RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
-    const auto outcome = runProtocol(requestFor(rig, {{"repeats", "3"}})).value();
+    const auto outcome = runProtocol(rig.shipped("transitions", {{"repeats", "3"}})).value();
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
@@ -199,7 +190,7 @@ class TransitionsCancel : public ::testing::TestWithParam<int> {};
 TEST_P(TransitionsCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     RunBench rig(true, "sim:", 1, false, kNeeded);
-    auto request = requestFor(rig, {{"repeats", "3"}});
+    auto request = rig.shipped("transitions", {{"repeats", "3"}});
     Bench& bench = rig.bench();
     int steps = 0;
     request.onTrial = [&](const nlohmann::json&) {

@@ -12,18 +12,8 @@ namespace {
 
 using test::RunBench;
 
-RunRequest requestFor(RunBench& rig, const std::map<std::string, std::string>& settings) {
-    const ProtocolLibrary shipped(test::sourceDir() / "resources" / "protocols", {});
-    auto source = shipped.find("variation").value();
-    const auto declaration = readDeclaration(source).value();
-    EXPECT_TRUE(declaration.needs.empty());
-    auto request = rig.request(std::move(source));
-    request.parameters = applySettings(declaration, settings).value().parameters;
-    return request;
-}
-
 ScriptOutcome runVariation(RunBench& rig, const std::map<std::string, std::string>& settings) {
-    return runProtocol(requestFor(rig, settings)).value();
+    return runProtocol(rig.shipped("variation", settings)).value();
 }
 
 const std::map<std::string, std::string> kSmall = {{"participants", "40"}, {"trials", "5"}};
@@ -31,7 +21,7 @@ const std::map<std::string, std::string> kSmall = {{"participants", "40"}, {"tri
 TEST(VariationProtocol, PredictsWithoutADevice) {
     RunBench rig(true, "sim:", 1, true, {});
     std::size_t last = 0, total = 0;
-    auto request = requestFor(rig, kSmall);
+    auto request = rig.shipped("variation", kSmall);
     request.onProgress = [&](const ScriptProgress& progress) {
         last = progress.done;
         total = progress.total;
@@ -116,7 +106,7 @@ TEST(VariationProtocol, NobodyWhoBearsTheAmplitudesIsAResultToo) {
 
 TEST(VariationProtocol, AStopEndsItAtOnceAndKeepsWhatIsDone) {
     RunBench rig(false, "sim:", 1, true, {});
-    auto request = requestFor(rig, {{"participants", "20000"}, {"trials", "1000"}});
+    auto request = rig.shipped("variation", {{"participants", "20000"}, {"trials", "1000"}});
     std::atomic<bool> begun{false};
     request.onProgress = [&](const ScriptProgress& progress) {
         if (progress.done < 3) return;

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QFileInfo>
 #include <QScrollBar>
+#include <set>
 
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/calibrate/WiringPage.h"
@@ -16,7 +17,6 @@
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/ScriptEditor.h"
 #include "app/gui/runner/StepList.h"
-#include "app/gui/runner/TrialPlane.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstCase.h"
 
@@ -100,7 +100,12 @@ void ProtocolWorkspace::giveRoom() {
 }
 
 ProtocolWorkspace::Plot ProtocolWorkspace::plotOf() const {
-    return source_.name == kOfLoads ? Plot::Loads : source_.name == kOfCalibration ? Plot::Calibration : Plot::Trials;
+    if (source_.name == kOfLoads) return Plot::Loads;
+    if (source_.name == kOfCalibration) return Plot::Calibration;
+    if (!declaration_) return Plot::Trials;
+    if (declaration_->needs.contains(Role::Oscilloscope)) return Plot::Trials;
+    // No trains to look at: a fingertip by itself, or nothing that would be drawn.
+    return declaration_->needs == std::set{Role::Sensor} ? Plot::Slides : Plot::None;
 }
 
 void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
@@ -199,7 +204,7 @@ void ProtocolWorkspace::runNow() {
     document_->close();
     tabs_->setTabEnabled(tabs_->indexOf(pdf_), false);
     log_->clear();
-    plane_->begin(false);
+    plane_->begin(false, featuresOf(plotOf()));
     loads_->begin();
     calibration_->begin(asked_->settings.parameters);
     calibration_->setSimulated(false);

@@ -18,6 +18,7 @@
 
 #include "app/gui/desk/BenchDesk.h"
 #include "app/gui/runner/ScriptReading.h"
+#include "app/gui/runner/TrialPlane.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -32,7 +33,6 @@ class ResultPanel;
 class RunPanel;
 class ScriptEditor;
 class StepList;
-class TrialPlane;
 class WiringPage;
 class WiringPanel;
 
@@ -68,7 +68,8 @@ private:
     void buildKeys();
     void placeWave();
     void giveRoom();
-    enum class Plot { Trials, Loads, Calibration };
+    enum class Plot { Trials, Loads, Calibration, Slides, None };
+    [[nodiscard]] static TrialPlane::Features featuresOf(Plot plot);
     void showPlot(Plot plot);
     [[nodiscard]] Plot plotOf() const;
 

@@ -17,7 +17,6 @@
 #include "app/gui/runner/ResultPanel.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
-#include "app/gui/runner/TrialPlane.h"
 #include "app/gui/runner/WiringPanel.h"
 
 namespace tacto::gui {
@@ -226,10 +225,15 @@ QWidget* ProtocolWorkspace::buildTabs() {
     return tabs_;
 }
 
+TrialPlane::Features ProtocolWorkspace::featuresOf(Plot plot) {
+    return plot == Plot::Slides ? TrialPlane::Features::Slides : TrialPlane::Features::Trains;
+}
+
 void ProtocolWorkspace::showPlot(Plot plot) {
     loads_->setVisible(plot == Plot::Loads);
     calibration_->setVisible(plot == Plot::Calibration);
-    plane_->setVisible(plot == Plot::Trials);
+    plane_->setVisible(plot == Plot::Trials || plot == Plot::Slides);
+    if (plane_->features() != featuresOf(plot)) plane_->begin(false, featuresOf(plot));
     plot_ = plot;
     placeWave();
 }
@@ -240,20 +244,20 @@ void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
 }
 
 /// Beside the trials where there is room, else a tab: plots too narrow to read help nobody. A calibration has two
-/// of its own.
+/// of its own. Nowhere in a run without an oscilloscope.
 void ProtocolWorkspace::placeWave() {
     const int room = width() - fontMetrics().averageCharWidth() * kPathChars;
-    const bool beside = plot_ != Plot::Calibration && room >= fontMetrics().averageCharWidth() * kBesideChars;
+    const bool roomy = room >= fontMetrics().averageCharWidth() * kBesideChars;
+    const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None;
+    const bool beside = anywhere && plot_ != Plot::Calibration && roomy;
     const int tab = tabs_->indexOf(wave_);
-    if (beside == (tab < 0)) return;
-    if (beside) {
-        tabs_->removeTab(tab);
-        plots_->addWidget(wave_, 2);
-        wave_->setVisible(true);
-    } else {
-        plots_->removeWidget(wave_);
-        tabs_->insertTab(tabs_->indexOf(log_), wave_, tr("Wave&form"));
-    }
+    if (tab >= 0 && (beside || !anywhere)) tabs_->removeTab(tab);
+    const bool isBeside = plots_->indexOf(wave_) >= 0;
+    if (isBeside && !beside) plots_->removeWidget(wave_);
+    if (beside && !isBeside) plots_->addWidget(wave_, 2);
+    if (anywhere && !beside && tab < 0) tabs_->insertTab(tabs_->indexOf(log_), wave_, tr("Wave&form"));
+    // A tab shows its page itself.
+    if (beside || !anywhere) wave_->setVisible(beside);
 }
 
 }  // namespace tacto::gui

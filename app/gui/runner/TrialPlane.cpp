@@ -11,9 +11,6 @@ constexpr int kOneRowChars = 85;
 
 TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Trials"));
-    setToolTip(tr("One point per trial: amplitude and interval as the oscilloscope saw them."));
-    xAxis->setLabel(tr("interval (s)"));
-    yAxis->setLabel(tr("amplitude (V)"));
     for (auto* axis : {xAxis, yAxis}) axis->setNumberFormat("gb");
     // Above the axes, in a row: inside, it would hide points.
     axisRect()->insetLayout()->take(legend);
@@ -27,20 +24,26 @@ TrialPlane::TrialPlane(QWidget* parent) : QCustomPlot(parent) {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(tr("Trials appear here\nwhile the protocol runs."));
     setMinimumHeight(fontMetrics().height() * 12);
     begin(false);
 }
 
-void TrialPlane::begin(bool simulated) {
+void TrialPlane::begin(bool simulated, Features features) {
+    features_ = features;
+    const bool trains = features == Features::Trains;
+    setToolTip(trains ? tr("One point per trial: amplitude and interval as the oscilloscope saw them.")
+                      : tr("One point per slide: what the fingertip felt of the surface. R is made of both."));
+    xAxis->setLabel(trains ? tr("interval (s)") : tr("taxel feature v"));
+    yAxis->setLabel(trains ? tr("amplitude (V)") : tr("vibration feature h"));
+    empty_->setText(trains ? tr("Trials appear here\nwhile the protocol runs.")
+                           : tr("Slides over the surfaces\nappear here."));
     for (const auto& [name, graph] : conditions_) removePlottable(graph);
     conditions_.clear();
     trials_ = drawn_ = 0;
     watermark_->setVisible(simulated);
     empty_->setVisible(true);
     legend->setVisible(false);
-    xAxis->setRange(0, 2.2);
-    yAxis->setRange(0, 44);
+    fit();
     colour();
     replot(QCustomPlot::rpQueuedReplot);
 }
@@ -57,9 +60,15 @@ void TrialPlane::add(const nlohmann::json& trial) {
         const auto at = trial.find(key);
         return at != trial.end() && at->is_number() ? at->get<double>() : std::nan("");
     };
-    const double amplitude = number("amplitude_v"), interval = number("interval_s");
-    if (!std::isfinite(amplitude) || !std::isfinite(interval)) return;
+    const bool trains = features_ == Features::Trains;
+    const double y = number(trains ? "amplitude_v" : "h");
+    double x = number(trains ? "interval_s" : "v_static");
+    if (!std::isfinite(y) || (trains && !std::isfinite(x))) return;
     ++drawn_;
+    if (!std::isfinite(x)) {
+        x = drawn_;
+        xAxis->setLabel(tr("slide"));
+    }
     const auto name = QString::fromStdString(trial.value("condition", std::string()));
     auto found = std::find_if(conditions_.begin(), conditions_.end(), [&](const auto& c) { return c.first == name; });
     if (found == conditions_.end()) {
@@ -72,13 +81,15 @@ void TrialPlane::add(const nlohmann::json& trial) {
         legend->setVisible(true);
         colour();
     }
-    found->second->addData(interval, amplitude);
+    found->second->addData(x, y);
     fit();
     replot(QCustomPlot::rpQueuedReplot);
 }
 
 void TrialPlane::fit() {
-    QCPRange x(0, 2.2), y(0, 44);
+    // Trains keep the encoder's whole range in view; slides have no range of their own.
+    const bool trains = features_ == Features::Trains;
+    QCPRange x(0, trains ? 2.2 : 0), y(0, trains ? 44 : 0);
     for (const auto& [name, graph] : conditions_) {
         bool found = false;
         const auto keys = graph->getKeyRange(found);
@@ -86,8 +97,8 @@ void TrialPlane::fit() {
         const auto values = graph->getValueRange(found);
         if (found) y.expand(QCPRange(0, values.upper * 1.1));
     }
-    xAxis->setRange(x);
-    yAxis->setRange(y);
+    xAxis->setRange(x.upper > 0 ? x : QCPRange(0, 1));
+    yAxis->setRange(y.upper > 0 ? y : QCPRange(0, 1));
 }
 
 void TrialPlane::colour() {

@@ -1,4 +1,5 @@
-// TrialPlane.h - trials as points in the amplitude-interval plane, while they come.
+// TrialPlane.h - trials as points in the plane of their two features, while they come: amplitude and interval of
+// trains, or the vibration and the taxel feature of a fingertip that slides.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -12,11 +13,15 @@ namespace tacto::gui {
 class TrialPlane final : public QCustomPlot {
     Q_OBJECT
 public:
+    enum class Features { Trains, Slides };
+
     explicit TrialPlane(QWidget* parent = nullptr);
-    void begin(bool simulated);
+    void begin(bool simulated, Features features = Features::Trains);
     void setSimulated(bool simulated);
-    /// A trial as record.trial() was given it; one without both features is counted and not drawn.
+    /// A trial as record.trial() was given it; one without both features is counted and not drawn. A slide of a
+    /// fingertip without taxels is drawn over its number.
     void add(const nlohmann::json& trial);
+    [[nodiscard]] Features features() const { return features_; }
     [[nodiscard]] int trials() const { return trials_; }
     [[nodiscard]] int drawn() const { return drawn_; }
 
@@ -27,6 +32,7 @@ protected:
 private:
     void colour();
     void fit();
+    Features features_ = Features::Trains;
     std::vector<std::pair<QString, QCPGraph*>> conditions_;
     QCPItemText* watermark_ = nullptr;
     QCPItemText* empty_ = nullptr;

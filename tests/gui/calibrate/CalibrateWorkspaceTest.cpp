@@ -8,6 +8,7 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 
@@ -41,7 +42,9 @@ protected:
         if (desk.activity() != gui::Activity::Running) return 0;
         return workspace.runner().findChild<gui::CalibrationView*>()->readings();
     }
-    void type(const char* field, const QString& text) { workspace.runner().findChild<QLineEdit*>(field)->setText(text); }
+    void type(const char* field, const QString& text) {
+        workspace.runner().findChild<QLineEdit*>(field)->setText(text);
+    }
     void amplitudeOnly() {
         auto* box = workspace.runner().findChild<QComboBox*>("quantities");
         box->setCurrentIndex(box->findData("amplitude"));
@@ -109,6 +112,12 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
     EXPECT_EQ(ended->order.script.name, "sensor-calibration");
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(tabs->currentWidget(), workspace.runners()[1]);
+    auto* plane = workspace.runners()[1]->findChild<gui::TrialPlane*>();
+    EXPECT_TRUE(plane->isVisible());
+    EXPECT_GE(plane->drawn(), 10) << "a point per slide";
+    EXPECT_GT(plane->graphCount(), 1) << "surface by surface";
+    EXPECT_GT(plane->yAxis->range().upper, 0);
+    EXPECT_FALSE(workspace.runners()[1]->findChild<gui::CaptureStrip*>()->isVisible()) << "there is no oscilloscope";
     shot(workspace, "calibrate_sensor_done");
 }
 

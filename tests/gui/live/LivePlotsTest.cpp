@@ -1,7 +1,6 @@
 // The pictures themselves, from samples that the test knows: columns, gaps, old data, frequencies, cost.
 #include <QTest>
 #include <cmath>
-#include <ctime>
 #include <gtest/gtest.h>
 
 #include "app/gui/live/StripPlots.h"
@@ -186,24 +185,6 @@ TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
     draw();
     EXPECT_LE(plots.axisRects().first()->outerRect().height(), 8);
     EXPECT_GT(plots.axisRects().at(2)->height(), 150) << "the others have its place";
-}
-
-TEST_F(Plots, CostLessThanAQuarterOfACore) {
-    feel(35);
-    for (const double window : {10.0, 30.0}) {
-        plots.setWindow(window);
-        draw();
-        constexpr int kPictures = 30;
-        const auto begin = std::clock();
-        for (int i = 0; i < kPictures; ++i) {
-            feel(t_s + 0.02);
-            draw();
-        }
-        const double each_ms = 1000.0 * double(std::clock() - begin) / CLOCKS_PER_SEC / kPictures;
-        RecordProperty("ms_per_picture_" + std::to_string(int(window)) + "s", std::to_string(each_ms));
-        std::printf("a picture of %g s: %.2f ms, %.1f %% of a core at 30 Hz\n", window, each_ms, each_ms * 3);
-        EXPECT_LT(each_ms, 33) << "not even drawn in time";  // the target is 8.3; this only catches a disaster
-    }
 }
 
 TEST(TaxelMap, ChoosesASensibleGrid) {

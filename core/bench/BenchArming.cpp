@@ -1,0 +1,204 @@
+// Arming, and the ways out of a fault.
+#include <fmt/chrono.h>
+#include <thread>
+#include <utility>
+
+#include "core/bench/BenchState.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Seconds kArmWithin{2};
+
+}  // namespace
+
+Result<void> Bench::State::calibrationToday() const {
+    if (config.mode != OutputMode::Person || !config.calibratedUntil) return {};
+    const auto today = config.today != nullptr
+                           ? config.today()
+                           : std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    if (today <= *config.calibratedUntil) return {};
+    return fail(ErrorCode::NotArmed,
+                "the stimulator's calibration ended on {:%Y-%m-%d} and today is {:%Y-%m-%d}; calibrate it again before "
+                "a person",
+                *config.calibratedUntil, today);
+}
+
+GateSetup Bench::State::setupFor(const Load& load) const {
+    GateSetup setup;
+    setup.mode = config.mode;
+    setup.source = source;
+    setup.load = config.mode == OutputMode::BenchLoad
+                     ? LoadRange::declared(load)
+                     : LoadRange::between(config.profile.loadLow, config.profile.loadHigh);
+    setup.limits = config.limits;
+    setup.ceilings = config.profile.ceilings;
+    setup.electrodeArea = config.profile.electrodeArea;
+    setup.check = config.profile.encoding.train;
+    setup.check.pulses = 1;
+    setup.person = config.person;
+    setup.calibration = config.calibration;
+    setup.calibrated = applied.has_value();
+    return setup;
+}
+
+ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
+    ArmCommand command;
+    command.setup = setupFor(load);
+    // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
+    PulseTrain check = command.setup.check;
+    if (source.drive == Drive::Current)
+        check.amplitude = source.checkCurrent;
+    else
+        check.amplitude = source.checkVoltage;
+    const auto leading = segmentsOf(check, source.gap).items[0];
+    auto& evidence = command.evidence;
+    evidence.limitsLoaded = !config.limits.empty();
+    const Device* output = config.devices.stimulator.get();
+    if (output == nullptr) output = config.devices.massager.get();
+    evidence.deviceIdentified = output != nullptr && !output->identity().name.empty();
+    evidence.operatorConfirmed = request.operatorConfirmed;
+    evidence.needsImpedance = config.devices.stimulator != nullptr;
+    evidence.readsBack = source.readsBack;
+    evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
+    evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
+    if (scope && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
+    evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
+    return command;
+}
+
+Result<void> Bench::arm(const ArmRequest& request) {
+    auto& s = *state_;
+    if (!s.hasOutput()) return fail(ErrorCode::Unsupported, "not armed: no stimulator and no massager is open");
+    const auto load = parseLoad(request.load);
+    if (!load) return failure(load);
+    if (const auto well = s.health(); !well) return well;
+    if (const auto holds = s.calibrationToday(); !holds) return holds;
+    const auto ticket = s.interlock.requestArming(s.config.clock->now());
+    if (!ticket) return failure(ticket);
+    if (const auto confirmed = s.interlock.confirmArming(*ticket, s.config.clock->now()); !confirmed) return confirmed;
+    s.loop->arm(s.armCommandFor(request, *load));
+    std::optional<Result<void>> outcome;
+    const auto finished = s.advance(s.config.clock->now() + toInstant(kArmWithin), [&] {
+        outcome = s.loop->armed();
+        return outcome.has_value();
+    });
+    if (outcome) return *outcome;
+    // A fault ends arming and health() sees it first: say why in arming's own words if it has any.
+    if (auto late = s.loop->armed()) return *late;
+    disarm();
+    if (!finished) return failure(finished);
+    return fail(ErrorCode::Timeout, "not armed: the impedance check did not end within {} s", kArmWithin.count());
+}
+
+/// Asks one device's session how its device is, and waits for the answer.
+template <class Session>
+Result<void> Bench::State::askAgain(Session& session, DeviceThread* thread, Instant within, const char* who) {
+    static_cast<void>(session.health());  // an old answer
+    session.askHealth();
+    std::optional<Result<void>> answer;
+    const Instant until = config.clock->now() + within;
+    while (!(answer = session.health()) && config.clock->now() < until) {
+        if (virtualClock != nullptr) {
+            session.serve(config.clock->now());
+        } else {
+            thread->wake();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    if (!answer) return fail(ErrorCode::NotArmed, "the fault is still there: the {} does not answer", who);
+    if (!*answer) return fail(ErrorCode::NotArmed, "the fault is still there: {}", answer->error().message);
+    return {};
+}
+
+/// What a device's session reported while the device was gone (a keep-alive that failed) belongs to the fault that is
+/// being left; judged after the reset it would be the next one.
+void Bench::State::letReportsBeJudged() noexcept {
+    constexpr std::uint64_t kSteps = 2;  // one may be under way
+    constexpr Instant kWithin = std::chrono::milliseconds(500);
+    const auto begin = loop->telemetry().steps;
+    const Instant until = config.clock->now() + kWithin;
+    while (loop->telemetry().steps < begin + kSteps && config.clock->now() < until) {
+        if (virtualClock != nullptr)
+            turn(until);
+        else
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+Result<void> Bench::resetFault() {
+    auto& s = *state_;
+    if (s.interlock.state() != InterlockState::Faulted) return {};
+    // Looked at again: a device that answers and delivers nothing is well; what its load is, the next check tells.
+    if (s.stimulator) {
+        constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);
+        const auto well = s.askAgain(*s.stimulator, s.outputThread.get(), kAnswerWithin, "stimulator");
+        if (!well) return well;
+    }
+    if (s.sensor) {
+        constexpr Instant kOpenWithin = std::chrono::seconds(3);
+        if (const auto well = s.askAgain(*s.sensor, s.sensorThread.get(), kOpenWithin, "fingertip sensor"); !well)
+            return well;
+    }
+    s.letReportsBeJudged();
+    for (int cause = 0; cause < kFaultCauseCount; ++cause) s.interlock.causeGone(static_cast<FaultCause>(cause));
+    return s.interlock.reset();
+}
+
+bool Bench::faultPersists(FaultCause cause) const noexcept { return state_->interlock.causePersists(cause); }
+
+Result<void> Bench::withholdHeartbeat(Seconds duration) {
+    auto& s = *state_;
+    if (s.config.mode != OutputMode::BenchLoad) {
+        return fail(ErrorCode::Unsupported, "the heartbeat is withheld on bench loads only, never in {} mode",
+                    nameOf(s.config.mode));
+    }
+    if (!(duration.count() > 0 && duration.count() <= 10)) {
+        return fail(ErrorCode::InvalidArgument, "a silence of {} s; above 0 to 10 s is expected", duration.count());
+    }
+    const Instant until = s.config.clock->now() + toInstant(duration);
+    if (s.virtualClock != nullptr) {
+        while (!s.stopped && s.config.clock->now() < until) {
+            // The output alone is served, as its own thread would do while the loop hangs.
+            s.virtualClock->advanceTo(s.hasOutput() ? std::min(until, s.outputDue) : until);
+            const Instant now = s.config.clock->now();
+            if (s.hasOutput() && now >= s.outputDue) s.outputDue = s.serveOutput(now);
+            if (s.scope && s.scope->active()) s.scope->serve(now);
+        }
+        s.nextTick = s.config.clock->now();
+    } else {
+        s.heartbeatWithheld.store(true, std::memory_order_release);
+        {
+            std::unique_lock lock(s.waitMutex);
+            s.waitChanged.wait_for(lock, until - s.config.clock->now(), [&s] { return s.stopped.load(); });
+        }
+        s.heartbeatWithheld.store(false, std::memory_order_release);
+    }
+    if (s.stopped) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    return {};
+}
+
+std::optional<Seconds> Bench::silencedAfter() const noexcept {
+    const auto& stimulator = state_->stimulator;
+    if (!stimulator || stimulator->silencedAfter() == Instant(0)) return std::nullopt;
+    return Seconds(stimulator->silencedAfter());
+}
+
+const std::optional<AmplitudeCalibration>& Bench::calibration() const noexcept { return state_->applied; }
+
+Result<void> Bench::useCalibration(bool use) {
+    auto& s = *state_;
+    const auto state = s.interlock.state();
+    if (state != InterlockState::Disarmed && state != InterlockState::Disconnected) {
+        return fail(ErrorCode::NotArmed, "the calibration cannot change while {}: disarm first", nameOf(state));
+    }
+    const auto wanted = use && s.config.calibrationHolds ? s.config.calibration : std::nullopt;
+    if (wanted == s.applied) return {};
+    s.applied = wanted;
+    s.loop->replacePlanner(s.makePlanner(s.config.profile));
+    s.noteCalibration();
+    return {};
+}
+
+}  // namespace tacto

@@ -1,0 +1,23 @@
+// CaptureLoad.h - what one capture tells of the load that its pulses met, for a stimulator that cannot read it back.
+//
+// Thread-safety: pure function.
+#pragma once
+
+#include <optional>
+
+#include "core/base/Clock.h"
+#include "core/base/Units.h"
+#include "core/measure/Capture.h"
+
+namespace tacto {
+
+struct SeenLoad {
+    Ohms impedance;        ///< |Z| at the end of the leading phase (science.md section 4), mean over the pulses
+    bool atLeast = false;  ///< the voltage drove no current that the channel could show: |Z| is this or more
+    Instant at{0};         ///< of the trigger
+};
+
+/// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
+[[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);
+
+}  // namespace tacto

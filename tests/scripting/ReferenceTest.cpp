@@ -1,0 +1,146 @@
+// What comes before a procedure: the wiring, and a known load that must read as what it is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto {
+namespace {
+
+using test::RunBench;
+using test::withRun;
+
+constexpr const char* kRead =
+    "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 });"
+    "const reading = measure.pulse(bench.capture({ trains: 1 })); bench.disarm();";
+
+/// The report items of one kind, of a run whose session is closed.
+std::vector<nlohmann::json> reported(const RunBench& rig, std::string_view kind) {
+    std::vector<nlohmann::json> out;
+    const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
+    const auto rows = reader.reportItems().value();
+    for (const auto& row : rows) {
+        if (row.body.value("kind", "") == kind) out.push_back(row.body);
+    }
+    return out;
+}
+
+TEST(KnownReference, OfTheLoadThatIsConnectedPassesAndIsRecorded) {
+    RunBench rig(true, "sim:", 3, true);
+    const auto outcome = rig.run(withRun(
+        std::string(kRead) + "return verdict(Object.assign({ verdict: null }, record.reference(reading, 1000, 1)));"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.results["passed"], true);
+    EXPECT_NEAR(outcome.results["measured_ohm"].get<double>(), 1000, 30);
+    EXPECT_NEAR(outcome.results["deviation_pct"].get<double>(),
+                outcome.results["measured_ohm"].get<double>() / 10 - 100, 1e-9);
+    EXPECT_GT(outcome.results["allowed_pct"].get<double>(), 1) << "the instruments' part is added";
+    EXPECT_TRUE(outcome.results["reason"].is_null());
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto tables = reported(rig, "table");
+    ASSERT_EQ(tables.size(), 1U);
+    EXPECT_EQ(tables[0]["caption"], "Known-reference check");
+    EXPECT_EQ(tables[0]["rows"][0]["passed"], true);
+}
+
+TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
+    RunBench rig;
+    const auto reasonOf = [&](const std::string& call) {
+        const auto outcome =
+            rig.run(withRun(std::string(kRead) + "return verdict(Object.assign({ verdict: null }, " + call + "));"));
+        EXPECT_FALSE(outcome.error) << outcome.error->message;
+        EXPECT_EQ(outcome.results["passed"], false) << call;
+        return outcome.results["reason"].is_string() ? outcome.results["reason"].get<std::string>() : "none";
+    };
+    EXPECT_THAT(reasonOf("record.reference(reading, 2000, 1)"),
+                testing::MatchesRegex("the known-reference check failed: .* ohm was measured where 2000 ohm ± .* % is "
+                                      "connected"));
+    EXPECT_THAT(reasonOf("record.reference({}, 2000, 1)"), testing::HasSubstr("nothing was measured where 2000 ohm"));
+    EXPECT_THAT(reasonOf("record.reference({ load_ohm: NaN, load_limit: NaN }, 2000, 1)"),
+                testing::HasSubstr("nothing was measured"));
+    const auto refused = rig.run(withRun("record.reference({}, 0, 1)"));
+    ASSERT_TRUE(refused.error);
+    EXPECT_THAT(refused.error->message, testing::HasSubstr("load is 0"));
+}
+
+TEST(Wiring, OfASimulatedBenchIsReportedAndNobodyAsked) {
+    RunBench rig(true, "sim:", 3, true);
+    const auto outcome = rig.run(withRun("operator.wired(500); operator.wired();"));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    rig.closeBench();
+    ASSERT_TRUE(rig.writer().close());
+    const auto texts = reported(rig, "text");
+    ASSERT_EQ(texts.size(), 2U);
+    EXPECT_THAT(texts[0]["text"].get<std::string>(), testing::HasSubstr("simulated bench"));
+}
+
+/// A run on a bench that looks real, and the names of what its technician was asked.
+struct LabRun {
+    ScriptOutcome outcome;
+    std::vector<std::string> asked;
+    bool outputOff = false;
+    std::string drawing;  // of the first question
+};
+
+LabRun inTheLab(const std::string& protocol, const std::map<std::string, std::string>& settings) {
+    RunBench rig(true, "sim:", 1, false, {Role::Stimulator, Role::Oscilloscope}, true);
+    LabRun run;
+    run.outcome = runProtocol(rig.shipped(protocol, settings)).value();
+    for (const auto& question : rig.technician().asked) run.asked.push_back(question.name);
+    if (!rig.technician().asked.empty()) run.drawing = rig.technician().asked.front().drawing;
+    run.outputOff = rig.outputOff();
+    return run;
+}
+
+class InALab : public testing::TestWithParam<std::pair<const char*, std::map<std::string, std::string>>> {};
+
+TEST_P(InALab, TheWiringIsAskedForBeforeAnythingIsDelivered) {
+    const auto& [protocol, settings] = GetParam();
+    const auto run = inTheLab(protocol, settings);
+    ASSERT_FALSE(run.outcome.error) << run.outcome.error->message;
+    ASSERT_FALSE(run.asked.empty());
+    EXPECT_EQ(run.asked.front(), "wiring");
+    EXPECT_EQ(std::count(run.asked.begin(), run.asked.end(), "wiring"), 1);
+    EXPECT_EQ(run.drawing, "wiring");
+    EXPECT_TRUE(run.outputOff);
+    EXPECT_TRUE(run.outcome.results.is_object());
+}
+
+using Settings = std::map<std::string, std::string>;
+INSTANTIATE_TEST_SUITE_P(
+    Protocols, InALab,
+    testing::Values(std::pair("transitions", Settings{{"repeats", "1"}}),
+                    std::pair("encoding-comparison", Settings{{"repeats", "5"}, {"level_repeats", "2"}}),
+                    std::pair("stimulator-calibration",
+                              Settings{{"quantities", "amplitude"}, {"levels", "3"}, {"repeats", "2"}}),
+                    std::pair("load-safety", Settings{{"area", "3"}, {"steps", "2"}})),
+    [](const auto& one) {
+        std::string name = one.param.first;
+        std::replace(name.begin(), name.end(), '-', '_');
+        return name;
+    });
+
+TEST(LabBench, TheTechnicianFitsEveryLoadOfTheSafetyCheckAndItIsTheSameCheck) {
+    RecordProperty("hazard", "H1");
+    const Settings settings{{"area", "3"}, {"steps", "2"}};
+    const auto lab = inTheLab("load-safety", settings);
+    ASSERT_FALSE(lab.outcome.error) << lab.outcome.error->message;
+    EXPECT_GE(std::count(lab.asked.begin(), lab.asked.end(), "fit-load"), 5);
+    RunBench twin(true, "sim:", 1, false, {Role::Stimulator, Role::Oscilloscope});
+    const auto alone = runProtocol(twin.shipped("load-safety", settings)).value();
+    EXPECT_EQ(lab.outcome.verdict, alone.verdict);
+    const auto rowsOf = [](const nlohmann::json& results) {
+        std::vector<std::string> rows;
+        for (const auto& row : results["rows"]) {
+            rows.push_back(row.value("item", "") + " " + row.value("verdict", row.value("status", "")));
+        }
+        return rows;
+    };
+    EXPECT_EQ(rowsOf(lab.outcome.results), rowsOf(alone.results));
+    EXPECT_FALSE(rowsOf(alone.results).empty());
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,82 @@
+// Technician.h - a laboratory's own bench as far as a protocol can tell: a stimulator that says it is real, nobody but
+// a technician to fit loads, and a technician who does what is asked, on the twin behind it.
+#pragma once
+
+#include <memory>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "app/scripting/Operator.h"
+#include "core/devices/Driver.h"
+
+namespace tacto::test {
+
+/// Passes everything on and says that it is real.
+class RealLookingStimulator final : public Stimulator {
+public:
+    explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin)
+        : twin_(std::move(twin)), identity_(twin_->identity()) {
+        identity_.simulated = false;
+    }
+    const DeviceIdentity& identity() const noexcept override { return identity_; }
+    const SourceTraits& traits() const noexcept override { return twin_->traits(); }
+    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
+    Result<StimulatorStatus> status() override { return twin_->status(); }
+    Result<void> keepAlive() override { return twin_->keepAlive(); }
+    void forceOff() noexcept override { twin_->forceOff(); }
+
+private:
+    std::unique_ptr<Stimulator> twin_;
+    DeviceIdentity identity_;
+};
+
+/// Fits and changes the loads as it is asked, and confirms the rest; `asked` keeps every question.
+class Technician final : public Operator {
+public:
+    explicit Technician(std::shared_ptr<LoadFitter> hand) : hand_(std::move(hand)) {}
+    Result<nlohmann::json> ask(const OperatorQuestion& question) override {
+        asked.push_back(question);
+        if (question.name == "fit-load" || question.name == "change-load") {
+            const auto load = whatToFit(question.text);
+            if (load.empty()) return fail(ErrorCode::NotFound, "no technician understands \"{}\"", question.text);
+            if (auto fitted = hand_->fitLoad(load); !fitted) return failure(fitted);
+        }
+        if (question.kind != OperatorQuestion::Kind::Confirm) {
+            return fail(ErrorCode::NotFound, "the technician was not told what to answer to {}", question.name);
+        }
+        return nlohmann::json(true);
+    }
+    void cancel() noexcept override {}
+
+    std::vector<OperatorQuestion> asked;
+
+private:
+    /// Of the sentence that the operator reads; empty where it does not say.
+    static std::string whatToFit(const std::string& text) {
+        std::smatch found;
+        if (std::regex_search(text, found, std::regex("into (.*): make and break"))) {
+            return found[1].str() + ", intermittent 50 % seed 1";
+        }
+        if (text.find("lift one lead") != std::string::npos) return "open";
+        if (text.find("bridge it") != std::string::npos) return "short";
+        if (std::regex_search(
+                text, found,
+                std::regex("^Fit (?:the load )?(.*?)(?: in place of the load| again)?(?:, then confirm)?$"))) {
+            return found[1];
+        }
+        return {};
+    }
+
+    std::shared_ptr<LoadFitter> hand_;
+};
+
+/// Makes a simulated bench's devices look like a laboratory's.
+[[nodiscard]] inline std::unique_ptr<Technician> lookReal(DeviceSet& devices) {
+    auto technician = std::make_unique<Technician>(std::move(devices.load));
+    devices.surface.reset();
+    devices.stimulator = std::make_unique<RealLookingStimulator>(std::move(devices.stimulator));
+    return technician;
+}
+
+}  // namespace tacto::test
