@@ -12,10 +12,15 @@ ConditionStyle conditionStyle(const QString& name, int index) {
         {"rough-low", {QColor(0xe6, 0x9f, 0x00), Qt::DashDotLine, S::ssTriangle}},
         {"rough-high", {QColor(0xd5, 0x5e, 0x00), Qt::SolidLine, S::ssDisc}}};
     if (const auto found = known.find(name); found != known.end()) return found->second;
-    static const std::array<ConditionStyle, 4> further{{{QColor(0x00, 0x9e, 0x73), Qt::SolidLine, S::ssDiamond},
-                                                        {QColor(0xcc, 0x79, 0xa7), Qt::DashLine, S::ssCross},
-                                                        {QColor(0x33, 0x33, 0x33), Qt::DotLine, S::ssPlus},
-                                                        {QColor(0x7a, 0x7a, 0x7a), Qt::DashDotLine, S::ssStar}}};
+    static const std::array<ConditionStyle, 8> further{
+        {{QColor(0x00, 0x9e, 0x73), Qt::SolidLine, S::ssDiamond},
+         {QColor(0xcc, 0x79, 0xa7), Qt::DashLine, S::ssCross},
+         {QColor(0x33, 0x33, 0x33), Qt::DotLine, S::ssPlus},
+         {QColor(0x7a, 0x7a, 0x7a), Qt::DashDotLine, S::ssStar},
+         {QColor(0x56, 0xb4, 0xe9), Qt::SolidLine, S::ssTriangleInverted},
+         {QColor(0xe6, 0x9f, 0x00), Qt::DashLine, S::ssCrossSquare},
+         {QColor(0xd5, 0x5e, 0x00), Qt::DotLine, S::ssPlusCircle},
+         {QColor(0x00, 0x72, 0xb2), Qt::DashDotLine, S::ssCrossCircle}}};
     return further[static_cast<std::size_t>(std::max(0, index)) % further.size()];
 }
 

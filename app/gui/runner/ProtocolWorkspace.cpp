@@ -80,6 +80,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         const auto& needs = declaration_->needs;
         const auto has = [&](Role role) { return std::find(needs.begin(), needs.end(), role) != needs.end(); };
         tabs_->setTabVisible(tabs_->indexOf(drawing_), has(Role::Stimulator) && has(Role::Oscilloscope));
+        tabs_->setTabVisible(tabs_->indexOf(worstPage_), has(Role::Stimulator));  // else nothing is judged
         form_->show(*declaration_);
     }
     steps_->setNote(kRun, {});
@@ -121,7 +122,8 @@ void ProtocolWorkspace::goTo(int step) {
         else
             panel_->setFocus();
         const bool drawn = step == kWiring && tabs_->isTabVisible(tabs_->indexOf(drawing_));
-        tabs_->setCurrentWidget(drawn ? static_cast<QWidget*>(drawing_) : worstPage_);
+        const bool judged = tabs_->isTabVisible(tabs_->indexOf(worstPage_));
+        tabs_->setCurrentWidget(drawn ? static_cast<QWidget*>(drawing_) : judged ? worstPage_ : log_);
     } else {
         tabs_->setCurrentWidget(step == kRun ? static_cast<QWidget*>(log_) : result_);
     }
