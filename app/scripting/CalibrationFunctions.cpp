@@ -1,9 +1,8 @@
 // Calibrating a stimulator: what to command, one reading from the captures, and the line through all of them.
 #include <cmath>
 
-#include "app/scripting/Arguments.h"
+#include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
-#include "app/scripting/ScriptSession.h"
 #include "core/analysis/CalibrationJson.h"
 #include "core/analysis/ResultJson.h"
 #include "core/encoding/Rounding.h"
@@ -27,15 +26,6 @@ Result<Json> setEncoding(ScriptSession& session, const Json& list) {
     profile.encoding = *encoding;
     if (auto replaced = session.bench().setProfile(profile); !replaced) return failure(replaced);
     return Json();
-}
-
-/// Over the trains, not over their pulses: a train is one event.
-double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::*member) {
-    std::vector<double> readings;
-    for (const auto& train : channel.trains) {
-        if (std::isfinite(train.*member)) readings.push_back(train.*member);
-    }
-    return statisticsOf(readings).mean;
 }
 
 const CaptureChannel* channelOf(const Capture& capture, std::string_view name) {
@@ -81,22 +71,13 @@ void addLoad(Json& out, const Capture& capture, double volts, double amps) {
 
 Result<Json> pulse(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.pulse", list);
-    auto handles = arguments.list(0, "captures");
-    if (!handles) return failure(handles);
-    auto held = session.held(**handles);
-    if (!held) return failure(held);
-    if (held->empty()) return arguments.wrong("captures", **handles, "at least one capture");
+    auto given = capturesGiven(session, arguments);
+    if (!given) return failure(given);
+    if (given->captures.empty()) return arguments.wrong("captures", arguments.at(0), "at least one capture");
+    const auto& captures = given->captures;
     const auto& stimulator = session.bench().devices().stimulator;
     if (!stimulator) return fail(ErrorCode::Unsupported, "measure.pulse: no stimulator is connected");
-    std::vector<Capture> captures;
-    Json ids = Json::array();
-    for (std::size_t i = 0; i < held->size(); ++i) {
-        captures.push_back(*(*held)[i]);
-        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
-    }
-    MeasureOptions options;
-    const PulseTrain& expected = session.bench().profile().encoding.train;
-    if (expected.pulses > 1) options.intraTrainRate = expected.rate;
+    const auto options = optionsFor(session.bench().profile().encoding.train);
 
     auto voltage = measureTrains(captures, "voltage", options);
     if (!voltage) return failure(voltage);
@@ -116,7 +97,7 @@ Result<Json> pulse(ScriptSession& session, const Json& list) {
                 {"warnings", read.warnings},
                 {"commanded", commandOf(session.bench())},
                 {"instrument", instrumentOf(captures.front(), *channel, scale)},
-                {"captures", ids}};
+                {"captures", given->ids}};
     if (current) {
         addLoad(out, captures.front(), meanOfTrains(*voltage, &TrainMeasurement::amplitude),
                 meanOfTrains(*current, &TrainMeasurement::amplitude));

@@ -1,9 +1,8 @@
 // Measuring what went into a load, judging the whole set, its tracings, and what is kept of a run that ends early.
 #include <cmath>
 
-#include "app/scripting/Arguments.h"
+#include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
-#include "app/scripting/ScriptSession.h"
 #include "core/analysis/LoadSafetyJson.h"
 
 namespace tacto {
@@ -12,35 +11,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-Result<std::vector<Capture>> capturesOf(ScriptSession& session, const Json& handles) {
-    auto held = session.held(handles);
-    if (!held) return failure(held);
-    std::vector<Capture> captures;
-    for (const auto* capture : *held) captures.push_back(*capture);
-    return captures;
-}
-
 Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.load", list);
-    auto handles = arguments.list(0, "captures");
-    if (!handles) return failure(handles);
-    auto captures = capturesOf(session, **handles);
-    if (!captures) return failure(captures);
-    std::vector<Capture> fine;
+    auto given = capturesGiven(session, arguments);
+    if (!given) return failure(given);
+    GivenCaptures fine;
     if (!arguments.at(1).is_null()) {
-        auto more = arguments.list(1, "fine");
+        auto more = capturesGiven(session, arguments, 1, "fine");
         if (!more) return failure(more);
-        auto taken = capturesOf(session, **more);
-        if (!taken) return failure(taken);
-        fine = std::move(*taken);
+        fine = std::move(*more);
     }
-    Json ids = Json::array();
-    for (const auto& handle : **handles) ids.push_back(handle.is_object() ? handle["capture"] : handle);
     const auto& train = session.bench().profile().encoding.train;
-    auto reading = readLoad(*captures, ExpectedTrain{train.pulses, train.rate.value()}, fine);
+    auto reading = readLoad(given->captures, ExpectedTrain{train.pulses, train.rate.value()}, fine.captures);
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
-    out["captures"] = ids;
+    out["captures"] = given->ids;
     // A calibrated stimulator is told something else than what it is to deliver.
     double commanded = session.bench().telemetry().trainAmplitude;
     if (const auto& calibration = session.bench().calibration()) commanded = calibration->delivered(commanded);

@@ -1,9 +1,8 @@
 // Measuring captures, and judging what was measured.
 #include <cmath>
 
-#include "app/scripting/Arguments.h"
+#include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
-#include "app/scripting/ScriptSession.h"
 #include "core/analysis/ResultJson.h"
 #include "core/measure/PulseMeasurement.h"
 
@@ -13,32 +12,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Over the trains, not over their pulses: a train is one event on the skin.
-template <class Member>
-double meanOfTrains(const ChannelMeasurement& channel, Member member) {
-    std::vector<double> readings;
-    for (const auto& train : channel.trains) {
-        if (std::isfinite(train.*member)) readings.push_back(train.*member);
-    }
-    return statisticsOf(readings).mean;
-}
-
 Result<Json> train(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.train", list);
-    auto handles = arguments.list(0, "captures");
-    if (!handles) return failure(handles);
-    auto held = session.held(**handles);
-    if (!held) return failure(held);
-    if (held->empty()) return arguments.wrong("captures", **handles, "at least one capture");
-    std::vector<Capture> captures;
-    Json ids = Json::array();
-    for (std::size_t i = 0; i < held->size(); ++i) {
-        captures.push_back(*(*held)[i]);
-        ids.push_back((**handles)[i].is_object() ? (**handles)[i]["capture"] : (**handles)[i]);
-    }
-    MeasureOptions options;
-    const PulseTrain& expected = session.bench().profile().encoding.train;
-    if (expected.pulses > 1) options.intraTrainRate = expected.rate;
+    auto given = capturesGiven(session, arguments);
+    if (!given) return failure(given);
+    if (given->captures.empty()) return arguments.wrong("captures", arguments.at(0), "at least one capture");
+    const auto& captures = given->captures;
+    const auto options = optionsFor(session.bench().profile().encoding.train);
 
     auto voltage = measureTrains(captures, "voltage", options);
     if (!voltage) return failure(voltage);
@@ -50,7 +30,7 @@ Result<Json> train(ScriptSession& session, const Json& list) {
                 {"trains", voltage->trains.size()},
                 {"pulses", voltage->measuredPulses},
                 {"warnings", voltage->warnings},
-                {"captures", ids}};
+                {"captures", given->ids}};
     if (auto current = measureTrains(captures, "current", options)) {
         out["amplitude_ma"] = numberOrNull(1e3 * meanOfTrains(*current, &TrainMeasurement::amplitude));
         out["charge_uc"] = numberOrNull(1e6 * meanOfTrains(*current, &TrainMeasurement::charge));

@@ -30,12 +30,32 @@ Result<std::string> readTextFile(const std::filesystem::path& path) {
     return text;
 }
 
-namespace {
-
 bool isBlankOrComment(std::string_view line) {
     const auto content = trimmed(line);
     return content.empty() || content.front() == '#';
 }
+
+void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+    fields.clear();
+    std::size_t begin = 0;
+    for (;;) {
+        std::size_t search = begin;
+        const auto first = line.find_first_not_of(" \t", begin);
+        const bool quoted = first != std::string_view::npos && line[first] == '"';
+        if (quoted) {
+            const auto closing = line.find('"', first + 1);
+            search = closing == std::string_view::npos ? line.size() : closing + 1;
+        }
+        const auto end = std::min(line.find(separator, search), line.size());
+        auto field = trimmed(line.substr(begin, end - begin));
+        if (quoted && field.size() >= 2 && field.back() == '"') field = trimmed(field.substr(1, field.size() - 2));
+        fields.push_back(field);
+        if (end >= line.size()) return;
+        begin = end + 1;
+    }
+}
+
+namespace {
 
 char separatorOf(std::string_view line) {
     if (line.find('\t') != std::string_view::npos && line.find(',') == std::string_view::npos) return '\t';
@@ -65,31 +85,10 @@ bool CsvReader::next() {
         ++line_;
         if (isBlankOrComment(*line)) continue;
         if (separator_ == '\0') separator_ = separatorOf(*line);
-        cut(*line);
+        cutLine(*line, separator_, fields_);
         return true;
     }
     return false;
-}
-
-void CsvReader::cut(std::string_view line) {
-    fields_.clear();
-    std::size_t begin = 0;
-    for (;;) {
-        // A quoted field may hold separators; it may not span lines, which no table of readings does.
-        std::size_t search = begin;
-        const auto first = line.find_first_not_of(" \t", begin);
-        const bool quoted = first != std::string_view::npos && line[first] == '"';
-        if (quoted) {
-            const auto closing = line.find('"', first + 1);
-            search = closing == std::string_view::npos ? line.size() : closing + 1;
-        }
-        const auto end = std::min(line.find(separator_, search), line.size());
-        auto field = trimmed(line.substr(begin, end - begin));
-        if (quoted && field.size() >= 2 && field.back() == '"') field = trimmed(field.substr(1, field.size() - 2));
-        fields_.push_back(field);
-        if (end >= line.size()) return;
-        begin = end + 1;
-    }
 }
 
 namespace {

@@ -22,6 +22,12 @@ namespace tacto {
 /// The whole of a file. Errors: NotFound when it is not there, Io when it cannot be read or is not a plain file.
 [[nodiscard]] Result<std::string> readTextFile(const std::filesystem::path& path);
 
+/// Nothing in it, or nothing but a remark behind `#`.
+[[nodiscard]] bool isBlankOrComment(std::string_view line);
+/// Cuts a line into `fields`, trimmed, a quoted one without its outer quotes. A quoted field may hold separators; it
+/// may not span lines, which no table of readings does.
+void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields);
+
 class CsvReader {
 public:
     explicit CsvReader(std::string_view text);
@@ -35,7 +41,6 @@ public:
 
 private:
     [[nodiscard]] std::optional<std::string_view> takeLine() noexcept;
-    void cut(std::string_view line);
 
     std::string_view text_;
     std::size_t position_ = 0;

@@ -53,6 +53,7 @@ Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> arme
     if (!armed || !now) {
         return fail(ErrorCode::NotArmed,
                     "the profile holds the {} constant and no impedance was measured; a stimulator that reads it back, "
+                    "an oscilloscope, "
                     "or hold \"voltage\", is expected",
                     nameOf(hold));
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/Csv.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -38,32 +39,6 @@ bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
 }
 
 }  // namespace
-
-bool isBlankOrComment(std::string_view line) {
-    const auto content = trimmed(line);
-    return content.empty() || content.front() == '#';
-}
-
-void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-    fields.clear();
-    std::size_t begin = 0;
-    for (;;) {
-        // A quoted field may hold separators; it may not span lines, which no table of readings does.
-        std::size_t search = begin;
-        const auto first = line.find_first_not_of(" \t", begin);
-        const bool quoted = first != std::string_view::npos && line[first] == '"';
-        if (quoted) {
-            const auto closing = line.find('"', first + 1);
-            search = closing == std::string_view::npos ? line.size() : closing + 1;
-        }
-        const auto end = std::min(line.find(separator, search), line.size());
-        auto field = trimmed(line.substr(begin, end - begin));
-        if (quoted && field.size() >= 2 && field.back() == '"') field = trimmed(field.substr(1, field.size() - 2));
-        fields.push_back(field);
-        if (end >= line.size()) return;
-        begin = end + 1;
-    }
-}
 
 std::optional<double> fieldNumber(std::string_view field, char point) {
     if (field.starts_with('+')) field.remove_prefix(1);

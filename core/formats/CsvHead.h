@@ -30,11 +30,6 @@ struct CsvHead {
     char point = '.';
 };
 
-/// Cuts a line into `fields`, trimmed and without outer quotes.
-void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields);
-
-[[nodiscard]] bool isBlankOrComment(std::string_view line);
-
 /// A number as tables have them: also nan, inf, ∞ (what PicoScope writes beyond the range; read as inf).
 [[nodiscard]] std::optional<double> fieldNumber(std::string_view field, char point);
 

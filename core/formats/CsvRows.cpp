@@ -5,6 +5,7 @@
 #include <fast_float/fast_float.h>
 #include <limits>
 
+#include "core/base/Csv.h"
 #include "core/formats/FieldNumber.h"
 
 namespace tacto {

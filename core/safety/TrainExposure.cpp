@@ -19,6 +19,7 @@ double larger(double a, double b) noexcept { return std::isnan(a) || a > b ? a :
 struct Run {
     double peakVoltage = 0, peakCurrent = 0, phaseCharge = 0;  // Largest of any pulse
     double netCharge = 0, energy = 0, squares = 0, volts = 0;  // Largest of any pulse, its rest included
+    double dissipated = 0;                                     // The same: energy less what the capacitor kept, J
     TrainSums inDuration;                                      // Over n / rate
     TrainSums whole;                                           // The same with the rest until the next train
     double endOfTrain = 0;                                     // Capacitor voltage after n / rate, V
@@ -49,17 +50,25 @@ PulsePart partOf(const PulseSegments& pulse, std::size_t s) noexcept {
     return s + 1 == pulse.count ? PulsePart::SecondPhase : PulsePart::Gap;
 }
 
+double storedAt(const Plan& plan, double capacitorVoltage) noexcept {
+    return plan.circuit.hasCapacitor() ? 0.5 * plan.circuit.capacitance_F * capacitorVoltage * capacitorVoltage : 0;
+}
+
 Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     Run run;
+    double stored = storedAt(plan, capacitorVoltage);
     for (int done = 0; done < plan.pulses;) {
         PulseResponse response(plan.circuit, plan.limits, capacitorVoltage);
         double volts = 0;
+        const double found = storedAt(plan, capacitorVoltage);
         for (std::size_t s = 0; s < plan.pulse.count; ++s) {
             volts += voltageSquared(response.add(plan.pulse.items[s], partOf(plan.pulse, s)));
+            stored = larger(storedAt(plan, response.capacitorVoltage()), stored);
         }
         if (plan.betweenPulses.duration_s > 0)
             volts += voltageSquared(response.add(plan.betweenPulses, PulsePart::Rest));
         const PulseTotals& totals = response.totals();
+        const double dissipated = totals.energy_J + found - storedAt(plan, response.capacitorVoltage());
 
         // Once a pulse leaves the capacitor as it found it, all further pulses are this one.
         const double moved = std::abs(response.capacitorVoltage() - capacitorVoltage);
@@ -72,12 +81,14 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         run.phaseCharge = larger(totals.phaseCharge_C(), run.phaseCharge);
         run.netCharge = larger(std::abs(totals.netCharge_C), run.netCharge);
         run.energy = larger(totals.energy_J, run.energy);
+        run.dissipated = larger(dissipated, run.dissipated);
         run.squares = larger(totals.currentSquared_A2s, run.squares);
         run.volts = larger(volts, run.volts);
         run.inDuration.netCharge_C += alike * std::abs(totals.netCharge_C);
         run.inDuration.currentSquared_A2s += alike * totals.currentSquared_A2s;
         run.inDuration.voltageSquared_V2s += alike * volts;
-        run.inDuration.energy_J += alike * totals.energy_J;
+        run.inDuration.dissipated_J += alike * dissipated;
+        run.inDuration.stored_J = stored;
         capacitorVoltage = response.capacitorVoltage();
 
         if (done >= plan.pulses) {
@@ -89,7 +100,9 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
                 const PulseTotals& after = tail.totals();
                 run.whole.currentSquared_A2s += after.currentSquared_A2s;
                 run.whole.voltageSquared_V2s += tailVolts;
-                run.whole.energy_J += after.energy_J;
+                const double kept = storedAt(plan, capacitorVoltage) - storedAt(plan, tail.capacitorVoltage());
+                run.whole.dissipated_J += after.energy_J + kept;
+                run.dissipated = larger(dissipated + after.energy_J + kept, run.dissipated);
                 run.peakCurrent = larger(after.peakCurrent_A, run.peakCurrent);
                 // The last pulse's tail is longer than the others', unless the next train comes early: the larger.
                 const double before = std::abs(totals.netCharge_C);
@@ -109,7 +122,8 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
 
 TrainSums largerSums(const TrainSums& a, const TrainSums& b) noexcept {
     return {larger(a.currentSquared_A2s, b.currentSquared_A2s), larger(a.voltageSquared_V2s, b.voltageSquared_V2s),
-            larger(a.netCharge_C, b.netCharge_C), larger(a.energy_J, b.energy_J)};
+            larger(a.netCharge_C, b.netCharge_C), larger(a.dissipated_J, b.dissipated_J),
+            larger(a.stored_J, b.stored_J)};
 }
 
 Run largerRun(const Run& a, const Run& b) noexcept {
@@ -119,6 +133,7 @@ Run largerRun(const Run& a, const Run& b) noexcept {
     r.phaseCharge = larger(a.phaseCharge, b.phaseCharge);
     r.netCharge = larger(a.netCharge, b.netCharge);
     r.energy = larger(a.energy, b.energy);
+    r.dissipated = larger(a.dissipated, b.dissipated);
     r.squares = larger(a.squares, b.squares);
     r.volts = larger(a.volts, b.volts);
     r.inDuration = largerSums(a.inDuration, b.inDuration);
@@ -154,14 +169,15 @@ double periodsIn(double window_s, double period_s) noexcept { return std::ceil(w
 
 TrainSums times(double factor, const TrainSums& sums) noexcept {
     return {factor * sums.currentSquared_A2s, factor * sums.voltageSquared_V2s, factor * sums.netCharge_C,
-            factor * sums.energy_J};
+            factor * sums.dissipated_J, sums.stored_J};
 }
 
 TrainSums smallerSums(const TrainSums& a, const TrainSums& b) noexcept {
     // a < b is false for NaN in either, and then the other must not hide it.
     const auto smaller = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
     return {smaller(a.currentSquared_A2s, b.currentSquared_A2s), smaller(a.voltageSquared_V2s, b.voltageSquared_V2s),
-            smaller(a.netCharge_C, b.netCharge_C), smaller(a.energy_J, b.energy_J)};
+            smaller(a.netCharge_C, b.netCharge_C), smaller(a.dissipated_J, b.dissipated_J),
+            smaller(a.stored_J, b.stored_J)};
 }
 
 /// A load as limits see it: drift and lost contact would make it seem harmless at one moment.
@@ -194,7 +210,12 @@ Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain
     double moved = leading.duration_s * std::abs(leading.start);  // Charge, C
     if (plan.pulse.count > 1) moved += last.duration_s * std::abs(last.start);
     run.energy = std::min(run.energy, compliance * moved);
-    run.whole.energy_J = std::min(run.whole.energy_J, compliance * moved * train.pulses);
+    // The capacitor holds no more than the compliance, or than it held before.
+    const double stored =
+        std::min(run.whole.stored_J, larger(storedAt(plan, compliance), storedAt(plan, carried.voltage_V)));
+    run.whole.stored_J = stored;
+    run.dissipated = std::min(run.dissipated, compliance * moved + stored);
+    run.whole.dissipated_J = std::min(run.whole.dissipated_J, compliance * moved * train.pulses + stored);
     if (plan.circuit.hasCapacitor() || train.shape != PulseShape::SymmetricBiphasic) {
         run.netCharge = larger(run.phaseCharge, run.netCharge);
         run.whole.netCharge_C = larger(run.phaseCharge * train.pulses, run.whole.netCharge_C);
@@ -205,7 +226,7 @@ Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain
 TrainExposure unknownExposure() noexcept {
     TrainExposure unknown;
     unknown.values.fill(kNaN);
-    unknown.in1s = unknown.in5s = {kNaN, kNaN, kNaN, kNaN};
+    unknown.in1s = unknown.in5s = {kNaN, kNaN, kNaN, kNaN, kNaN};
     unknown.residual_V = kNaN;
     return unknown;
 }
@@ -215,7 +236,8 @@ TrainSums& TrainSums::operator+=(const TrainSums& other) noexcept {
     currentSquared_A2s += other.currentSquared_A2s;
     voltageSquared_V2s += other.voltageSquared_V2s;
     netCharge_C += other.netCharge_C;
-    energy_J += other.energy_J;
+    dissipated_J += other.dissipated_J;
+    stored_J = larger(stored_J, other.stored_J);
     return *this;
 }
 
@@ -233,7 +255,7 @@ double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_c
         case Quantity::CurrentDensity:
             return rms_mA / area_cm2;
         case Quantity::PowerDensity:
-            return inWindow.energy_J / area_cm2;
+            return (inWindow.dissipated_J + inWindow.stored_J) / area_cm2;
         default:
             return kNaN;
     }
@@ -259,7 +281,7 @@ TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& 
 
     TrainExposure exposure;
     // A train longer than a window cannot put all of itself into it.
-    const TrainSums pulse{run.squares, run.volts, run.netCharge, run.energy};
+    const TrainSums pulse{run.squares, run.volts, run.netCharge, run.dissipated, run.whole.stored_J};
     const double rate = train.rate.value();
     exposure.in1s = smallerSums(run.whole, times(periodsIn(1, 1 / rate), pulse));
     exposure.in5s = smallerSums(run.whole, times(periodsIn(5, 1 / rate), pulse));

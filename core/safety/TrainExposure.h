@@ -20,7 +20,10 @@ struct TrainSums {
     double currentSquared_A2s = 0;
     double voltageSquared_V2s = 0;
     double netCharge_C = 0;  ///< Σ |net charge| of the pulses: no window holds more, wherever it begins
-    double energy_J = 0;
+    /// What the load turned into heat, and the most that its capacitor held meanwhile. A pulse takes part of the second
+    /// back, a window that ends before does not: none holds more than both.
+    double dissipated_J = 0;
+    double stored_J = 0;
 
     TrainSums& operator+=(const TrainSums& other) noexcept;
 };

@@ -31,6 +31,8 @@ IndependentBody::Flow IndependentBody::linear(Mode mode, double level, double le
     Flow flow;
     const auto [rs, rp, c] = body_;
     if (length <= 0) return flow;
+    const double begin = at_;
+    at_ += length;
     if (c <= 0) {
         const double i = mode == Mode::Voltage ? level / rs : mode == Mode::Current ? level : 0;
         flow.i2 = i * i * length;
@@ -40,6 +42,7 @@ IndependentBody::Flow IndependentBody::linear(Mode mode, double level, double le
         flow.peakV = std::abs(i * rs);
         flow.endI = i;
         flow.endV = i * rs;
+        if (i != 0) power_.push_back({begin, length, i * i * rs, 0, 1});
         return flow;
     }
     // C dVc/dt = i - Vc/Rp with i = (V - Vc)/Rs from a voltage, given from a current, 0 when floating.
@@ -59,12 +62,18 @@ IndependentBody::Flow IndependentBody::linear(Mode mode, double level, double le
         flow.charge += weight * i;
         flow.energy += weight * v * i;
     });
+    if (level != 0) {
+        const double steady = mode == Mode::Voltage ? level * (level - goal) / rs : level * (level * rs + goal);
+        const double fading = mode == Mode::Voltage ? level * (goal - start) / rs : level * (start - goal);
+        power_.push_back({begin, length, steady, fading, tau});
+    }
     const double i0 = current(0);
     flow.endI = current(length);
     flow.endV = mode == Mode::Voltage ? level : flow.endI * rs + capacitor(length);
     flow.peakI = std::max(std::abs(i0), std::abs(flow.endI));
     flow.peakV = std::max(std::abs(mode == Mode::Voltage ? level : i0 * rs + start), std::abs(flow.endV));
     vc_ = capacitor(length);
+    mostStored_ = std::max({mostStored_, c * start * start / 2, c * vc_ * vc_ / 2});
     return flow;
 }
 
@@ -118,6 +127,7 @@ PulseFacts IndependentBody::deliver(const PulseTrain& train, const Drain& drain,
         linear(lastFloating_ ? Mode::Floating : Mode::Voltage, 0, start - lastRest_);
 
     newest_ = start;
+    at_ = start;
     PulseFacts facts;
     for (int k = 0; k < train.pulses; ++k) {
         double t = start + k * period;
@@ -172,6 +182,42 @@ double IndependentBody::worst(double window, double Stretch::*what) const {
     return worst;
 }
 
+double IndependentBody::Power::until(double t) const {
+    const double passed = std::clamp(t, 0.0, length);
+    return steady * passed + fading * tau * -std::expm1(-passed / tau);
+}
+
+double IndependentBody::worstEnergy(double window) const {
+    std::vector<double> before{0};  // of the pieces before each
+    for (const auto& piece : power_) before.push_back(before.back() + piece.until(piece.length));
+    const auto until = [&](double time) {
+        const auto after = std::upper_bound(power_.begin(), power_.end(), time,
+                                            [](double t, const Power& piece) { return t < piece.start; });
+        if (after == power_.begin()) return 0.0;
+        const auto k = static_cast<std::size_t>(after - power_.begin()) - 1;
+        return before[k] + power_[k].until(time - power_[k].start);
+    };
+    // Windows with one end where the power begins, ends or turns. One between may hold a little more, never much.
+    double worst = 0;
+    const auto look = [&](double edge) {
+        if (edge + window > newest_) worst = std::max(worst, until(edge + window) - until(edge));
+        if (edge > newest_) worst = std::max(worst, until(edge) - until(edge - window));
+    };
+    for (const auto& piece : power_) {
+        look(piece.start);
+        look(piece.start + piece.length);
+        const double turn = piece.fading == 0 ? -1 : piece.tau * std::log(-piece.fading / piece.steady);
+        if (turn > 0 && turn < piece.length) look(piece.start + turn);
+    }
+    return worst;
+}
+
+double IndependentBody::netEnergy() const {
+    double sum = 0;
+    for (const auto& s : record_) sum += s.energy;
+    return sum;
+}
+
 double IndependentBody::charge5s() const {
     double sum = 0;
     const double last = record_.empty() ? 0 : record_.back().pulse;
@@ -183,6 +229,7 @@ double IndependentBody::charge5s() const {
 
 void IndependentBody::forgetBefore(double time) {
     std::erase_if(record_, [time](const Stretch& s) { return s.start + s.length < time; });
+    std::erase_if(power_, [time](const Power& p) { return p.start + p.length < time; });
 }
 
 double IndependentBody::magnitude(const PulseTrain& train) const {

@@ -40,17 +40,28 @@ struct PulseFacts {
 
 class IndependentBody {
 public:
-    void fit(const Body& body) { body_ = body; }
+    /// A capacitor that follows upon another keeps its voltage, which is the worse; a resistor holds none.
+    void fit(const Body& body) {
+        body_ = body;
+        if (body.c <= 0) vc_ = 0;
+    }
     [[nodiscard]] const Body& body() const { return body_; }
     /// Delivers a train at `start` seconds; facts are the largest of any of its pulses.
     PulseFacts deliver(const PulseTrain& train, const Drain& drain, double start);
-    /// The most of i² (or energy) in any window of `window` s that reaches into the newest train.
+    /// The most of i² in any window of `window` s that reaches into the newest train.
     [[nodiscard]] double worstI2(double window) const { return worst(window, &Stretch::i2); }
-    [[nodiscard]] double worstEnergy(double window) const { return worst(window, &Stretch::energy); }
+    /// The same of energy, part of which a charged capacitor gives back. Looks at windows that begin or end where the
+    /// power begins, ends or turns.
+    [[nodiscard]] double worstEnergy(double window) const;
+    /// Of everything that is kept.
+    [[nodiscard]] double netEnergy() const;
+    /// The most that the capacitor ever held, J.
+    [[nodiscard]] double mostStored() const { return mostStored_; }
     /// |sum of charge| of the pulses begun in the 5 s before the newest, that one included.
     [[nodiscard]] double charge5s() const;
     void forget() {
         record_.clear();
+        power_.clear();
         vc_ = 0;
     }
     void forgetBefore(double time);
@@ -59,6 +70,11 @@ public:
 
 private:
     enum class Mode { Voltage, Current, Floating };
+    /// v·i = steady + fading·exp(-t / tau) during one stretch.
+    struct Power {
+        double start = 0, length = 0, steady = 0, fading = 0, tau = 0;
+        [[nodiscard]] double until(double t) const;  // ∫ over its first t
+    };
     struct Flow {
         double i2 = 0, energy = 0, charge = 0, peakV = 0, peakI = 0, endV = 0, endI = 0;
     };
@@ -72,6 +88,9 @@ private:
     bool lastFloating_ = false;
     double newest_ = 0;  // Start of the newest train
     std::vector<Stretch> record_;
+    std::vector<Power> power_;  // where it is not 0, in time order
+    double at_ = 0;             // where linear() stands
+    double mostStored_ = 0;
 };
 
 }  // namespace tacto::test
