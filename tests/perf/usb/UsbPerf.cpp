@@ -113,7 +113,8 @@ void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     });
     std::this_thread::sleep_for(50ms);
     auto approved = gate.approve(requestFor(clock.now()));
-    const auto begun = approved ? repeating->repeat(std::move(*approved), Seconds(0.5)) : Result<void>(failure(approved));
+    const auto begun =
+        approved ? repeating->repeat(std::move(*approved), Seconds(0.5)) : Result<void>(failure(approved));
     const auto end = Steady::now() + kUnderLoad;
     while (begun && Steady::now() < end) {
         const auto next = session.serve(clock.now());
