@@ -12,7 +12,8 @@ namespace tacto {
 KnownCalibration knownCalibration(const DeviceSet& devices) {
     if (!devices.stimulator) return {};
     auto store = CalibrationStore::open(calibrationFile());
-    if (!store) return {.calibration = {}, .until = {}, .text = fmt::format("not calibrated: {}", store.error().message)};
+    if (!store)
+        return {.calibration = {}, .until = {}, .text = fmt::format("not calibrated: {}", store.error().message)};
     const auto& device = devices.stimulator->identity();
     const auto output = calibratedOutput(device.serial, device.uri);
     const std::string_view unit = devices.stimulator->traits().drive == Drive::Current ? "mA" : "V";

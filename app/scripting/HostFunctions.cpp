@@ -6,11 +6,26 @@ namespace tacto {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        for (auto* part :
-             {generalFunctions, benchFunctions, surfaceFunctions, benchStateFunctions, operatorFunctions,
-              recordFunctions, referenceFunctions, measureFunctions, plotFunctions, benchLoadFunctions, tripFunctions, loadSafetyFunctions,
-              calibrationFunctions, calibrationStoreFunctions, sensorCalibrationFunctions, sensorProfileFunctions,
-              transitionFunctions, stepFunctions, variationFunctions, latencyFunctions}) {
+        for (auto* part : {generalFunctions,
+                           benchFunctions,
+                           surfaceFunctions,
+                           benchStateFunctions,
+                           operatorFunctions,
+                           recordFunctions,
+                           referenceFunctions,
+                           measureFunctions,
+                           plotFunctions,
+                           benchLoadFunctions,
+                           tripFunctions,
+                           loadSafetyFunctions,
+                           calibrationFunctions,
+                           calibrationStoreFunctions,
+                           sensorCalibrationFunctions,
+                           sensorProfileFunctions,
+                           transitionFunctions,
+                           stepFunctions,
+                           variationFunctions,
+                           latencyFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }

@@ -62,12 +62,12 @@ struct ScriptOutcome {
     std::vector<std::string> reasons;  ///< of the verdict, one sentence each
     /// What the verdict was given; null without one. After an early end what record.partial() kept, with partial: true.
     nlohmann::json results;
-    std::optional<Error> error;        ///< "file:line: reason" when run() did not return
-    std::string file;                  ///< of the error
+    std::optional<Error> error;  ///< "file:line: reason" when run() did not return
+    std::string file;            ///< of the error
     int line = 0;
     std::uint64_t expectedFaults = 0;  ///< of the bench: provoked on purpose, found and reset by the script's trips
-    bool abandoned = false;        ///< still running when it was given up: end the process without unwinding
-    std::vector<std::string> log;  ///< what log() said
+    bool abandoned = false;            ///< still running when it was given up: end the process without unwinding
+    std::vector<std::string> log;      ///< what log() said
 };
 
 class ScriptRun {

@@ -15,8 +15,8 @@ class CalibratedRun : public ::testing::Test {
 protected:
     /// On a stimulator that delivers 3 % less than it is told. Its JSON.
     [[nodiscard]] Json run(Words words) {
-        const Words device{"--device", "sim:stimulator?gain=0.97", "--device", "sim:", "--json", "--out",
-                           desk.at("sessions")};
+        const Words device{"--device", "sim:stimulator?gain=0.97", "--device", "sim:", "--json",
+                           "--out",    desk.at("sessions")};
         words.insert(words.begin(), "run");
         words.insert(words.end(), device.begin(), device.end());
         const auto ran = desk.run(words);

@@ -26,7 +26,8 @@ public:
     using Work = std::function<Result<void>(const WorkPort&)>;
     explicit Background(QObject* parent = nullptr) : QObject(parent) {}
     ~Background() override;  ///< cancels and waits
-    /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result, unless other work was started meanwhile.
+    /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result,
+    /// unless other work was started meanwhile.
     void start(Work work, std::function<void(Result<void>)> then);
     void cancel();
     [[nodiscard]] bool busy() const { return busy_; }
