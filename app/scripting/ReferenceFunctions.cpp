@@ -92,8 +92,7 @@ std::vector<HostFunction> referenceFunctions() {
          HostKind::Function,
          {{"load", "number", "ohm", "the load that is to be connected", true}},
          "Shows how to wire load, shunt and oscilloscope, and waits until the operator confirms \"wiring\". A "
-         "simulated "
-         "bench is wired; the report says so and nobody is asked.",
+         "simulated bench is wired; the report says so and nobody is asked.",
          "true",
          "Throws when nobody is here and --set wiring=yes was not given, or when the run is stopped.",
          wired},
@@ -106,8 +105,7 @@ std::vector<HostFunction> referenceFunctions() {
          "Judges whether a known load reads as what it is, and records that: instruments that cannot tell it can judge "
          "nothing else.",
          "{ load_ohm, measured_ohm, deviation_pct, allowed_pct, passed, reason }: reason is a sentence where it "
-         "failed, "
-         "else null; a load that could not be measured has not passed.",
+         "failed, else null; a load that could not be measured has not passed.",
          "Throws when the session file cannot be written.",
          reference},
     };
