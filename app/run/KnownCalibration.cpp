@@ -9,6 +9,15 @@
 
 namespace tacto {
 
+namespace {
+
+std::string lineText(std::string_view what, const StoredLine& line, std::string_view unit, double perUnit) {
+    return fmt::format("{} gain {:.5g}, offset {:.3g} {}, U {:.2g} %", what, line.gain, perUnit * line.offset, unit,
+                       line.uncertainty_pct);
+}
+
+}  // namespace
+
 KnownCalibration knownCalibration(const DeviceSet& devices) {
     if (!devices.stimulator) return {};
     auto store = CalibrationStore::open(calibrationFile());
@@ -19,7 +28,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
     const std::string_view unit = devices.stimulator->traits().drive == Drive::Current ? "mA" : "V";
     KnownCalibration known;
     const auto* last = store->latest(output, unit);
-    if (last != nullptr) known.calibration = {last->gain, last->offset, last->lowest, last->highest};
+    if (last != nullptr) known.calibration = linesOf(*last);
     const CalibrationDate today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     const auto found = store->valid(output, unit, today, device.simulated);
     known.holds = found.has_value();
@@ -29,10 +38,10 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
     } else if (const auto sound = validate(*known.calibration); !sound) {
         known.text = sound.error().message;
     } else {
-        known.text =
-            fmt::format("calibrated {}, until {}: gain {:.5g}, offset {:.3g} {}, U {:.2g} % of the command; applied",
-                        dateText(found->made), dateText(found->validUntil), found->gain, found->offset, found->unit,
-                        found->uncertainty_pct);
+        known.text = fmt::format("calibrated {}, until {}; applied: {}", dateText(found->made),
+                                 dateText(found->validUntil), lineText("amplitude", found->amplitude, found->unit, 1));
+        for (const auto& time : kStoredTimes)
+            known.text += "; " + lineText(time.title, *((*found).*time.line), "us", 1e6);
     }
     return known;
 }

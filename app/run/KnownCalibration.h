@@ -11,10 +11,10 @@
 namespace tacto {
 
 struct KnownCalibration {
-    std::optional<AmplitudeCalibration> calibration;  ///< the last, whatever its date
-    bool holds = false;                               ///< today, for this device
-    std::optional<std::chrono::sys_days> until;       ///< the last day on which it does
-    std::string text;                                 ///< one sentence; empty without a stimulator
+    KnownLines calibration;                      ///< the last, whatever its date
+    bool holds = false;                          ///< today, for this device
+    std::optional<std::chrono::sys_days> until;  ///< the last day on which it does
+    std::string text;                            ///< one sentence; empty without a stimulator
 };
 
 [[nodiscard]] KnownCalibration knownCalibration(const DeviceSet& devices);

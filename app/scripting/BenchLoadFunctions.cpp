@@ -42,6 +42,7 @@ GateSetup setupOf(Bench& bench, const Load& load) {
     setup.ceilings = bench.profile().ceilings;
     setup.electrodeArea = bench.profile().electrodeArea;
     setup.check = bench.profile().encoding.train;
+    setup.check.pulses = 1;
     return setup;
 }
 
@@ -56,6 +57,16 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
                            row.set.view());
     }
     return {};
+}
+
+/// Why the device cannot be armed on this load at all: every arming gives its impedance check first.
+std::string cannotBeChecked(const GateSetup& setup) {
+    const PulseTrain check = checkTrainOf(setup);
+    const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
+    if (why.empty()) return {};
+    return fmt::format("{} cannot be driven: its impedance check of {:.3g} {} alone breaks a limit: {}",
+                       setup.load.nominal.text(), siValue(check.amplitude) * (isCurrent(check.amplitude) ? 1e3 : 1),
+                       isCurrent(check.amplitude) ? "mA" : "V", why);
 }
 
 /// Settings that show the whole train with its tail, and twice the peak that is expected.
@@ -127,6 +138,10 @@ Result<Json> predict(ScriptSession& session, const Json& list) {
     }
     const auto& train = rounded->train;
     const GateSetup setup = setupOf(bench, *load);
+    if (auto why = cannotBeChecked(setup); !why.empty()) {
+        out["not_applicable"] = std::move(why);
+        return out;
+    }
     const auto why = forbids(setup, train, command->interval);
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
     const auto most = exposureOf(train, command->interval, *load, source, area);

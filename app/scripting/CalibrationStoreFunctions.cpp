@@ -26,6 +26,12 @@ Result<Stimulator*> connected(ScriptSession& session, std::string_view function)
 
 std::string unitOf(const Stimulator& stimulator) { return stimulator.traits().drive == Drive::Current ? "mA" : "V"; }
 
+Json lineJson(const StoredLine& line, std::string_view unit) {
+    return {{"unit", unit},          {"gain", line.gain},
+            {"offset", line.offset}, {"uncertainty_pct", line.uncertainty_pct},
+            {"lowest", line.lowest}, {"highest", line.highest}};
+}
+
 Result<Json> calibration(ScriptSession& session, const Json&) {
     auto stimulator = connected(session, "bench.calibration");
     if (!stimulator) return failure(stimulator);
@@ -35,22 +41,19 @@ Result<Json> calibration(ScriptSession& session, const Json&) {
     const auto found =
         store->valid(calibratedOutput(device.serial, device.uri), unitOf(**stimulator), today(), device.simulated);
     if (!found) return Json{{"calibrated", false}, {"text", found.error().message}};
-    return Json{{"calibrated", true},
+    Json out = {{"calibrated", true},
                 {"text", fmt::format("stimulator {} was calibrated on {} and that holds until {}", found->serial,
                                      dateText(found->made), dateText(found->validUntil))},
-                {"unit", found->unit},
-                {"gain", found->gain},
-                {"offset", found->offset},
-                {"uncertainty_pct", found->uncertainty_pct},
-                {"lowest", found->lowest},
-                {"highest", found->highest},
+                {"amplitude", lineJson(found->amplitude, found->unit)},
                 {"made", dateText(found->made)},
                 {"valid_until", dateText(found->validUntil)}};
+    for (const auto& time : kStoredTimes) out[std::string(time.key)] = lineJson(*((*found).*time.line), "s");
+    return out;
 }
 
 Result<Json> useCalibration(ScriptSession& session, const Json& list) {
     const Arguments arguments("bench.useCalibration", list);
-    const Json use = arguments.at(0);
+    const Json& use = arguments.at(0);
     if (!use.is_boolean()) return arguments.wrong("use", use, "true or false");
     if (auto changed = session.bench().useCalibration(use.get<bool>()); !changed) return failure(changed);
     return Json();
@@ -76,11 +79,34 @@ double worstUncertainty_pct(const Json& levels) {
     return worst;
 }
 
+/// The line of one quantity, from what analysis.calibration() found.
+Result<StoredLine> lineFound(const Arguments& arguments, const Json& found, std::string_view quantity) {
+    const Json one = found.value(std::string(quantity), Json());
+    if (!one.is_object() || one.value("quantity", "") != quantity || one.value("complete", Json()) != Json(true)) {
+        return arguments.wrong(quantity, one,
+                               fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
+    }
+    if (one.value("verdict_iec", "") != "pass") {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: the stimulator's {} is not within 20 % of what it is told, uncertainty "
+                    "included (IEC 60601-2-10); a calibration is kept of one that is in order",
+                    quantity);
+    }
+    StoredLine line;
+    line.gain = one.value("gain", std::nan(""));
+    line.offset = one.value("offset", std::nan(""));
+    const Json& levels = one.at("levels");
+    line.uncertainty_pct = worstUncertainty_pct(levels);
+    line.lowest = levels.front().value("commanded", std::nan(""));
+    line.highest = levels.back().value("commanded", std::nan(""));
+    return line;
+}
+
 Result<Json> keep(ScriptSession& session, const Json& list) {
     const Arguments arguments("record.calibration", list);
-    auto found = arguments.object(0, "found");
-    if (!found) return failure(found);
-    const Json& amplitude = **found;
+    auto given = arguments.object(0, "found");
+    if (!given) return failure(given);
+    const Json& found = **given;
     auto options = arguments.options(1, {"valid_days", "scope_due"});
     if (!options) return failure(options);
     auto days = arguments.number(*options, "valid_days", 365, {1, 3660, true});
@@ -89,27 +115,21 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     if (!due) return failure(due);
     auto stimulator = connected(session, "record.calibration");
     if (!stimulator) return failure(stimulator);
-    if (amplitude.value("quantity", "") != "amplitude" || amplitude.value("complete", Json()) != Json(true)) {
-        return arguments.wrong("found", amplitude, "a complete calibration of amplitude, from analysis.calibration(),");
-    }
-    if (amplitude.value("verdict_iec", "") != "pass") {
-        return fail(ErrorCode::InvalidArgument,
-                    "record.calibration: the stimulator is not within 20 % of what it is told, uncertainty included "
-                    "(IEC 60601-2-10); a calibration is kept of one that is in order");
-    }
     StoredCalibration made;
+    const auto amplitude = lineFound(arguments, found, "amplitude");
+    if (!amplitude) return failure(amplitude);
+    made.amplitude = *amplitude;
+    for (const auto& time : kStoredTimes) {
+        const auto line = lineFound(arguments, found, time.key);
+        if (!line) return failure(line);
+        made.*time.line = *line;
+    }
     const auto& device = (*stimulator)->identity();
     made.serial = calibratedOutput(device.serial, device.uri);
     made.device = device.name;
-    made.unit = amplitude.value("unit", "");
+    made.unit = found.at("amplitude").value("unit", "");
     if (made.unit != unitOf(**stimulator)) return arguments.wrong("unit", made.unit, unitOf(**stimulator));
     if (const auto* writer = session.writer()) made.session = writer->path().filename().string();
-    made.gain = amplitude.value("gain", std::nan(""));
-    made.offset = amplitude.value("offset", std::nan(""));
-    const Json& levels = amplitude.at("levels");
-    made.uncertainty_pct = worstUncertainty_pct(levels);
-    made.lowest = levels.front().value("commanded", std::nan(""));
-    made.highest = levels.back().value("commanded", std::nan(""));
     made.made = today();
     made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(static_cast<int>(*days));
     for (const auto& each : session.bench().devices().identities()) {
@@ -133,8 +153,8 @@ std::vector<HostFunction> calibrationStoreFunctions() {
          HostKind::Property,
          {},
          "The stored calibration that holds today for the stimulator that is connected.",
-         "{ calibrated, text }, and where calibrated: { unit, gain, offset, uncertainty_pct, lowest, highest, made, "
-         "valid_until }.",
+         "{ calibrated, text }, and where calibrated: { made, valid_until, amplitude, interval, width, gap }, each of "
+         "these { unit, gain, offset, uncertainty_pct, lowest, highest }.",
          "Throws without a stimulator, or when the store is damaged.",
          calibration},
         {"bench",
@@ -149,7 +169,8 @@ std::vector<HostFunction> calibrationStoreFunctions() {
         {"record",
          "calibration",
          HostKind::Function,
-         {{"found", "object", "", "a complete calibration of amplitude, from analysis.calibration()"},
+         {{"found", "object", "",
+           "{ amplitude, interval, width, gap }: complete calibrations of each, from analysis.calibration()"},
           {"options.valid_days", "number", "d", "how long it holds, 1 to 3660; 365 where left out", true},
           {"options.scope_due", "text", "", "day on which the oscilloscope's own calibration is due", true}},
          "Keeps a calibration for the stimulator's serial. An older one stays in the store and is superseded.",

@@ -22,13 +22,16 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
         fine = std::move(*more);
     }
     const auto& train = session.bench().profile().encoding.train;
-    auto reading = readLoad(given->captures, ExpectedTrain{train.pulses, train.rate.value()}, fine.captures);
+    ExpectedTrain expected{train.pulses, train.rate.value()};
+    if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
+    auto reading = readLoad(given->captures, expected, fine.captures);
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
     out["captures"] = given->ids;
     // A calibrated stimulator is told something else than what it is to deliver.
     double commanded = session.bench().telemetry().trainAmplitude;
-    if (const auto& calibration = session.bench().calibration()) commanded = calibration->delivered(commanded);
+    if (const auto& calibration = session.bench().calibration())
+        commanded = calibration->amplitude.delivered(commanded);
     out["commanded"] = std::isfinite(commanded) ? Json(commanded) : Json();
     return out;
 }
@@ -155,7 +158,7 @@ std::vector<HostFunction> loadSafetyFunctions() {
          "standard "
          "uncertainty in _u; trains, under_10_lsb, warnings, captures, commanded }: null what was not measured; "
          "commanded is the last train's amplitude as the device was told.",
-         "Throws for captures that are held no longer, or without a voltage channel.",
+         "Throws for captures that are held no longer, or without a channel of what the source drives and of voltage.",
          measureLoad},
         {"analysis",
          "loadSafety",

@@ -38,6 +38,9 @@ nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
     nlohmann::json handles = nlohmann::json::array();
     for (auto& capture : captures) {
         if (request_.onCapture) request_.onCapture(capture);
+        for (const auto& warning : capture.warnings) {
+            if (writer() != nullptr) static_cast<void>(writer()->event(now(), "capture warning", {{"text", warning}}));
+        }
         handles.push_back({{"capture", nextCapture_},
                            {"start_s", capture.start_s},
                            {"trigger_s", capture.trigger_s},

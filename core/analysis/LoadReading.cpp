@@ -30,12 +30,17 @@ struct TrainFigures {
     bool biphasic = false;
 };
 
-/// The pulses of a train by its voltage; nothing, with a warning, unless all of them are measured.
+/// The channel that the source drives.
+std::string_view drivenBy(const ExpectedTrain& expected) {
+    return expected.drive == Drive::Current ? "current" : "voltage";
+}
+
+/// The pulses of a train by what is driven; nothing, with a warning, unless all of them are measured.
 std::optional<ChannelMeasurement> pulsesOf(const Capture& capture, const ExpectedTrain& expected,
                                            std::vector<std::string>& warnings) {
     MeasureOptions options;
     if (expected.pulses > 1) options.intraTrainRate = Hertz(expected.rate_hz);
-    auto measured = measureTrains({&capture, 1}, "voltage", options);
+    auto measured = measureTrains({&capture, 1}, drivenBy(expected), options);
     if (!measured) {
         warnings.push_back(measured.error().message);
         return std::nullopt;
@@ -44,10 +49,9 @@ std::optional<ChannelMeasurement> pulsesOf(const Capture& capture, const Expecte
         measured->pulses.size() == measured->measuredPulses) {
         return std::move(*measured);
     }
-    warnings.push_back(
-        fmt::format("a train shows {} pulses on the voltage channel, {} of them measured; {} were "
-                    "commanded",
-                    measured->pulses.size(), measured->measuredPulses, expected.pulses));
+    warnings.push_back(fmt::format("a train shows {} pulses on the {} channel, {} of them measured; {} were commanded",
+                                   measured->pulses.size(), drivenBy(expected), measured->measuredPulses,
+                                   expected.pulses));
     for (auto& why : measured->warnings) warnings.push_back(std::move(why));
     return std::nullopt;
 }
@@ -94,7 +98,6 @@ std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrai
     TrainFigures out;
     out.onset_s = pulses->trains.front().onset_s;
     out.width_s = pulses->width_s.mean;
-    out.plateau_v = pulses->amplitude.mean;
     out.biphasic = std::all_of(pulses->pulses.begin(), pulses->pulses.end(),
                                [](const auto& pulse) { return pulse.second.has_value(); });
     const auto voltage = traceOf(capture, "voltage", out.onset_s);
@@ -116,6 +119,7 @@ std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrai
         warnings.emplace_back("the current of a train is missing, clipped or has no quiet stretch before it");
         readEnds(*voltage, nullptr, *pulses, out);
     }
+    out.plateau_v = expected.drive == Drive::Voltage ? pulses->amplitude.mean : out.end_v;
     return out;
 }
 
@@ -322,8 +326,9 @@ Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& exp
         return fail(ErrorCode::InvalidArgument, "a train of {} pulses at {} Hz; at least 1 and above 0 are expected",
                     expected.pulses, expected.rate_hz);
     }
-    if (channelOf(captures.front(), "voltage") == nullptr) {
-        return fail(ErrorCode::NotFound, "the capture has no channel \"voltage\"");
+    for (const auto needed : {std::string_view("voltage"), drivenBy(expected)}) {
+        if (channelOf(captures.front(), needed) != nullptr) continue;
+        return fail(ErrorCode::NotFound, "the capture has no channel \"{}\"", needed);
     }
     return {};
 }

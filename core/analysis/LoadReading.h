@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/DriveSegment.h"
 #include "core/base/Result.h"
 #include "core/measure/Capture.h"
 
@@ -33,9 +34,9 @@ struct Reading {
 
 /// The largest of the trains measured, unless a line says otherwise.
 struct LoadReading {
-    Reading amplitude_v;       ///< plateau of the leading phase, magnitude; mean of the trains
+    Reading amplitude_v;       ///< plateau of the leading phase, magnitude; of a current source as amplitude_ma; mean
     Reading amplitude_ma;      ///< at the end of the leading phase, from 80 to 97 % of its width; mean
-    Reading width_s;           ///< of the leading phase, from the voltage; mean
+    Reading width_s;           ///< of the leading phase, of what the source drives; mean
     Reading interval_s;        ///< onset to onset of trains; the shortest
     Reading impedance_ohm;     ///< voltage over current there, as science.md section 4 means |Z|; mean
     Reading peak_v;            ///< largest |voltage|
@@ -61,6 +62,9 @@ struct LoadReading {
 struct ExpectedTrain {
     int pulses = 1;
     double rate_hz = 100;  ///< intra-train
+    /// What the source imposes: its channel shows where the phases are. The other one is the load's answer, which
+    /// on a capacitor goes on after the phase is over. Voltage or Current.
+    Drive drive = Drive::Voltage;
 };
 
 /// One capture per train, in time order, all with one command, on one time base. Channels "voltage" (V) and "current"
@@ -68,7 +72,7 @@ struct ExpectedTrain {
 /// `fine`: further trains of the same command in a current range that fits the end of a phase, where a skin
 /// equivalent's charging spike clips. |Z|, net charge and imbalance are then read there, and in `captures` only while
 /// `fine` clips. Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound
-/// without a voltage channel.
+/// without a voltage channel, or without a current channel for a current source.
 [[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected,
                                            std::span<const Capture> fine = {});
 

@@ -1,10 +1,64 @@
 #include "core/base/Statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 namespace tacto {
+
+namespace {
+
+/// The mean of the readings with these ranks, which are the same or neighbours. Reorders `readings`.
+double meanOfRanks(std::vector<double>& readings, std::size_t lower, std::size_t upper) {
+    const auto at = readings.begin() + static_cast<std::ptrdiff_t>(upper);
+    std::nth_element(readings.begin(), at, readings.end());
+    return lower == upper ? *at : 0.5 * (*std::max_element(readings.begin(), at) + *at);
+}
+
+/// What lies within a window, in the readings' order, and how many lie below it.
+struct Within {
+    std::size_t below = 0;
+    std::vector<double> readings;
+
+    Within(std::span<const double> all, double least, double most) {
+        std::array<double, 1024> chunk;
+        for (std::size_t first = 0; first < all.size(); first += chunk.size()) {
+            std::size_t kept = 0;
+            // No branch: whether the next reading is kept cannot be foretold.
+            for (const double x : all.subspan(first, std::min(chunk.size(), all.size() - first))) {
+                const std::size_t isBelow = x < least ? 1 : 0;
+                const std::size_t isAbove = x > most ? 1 : 0;
+                chunk[kept] = x;
+                kept += 1 - isBelow - isAbove;
+                below += isBelow;
+            }
+            readings.insert(readings.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(kept));
+        }
+    }
+};
+
+/// Of many readings a thousand say nearly where the median lies; then only the few thereabouts are put in order. Where
+/// it lies elsewhere (readings that repeat in step with the thousand), all are.
+double medianOf(std::span<const double> readings) {
+    constexpr std::size_t kAsked = 1024;
+    constexpr std::size_t kReach = 64;  // ranks of the thousand: four standard deviations of their median's
+    const std::size_t upper = readings.size() / 2;
+    const std::size_t lower = (readings.size() - 1) / 2;
+    if (readings.size() > 8 * kAsked) {
+        std::vector<double> asked(kAsked);
+        for (std::size_t k = 0; k < kAsked; ++k) asked[k] = readings[k * (readings.size() / kAsked)];
+        std::sort(asked.begin(), asked.end());
+        Within near(readings, asked[kAsked / 2 - kReach], asked[kAsked / 2 + kReach]);
+        if (lower >= near.below && upper < near.below + near.readings.size()) {
+            return meanOfRanks(near.readings, lower - near.below, upper - near.below);
+        }
+    }
+    std::vector<double> all(readings.begin(), readings.end());
+    return meanOfRanks(all, lower, upper);
+}
+
+}  // namespace
 
 Statistics statisticsOf(std::span<const double> readings) {
     Statistics result;
@@ -29,12 +83,7 @@ Statistics statisticsOf(std::span<const double> readings) {
     if (readings.size() > 1) result.sd = std::sqrt(squares / (n - 1));
     result.min = least;
     result.max = most;
-
-    // Not sorted throughout: of hundreds of thousands of readings only the middle is asked for.
-    std::vector<double> partly(readings.begin(), readings.end());
-    const auto middle = partly.begin() + static_cast<std::ptrdiff_t>(partly.size() / 2);
-    std::nth_element(partly.begin(), middle, partly.end());
-    result.median = partly.size() % 2 == 1 ? *middle : 0.5 * (*std::max_element(partly.begin(), middle) + *middle);
+    result.median = medianOf(readings);
     return result;
 }
 

@@ -77,8 +77,18 @@ Result<void> Bench::State::open() {
 
 void Bench::State::noteCalibration() {
     if (!recorder || config.calibrationText.empty()) return;
-    const AmplitudeCalibration told = applied.value_or(AmplitudeCalibration{});
-    recorder->event(config.clock->now(), "calibration", {{"gain", told.gain}, {"offset", told.offset}},
+    const StimulatorCalibration told = applied.value_or(StimulatorCalibration{});
+    const auto interval = told.interval.value_or(CalibrationLine{}),
+               width = told.phaseWidth.value_or(CalibrationLine{}), gap = told.gap.value_or(CalibrationLine{});
+    recorder->event(config.clock->now(), "calibration",
+                    {{"gain", told.amplitude.gain},
+                     {"offset", told.amplitude.offset},
+                     {"interval_gain", interval.gain},
+                     {"interval_offset_s", interval.offset},
+                     {"width_gain", width.gain},
+                     {"width_offset_s", width.offset},
+                     {"gap_gain", gap.gain},
+                     {"gap_offset_s", gap.offset}},
                     config.calibration && config.calibrationHolds && !applied
                         ? "left aside: the stimulator is told the commands as they are"
                         : std::string_view(config.calibrationText));

@@ -37,7 +37,7 @@ struct BenchConfig {
     BenchTap* tap = nullptr;            ///< not owned; null shows nothing
     /// The last of the stimulator that is known. The gate judges by it in any case; a stimulator that is out of order
     /// by it is not armed.
-    std::optional<AmplitudeCalibration> calibration;
+    KnownLines calibration;
     bool calibrationHolds = true;  ///< it is applied to every train; else commands go out as they are, and to no person
     std::string calibrationText;   ///< for the session: which one, or why there is none; empty records nothing
     /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
@@ -89,7 +89,7 @@ public:
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
     [[nodiscard]] Result<void> setProfile(const Profile& profile);
     /// The calibration that is applied now.
-    [[nodiscard]] const std::optional<AmplitudeCalibration>& calibration() const noexcept;
+    [[nodiscard]] const KnownLines& calibration() const noexcept;
     /// Leaves the stimulator's calibration aside, or takes it up again: a new one must see the stimulator as it is.
     /// Errors: NotArmed unless disarmed.
     [[nodiscard]] Result<void> useCalibration(bool use);

@@ -47,12 +47,7 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     ArmCommand command;
     command.setup = setupFor(load);
     // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
-    PulseTrain check = command.setup.check;
-    if (source.drive == Drive::Current)
-        check.amplitude = source.checkCurrent;
-    else
-        check.amplitude = source.checkVoltage;
-    const auto leading = segmentsOf(check, source.gap).items[0];
+    const auto leading = segmentsOf(checkTrainOf(command.setup), source.gap).items[0];
     auto& evidence = command.evidence;
     evidence.limitsLoaded = !config.limits.empty();
     const Device* output = config.devices.stimulator.get();
@@ -185,7 +180,7 @@ std::optional<Seconds> Bench::silencedAfter() const noexcept {
     return Seconds(stimulator->silencedAfter());
 }
 
-const std::optional<AmplitudeCalibration>& Bench::calibration() const noexcept { return state_->applied; }
+const KnownLines& Bench::calibration() const noexcept { return state_->applied; }
 
 Result<void> Bench::useCalibration(bool use) {
     auto& s = *state_;

@@ -27,7 +27,7 @@ struct Bench::State {
     BenchConfig config;
     VirtualClock* virtualClock = nullptr;  // null on the steady clock
     SourceTraits source;
-    std::optional<AmplitudeCalibration> applied;  // config.calibration, or nothing while it is left aside
+    KnownLines applied;  // config.calibration, or nothing while it is left aside
     SafetyGate gate;
     Interlock interlock;
     Heartbeat heartbeat;

@@ -14,7 +14,7 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
 }
 
 TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
-                           const std::optional<AmplitudeCalibration>& calibration)
+                           const KnownLines& calibration)
     : encoder_(profile), source_(source), calibration_(calibration), gate_(gate) {}
 
 Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure, Instant now) {
@@ -26,10 +26,11 @@ Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure
     const bool starting = !wanted_;
     wanted_ = *encoded;
     command_ = last_ ? encoder_.limited(*last_, *wanted_, Seconds(now - lastOnset_)) : *wanted_;
+    const Seconds interval = toldFor(command_->interval, calibration_);
     if (starting)
-        scheduler_.start(now, command_->interval);
+        scheduler_.start(now, interval);
     else
-        scheduler_.setInterval(command_->interval, now);
+        scheduler_.setInterval(interval, now);
     return {};
 }
 
@@ -64,7 +65,7 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (!train) return failure(train);
     const auto rounded = roundToDevice(toldFor(*train, calibration_), gridOf(source_));
     if (!rounded) return failure(rounded);
-    auto approved = gate_.approve(TrainRequest{rounded->train, command.interval, onset});
+    auto approved = gate_.approve(TrainRequest{rounded->train, toldFor(command.interval, calibration_), onset});
     if (!approved) return failure(approved);
     last_ = command;
     lastOnset_ = onset;

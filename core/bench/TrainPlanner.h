@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "core/encoding/AmplitudeCalibration.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Rounding.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/encoding/TrainScheduler.h"
 #include "core/safety/SafetyGate.h"
 
@@ -33,7 +33,7 @@ public:
     /// `profile` has passed validate(); `gate` outlives the planner. With a `calibration` the stimulator is told what
     /// makes it deliver the command; the gate must know of the same one.
     TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
-                 const std::optional<AmplitudeCalibration>& calibration = {});
+                 const KnownLines& calibration = {});
 
     /// |Z| when the output was armed: what a profile that holds charge or energy refers to, and takes until another
     /// was measured.
@@ -64,7 +64,7 @@ private:
 
     const Encoder encoder_;
     const SourceTraits source_;
-    const std::optional<AmplitudeCalibration> calibration_;
+    const KnownLines calibration_;
     SafetyGate& gate_;
     TrainScheduler scheduler_;
     std::optional<Command> wanted_;

@@ -58,6 +58,10 @@ std::string digestOf(const json& body) { return sha256Hex(body.dump()); }
 
 }  // namespace
 
+StimulatorCalibration linesOf(const StoredCalibration& stored) {
+    return {stored.amplitude, stored.interval, stored.phaseWidth, stored.gap};
+}
+
 Result<CalibrationStore> CalibrationStore::open(std::filesystem::path file) {
     CalibrationStore store(std::move(file));
     const auto text = readTextFile(store.file_);
@@ -107,6 +111,11 @@ Result<void> CalibrationStore::read(std::string_view text) {
 
 Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
     if (auto sane = check(calibration); !sane) return sane;
+    for (const auto& time : kStoredTimes) {
+        if (calibration.*time.line) continue;
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: no {}; all four quantities were expected",
+                    calibration.serial, time.title);
+    }
     std::error_code failed;
     if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), failed);
     const LockedFile locked(file_);
@@ -151,6 +160,13 @@ Result<StoredCalibration> CalibrationStore::valid(std::string_view serial, std::
                     "stimulator {} was calibrated on a simulated bench only, on {}; one on the "
                     "real bench is expected",
                     serial, dateText(found->made));
+    }
+    for (const auto& time : kStoredTimes) {
+        if (found->*time.line) continue;
+        return fail(ErrorCode::NotFound,
+                    "the calibration of stimulator {} of {} is without its {}; one of amplitude, interval, phase width "
+                    "and gap is expected",
+                    serial, dateText(found->made), time.title);
     }
     if (day < found->made || day > found->validUntil) {
         return fail(ErrorCode::NotFound,

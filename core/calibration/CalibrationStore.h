@@ -10,6 +10,7 @@
 // Thread-safety: none; one owner. add() locks the file against other processes.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto {
 
@@ -35,15 +37,17 @@ struct CalibrationInstrument {
     std::optional<CalibrationDate> due;  ///< of its own calibration; nothing: nobody stated it
 };
 
+/// What one quantity comes out as, and how surely that is known.
+struct StoredLine : CalibrationLine {
+    double uncertainty_pct = 0;  ///< U (95 %) of what is delivered, largest over the levels, in % of the command
+};
+
 struct StoredCalibration {
     std::string serial;  ///< of the stimulator; not empty
     std::string device;  ///< its name
-    std::string unit;    ///< "V" or "mA": of the source that was calibrated, and of `offset`
-    double gain = 1;     ///< delivered = gain · commanded + offset; above 0
-    double offset = 0;
-    double uncertainty_pct = 0;  ///< U of the delivered amplitude, largest over the levels, in % of the command
-    double lowest = 0;           ///< the calibrated range, commanded
-    double highest = 0;
+    std::string unit;    ///< "V" or "mA": of the source that was calibrated, and of the amplitude's line
+    StoredLine amplitude;
+    std::optional<StoredLine> interval, phaseWidth, gap;  ///< s; one that lacks a line is read, and holds for nothing
     CalibrationDate made{};
     CalibrationDate validUntil{};  ///< the last day on which it counts
     bool simulated = false;        ///< of a simulated device, or measured by one
@@ -51,19 +55,31 @@ struct StoredCalibration {
     std::vector<CalibrationInstrument> instruments;
 };
 
+/// The times of a calibration by what files and scripts call them, and people.
+struct StoredTime {
+    std::string_view key;
+    std::string_view title;
+    std::optional<StoredLine> StoredCalibration::*line;
+};
+inline constexpr std::array<StoredTime, 3> kStoredTimes{{{"interval", "interval", &StoredCalibration::interval},
+                                                         {"width", "phase width", &StoredCalibration::phaseWidth},
+                                                         {"gap", "inter-phase gap", &StoredCalibration::gap}}};
+[[nodiscard]] StimulatorCalibration linesOf(const StoredCalibration& stored);
+
 class CalibrationStore {
 public:
     /// Reads the file; one that is not there is empty. Errors: Io; ParseError naming the line that does not check.
     [[nodiscard]] static Result<CalibrationStore> open(std::filesystem::path file);
 
-    /// Appends and syncs. Errors: InvalidArgument for a calibration without serial, unit or valid numbers and dates, or
-    /// an instrument that was overdue on the day it was used; Io; ParseError when the file was damaged meanwhile.
+    /// Appends and syncs. Errors: InvalidArgument for a calibration without serial, unit, one of the four lines or
+    /// valid numbers and dates, or an instrument that was overdue on the day it was used; Io; ParseError when the file
+    /// was damaged meanwhile.
     [[nodiscard]] Result<void> add(const StoredCalibration& calibration);
 
     /// The newest of that serial and unit, whatever its date.
     [[nodiscard]] const StoredCalibration* latest(std::string_view serial, std::string_view unit) const;
-    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired when, or made
-    /// on a simulated bench while the device is none.
+    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired when, without
+    /// its times, or made on a simulated bench while the device is none.
     [[nodiscard]] Result<StoredCalibration> valid(std::string_view serial, std::string_view unit, CalibrationDate day,
                                                   bool simulated) const;
 

@@ -28,6 +28,39 @@ std::string dateText(CalibrationDate date) {
                        static_cast<unsigned>(date.day()));
 }
 
+namespace {
+
+Result<void> checkLine(const StoredLine& line, const std::string& serial, std::string_view quantity) {
+    if (auto sound = validateNumbers(line, quantity); !sound) {
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: {}", serial, sound.error().message);
+    }
+    if (!(line.uncertainty_pct > 0) || !std::isfinite(line.uncertainty_pct)) {
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: uncertainty of {} {} %; above 0 was expected",
+                    serial, quantity, line.uncertainty_pct);
+    }
+    return {};
+}
+
+json toJson(const StoredLine& line) {
+    return {{"gain", line.gain},
+            {"offset", line.offset},
+            {"uncertainty_pct", line.uncertainty_pct},
+            {"lowest", line.lowest},
+            {"highest", line.highest}};
+}
+
+StoredLine lineFrom(const json& in) {
+    StoredLine line;
+    line.gain = in.at("gain").get<double>();
+    line.offset = in.at("offset").get<double>();
+    line.uncertainty_pct = in.at("uncertainty_pct").get<double>();
+    line.lowest = in.at("lowest").get<double>();
+    line.highest = in.at("highest").get<double>();
+    return line;
+}
+
+}  // namespace
+
 Result<void> check(const StoredCalibration& c) {
     if (c.serial.empty()) {
         return fail(ErrorCode::InvalidArgument, "a calibration without the stimulator's serial; one was expected");
@@ -35,19 +68,10 @@ Result<void> check(const StoredCalibration& c) {
     if (c.unit != "V" && c.unit != "mA") {
         return fail(ErrorCode::InvalidArgument, "calibration of {}: unit '{}'; V or mA was expected", c.serial, c.unit);
     }
-    if (!(c.gain > 0) || !std::isfinite(c.gain) || !std::isfinite(c.offset)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "calibration of {}: gain {} and offset {}; a gain above 0 and a finite offset were expected",
-                    c.serial, c.gain, c.offset);
-    }
-    if (!(c.uncertainty_pct > 0) || !std::isfinite(c.uncertainty_pct)) {
-        return fail(ErrorCode::InvalidArgument, "calibration of {}: uncertainty {} %; above 0 was expected", c.serial,
-                    c.uncertainty_pct);
-    }
-    if (!(c.lowest > 0) || !(c.highest > c.lowest) || !std::isfinite(c.highest)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "calibration of {}: range {} to {} {}; a rising one above 0 was expected", c.serial, c.lowest,
-                    c.highest, c.unit);
+    if (auto sane = checkLine(c.amplitude, c.serial, "amplitude"); !sane) return sane;
+    for (const auto& time : kStoredTimes) {
+        if (!(c.*time.line)) continue;
+        if (auto sane = checkLine(*(c.*time.line), c.serial, time.title); !sane) return sane;
     }
     if (!c.made.ok() || !c.validUntil.ok() || c.validUntil < c.made) {
         return fail(ErrorCode::InvalidArgument, "calibration of {}: valid until {}; a day from {} on was expected",
@@ -70,19 +94,19 @@ json toJson(const StoredCalibration& c) {
                                {"serial", instrument.serial},
                                {"due", instrument.due ? json(dateText(*instrument.due)) : json()}});
     }
-    return {{"serial", c.serial},
-            {"device", c.device},
-            {"unit", c.unit},
-            {"gain", c.gain},
-            {"offset", c.offset},
-            {"uncertainty_pct", c.uncertainty_pct},
-            {"lowest", c.lowest},
-            {"highest", c.highest},
-            {"made", dateText(c.made)},
-            {"valid_until", dateText(c.validUntil)},
-            {"simulated", c.simulated},
-            {"session", c.session},
-            {"instruments", instruments}};
+    json out = toJson(c.amplitude);  // at the top: files were written so before times were kept
+    out.update({{"serial", c.serial},
+                {"device", c.device},
+                {"unit", c.unit},
+                {"made", dateText(c.made)},
+                {"valid_until", dateText(c.validUntil)},
+                {"simulated", c.simulated},
+                {"session", c.session},
+                {"instruments", instruments}});
+    for (const auto& time : kStoredTimes) {
+        if (c.*time.line) out[std::string(time.key)] = toJson(*(c.*time.line));
+    }
+    return out;
 }
 
 Result<StoredCalibration> storedCalibrationFrom(const json& in) {
@@ -94,11 +118,10 @@ Result<StoredCalibration> storedCalibrationFrom(const json& in) {
         c.serial = in.at("serial").get<std::string>();
         c.device = in.at("device").get<std::string>();
         c.unit = in.at("unit").get<std::string>();
-        c.gain = in.at("gain").get<double>();
-        c.offset = in.at("offset").get<double>();
-        c.uncertainty_pct = in.at("uncertainty_pct").get<double>();
-        c.lowest = in.at("lowest").get<double>();
-        c.highest = in.at("highest").get<double>();
+        c.amplitude = lineFrom(in);
+        for (const auto& time : kStoredTimes) {
+            if (in.contains(time.key)) c.*time.line = lineFrom(in.at(time.key));
+        }
         c.simulated = in.at("simulated").get<bool>();
         c.session = in.at("session").get<std::string>();
         const auto made = date(in.at("made")), until = date(in.at("valid_until"));

@@ -42,16 +42,20 @@ void AmplitudeHistogram::fill(std::span<const float> samples) {
     std::array<std::array<Bin, kBins>, kBanks> banks{};
     std::array<std::int32_t, kChunk> bins;
     std::array<float, kChunk> values;
+    std::array<float, kChunk> filledUp{};
     const auto least = static_cast<float>(low_);
     const auto most = static_cast<float>(low_ + width_ * static_cast<double>(kBins));
     const auto perUnit = static_cast<float>(1 / width_);
     for (std::size_t first = 0; first < samples.size(); first += kChunk) {
         const std::size_t n = std::min(kChunk, samples.size() - first);
         // The last chunk is filled up and only its own samples counted: the loops keep a fixed length.
-        if (n < kChunk) values.fill(least);
-        std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(first), n, values.begin());
+        const float* chunk = samples.data() + first;
+        if (n < kChunk) {
+            std::copy_n(chunk, n, filledUp.begin());
+            chunk = filledUp.data();
+        }
         for (std::size_t k = 0; k < kChunk; ++k) {
-            float x = values[k];
+            float x = chunk[k];
             x = x < least ? least : x;
             x = x > most ? most : x;
             values[k] = x;
@@ -59,11 +63,19 @@ void AmplitudeHistogram::fill(std::span<const float> samples) {
             const float position = (x - least) * perUnit;
             bins[k] = static_cast<std::int32_t>(position < kLastBin ? position : kLastBin);
         }
-        for (std::size_t k = 0; k < n; ++k) {
-            auto& bin = banks[k % kBanks][static_cast<std::size_t>(bins[k])];
+        const auto count = [&](std::size_t k, std::array<Bin, kBins>& bank) {
+            auto& bin = bank[static_cast<std::size_t>(bins[k])];
             bin.count += 1;
             bin.sum += static_cast<double>(values[k]);
+        };
+        std::size_t k = 0;
+        for (; k + kBanks <= n; k += kBanks) {
+            count(k, banks[0]);
+            count(k + 1, banks[1]);
+            count(k + 2, banks[2]);
+            count(k + 3, banks[3]);
         }
+        for (; k < n; ++k) count(k, banks[k % kBanks]);
     }
     for (const auto& bank : banks) {
         for (std::size_t k = 0; k < kBins; ++k) {

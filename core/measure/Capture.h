@@ -25,6 +25,7 @@ struct Capture {
     bool simulated = false;
     bool untriggered = false;  ///< taken because no trigger came: it shows the signal, not an event; trigger_s is NaN
     std::vector<CaptureChannel> channels;  ///< equally long
+    std::vector<std::string> warnings;     ///< sentences: what was tolerated or guessed when it was read from a file
 
     [[nodiscard]] std::size_t samples() const noexcept {
         return channels.empty() ? 0 : channels.front().samples.size();

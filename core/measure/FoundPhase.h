@@ -2,27 +2,35 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 
 #include "core/measure/PulseMeasurement.h"
 #include "core/measure/SampleView.h"
 
 namespace tacto {
 
-struct FoundPhase {
+/// Where a phase lies. A record may hold hundreds of thousands: all that is known of every one before any is measured.
+struct PhaseSpan {
     const SampleView* view = nullptr;  ///< where it was found and is measured
     std::size_t begin = 0;             ///< first of the view's samples beyond the threshold
     std::size_t end = 0;               ///< one past the last
-    int sign = 0;                      ///< +1 above the baseline, -1 below
     double area = 0;                   ///< ∫ of its samples' distances from the baseline, in unit times second
-    double onset = kNotMeasured;       ///< 50 % points as positions in the view
-    double end50 = kNotMeasured;
+    signed char sign = 0;              ///< +1 above the baseline, -1 below
     bool truncated = false;
     bool incomplete = false;
     bool clipped = false;
-    PhaseMeasurement measured;  ///< filled also where a flag stands: the caller decides what to show
 
     [[nodiscard]] double from_s() const noexcept { return view->timeOf(static_cast<double>(begin)); }
     [[nodiscard]] double to_s() const noexcept { return view->timeOf(static_cast<double>(end)); }
+};
+
+/// Grows without moving what it holds, and takes no more memory than that: nobody knows how many there will be.
+using PhaseSpans = std::deque<PhaseSpan>;
+
+struct FoundPhase : PhaseSpan {
+    double onset = kNotMeasured;  ///< 50 % points as positions in the view
+    double end50 = kNotMeasured;
+    PhaseMeasurement measured;  ///< filled also where a flag stands: the caller decides what to show
 };
 
 }  // namespace tacto

@@ -1,7 +1,10 @@
 #include "core/measure/PhaseShape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <span>
 
 namespace tacto {
@@ -14,128 +17,144 @@ constexpr double kPlateauTo = 0.9;
 constexpr double kEdgeFoot = 0.25;
 constexpr double kEdgeTop = 0.75;
 
+/// Of a sample. Signed: a position becomes one, and one a position, in a single step of the processor.
+using Index = std::ptrdiff_t;
+
+/// The first sample at or after a position, which must not be negative.
+Index atOrAfter(double position) {
+    const auto before = static_cast<Index>(position);
+    return before + (static_cast<double>(before) < position ? 1 : 0);
+}
+
 /// One phase's samples seen from the baseline, leading edge up.
 class PhaseSamples {
 public:
     PhaseSamples(const FoundPhase& phase, double baseline)
         : samples_(phase.view->samples), baseline_(baseline), sign_(phase.sign) {}
-    [[nodiscard]] double operator[](std::size_t i) const {
-        return (static_cast<double>(samples_[i]) - baseline_) * sign_;
-    }
-    [[nodiscard]] std::size_t size() const { return samples_.size(); }
+    [[nodiscard]] double operator[](Index i) const { return (static_cast<double>(recorded(i)) - baseline_) * sign_; }
+    [[nodiscard]] Index size() const { return std::ssize(samples_); }
 
     /// Where the line between samples i - 1 and i passes `level`.
-    [[nodiscard]] double crossing(std::size_t i, double level) const {
+    [[nodiscard]] double crossing(Index i, double level) const {
         const double before = (*this)[i - 1];
         const double after = (*this)[i];
         if (before == after) return static_cast<double>(i);
         return static_cast<double>(i) - 1 + std::clamp((level - before) / (after - before), 0.0, 1.0);
     }
     /// First passage upwards at or after `from`, at or before `to`; NaN if none.
-    [[nodiscard]] double firstRise(std::size_t from, std::size_t to, double level) const {
-        for (std::size_t i = from; i <= to && i < size(); ++i) {
+    [[nodiscard]] double firstRise(Index from, Index to, double level) const {
+        for (Index i = from; i <= to && i < size(); ++i) {
             if ((*this)[i] >= level) return i == 0 ? kNotMeasured : crossing(i, level);
         }
         return kNotMeasured;
     }
     /// Last passage downwards: searches from `from` back to `to`.
-    [[nodiscard]] double lastFall(std::size_t from, std::size_t to, double level) const {
-        for (std::size_t i = std::min(from, size() - 1) + 1; i-- > to;) {
+    [[nodiscard]] double lastFall(Index from, Index to, double level) const {
+        for (Index i = std::min(from, size() - 1) + 1; i-- > to;) {
             if ((*this)[i] >= level) return i + 1 >= size() ? kNotMeasured : crossing(i + 1, level);
         }
         return kNotMeasured;
     }
     /// Going back from `from`: where the leading edge left `level`.
-    [[nodiscard]] double edgeStart(std::size_t from, double level) const {
-        for (std::size_t i = from; i > 0; --i) {
+    [[nodiscard]] double edgeStart(Index from, double level) const {
+        for (Index i = from; i > 0; --i) {
             if ((*this)[i - 1] <= level) return crossing(i, level);
         }
         return kNotMeasured;
     }
     /// Going on from `from`: where the trailing edge reached `level`.
-    [[nodiscard]] double edgeEnd(std::size_t from, double level) const {
-        for (std::size_t i = from; i < size(); ++i) {
+    [[nodiscard]] double edgeEnd(Index from, double level) const {
+        for (Index i = from; i < size(); ++i) {
             if ((*this)[i] <= level) return i == 0 ? kNotMeasured : crossing(i, level);
         }
         return kNotMeasured;
     }
     /// Passages up less passages down through half of `plateau`, on the edge whose first sample at or above it is `i`.
-    [[nodiscard]] double risesAt(std::size_t i, std::size_t to, double plateau) const {
+    [[nodiscard]] double risesAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i - 1] >= half) return crossing(i, half);
-        std::size_t first = i;
-        const std::size_t earliest = i - std::min(i, to - std::min(to, i) + 1);
+        Index first = i;
+        const Index earliest = i - std::min(i, to - std::min(to, i) + 1);
         while (first > earliest && (*this)[first - 1] > kEdgeFoot * plateau) --first;
-        std::size_t last = i;
+        Index last = i;
         while (last < to && last + 1 < size() && (*this)[last] < kEdgeTop * plateau) ++last;
         double position = crossing(i, half);
-        first = std::max<std::size_t>(first, 1);
+        first = std::max<Index>(first, 1);
         // Not a whole edge: the first passage must do.
         if ((*this)[first - 1] >= half || (*this)[last] < half) return position;
-        for (std::size_t k = first; k <= last; ++k) {
+        for (Index k = first; k <= last; ++k) {
             if (k == i || ((*this)[k - 1] >= half) == ((*this)[k] >= half)) continue;
             position += ((*this)[k] >= half ? 1 : -1) * crossing(k, half);
         }
         return position;
     }
     /// The same of a trailing edge whose last sample at or above half is `i`, back to `to` at most.
-    [[nodiscard]] double fallsAt(std::size_t i, std::size_t to, double plateau) const {
+    [[nodiscard]] double fallsAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i + 1] >= half) return crossing(i + 1, half);
-        std::size_t last = i + 1;
-        const std::size_t latest = std::min(size() - 1, i + 1 + (i - std::min(i, to)) + 1);
+        Index last = i + 1;
+        const Index latest = std::min(size() - 1, i + 1 + (i - std::min(i, to)) + 1);
         while (last < latest && (*this)[last] > kEdgeFoot * plateau) ++last;
-        std::size_t first = i;
+        Index first = i;
         while (first > to && (*this)[first] < kEdgeTop * plateau) --first;
         double position = crossing(i + 1, half);
         if ((*this)[first] < half || (*this)[last] >= half) return position;
-        for (std::size_t k = first + 1; k <= last; ++k) {
+        for (Index k = first + 1; k <= last; ++k) {
             if (k == i + 1 || ((*this)[k - 1] >= half) == ((*this)[k] >= half)) continue;
             position += ((*this)[k] >= half ? -1 : 1) * crossing(k, half);
         }
         return position;
     }
-    [[nodiscard]] double onset(std::size_t from, std::size_t to, double plateau) const {
-        for (std::size_t i = from; i <= to && i < size(); ++i) {
+    [[nodiscard]] double onset(Index from, Index to, double plateau) const {
+        for (Index i = from; i <= to && i < size(); ++i) {
             if ((*this)[i] >= 0.5 * plateau) return i == 0 ? kNotMeasured : risesAt(i, to, plateau);
         }
         return kNotMeasured;
     }
-    [[nodiscard]] double end(std::size_t from, std::size_t to, double plateau) const {
-        for (std::size_t i = std::min(from, size() - 1) + 1; i-- > to;) {
+    [[nodiscard]] double end(Index from, Index to, double plateau) const {
+        for (Index i = std::min(from, size() - 1) + 1; i-- > to;) {
             if ((*this)[i] >= 0.5 * plateau) return i + 1 >= size() ? kNotMeasured : fallsAt(i, to, plateau);
         }
         return kNotMeasured;
     }
     /// Of the samples first to last, both included: the baseline and the sign are put in once.
-    [[nodiscard]] double sum(std::size_t first, std::size_t last) const {
+    [[nodiscard]] double sum(Index first, Index last) const {
         double sums[2] = {0, 0};
-        std::size_t i = first;
+        Index i = first;
         for (; i + 1 <= last; i += 2) {
-            sums[0] += static_cast<double>(samples_[i]);
-            sums[1] += static_cast<double>(samples_[i + 1]);
+            sums[0] += static_cast<double>(recorded(i));
+            sums[1] += static_cast<double>(recorded(i + 1));
         }
-        if (i == last) sums[0] += static_cast<double>(samples_[i]);
+        if (i == last) sums[0] += static_cast<double>(recorded(i));
         return sign_ * (sums[0] + sums[1] - static_cast<double>(last - first + 1) * baseline_);
     }
-    /// Largest of the samples first to last, both included.
-    [[nodiscard]] double largest(std::size_t first, std::size_t last) const {
+    /// Largest of the samples first to last, both included. In lanes: a comparison need not wait for the one before it.
+    [[nodiscard]] double largest(Index first, Index last) const {
         const auto sign = static_cast<float>(sign_);
-        float most = sign * samples_[first];
-        for (std::size_t i = first; i <= last; ++i) {
-            const float x = sign * samples_[i];
-            most = x > most ? x : most;
+        std::array<float, 4> most;
+        most.fill(sign * recorded(first));
+        const auto take = [&](Index i, float& lane) {
+            const float x = sign * recorded(i);
+            lane = x > lane ? x : lane;
+        };
+        Index i = first;
+        while (i + 3 <= last) {
+            for (float& lane : most) take(i++, lane);
         }
-        return static_cast<double>(most) - sign_ * baseline_;
+        while (i <= last) take(i++, most[0]);
+        for (const float lane : most) most[0] = lane > most[0] ? lane : most[0];
+        return static_cast<double>(most[0]) - sign_ * baseline_;
     }
     [[nodiscard]] double at(double position) const {
-        const auto i = static_cast<std::size_t>(position);
+        const auto i = static_cast<Index>(position);
         if (i + 1 >= size()) return (*this)[size() - 1];
         const double share = position - static_cast<double>(i);
         return (*this)[i] * (1 - share) + (*this)[i + 1] * share;
     }
 
 private:
+    [[nodiscard]] float recorded(Index i) const { return samples_[static_cast<std::size_t>(i)]; }
+
     std::span<const float> samples_;
     double baseline_;
     double sign_;
@@ -143,15 +162,16 @@ private:
 
 /// The samples from 30 to 90 % of the width; at least one.
 struct PlateauRange {
-    std::size_t first;
-    std::size_t last;
+    Index first;
+    Index last;
 
     PlateauRange(const PhaseSamples& samples, double onset, double end) {
         const double width = end - onset;
-        first = static_cast<std::size_t>(std::ceil(std::max(0.0, onset + kPlateauFrom * width)));
-        last = std::min(samples.size() - 1, static_cast<std::size_t>(std::max(0.0, onset + kPlateauTo * width)));
+        first = atOrAfter(std::max(0.0, onset + kPlateauFrom * width));
+        last = std::min(samples.size() - 1, static_cast<Index>(std::max(0.0, onset + kPlateauTo * width)));
         if (first > last) first = last = std::min(samples.size() - 1, first);
     }
+    friend bool operator==(const PlateauRange&, const PlateauRange&) = default;
 };
 
 double levelOf(const PhaseSamples& samples, const PlateauRange& range) {
@@ -162,7 +182,7 @@ double levelOf(const PhaseSamples& samples, const PlateauRange& range) {
 double slopeOf(const PhaseSamples& samples, const PlateauRange& range) {
     double position = 0.5 * (static_cast<double>(range.first) - static_cast<double>(range.last));
     double moment = 0;
-    for (std::size_t i = range.first; i <= range.last; ++i, position += 1) moment += position * samples[i];
+    for (Index i = range.first; i <= range.last; ++i, position += 1) moment += position * samples[i];
     const double n = static_cast<double>(range.last - range.first + 1);
     const double squares = n * (n * n - 1) / 12;  // of the positions about their middle
     return squares > 0 ? moment / squares : 0;
@@ -170,17 +190,23 @@ double slopeOf(const PhaseSamples& samples, const PlateauRange& range) {
 
 }  // namespace
 
-void measureShape(FoundPhase& phase, double baseline) {
+void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase) {
+    static_cast<PhaseSpan&>(phase) = span;
+    phase.measured = {};
     const PhaseSamples samples(phase, baseline);
-    const std::size_t before = phase.begin == 0 ? 0 : phase.begin - 1;
-    PlateauRange range(samples, static_cast<double>(phase.begin), static_cast<double>(phase.end));
+    const auto begin = static_cast<Index>(phase.begin);
+    const auto end = static_cast<Index>(phase.end);
+    const Index before = std::max<Index>(begin - 1, 0);
+    PlateauRange range(samples, static_cast<double>(begin), static_cast<double>(end));
     double plateau = levelOf(samples, range);
     // Twice: the second time the plateau is taken between the 50 % points that the first time found.
     for (int pass = 0; pass < 2; ++pass) {
-        phase.onset = samples.onset(before, phase.end, plateau);
-        phase.end50 = samples.end(phase.end, phase.begin, plateau);
+        phase.onset = samples.onset(before, end, plateau);
+        phase.end50 = samples.end(end, begin, plateau);
         if (!(phase.end50 > phase.onset)) break;
-        range = PlateauRange(samples, phase.onset, phase.end50);
+        const PlateauRange between(samples, phase.onset, phase.end50);
+        if (between == range) break;  // and so would the plateau be
+        range = between;
         plateau = levelOf(samples, range);
     }
     auto& m = phase.measured;
@@ -194,8 +220,8 @@ void measureShape(FoundPhase& phase, double baseline) {
     m.samples = width > 0 ? static_cast<std::size_t>(std::lround(width)) : 0;
     if (m.samples == 0) return;
 
-    const auto onsetSample = static_cast<std::size_t>(std::ceil(std::max(0.0, phase.onset)));
-    const auto endSample = std::min(samples.size() - 1, static_cast<std::size_t>(std::floor(phase.end50)));
+    const auto onsetSample = atOrAfter(std::max(0.0, phase.onset));
+    const auto endSample = std::min(samples.size() - 1, static_cast<Index>(phase.end50));
     m.rise_s =
         (samples.firstRise(onsetSample, endSample, 0.9 * plateau) - samples.edgeStart(onsetSample, 0.1 * plateau)) *
         step;
@@ -209,8 +235,8 @@ void measureShape(FoundPhase& phase, double baseline) {
 double integralOf(const FoundPhase& phase, double baseline, double from, double to) {
     if (!(to > from)) return 0;
     const PhaseSamples samples(phase, baseline);
-    const auto first = static_cast<std::size_t>(from) + 1;
-    const auto last = static_cast<std::size_t>(to);  // the last sample at or before `to`
+    const auto first = static_cast<Index>(from) + 1;
+    const auto last = static_cast<Index>(to);  // the last sample at or before `to`
     if (last < first) return 0.5 * (samples.at(from) + samples.at(to)) * (to - from);
     // Trapezoids: whole samples but for half of the first and the last, and the pieces outside them.
     double sum = samples.sum(first, last);

@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-/// Fills phase.measured (all but the charge), phase.onset and phase.end50.
-void measureShape(FoundPhase& phase, double baseline);
+/// `phase` becomes what lies at `span`, with all of its measures but the charge.
+void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase);
 
 /// ∫ from one position to another in the phase's view, of the straight lines between samples, from the baseline and in
 /// the phase's direction; in unit times samples of the view.

@@ -8,7 +8,7 @@
 #include "core/base/Statistics.h"
 #include "core/measure/BaselineDrift.h"
 #include "core/measure/PhaseFinder.h"
-#include "core/measure/PhasePairs.h"
+#include "core/measure/PulseAssembly.h"
 
 namespace tacto {
 
@@ -160,11 +160,11 @@ private:
         return !(attempt.unrest > 0) && attempt.levels.noise <= kWhite * noise / share;
     }
 
-    void finish(std::vector<FoundPhase> phases, Attempt& attempt) const {
-        dropRinging(phases);
-        integratePhases(phases, attempt.levels);
-        for (const auto& phase : phases) attempt.widest_s = std::max(attempt.widest_s, phase.to_s() - phase.from_s());
-        attempt.pulses = pairPhases(capture_, phases, attempt.levels.count == StateCount::Three, gapMax_s_);
+    void finish(const PhaseSpans& phases, Attempt& attempt) const {
+        PulseAssembly assembly(capture_, attempt.levels, gapMax_s_, phases.size());
+        for (const auto& phase : phases) assembly.add(phase);
+        attempt.pulses = assembly.finish();
+        attempt.widest_s = std::max(attempt.widest_s, assembly.widest_s());
         if (restsOnPlateaus(attempt.pulses)) return;
         attempt.levels = {};
         attempt.levels.why = "its edges are longer than its pulses";
@@ -231,8 +231,8 @@ private:
         const auto slowPhases = findPhases(slow, blocks, levels, strong == Sides::Up ? Sides::Down : Sides::Up);
         phases.insert(phases.end(), slowPhases.begin(), slowPhases.end());
         std::stable_sort(phases.begin(), phases.end(),
-                         [](const FoundPhase& a, const FoundPhase& b) { return a.from_s() < b.from_s(); });
-        finish(std::move(phases), both);
+                         [](const PhaseSpan& a, const PhaseSpan& b) { return a.from_s() < b.from_s(); });
+        finish(phases, both);
         if (!both.hasStates() || !both.mostlyPaired()) return std::nullopt;
         return both;
     }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseFinder.h"
@@ -69,11 +70,14 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
         const auto index = findChannel(capture, channel);
         if (!index) return failure(index);
         const auto& samples = capture.channels[*index];
+        result.warnings.insert(result.warnings.end(), capture.warnings.begin(), capture.warnings.end());
         auto found = findPulses(capture, samples, options);
         const auto& levels = found.levels;
         if (described == nullptr || (result.states.count == StateCount::None && levels.count != StateCount::None)) {
             const std::size_t total = result.samples;
+            auto warnings = std::move(result.warnings);
             result = headOf(capture, samples);
+            result.warnings = std::move(warnings);
             result.samples = total;
             result.states = levels;
             result.quality = found.quality;
@@ -104,7 +108,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
         }
         if (broken) breaks.push_back(pulses.size());
         broken = false;
-        pulses.insert(pulses.end(), found.pulses.begin(), found.pulses.end());
+        std::move(found.pulses.begin(), found.pulses.end(), std::back_inserter(pulses));
     }
     if (empty > 0) {
         result.warnings.push_back(fmt::format("channel '{}' shows no pulses in {} of {} captures{}{}", result.name,

@@ -25,6 +25,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Boxed.h"
 #include "core/base/Result.h"
 #include "core/base/Statistics.h"
 #include "core/base/Units.h"
@@ -62,10 +63,10 @@ struct PulseFlags {
 struct PulseMeasurement {
     PulseFlags flags;
     PhaseMeasurement leading;
-    std::optional<PhaseMeasurement> second;  ///< of a biphasic pulse; opposite, at most 1 ms after the leading one
-    double gap_s = kNotMeasured;             ///< 50 % to 50 %, between the phases
-    double imbalance = kNotMeasured;         ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
-                                             ///< second phase; NaN on a monophasic channel
+    Boxed<PhaseMeasurement> second;   ///< of a biphasic pulse; opposite, at most 1 ms after the leading one
+    double gap_s = kNotMeasured;      ///< 50 % to 50 %, between the phases
+    double imbalance = kNotMeasured;  ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
+                                      ///< second phase; NaN on a monophasic channel
     /// Where it lies in the record, to a sample; known of a flagged pulse too, so that it can be shown.
     double seenFrom_s = kNotMeasured;
     double seenTo_s = kNotMeasured;
@@ -159,7 +160,8 @@ struct CaptureMeasurement {
 
 /// Measures one channel over one long record, or over several short ones whose start_s stand on one time base (a
 /// capture per trigger): onsets and intervals run across captures. An interval across captures that are not on one time
-/// base (onsets that do not rise) is not reported, with a warning.
+/// base (onsets that do not rise) is not reported, with a warning. What captures warn of themselves is among the
+/// warnings.
 /// Errors: InvalidArgument without captures; NotFound when a capture lacks the channel.
 [[nodiscard]] Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std::string_view channel,
                                                        const MeasureOptions& options = {});

@@ -83,6 +83,28 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
     return sign * smallest[2];
 }
 
+/// Where the first of `samples` lies that is beyond; their number if none is. Eight are asked in one go, for the
+/// silence between two pulses is short where a record holds many.
+std::size_t firstBeyond(std::span<const float> samples, float below, float above) noexcept {
+    constexpr std::size_t kRow = 8;
+    const std::size_t n = samples.size();
+    for (std::size_t i = 0; i < n; i += kRow) {
+        if (i + kRow <= n) {
+            std::int32_t any = 0;
+            for (std::size_t k = 0; k < kRow; ++k) {
+                const float x = samples[i + k];
+                any |= (x > above ? 1 : 0) | (x < below ? 1 : 0);
+            }
+            if (any == 0) continue;
+        }
+        for (std::size_t k = i; k < std::min(n, i + kRow); ++k) {
+            const float x = samples[k];
+            if ((x > above || x < below) && std::isfinite(x)) return k;
+        }
+    }
+    return n;
+}
+
 }  // namespace
 
 SampleBlocks::SampleBlocks(std::span<const float> samples) : samples_(samples) {
@@ -112,15 +134,20 @@ std::size_t SampleBlocks::nextBeyond(std::size_t from, float below, float above)
         const std::size_t block = i / kSamples;
         const std::size_t end = std::min(n, (block + 1) * kSamples);
         if (high_[block] > above || low_[block] < below) {
-            for (; i < end; ++i) {
-                if (samples_[i] > above || samples_[i] < below) {
-                    if (std::isfinite(samples_[i])) return i;
-                }
-            }
+            i += firstBeyond(samples_.subspan(i, end - i), below, above);
+            if (i < end) return i;
         }
         i = end;
     }
     return n;
+}
+
+bool SampleBlocks::mayReach(std::size_t first, std::size_t end, double low, double high) const noexcept {
+    if (!complete()) return true;
+    for (std::size_t block = first / kSamples; block * kSamples < end; ++block) {
+        if (static_cast<double>(low_[block]) <= low || static_cast<double>(high_[block]) >= high) return true;
+    }
+    return false;
 }
 
 }  // namespace tacto

@@ -33,6 +33,10 @@ public:
     /// The first sample at or after `from` that is below `below` or above `above`; samples().size() if none is.
     [[nodiscard]] std::size_t nextBeyond(std::size_t from, float below, float above) const noexcept;
 
+    /// False where no sample from `first` to before `end` is at or below `low`, or at or above `high`; a quick look, so
+    /// that true is no promise. An infinite sample is at every limit.
+    [[nodiscard]] bool mayReach(std::size_t first, std::size_t end, double low, double high) const noexcept;
+
 private:
     std::span<const float> samples_;
     std::vector<float> low_;

@@ -5,49 +5,79 @@
 #include <fmt/format.h>
 
 #include "core/base/Text.h"
+#include "core/measure/Readings.h"
+#include "core/measure/TrainGrouping.h"
 
 namespace tacto {
 
 namespace {
 
-/// Statistics of what `value` gives for each item, the not measured (NaN) left out.
-template <class Items, class Value>
-Statistics statisticsOver(const Items& items, Value value) {
-    std::vector<double> readings;
-    readings.reserve(items.size());
-    for (const auto& item : items) {
-        const double reading = value(item);
-        if (!std::isnan(reading)) readings.push_back(reading);
-    }
-    return statisticsOf(readings);
-}
+/// What the pulses are reported by. All in one walk: two hundred thousand pulses do not fit the cache, and a walk for
+/// each figure would fetch them ten times.
+class PulseFigures {
+public:
+    PulseFigures(std::size_t pulses, bool biphasic) : leading_(pulses), both_(biphasic ? pulses : 0) {}
 
-/// All figures in one walk: two hundred thousand pulses do not fit the cache, and ten walks would fetch them ten times.
-void statisticsOfPulses(ChannelMeasurement& m) {
-    struct Figure {
-        Statistics& statistics;
-        double (*value)(const PulseMeasurement&);
-        std::vector<double> readings{};
-    };
-    Figure figures[] = {{m.amplitude, [](const PulseMeasurement& p) { return std::abs(p.leading.plateau); }},
-                        {m.width_s, [](const PulseMeasurement& p) { return p.leading.width_s; }},
-                        {m.rise_s, [](const PulseMeasurement& p) { return p.leading.rise_s; }},
-                        {m.fall_s, [](const PulseMeasurement& p) { return p.leading.fall_s; }},
-                        {m.overshoot, [](const PulseMeasurement& p) { return p.leading.overshoot; }},
-                        {m.droop, [](const PulseMeasurement& p) { return p.leading.droop; }},
-                        {m.charge, [](const PulseMeasurement& p) { return std::abs(p.leading.charge); }},
-                        {m.gap_s, [](const PulseMeasurement& p) { return p.gap_s; }},
-                        {m.imbalance, [](const PulseMeasurement& p) { return p.imbalance; }}};
-    for (auto& figure : figures) figure.readings.reserve(m.pulses.size());
-    // Flagged pulses carry NaN throughout and so count nowhere.
-    for (const auto& pulse : m.pulses) {
-        for (auto& figure : figures) {
-            const double reading = figure.value(pulse);
-            if (!std::isnan(reading)) figure.readings.push_back(reading);
-        }
+    /// Flagged pulses carry NaN throughout and so count in no reading.
+    void add(const PulseMeasurement& pulse) {
+        const auto& leading = pulse.leading;
+        amplitude_.add(std::abs(leading.plateau));
+        width_s_.add(leading.width_s);
+        rise_s_.add(leading.rise_s);
+        fall_s_.add(leading.fall_s);
+        overshoot_.add(leading.overshoot);
+        droop_.add(leading.droop);
+        charge_.add(std::abs(leading.charge));
+        gap_s_.add(pulse.gap_s);
+        imbalance_.add(pulse.imbalance);
     }
-    for (auto& figure : figures) figure.statistics = statisticsOf(figure.readings);
-}
+    void fill(ChannelMeasurement& m) const {
+        m.amplitude = amplitude_.statistics();
+        m.width_s = width_s_.statistics();
+        m.rise_s = rise_s_.statistics();
+        m.fall_s = fall_s_.statistics();
+        m.overshoot = overshoot_.statistics();
+        m.droop = droop_.statistics();
+        m.charge = charge_.statistics();
+        m.gap_s = gap_s_.statistics();
+        m.imbalance = imbalance_.statistics();
+    }
+
+private:
+    std::size_t leading_;  ///< readings of leading phases
+    std::size_t both_;     ///< of pulses with two phases
+    Readings amplitude_{leading_}, width_s_{leading_}, rise_s_{leading_}, fall_s_{leading_}, overshoot_{leading_},
+        droop_{leading_}, charge_{leading_}, gap_s_{both_}, imbalance_{both_};
+};
+
+/// How many pulses are what a warning may be about.
+struct PulseCounts {
+    std::size_t measured = 0, clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
+
+    void add(const PulseMeasurement& pulse) {
+        const auto& flags = pulse.flags;
+        const bool isMeasured = flags.measured();
+        measured += isMeasured ? 1 : 0;
+        clipped += flags.clipped ? 1 : 0;
+        truncated += flags.truncated ? 1 : 0;
+        incomplete += flags.incomplete ? 1 : 0;
+        underSampled += flags.underSampled && !flags.truncated && !flags.incomplete ? 1 : 0;
+        coarse += flags.coarse && isMeasured ? 1 : 0;
+        single += isMeasured && !pulse.second ? 1 : 0;
+    }
+};
+
+/// Sums over the second phases.
+struct SecondPhases {
+    double n = 0, width = 0, height = 0;
+
+    void add(const PulseMeasurement& pulse) {
+        if (!pulse.second) return;
+        n += 1;
+        width += pulse.second->width_s;
+        height += std::abs(pulse.second->plateau);
+    }
+};
 
 double groupingGap(const MeasureOptions& options) {
     if (options.trainGap) return options.trainGap->count();
@@ -55,73 +85,13 @@ double groupingGap(const MeasureOptions& options) {
     return 0;
 }
 
-TrainMeasurement trainOf(std::span<const PulseMeasurement> pulses) {
-    TrainMeasurement train;
-    double amplitude = 0, width = 0, charge = 0, imbalance = 0;
-    int polarity = 0;
-    for (const auto& pulse : pulses) {
-        if (!pulse.flags.measured()) {
-            ++train.flagged;
-            continue;
-        }
-        ++train.pulses;
-        amplitude += std::abs(pulse.leading.plateau);
-        width += pulse.leading.width_s;
-        charge += std::abs(pulse.leading.charge);
-        imbalance += pulse.imbalance;
-        polarity += pulse.leading.plateau > 0 ? 1 : -1;
-    }
-    if (train.pulses > 0) {
-        const auto n = static_cast<double>(train.pulses);
-        train.amplitude = amplitude / n;
-        train.width_s = width / n;
-        train.charge = charge / n;
-        train.imbalance = imbalance / n;
-        train.polarity = polarity >= 0 ? 1 : -1;
-    }
-    train.onset_s = pulses.front().onset_s();
-    return train;
-}
-
-void groupTrains(std::span<const PulseMeasurement> pulses, std::span<const std::size_t> breaks, double gap,
-                 std::vector<TrainMeasurement>& trains) {
-    // Known also of a pulse that was flagged and whose numbers are gone.
-    const auto approximateOnset = [&](std::size_t i) {
-        return std::isnan(pulses[i].onset_s()) ? pulses[i].seenFrom_s : pulses[i].onset_s();
-    };
-    trains.reserve(gap > 0 ? 0 : pulses.size());
-    auto nextBreak = breaks.begin();
-    for (std::size_t first = 0; first < pulses.size();) {
-        while (nextBreak != breaks.end() && *nextBreak < first) ++nextBreak;
-        const bool afterBreak = nextBreak != breaks.end() && *nextBreak == first;
-        if (afterBreak) ++nextBreak;
-        const std::size_t end = nextBreak == breaks.end() ? pulses.size() : *nextBreak;
-        std::size_t last = first + 1;
-        while (last < end && approximateOnset(last) - approximateOnset(last - 1) <= gap) ++last;
-        trains.push_back(trainOf(pulses.subspan(first, last - first)));
-        // A flagged first pulse leaves its onset NaN, and with it this interval and the one before.
-        if (first > 0 && !afterBreak) {
-            auto& before = trains[trains.size() - 2];
-            before.interval_s = trains.back().onset_s - before.onset_s;
-        }
-        first = last;
-    }
-}
-
 /// Gap and imbalance. `random`: of the leading charge; `offset` and `resolution`: of any level; `step`: s per sample.
 void addSecondPhase(const ChannelMeasurement& result, double step, double random, double offset, double resolution,
-                    MeasurementUncertainty& u) {
-    double n = 0, width = 0, height = 0;
-    for (const auto& pulse : result.pulses) {
-        if (!pulse.second) continue;
-        n += 1;
-        width += pulse.second->width_s;
-        height += std::abs(pulse.second->plateau);
-    }
+                    const SecondPhases& seconds, MeasurementUncertainty& u) {
     const double charge = result.charge.mean;
-    if (!(n > 0) || !(charge > 0) || !(height > 0)) return;
-    width /= n;
-    height /= n;
+    if (!(seconds.n > 0) || !(charge > 0) || !(seconds.height > 0)) return;
+    const double width = seconds.width / seconds.n;
+    const double height = seconds.height / seconds.n;
     const double ownStep =
         step * static_cast<double>(result.quality.meanOfSecond) / static_cast<double>(result.quality.mean);
     // White noise: the mean of more samples has less of it.
@@ -135,7 +105,8 @@ void addSecondPhase(const ChannelMeasurement& result, double step, double random
     u.imbalance = std::hypot(std::hypot(random, std::hypot(second, baseline)), shared) / charge;
 }
 
-MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const CaptureChannel& channel) {
+MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const CaptureChannel& channel,
+                                     const SecondPhases& seconds) {
     MeasurementUncertainty u;
     if (result.measuredPulses == 0) return u;
     const double amplitude = result.amplitude.mean;
@@ -157,7 +128,7 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     };
     const double random = chargeNoise(width, amplitude, step);
     u.charge = std::hypot(std::hypot(random, resolution * width), std::hypot(gain, offset) * width);
-    if (result.states.count == StateCount::Three) addSecondPhase(result, step, random, offset, resolution, u);
+    if (result.states.count == StateCount::Three) addSecondPhase(result, step, random, offset, resolution, seconds, u);
     return u;
 }
 
@@ -189,46 +160,46 @@ void warnOfQuality(ChannelMeasurement& result) {
     }
 }
 
-void warnOfPulses(ChannelMeasurement& result) {
-    // One walk, as for the figures.
-    std::size_t clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
-    for (const auto& pulse : result.pulses) {
-        const auto& flags = pulse.flags;
-        clipped += flags.clipped ? 1 : 0;
-        truncated += flags.truncated ? 1 : 0;
-        incomplete += flags.incomplete ? 1 : 0;
-        underSampled += flags.underSampled && !flags.truncated && !flags.incomplete ? 1 : 0;
-        coarse += flags.coarse && flags.measured() ? 1 : 0;
-        single += flags.measured() && !pulse.second ? 1 : 0;
-    }
+void warnOfPulses(const PulseCounts& counts, ChannelMeasurement& result) {
     const auto warn = [&](std::size_t n, std::string_view what) {
         if (n == 0) return;
         result.warnings.push_back(
             fmt::format("channel '{}': {} {} {}", result.name, n, n == 1 ? "pulse" : "pulses", what));
     };
-    warn(clipped, "clipped by the input range: not measured");
-    warn(truncated, "cut off by the record's ends: not measured");
-    warn(incomplete, "with missing samples: not measured");
-    warn(underSampled, "with fewer than 10 samples in a phase: not measured");
-    warn(coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.)",
-                             formatQuantity(result.uncertainty.width_s, "s", 2)));
-    if (result.states.count == StateCount::Three) warn(single, "without a second phase");
+    warn(counts.clipped, "clipped by the input range: not measured");
+    warn(counts.truncated, "cut off by the record's ends: not measured");
+    warn(counts.incomplete, "with missing samples: not measured");
+    warn(counts.underSampled, "with fewer than 10 samples in a phase: not measured");
+    warn(counts.coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.)",
+                                    formatQuantity(result.uncertainty.width_s, "s", 2)));
+    if (result.states.count == StateCount::Three) warn(counts.single, "without a second phase");
 }
 
 }  // namespace
 
 void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t> breaks, const CaptureChannel& channel,
                const MeasureOptions& options, ChannelMeasurement& result) {
-    groupTrains(pulses, breaks, groupingGap(options), result.trains);
     result.pulses = std::move(pulses);
-    result.measuredPulses = static_cast<std::size_t>(
-        std::count_if(result.pulses.begin(), result.pulses.end(), [](const auto& p) { return p.flags.measured(); }));
-
-    statisticsOfPulses(result);
-    result.interval_s = statisticsOver(result.trains, [](const auto& t) { return t.interval_s; });
-    result.uncertainty = uncertaintyOf(result, channel);
+    const std::size_t n = result.pulses.size();
+    TrainGrouping trains(groupingGap(options), breaks, n);
+    PulseFigures figures(n, result.states.count == StateCount::Three);
+    PulseCounts counts;
+    SecondPhases seconds;
+    for (const auto& pulse : result.pulses) {
+        trains.add(pulse);
+        figures.add(pulse);
+        counts.add(pulse);
+        seconds.add(pulse);
+    }
+    result.trains = trains.finish();
+    result.measuredPulses = counts.measured;
+    figures.fill(result);
+    Readings intervals(result.trains.size());
+    for (const auto& train : result.trains) intervals.add(train.interval_s);
+    result.interval_s = intervals.statistics();
+    result.uncertainty = uncertaintyOf(result, channel, seconds);
     warnOfQuality(result);
-    warnOfPulses(result);
+    warnOfPulses(counts, result);
 }
 
 }  // namespace tacto

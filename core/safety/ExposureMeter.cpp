@@ -25,8 +25,8 @@ ExposureMeter::ExposureMeter(std::size_t capacity) : ring_(std::max<std::size_t>
 
 const BookedTrain& ExposureMeter::entry(std::size_t age) const noexcept { return ring_[(first_ + age) % ring_.size()]; }
 
-void ExposureMeter::forget(Instant now) noexcept {
-    const Instant longest = toInstant(kLongestWindow);
+void ExposureMeter::forget(Instant now, double stretch) noexcept {
+    const Instant longest = toInstant(kLongestWindow * stretch);
     while (size_ > 0 && entry(0).latest + longest <= now) {
         first_ = (first_ + 1) % ring_.size();
         --size_;
@@ -39,9 +39,9 @@ void ExposureMeter::book(const BookedTrain& train) noexcept {
     ++size_;
 }
 
-ExposureMeter::Sums ExposureMeter::couldShare(Seconds window, Instant now) const noexcept {
+ExposureMeter::Sums ExposureMeter::couldShare(Seconds window, Instant now, double stretch) const noexcept {
     Sums sums = nothing();
-    const Instant span = toInstant(window);
+    const Instant span = toInstant(window * stretch);
     for (std::size_t i = 0; i < size_; ++i) {
         const BookedTrain& train = entry(i);
         // A window that ends inside the new train begins at the earliest `span` before now.

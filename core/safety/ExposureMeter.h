@@ -28,8 +28,9 @@ public:
     static constexpr Seconds kLongestWindow{5};
     explicit ExposureMeter(std::size_t capacity = 4096);  ///< allocates here and never again
 
-    /// Forgets what no window from `now` on can touch.
-    void forget(Instant now) noexcept;
+    /// Forgets what no window from `now` on can touch. `stretch`, 1 or more, here and below: a second of the windows
+    /// lasts that many of the clock that trains are booked on.
+    void forget(Instant now, double stretch = 1) noexcept;
     [[nodiscard]] bool canBook() const noexcept { return size_ < ring_.size(); }
     /// Requires canBook(); a full meter books nothing.
     void book(const BookedTrain& train) noexcept;
@@ -41,7 +42,7 @@ public:
         std::size_t trains = 0;
     };
     /// All trains that could share a window of `window` with one that starts at `now` or later.
-    [[nodiscard]] Sums couldShare(Seconds window, Instant now) const noexcept;
+    [[nodiscard]] Sums couldShare(Seconds window, Instant now, double stretch = 1) const noexcept;
     /// The trains approved within (now − window, now]: what a display shows.
     [[nodiscard]] Sums booked(Seconds window, Instant now) const noexcept;
     /// The largest of a quantity of one pulse or train among those booked in (now − 5 s, now]; 0 for none.

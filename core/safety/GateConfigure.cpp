@@ -98,8 +98,10 @@ Result<void> checkPerson(const GateSetup& setup) {
     if (checks(PersonMonophasicCheck) && setup.check.shape == PulseShape::Monophasic) {
         return invalid("a monophasic check pulse is refused for a person; a biphasic one is needed");
     }
-    if (checks(PersonCalibration) && !(setup.calibration && setup.calibrated)) {
-        return invalid("the stimulator is not calibrated; a valid calibration is needed before a person");
+    if (checks(PersonCalibration) && !(setup.calibration && setup.calibrated && setup.calibration->complete())) {
+        return invalid(
+            "the stimulator is not calibrated; a valid calibration of amplitude, interval, phase width and gap is "
+            "needed before a person");
     }
     if (checks(PersonDiscomfort) && !positive(person.discomfortLimit.value())) {
         return invalid("the personal discomfort limit is {} mA; a finite current above 0 is needed",
@@ -143,21 +145,6 @@ Result<void> checkSetup(const GateSetup& setup) {
         }
     }
     return {};
-}
-
-PulseTrain checkTrainOf(const GateSetup& setup) {
-    PulseTrain train = setup.check;
-    const SourceTraits& source = setup.source;
-    const bool current = source.drive == Drive::Current;
-    const double wanted = current ? source.checkCurrent.value() : source.checkVoltage.value();
-    double amplitude = towardZero(wanted, source.amplitudeStep);
-    if (amplitude < source.amplitudeStep) amplitude = source.amplitudeStep;  // The device's smallest
-    if (current) {
-        train.amplitude = Milliamps(amplitude);
-    } else {
-        train.amplitude = Volts(amplitude);
-    }
-    return train;
 }
 
 double areaOf(const GateSetup& setup) noexcept {

@@ -9,75 +9,115 @@ namespace tacto {
 
 using namespace gate;
 
-/// What is left of the residual voltage by `now`, on the load that keeps it longest.
+/// What is left of the residual voltage by `now`, on the load that keeps it longest. Nobody knows since when another
+/// source is connected: what one left that rests in high impedance may have stayed so until now.
 double SafetyGate::State::carriedAt(Instant now) const noexcept {
-    if (residual_V == 0 || now <= residualAt) return residual_V;
     double left = 0;
-    const DriveSegment rest = restOf(setup->source.gap, Seconds(now - residualAt));
-    for (const Load* end : {&load.min, &load.max}) {
-        Load steady = *end;
-        steady.driftPerSecond = steady.openFraction = 0;
-        steady.windowCount = 0;
-        left = std::max(left, respond(circuitAt(steady, 0), rest, residual_V).endCapacitorVoltage);
+    for (const GapState leftBy : {GapState::HoldsZero, GapState::HighImpedance}) {
+        const Residual& residual = residuals[static_cast<std::size_t>(leftBy)];
+        if (residual.volts == 0 || now <= residual.at) {
+            left = std::max(left, residual.volts);
+            continue;
+        }
+        const bool floats = leftBy == GapState::HighImpedance || setup->source.gap == GapState::HighImpedance;
+        const DriveSegment rest =
+            restOf(floats ? GapState::HighImpedance : GapState::HoldsZero, Seconds(now - residual.at));
+        for (const Load* end : {&load.min, &load.max}) {
+            Load steady = *end;
+            steady.driftPerSecond = steady.openFraction = 0;
+            steady.windowCount = 0;
+            left = std::max(left, respond(circuitAt(steady, 0), rest, residual.volts).endCapacitorVoltage);
+        }
     }
     return left;
 }
 
 PulseTrain SafetyGate::State::judgedAs(const PulseTrain& train) const noexcept {
-    const PulseTrain delivered = deliveredBy(train, setup->calibration);
+    const PulseTrain delivered = mostDelivered(train, setup->calibration);
     return siValue(delivered.amplitude) > siValue(train.amplitude) && checks(MoreThanTold) ? delivered : train;
 }
 
 PulseTrain SafetyGate::State::feltAs(const PulseTrain& train) const noexcept {
-    const PulseTrain delivered = leastDeliveredBy(train, setup->calibration);
+    const PulseTrain delivered = leastDelivered(train, setup->calibration);
     return siValue(delivered.amplitude) < siValue(train.amplitude) ? delivered : train;
 }
 
-double SafetyGate::State::commandShare(const PulseTrain& train) const noexcept {
-    const double told = siValue(train.amplitude);
-    const double delivered = siValue(deliveredBy(train, setup->calibration).amplitude);
-    const double judged = std::max(told, delivered);
-    return judged > 0 ? (setup->calibrated ? delivered : told) / judged : 1;
+PulseTrain SafetyGate::State::commandOf(const PulseTrain& train) const noexcept {
+    if (!setup->calibrated || !setup->calibration) return train;
+    return deliveredBy(train, *setup->calibration);
 }
 
-Result<void> SafetyGate::State::judge(const TrainExposure& overRange, const TrainExposure& at500,
-                                      const PulseTrain& judged, double share, Seconds interval,
-                                      double carried_V) const {
+TimeRange SafetyGate::State::intervalsOf(Seconds told) const noexcept {
+    if (!setup->calibration || !checks(MoreThanTold)) return {told, told};
+    return deliveredRange(told, setup->calibration->interval);
+}
+
+double SafetyGate::State::stretchAt(Seconds told) const noexcept {
+    if (!setup->calibration || !setup->calibration->interval) return 1;
+    const auto& line = *setup->calibration->interval;
+    double least = 1;  // of what comes out to what is told
+    for (const double at : {told.count(), line.lowest, line.highest}) least = std::min(least, line.atLeast(at) / at);
+    return 1 / least;
+}
+
+Result<void> SafetyGate::State::withinCalibration(const TrainRequest& request) const {
+    const auto& known = setup->calibration;
+    if (!checks(PersonBeyondCalibration) || !known || !known->complete()) return {};  // configure() demands them
+    constexpr double kSlack = 1 + kLargestMiscalibration;
+    const auto beyond = [](std::string_view what, double told, std::string_view unit, double end) {
+        return fail(ErrorCode::LimitExceeded,
+                    "{} {:.4g} {} is beyond the range in which the stimulator was calibrated, which ends at {:.4g} {}",
+                    what, told, unit, end, unit);
+    };
+    const double level = std::visit([](auto amplitude) { return amplitude.value(); }, request.train.amplitude);
+    if (!(level <= known->amplitude.highest * kSlack))
+        return beyond("amplitude", level, "mA", known->amplitude.highest);
+    const double width = Seconds(request.train.phaseWidth).count();
+    if (!(width <= known->phaseWidth->highest * kSlack))
+        return beyond("phase width", width * 1e6, "us", known->phaseWidth->highest * 1e6);
+    const double interval = request.interval.count();
+    if (!(interval >= known->interval->lowest / kSlack))
+        return beyond("interval", interval, "s", known->interval->lowest);
+    return {};
+}
+
+Result<void> SafetyGate::State::judge(const Judged& request) const {
     for (const ActiveLimit& limit : limits) {
         const LimitRow& row = limit.row;
-        if (row.action != LimitAction::Refuse || !row.holdsAt(1 / interval.count())) continue;
+        if (row.action != LimitAction::Refuse || !row.holdsAt(request.hz())) continue;
         if (needsArea(row.quantity) && std::isnan(area)) continue;  // Reads "not evaluated"
         if (!checks(limitCheck(limit.ceiling ? RequestCeiling : RequestLimit, row.quantity))) continue;
         const bool into500 = row.judged == JudgedAt::Ohm500;
-        const double value = (into500 ? at500 : overRange).at(row.quantity);
+        const double value = (into500 ? request.at500 : request.overRange).at(row.quantity);
         if (keepsLimit(row, value, commandIsComputed())) continue;
-        std::string aside = " into 500 ohm";
-        if (!into500) {
-            const double nominal =
-                (row.quantity == Quantity::CommandVoltage ? share : 1) *
-                exposureOf(judged, interval, load.nominal, setup->source, area, {carried_V}).at(row.quantity);
-            aside = fmt::format(" in the worst case ({:.4g} {} into {})", nominal, unitOf(row.quantity),
-                                load.nominal.text());
+        std::string aside;
+        if (into500) {
+            aside = " into 500 ohm";
+        } else if (row.quantity != Quantity::CommandVoltage) {  // which is the same in any case
+            const Load& usual = person() ? load.nominal : setup->load.nominal;
+            const auto there =
+                exposureOf(request.train, request.intervals.least, usual, setup->source, area, {request.carried_V});
+            aside = fmt::format(" in the worst case ({:.4g} {} into {})", there.at(row.quantity), unitOf(row.quantity),
+                                usual.text());
         }
         return fail(ErrorCode::LimitExceeded, "{}", refusalText(limit, value, aside));
     }
     return {};
 }
 
-Result<void> SafetyGate::State::judgeMetered(const TrainExposure& overRange, const TrainExposure& at500, double hz,
-                                             Instant now) const {
-    auto second = meter.couldShare(Seconds(1), now);
-    auto five = meter.couldShare(Seconds(5), now);
-    second.overRange += overRange.in1s;
-    second.at500 += at500.in1s;
-    five.overRange += overRange.in5s;
-    five.at500 += at500.in5s;
+Result<void> SafetyGate::State::judgeMetered(const Judged& request, Instant now) const {
+    auto second = meter.couldShare(Seconds(1), now, request.stretch);
+    auto five = meter.couldShare(Seconds(5), now, request.stretch);
+    second.overRange += request.overRange.in1s;
+    second.at500 += request.at500.in1s;
+    five.overRange += request.overRange.in5s;
+    five.at500 += request.at500.in5s;
     for (const ActiveLimit& limit : limits) {
         const LimitRow& row = limit.row;
         if (row.action != LimitAction::Refuse || windowOf(row.quantity) == 0) continue;
         const auto& sums = windowOf(row.quantity) == 1 ? second : five;
         // Trains of different rates share the window: every band that one of them belongs to holds.
-        if (!row.holdsAt(hz) && !row.holdsAt(sums.lowestHz)) continue;
+        if (!row.holdsAt(request.hz()) && !row.holdsAt(sums.lowestHz)) continue;
         if (needsArea(row.quantity) && std::isnan(area)) continue;
         if (!checks(limitCheck(limit.ceiling ? MeterCeiling : MeterLimit, row.quantity))) continue;
         const double value =
@@ -88,6 +128,14 @@ Result<void> SafetyGate::State::judgeMetered(const TrainExposure& overRange, con
         }
     }
     return {};
+}
+
+Load SafetyGate::State::measuredLoad(Ohms magnitude) const noexcept {
+    const Load& declared = setup->load.nominal;
+    DriveSegment leading = segmentsOf(lastTrain, setup->source.gap).items[0];
+    if (leading.start == 0) leading = segmentsOf(check, setup->source.gap).items[0];
+    const double ratio = magnitude.value() / effectiveImpedance(declared, leading).value();
+    return LoadRange::around(declared, ratio, ratio).min;
 }
 
 bool SafetyGate::State::agreesWithDeclared(double ohm) const noexcept {

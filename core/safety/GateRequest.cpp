@@ -12,7 +12,6 @@ bool onGrid(double value, double step) noexcept {
     const double steps = value / step;
     return std::abs(steps - std::round(steps)) <= 1e-6;
 }
-constexpr double kRounding = 1e-9;
 
 double inOwnUnit(const Amplitude& amplitude) noexcept {
     return std::visit([](auto a) { return a.value(); }, amplitude);

@@ -13,9 +13,10 @@
 
 namespace tacto::gate {
 
-/// The interval at which check pulses are judged, and their shortest.
-inline constexpr Seconds kCheckInterval{0.5};
 inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
+
+/// What decimal numbers lose in binary: no device knows the difference.
+inline constexpr double kRounding = 1e-9;
 
 /// One limit row or ceiling, ready to be judged.
 struct ActiveLimit {
@@ -32,8 +33,6 @@ struct ActiveLimit {
 
 /// GateConfigure.cpp. Errors: InvalidArgument naming what is missing or impossible.
 [[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
-/// The setup's check pulse with the source's check amplitude, rounded to its grid toward zero (one step at least).
-[[nodiscard]] PulseTrain checkTrainOf(const GateSetup& setup);
 
 /// GateRequest.cpp: form, source and grid; no limits. Errors: InvalidArgument.
 [[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/encoding/Rounding.h"
+
 namespace tacto {
 
 std::string_view nameOf(OutputMode mode) noexcept { return mode == OutputMode::BenchLoad ? "bench load" : "person"; }
@@ -14,6 +16,21 @@ LoadRange LoadRange::measured(Ohms magnitude) { return around(Load::resistor(mag
 
 LoadRange LoadRange::between(Ohms low, Ohms high) {
     return {Load::resistor(low), Load::resistor(high), Load::resistor(Ohms(std::sqrt(low.value() * high.value())))};
+}
+
+PulseTrain checkTrainOf(const GateSetup& setup) {
+    PulseTrain train = setup.check;
+    const SourceTraits& source = setup.source;
+    const bool current = source.drive == Drive::Current;
+    const double wanted = current ? source.checkCurrent.value() : source.checkVoltage.value();
+    double amplitude = towardZero(wanted, source.amplitudeStep);
+    if (amplitude < source.amplitudeStep) amplitude = source.amplitudeStep;  // The device's smallest
+    if (current) {
+        train.amplitude = Milliamps(amplitude);
+    } else {
+        train.amplitude = Volts(amplitude);
+    }
+    return train;
 }
 
 }  // namespace tacto

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/electrode/Load.h"
-#include "core/encoding/AmplitudeCalibration.h"
 #include "core/encoding/PulseTrain.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/safety/Exposure.h"
 #include "core/safety/LimitSet.h"
 #include "core/safety/SourceTraits.h"
@@ -25,7 +25,7 @@ enum class OutputMode { BenchLoad, Person };
 struct LoadRange {
     Load min;
     Load max;
-    Load nominal;  ///< declared, or measured: |Z| of it makes A out of a current
+    Load nominal;  ///< declared, or as it was last measured: |Z| of it makes A out of a current
 
     /// `nominal` with its impedance multiplied by `low` and `high` at every frequency (time constants stay).
     [[nodiscard]] static LoadRange around(const Load& nominal, double low, double high);
@@ -65,11 +65,17 @@ struct GateSetup {
     PulseTrain check;                   ///< shape and timing of the impedance check; its amplitude is the source's
     std::optional<PersonSetup> person;  ///< required in person mode
     /// The last that is known of the stimulator that is connected, also where it has expired or is left aside. Trains
-    /// are what the stimulator is told; everything is judged by the larger of told and delivered (H1, H9).
-    std::optional<AmplitudeCalibration> calibration;
+    /// are what the stimulator is told; everything is judged by the worse of told and delivered (H1, H9).
+    KnownLines calibration;
     /// Whether it holds and trains are told by it: then what is delivered is the command, else what is told. Required
-    /// in person mode.
+    /// in person mode, of all four lines.
     bool calibrated = false;
 };
+
+/// The interval at which impedance checks are judged, and their shortest.
+inline constexpr Seconds kCheckInterval{0.5};
+/// The impedance check: the setup's check pulse with the source's check amplitude, rounded to its grid toward zero (one
+/// step at least).
+[[nodiscard]] PulseTrain checkTrainOf(const GateSetup& setup);
 
 }  // namespace tacto

@@ -13,6 +13,7 @@ using namespace gate;
 
 namespace {
 constexpr Instant kImpedanceAge = std::chrono::seconds(5);
+constexpr double kMostStretch = 1 / (1 - kLargestMiscalibration);  // the next request may need more than this one
 constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
 
 std::uint64_t firstEpoch() noexcept {
@@ -88,7 +89,7 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
                 ? fmt::format("the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", ohm, low, high)
                 : fmt::format(
                       "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
-                      ohm, s.load.nominal.text()));
+                      ohm, s.setup->load.nominal.text()));
     }
     if (checks(ImpedanceJump) && s.person() && s.lastGood) {
         const double before = s.lastGood->value();
@@ -102,7 +103,10 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
     s.disowned = false;
     s.impedance = s.lastGood = magnitude;
     s.impedanceAt = at;
-    if (s.person()) s.load = LoadRange::measured(magnitude);
+    if (s.person())
+        s.load = LoadRange::measured(magnitude);
+    else
+        s.load.nominal = s.measuredLoad(magnitude);
     return {};
 }
 
@@ -131,14 +135,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
             return fail(ErrorCode::LimitExceeded, "the impedance was measured {:.3g} s ago; at most 5 s is accepted",
                         toSeconds(now - s.impedanceAt));
         }
-        const double highest = s.setup->calibration ? s.setup->calibration->highest : 0;
-        const double most = highest * (1 + kLargestMiscalibration);
-        const double told = std::visit([](auto amplitude) { return amplitude.value(); }, request.train.amplitude);
-        if (checks(PersonBeyondCalibration) && !(told <= most)) {
-            return fail(ErrorCode::LimitExceeded,
-                        "{:.4g} mA is beyond the range in which the stimulator was calibrated, up to {:.4g} mA", told,
-                        highest);
-        }
+        if (auto known = s.withinCalibration(request); !known) return failure(known);
         if (checks(PersonLevel)) {
             if (auto permitted = s.levels->permits(s.judgedAs(request.train)); !permitted) return failure(permitted);
         }
@@ -169,26 +166,39 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
 
 Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant now) {
     State& s = *state_;
-    s.meter.forget(now);
+    State::Judged request;
+    request.intervals = s.intervalsOf(interval);
+    if (checks(IntervalBelowTrain) && !(train.duration() <= request.intervals.least * (1 + kRounding))) {
+        return fail(ErrorCode::InvalidArgument,
+                    "interval {:.6g} s would come out as {:.6g} s, which is shorter than the train, {:.6g} s",
+                    interval.count(), request.intervals.least.count(), train.duration().count());
+    }
+    request.stretch = s.stretchAt(interval);
+    s.meter.forget(now, std::max(request.stretch, kMostStretch));
     if (checks(MeterFull) && !s.meter.canBook()) {
         return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
                     s.meter.size());
     }
-    const double carried = s.carriedAt(now);
-    const PulseTrain judged = s.judgedAs(train);
-    TrainExposure overRange = worstExposure(judged, interval, s.load, s.setup->source, s.area, {carried});
-    TrainExposure at500 = exposureOf(judged, interval, Load::resistor(Ohms(500)), s.setup->source, s.area);
-    const double share = s.commandShare(train);
-    for (TrainExposure* exposure : {&overRange, &at500}) exposure->values[indexOf(Quantity::CommandVoltage)] *= share;
-    if (auto kept = s.judge(overRange, at500, judged, share, interval, carried); !kept) return failure(kept);
-    const double hz = 1 / interval.count();
-    if (auto kept = s.judgeMetered(overRange, at500, hz, now); !kept) return failure(kept);
+    request.carried_V = s.carriedAt(now);
+    request.train = s.judgedAs(train);
+    const auto& source = s.setup->source;
+    request.overRange = s.worstOf(request.train, [&](const PulseTrain& out) {
+        return worstExposure(out, request.intervals.least, s.load, source, s.area, {request.carried_V});
+    });
+    request.at500 = s.worstOf(request.train, [&](const PulseTrain& out) {
+        return exposureOf(out, request.intervals.least, Load::resistor(Ohms(500)), source, s.area);
+    });
+    const double command_V = commandVoltage(s.commandOf(train), s.load.nominal, source);
+    for (TrainExposure* exposure : {&request.overRange, &request.at500})
+        exposure->values[indexOf(Quantity::CommandVoltage)] = command_V;
+    if (auto kept = s.judge(request); !kept) return failure(kept);
+    if (auto kept = s.judgeMetered(request, now); !kept) return failure(kept);
 
     const Instant expires = now + kApprovalLife;
     const Instant ended = expires + toInstant(train.duration());
-    s.meter.book({now, ended, hz, overRange, at500});
-    s.residual_V = std::max(carried, overRange.residual_V);
-    s.residualAt = std::max(s.residualAt, ended);
+    s.meter.book({now, ended, request.hz(), request.overRange, request.at500});
+    auto& residual = s.residuals[static_cast<std::size_t>(source.gap)];
+    residual = {std::max(request.carried_V, request.overRange.residual_V), std::max(residual.at, ended)};
     s.lastTrain = train;
     return ApprovedTrain(train, interval, epoch, expires);
 }

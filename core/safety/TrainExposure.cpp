@@ -188,13 +188,6 @@ Load steadyLoad(Load load) noexcept {
     return load;
 }
 
-/// A of science.md section 4: what is judged as the command.
-double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept {
-    const double amplitude = siValue(train.amplitude);
-    if (!isCurrent(train.amplitude) || amplitude == 0) return amplitude;
-    return amplitude * effectiveImpedance(steadyLoad(load), segmentsOf(train, source.gap).items[0]).value();
-}
-
 /// A current source stops at its compliance. Currents stay as if it did not, which is the larger, except where
 /// clipping itself does harm: phases that clip differently no longer balance, and what they leave behind flows later.
 Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain& train, Carried carried) noexcept {
@@ -304,6 +297,12 @@ TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& 
         set(q, windowedValue(q, five, area_cm2));
     }
     return exposure;
+}
+
+double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept {
+    const double amplitude = siValue(train.amplitude);
+    if (!isCurrent(train.amplitude) || amplitude == 0) return amplitude;
+    return amplitude * effectiveImpedance(steadyLoad(load), segmentsOf(train, source.gap).items[0]).value();
 }
 
 TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept {

@@ -48,6 +48,9 @@ struct Carried {
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
+/// A of science.md section 4, V: the amplitude, or of a current I·|Z| of `load` at the end of the leading phase.
+[[nodiscard]] double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept;
+
 /// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
 [[nodiscard]] TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept;
 

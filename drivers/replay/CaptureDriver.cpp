@@ -128,6 +128,7 @@ public:
         for (const auto& file : files) {
             auto reading = formats_->read(file);
             if (!reading) return failure(reading);
+            reading->capture.warnings = std::move(reading->warnings);
             captures.push_back(std::move(reading->capture));
         }
         DeviceIdentity identity{

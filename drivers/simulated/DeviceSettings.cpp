@@ -65,6 +65,9 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     settings.gain = from.quantity("gain", "", 1, 0.1, 10);
     settings.offset = from.quantity("offset", unit, 0, current ? -0.01 : -10, current ? 0.01 : 10);
     settings.imbalance = from.quantity("imbalance", "", 0, -1, 1);
+    settings.widthGain = from.quantity("widthgain", "", 1, 0.8, 1.25);
+    settings.widthError = Seconds(from.quantity("widtherror", "s", 0, -1e-4, 1e-4));
+    settings.gapError = Seconds(from.quantity("gaperror", "s", 0, -1e-4, 1e-4));
     settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
     settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));
     settings.jitter = Seconds(from.quantity("jitter", "s", settings.jitter.count(), 0, 0.01));
@@ -97,6 +100,7 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
     flaws.offset = from.quantity("offset", "V", 0, -10, 10);
     flaws.currentGain = from.quantity("currentgain", "", 1, 0.5, 2);
     flaws.currentOffset = from.quantity("currentoffset", "A", 0, -1, 1);
+    flaws.timeBase = from.quantity("timebase", "", 1, 0.8, 1.25);
     flaws.gainTolerance = from.quantity("gaintolerance", "", flaws.gainTolerance, 0, 0.5);
     flaws.offsetTolerance = from.quantity("offsettolerance", "", flaws.offsetTolerance, 0, 0.5);
     flaws.faults = from.faults({Fault::Unplug, Fault::Garbage, Fault::Late, Fault::Stale, Fault::Nan});

@@ -30,12 +30,12 @@ const std::array<Kind, 4>& kinds() {
         {Role::Stimulator,
          "stimulator",
          "simulated stimulator",
-         {"mode", "load", "max", "step", "compliance", "limit", "gap", "deadman", "readback", "imbalance", "rise",
-          "latency", "jitter", "readbacknoise"}},
+         {"mode", "load", "max", "step", "compliance", "limit", "gap", "deadman", "readback", "imbalance", "widthgain",
+          "widtherror", "gaperror", "rise", "latency", "jitter", "readbacknoise"}},
         {Role::Oscilloscope,
          "oscilloscope",
          "simulated oscilloscope",
-         {"memory", "bandwidth", "currentgain", "currentoffset", "gaintolerance", "offsettolerance"}},
+         {"memory", "bandwidth", "currentgain", "currentoffset", "timebase", "gaintolerance", "offsettolerance"}},
         {Role::Massager, "massager", "simulated massager", {"spinup", "frequency", "acceleration"}},
     }};
     return all;

@@ -79,7 +79,7 @@ Result<void> SimulatedOscilloscope::forceTrigger() {
     if (!armed_) {
         return fail(ErrorCode::Unsupported, "the simulated oscilloscope is not armed: it can take no record");
     }
-    const double before = settings_.preTrigger * static_cast<double>(settings_.samples) / settings_.sampleRate.value();
+    const double before = settings_.preTrigger * static_cast<double>(settings_.samples) * step_s();
     if (!forced_s_) forced_s_ = std::max(toSeconds(now), searchFrom_s_ + before);
     return {};
 }
@@ -103,7 +103,7 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
     if (const auto reply = answers(now); !reply) return failure(reply);
     if (!armed_ || flaws_.faults.active(Fault::Stale, now)) return std::optional<Capture>();
     return world_->circuit().inspect(now, [&](const std::deque<PlayedPulse>& pulses) -> std::optional<Capture> {
-        const double length = static_cast<double>(settings_.samples) / settings_.sampleRate.value();
+        const double length = static_cast<double>(settings_.samples) * step_s();
         if (!trigger_s_) trigger_s_ = findTrigger(pulses);
         // What comes first takes the record; a trigger within a record that is under way is passed over.
         const bool untriggered = forced_s_ && (!trigger_s_ || *forced_s_ < *trigger_s_);
@@ -125,13 +125,15 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
 Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered) {
     const double rate = settings_.sampleRate.value();
     const double before = settings_.preTrigger * static_cast<double>(settings_.samples);
+    const double stated_s = middle_s * flaws_.timeBase;
     Capture capture;
     capture.rate_hz = rate;
-    capture.start_s = std::ceil(middle_s * rate - before) / rate;  // the sample clock's own grid
-    capture.trigger_s = untriggered ? std::numeric_limits<double>::quiet_NaN() : middle_s;
+    capture.start_s = std::ceil(stated_s * rate - before) / rate;  // the sample clock's own grid
+    capture.trigger_s = untriggered ? std::numeric_limits<double>::quiet_NaN() : stated_s;
     capture.untriggered = untriggered;
     capture.simulated = true;
-    const double end = capture.start_s + static_cast<double>(settings_.samples) / rate;
+    const double start = capture.start_s / flaws_.timeBase;
+    const double end = start + static_cast<double>(settings_.samples) * step_s();
     const double bandwidth = traits_.bandwidth.value();
     const auto add = [&](const char* name, const char* unit, double range, FilteredTrace::Channel which, double gain,
                          double offset) {
@@ -143,7 +145,7 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
         channel.lsb = 2 * range / std::pow(2.0, traits_.bits);
         channel.gainTolerance = flaws_.gainTolerance;
         channel.offsetTolerance = flaws_.offsetTolerance * range;
-        digitise(channel, FilteredTrace(pulses, which, bandwidth, capture.start_s, end), capture.start_s, gain, offset);
+        digitise(channel, FilteredTrace(pulses, which, bandwidth, start, end), start, gain, offset);
     };
     add("voltage", "V", settings_.voltageRange.value(), FilteredTrace::Channel::Voltage, flaws_.gain, flaws_.offset);
     add("current", "A", settings_.currentRange.value() * 1e-3, FilteredTrace::Channel::Current, flaws_.currentGain,
@@ -154,7 +156,7 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
 void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain,
                                      double offset) {
     buffer_.resize(settings_.samples);
-    trace.sample(start_s, 1 / settings_.sampleRate.value(), buffer_);
+    trace.sample(start_s, step_s(), buffer_);
     channel.samples.resize(settings_.samples);
     const double noise = flaws_.noise * channel.high;
     const double perLsb = 1 / channel.lsb;

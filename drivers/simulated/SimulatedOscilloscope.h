@@ -25,8 +25,9 @@ struct ScopeFlaws {
     double noise = 1e-4;                        ///< r.m.s., of the range
     double gain = 1, offset = 0;                ///< of the voltage channel; offset in V
     double currentGain = 1, currentOffset = 0;  ///< offset in A
-    double gainTolerance = 0.005;               ///< what its data sheet states
-    double offsetTolerance = 0.001;             ///< of the range
+    double timeBase = 1;  ///< what it states of a time, to that time; a computer whose clock is off the other way
+    double gainTolerance = 0.005;    ///< what its data sheet states
+    double offsetTolerance = 0.001;  ///< of the range
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };
@@ -47,6 +48,8 @@ public:
 
 private:
     [[nodiscard]] Result<void> answers(Instant now) const;
+    /// From one sample to the next, true.
+    [[nodiscard]] double step_s() const noexcept { return 1 / settings_.sampleRate.value() / flaws_.timeBase; }
     [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
     /// A record around `middle_s`, where a trigger stood unless it is `untriggered`.
     [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered);

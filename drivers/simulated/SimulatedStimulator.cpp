@@ -75,14 +75,18 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     magnitude = magnitude > 0 ? std::max(0.0, gain * magnitude + settings_.offset) : 0;
     const double sign = train.polarity == Polarity::Positive ? 1 : -1;
     const double lead = sign * magnitude;
-    const double width = Seconds(train.phaseWidth).count();
-    const double gap = Seconds(train.interPhaseGap).count();
+    const auto phase = [&](Seconds told) {
+        return std::max(0.0, settings_.widthGain * told.count() + settings_.widthError.count());
+    };
+    const double width = phase(train.phaseWidth);
+    const double told = Seconds(train.interPhaseGap).count();
+    const double gap = told > 0 ? std::max(0.0, told + settings_.gapError.count()) : 0;
     double second = 0;
     double secondWidth = width;
     if (train.shape == PulseShape::SymmetricBiphasic) second = -lead;
     if (train.shape == PulseShape::AsymmetricBiphasic) {
         second = -lead / train.rechargeRatio;
-        secondWidth = width * train.rechargeRatio;
+        secondWidth = phase(train.phaseWidth * train.rechargeRatio);
     }
     second *= 1 - settings_.imbalance;
 

@@ -1,6 +1,6 @@
-// SimulatedStimulator.h - a voltage or current source with the flaws of a real one: gain and offset error, DAC steps,
-// finite rise time, compliance and current limit, latency and timing jitter, charge imbalance, a dead-man switch, and a
-// read-back that measures with its own noise.
+// SimulatedStimulator.h - a voltage or current source with the flaws of a real one: gain and offset error of amplitude
+// and times, DAC steps, finite rise time, compliance and current limit, latency and timing jitter, charge imbalance, a
+// dead-man switch, and a read-back that measures with its own noise.
 //
 // Ramps are placed so that width at 50 % and charge stay those asked for: each phase begins to rise at its onset and to
 // fall one phase width later, into the gap; a source that opens its output in the gap lets go half an edge later.
@@ -23,6 +23,9 @@ struct StimulatorSettings {
     double gain = 1;
     double offset = 0;             ///< V or A added to the magnitude of every phase
     double imbalance = 0;          ///< the second phase is weaker by this fraction
+    double widthGain = 1;          ///< of both phases
+    Seconds widthError{0};         ///< added to each phase
+    Seconds gapError{0};           ///< added to the gap, where there is one
     Seconds rise{100e-9};          ///< 0 to 100 % of an edge
     Seconds latency{200e-6};       ///< from the command to the onset
     Seconds jitter{2e-6};          ///< of the onset, s.d.

@@ -10,7 +10,7 @@ protocol({
     mode: {
       label: "Mode",
       type: "choice",
-      choices: { full: "calibrate", check: "check the stored calibration at three levels" },
+      choices: { full: "calibrate", check: "check the stored calibration at three levels of each" },
       value: "full",
     },
     store: { label: "Keep the result for this stimulator", type: "boolean", value: false },
@@ -213,38 +213,72 @@ function write(quantity, found) {
 }
 
 // Does the stored line still hold? Guard-banded, as at its making: within the tolerance, this run's uncertainty included.
-function checkStored(p, stored, results) {
-  const few = Object.assign({}, p, {
-    levels: 3,
-    repeats: 2,
-    amplitude_min_v: stored.unit === "V" ? Math.max(stored.lowest, p.amplitude_min_v) : p.amplitude_min_v,
-    amplitude_max_v: stored.unit === "V" ? Math.min(stored.highest, p.amplitude_max_v) : p.amplitude_max_v,
-  });
-  const found = calibrate(few, "amplitude", results);
-  const rows = found.levels.map((level) => {
-    const expected = stored.gain * level.commanded + stored.offset;
+function checkLine(p, quantity, line, found) {
+  const [scale, unit] = quantity === "width" || quantity === "gap" ? [1e6, "us"] : [1, found.unit]; // as people read them
+  const tolerance_pct = quantity === "amplitude" ? p.tolerance_pct : p.timing_tolerance_pct;
+  return found.levels.map((level) => {
+    const expected = line.gain * level.commanded + line.offset;
     const off = level.mean - expected;
     const u = level.expanded_uncertainty;
-    const allowed = (p.tolerance_pct / 100) * level.commanded;
+    const allowed = (tolerance_pct / 100) * level.commanded;
     // A current source is told A / |Z|: that it comes back to the same levels is not sure. The line knows its own range.
-    const known = level.commanded >= 0.98 * stored.lowest && level.commanded <= 1.02 * stored.highest;
+    const known = level.commanded >= 0.98 * line.lowest && level.commanded <= 1.02 * line.highest;
     let judged = "indeterminate";
     if (known && Math.abs(off) + u <= allowed) judged = "pass";
     if (known && Math.abs(off) - u > allowed) judged = "fail";
-    return { commanded: level.commanded, expected, measured: level.mean, off, expanded_uncertainty: u, allowed,
-      unit: found.unit, verdict: judged };
+    const row = { commanded: level.commanded, expected, measured: level.mean, off, expanded_uncertainty: u, allowed };
+    for (const key of Object.keys(row)) row[key] *= scale;
+    return Object.assign({ quantity }, row, { unit, verdict: judged });
   });
-  report.table("Check of the stored calibration (" + found.unit + ")", rows);
-  results.check = rows;
-  results.verdict = worst(rows.map((row) => row.verdict));
-  results.reasons = rows.filter((row) => row.verdict !== "pass").map(
-    (row) =>
-      "at " + row.commanded.toPrecision(4) + " the stored calibration expects " + row.expected.toPrecision(5) + ", and " +
-      row.measured.toPrecision(5) + " ± " + row.expanded_uncertainty.toPrecision(2) + " was measured; ± " +
-      row.allowed.toPrecision(2) + " is allowed",
-  );
-  if (results.verdict === "pass") results.reasons = [stored.text + "; it still holds at three levels"];
+}
+
+// The part of a range that the calibration knows. A current source's amplitude is set in volts and known in mA.
+function knownPart(p, stored) {
+  const few = Object.assign({}, p, { levels: 3, repeats: 2 });
+  const part = (line, key, scale) => {
+    few[key.replace("%", "min")] = Math.max(line.lowest * scale, p[key.replace("%", "min")]);
+    few[key.replace("%", "max")] = Math.min(line.highest * scale, p[key.replace("%", "max")]);
+  };
+  if (stored.amplitude.unit === "V") part(stored.amplitude, "amplitude_%_v", 1);
+  part(stored.interval, "interval_%_s", 1);
+  part(stored.width, "width_%_us", 1e6);
+  part(stored.gap, "gap_%_us", 1e6);
+  return few;
+}
+
+function checkStored(p, stored, results) {
+  const few = knownPart(p, stored);
+  checkRanges(few);
+  results.check = [];
+  for (const quantity of quantitiesOf(p)) {
+    const rows = checkLine(p, quantity, stored[quantity], calibrate(few, quantity, results));
+    report.table(TITLES[quantity] + ": check of the stored calibration (" + rows[0].unit + ")", rows);
+    results.check.push(...rows);
+  }
+  results.verdict = worst(results.check.map((row) => row.verdict));
+  results.reasons = results.check.filter((row) => row.verdict !== "pass").map(notHeld);
+  if (results.verdict === "pass") results.reasons = [stored.text + "; it still holds at three levels of each"];
   return verdict(results);
+}
+
+function notHeld(row) {
+  return (
+    TITLES[row.quantity] + ": at " + row.commanded.toPrecision(4) + " " + row.unit +
+    " the stored calibration expects " + row.expected.toPrecision(5) + ", and " + row.measured.toPrecision(5) + " ± " +
+    row.expanded_uncertainty.toPrecision(2) + " was measured; ± " + row.allowed.toPrecision(2) + " is allowed"
+  );
+}
+
+function quantitiesOf(p) {
+  return p.quantities === "all" ? Object.keys(KEYS) : [p.quantities];
+}
+
+function checkRanges(p) {
+  for (const range of ["amplitude_%_v", "interval_%_s", "width_%_us", "gap_%_us"]) {
+    const low = range.replace("%", "min");
+    const high = range.replace("%", "max");
+    if (!(p[low] < p[high])) throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
+  }
 }
 
 function worst(verdicts) {
@@ -253,15 +287,11 @@ function worst(verdicts) {
 }
 
 function run(p) {
-  for (const range of ["amplitude_%_v", "interval_%_s", "width_%_us", "gap_%_us"]) {
-    const low = range.replace("%", "min");
-    const high = range.replace("%", "max");
-    if (!(p[low] < p[high])) throw new Error(low + " is " + p[low] + "; below " + high + ", " + p[high] + ", is expected");
-  }
+  checkRanges(p);
   // What would be refused at the end is refused before an hour's work.
   if (p.store && p.mode === "full") {
-    if (p.quantities !== "all" && p.quantities !== "amplitude")
-      throw new Error("quantities is " + p.quantities + "; amplitude or all is expected to keep a result");
+    if (p.quantities !== "all")
+      throw new Error("quantities is " + p.quantities + "; all is expected to keep a result");
     if (p.scope_due !== "" && !/^\d{4}-\d{2}-\d{2}$/.test(p.scope_due))
       throw new Error("scope_due is " + p.scope_due + "; a day such as 2027-03-01, or nothing, is expected");
   }
@@ -282,7 +312,7 @@ function run(p) {
   }
   warmUp(p);
   if (p.mode === "check") return checkStored(p, stored, results);
-  const quantities = p.quantities === "all" ? ["amplitude", "interval", "width", "gap"] : [p.quantities];
+  const quantities = quantitiesOf(p);
   for (const quantity of quantities) {
     const found = calibrate(p, quantity, results);
     record.measurement("calibration of " + quantity, found);
@@ -292,7 +322,7 @@ function run(p) {
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
   if (p.store) {
-    results.stored = record.calibration(results.amplitude, { valid_days: p.valid_days, scope_due: p.scope_due });
+    results.stored = record.calibration(results, { valid_days: p.valid_days, scope_due: p.scope_due });
     record.event("calibration stored", results.stored);
   }
   results.verdict = worst(quantities.map((quantity) => results[quantity].verdict));

@@ -142,6 +142,58 @@ TEST(LoadReading, BehindAClippedSpikeTheFineRangeIsRead) {
     EXPECT_LE(found.imbalance.expanded(), 0.005);
 }
 
+/// The same trains from a current source into `truth.ohms` in series with a resistor beside a capacitor.
+std::vector<Capture> intoSkin(const LoadTruth& truth, double parallel, double farads) {
+    auto captures = loadCaptures(truth);
+    for (auto& capture : captures) {
+        auto& voltage = capture.channels[0];
+        voltage.high = 3 * truth.volts;
+        voltage.low = -voltage.high;
+        voltage.lsb = 2 * voltage.high / std::ldexp(1, truth.bits);
+        const double decay = std::exp(-1 / (capture.rate_hz * parallel * farads));
+        double held = 0;
+        for (std::size_t k = 0; k < voltage.samples.size(); ++k) {
+            const double amps = static_cast<double>(capture.channels[1].samples[k]);
+            held = held * decay + amps * parallel * (1 - decay);
+            const double volts = truth.ohms * amps + held;
+            voltage.samples[k] = static_cast<float>(std::round(volts / voltage.lsb) * voltage.lsb);
+        }
+    }
+    return captures;
+}
+
+TEST(LoadReading, OfACurrentSourceTheCurrentTellsThePhases) {
+    RecordProperty("hazard", "H9");
+    LoadTruth truth;
+    truth.volts = 1;
+    truth.ohms = 200;  // 5 mA
+    const double parallel = 10e3, farads = 50e-9;
+    const auto found = readLoad(intoSkin(truth, parallel, farads), ExpectedTrain{1, 100, Drive::Current}).value();
+    expectTruth(found.width_s, 200e-6, 0.001, "width");
+    expectTruth(found.amplitude_ma, 5, 0.01, "current");
+    expectTruth(found.charge_uc, 1, 0.01, "phase charge");
+    EXPECT_LE(found.imbalance.value, found.imbalance.expanded());
+    // Read from 80 to 97 % of the width.
+    double volts = 0;
+    constexpr int kParts = 1000;
+    for (int k = 0; k < kParts; ++k) {
+        const double t = truth.width_s * (0.8 + 0.17 * (k + 0.5) / kParts);
+        volts += 5e-3 * (truth.ohms + parallel * (1 - std::exp(-t / (parallel * farads)))) / kParts;
+    }
+    expectTruth(found.amplitude_v, volts, 0.01, "voltage");
+    expectTruth(found.impedance_ohm, volts / 5e-3, 0.015, "impedance");
+}
+
+TEST(LoadReading, ACurrentSourceIsNotReadWithoutItsCurrent) {
+    RecordProperty("hazard", "H9");
+    auto captures = loadCaptures({});
+    for (auto& capture : captures) capture.channels.pop_back();
+    const auto found = readLoad(captures, ExpectedTrain{1, 100, Drive::Current});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::NotFound);
+    EXPECT_NE(found.error().message.find("\"current\""), std::string::npos) << found.error().message;
+}
+
 TEST(LoadReading, RefusesNoCapturesAndANonsensicalTrain) {
     EXPECT_FALSE(readLoad({}, ExpectedTrain{}));
     EXPECT_FALSE(readLoad(loadCaptures({}), ExpectedTrain{0, 100}));

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "core/base/Random.h"
 #include "core/base/Statistics.h"
 
 namespace tacto::test {
@@ -17,6 +19,31 @@ TEST(Statistics, AgreesWithNumpy) {
     EXPECT_EQ(s.median, 3.1);
     EXPECT_EQ(s.min, -2);
     EXPECT_EQ(s.max, 11);
+}
+
+TEST(Statistics, TheMedianOfManyReadingsIsTheMiddleOfTheSorted) {
+    Random random(1, "median");
+    const auto expectMiddle = [](const std::vector<double>& readings, const char* what) {
+        auto sorted = readings;
+        std::sort(sorted.begin(), sorted.end());
+        const std::size_t n = sorted.size();
+        EXPECT_EQ(statisticsOf(readings).median, 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2])) << what << ", " << n;
+    };
+    for (const std::size_t n : {100U, 101U, 8192U, 8193U, 50'000U, 50'001U, 200'000U}) {
+        std::vector<double> noise(n), ramp(n), steps(n), periodic(n), halves(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            noise[k] = random.normal();
+            ramp[k] = static_cast<double>(n - k);
+            steps[k] = static_cast<double>(random.below(3));
+            periodic[k] = k % (n / 1024 + 1) == 0 || k % std::max<std::size_t>(1, n / 1024) == 0 ? 1000 : noise[k];
+            halves[k] = (k < n / 2 ? -1 : 1) * (1 + random.uniform());
+        }
+        expectMiddle(noise, "noise");
+        expectMiddle(ramp, "a ramp");
+        expectMiddle(steps, "many equal readings");
+        expectMiddle(periodic, "outliers in step with the readings that are asked");
+        expectMiddle(halves, "none near the middle");
+    }
 }
 
 TEST(Statistics, ALargeOffsetCostsNoDigits) {

@@ -58,7 +58,7 @@ protected:
     std::uint64_t seed_ = 1;
     Profile profile_;
     SessionWriter* session_ = nullptr;
-    std::optional<AmplitudeCalibration> calibration_;
+    KnownLines calibration_;
     bool calibrationHolds_ = true;
     std::optional<std::chrono::sys_days> calibratedUntil_;
     std::chrono::sys_days (*today_)() = nullptr;

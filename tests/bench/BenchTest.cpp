@@ -355,5 +355,33 @@ TEST_F(BenchTest, RecordsStreamsFramesTrainsAndEvents) {
     EXPECT_GE(events->size(), 3U) << "checking, armed, disarmed";
 }
 
+TEST_F(BenchTest, ACurrentSourceDeliversTheLargestCommandHoweverItsLoadReads) {
+    RecordProperty("hazard", "H4");
+    // I = 40 V / |Z|, and |Z| reads 0.2 % more or less each time: the command stays 40 V. The load is within its 20 %.
+    for (const char* load : {"0.95 kohm", "1 kohm", "1.1 kohm"}) {
+        open({fmt::format("sim:stimulator?mode=current&load={}", load)}, {Role::Stimulator, Role::Oscilloscope}, false,
+             "1 kohm");
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        const auto waited = bench_->wait(Seconds(20));
+        ASSERT_TRUE(waited) << load << ": " << waited.error().message;
+        const auto captures = bench_->capture(3, ScopeSettings{});
+        ASSERT_TRUE(captures) << captures.error().message;
+        EXPECT_NEAR(measureTrains(*captures, "voltage")->amplitude.mean, 40, 0.4) << load;
+    }
+}
+
+TEST_F(BenchTest, AProfileBeyondTheCommandIsRefusedForACurrentSourceToo) {
+    RecordProperty("hazard", "H1");
+    profile_.encoding.amplitudeMax = Volts(40.5);
+    open({"sim:stimulator?mode=current"});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_NE(waited.error().message.find("commanded voltage would be 40.5 V"), std::string::npos)
+        << waited.error().message;
+}
+
 }  // namespace
 }  // namespace tacto

@@ -17,7 +17,7 @@ protected:
         }
         return measureTrains(*captures, "voltage")->amplitude.mean;
     }
-    const AmplitudeCalibration weak_{.gain = 0.95, .offset = 0, .lowest = 10, .highest = 40};
+    const StimulatorCalibration weak_{{.gain = 0.95, .offset = 0, .lowest = 10, .highest = 40}};
 };
 
 TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
@@ -39,6 +39,44 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
     }
 }
 
+TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
+    RecordProperty("hazard", "H1");
+    // Each phase 0.97 times what it is told and 4.2 us, each gap 6.4 us short; the computer's clock 0.4 % slow. So that
+    // 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
+    const std::vector<std::string> off{"sim:stimulator?widthgain=0.97&widtherror=4.233us&gaperror=-6.398us",
+                                       "sim:oscilloscope?timebase=1.004"};
+    const auto measured = [&] {
+        open(off);
+        EXPECT_TRUE(arm());
+        EXPECT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        const auto captures = bench_->capture(6, ScopeSettings{});
+        return captures ? measureTrains(*captures, "voltage").value() : ChannelMeasurement{};
+    };
+    const auto plain = measured();
+    EXPECT_NEAR(plain.width_s.mean, (0.97 * 200e-6 + 4.233e-6) * 1.004, 0.3e-6);
+    EXPECT_NEAR(plain.gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
+    EXPECT_NEAR(plain.interval_s.mean, 0.5 * 1.004, 5e-6);
+
+    calibration_ = StimulatorCalibration{{1, 0, 10, 40},
+                                         CalibrationLine{1.004, 0, 0.5, 2},
+                                         CalibrationLine{0.97 * 1.004, 4.23e-6, 100e-6, 400e-6},
+                                         CalibrationLine{1.004, -6.44e-6, 50e-6, 400e-6}};
+    const auto told = measured();
+    EXPECT_NEAR(told.width_s.mean, 200e-6, 0.3e-6);
+    EXPECT_NEAR(told.gap_s.mean, 100e-6, 0.3e-6);
+    EXPECT_NEAR(told.interval_s.mean, 0.5, 5e-6);
+    EXPECT_NEAR(bench_->telemetry().interval_s, 0.5, 1e-12) << "the command is what is wanted";
+
+    // Left aside, all of them are.
+    bench_->disarm();
+    ASSERT_TRUE(bench_->useCalibration(false));
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto captures = bench_->capture(3, ScopeSettings{});
+    ASSERT_TRUE(captures) << captures.error().message;
+    EXPECT_NEAR(measureTrains(*captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
+}
+
 TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     RecordProperty("hazard", "H1");
     // It says the stimulator is weak; it is not. What is told must keep every limit too: 42.1 V would make 10.2 mA RMS.
@@ -54,7 +92,7 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
 TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     RecordProperty("hazard", "H1");
     // 40 V told and, by the old calibration, 47.2 V delivered: 8.4 mA RMS of the told ones would pass.
-    calibration_ = AmplitudeCalibration{1.18, 0, 10, 40};
+    calibration_ = StimulatorCalibration{{1.18, 0, 10, 40}};
     calibrationHolds_ = false;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
     ASSERT_TRUE(arm("150 ohm"));
@@ -112,7 +150,10 @@ std::chrono::sys_days pretended;
 TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
     RecordProperty("hazard", "H9");
     using namespace std::chrono_literals;
-    calibration_ = AmplitudeCalibration{.gain = 1, .offset = 0, .lowest = 0.1, .highest = 40};
+    calibration_ = StimulatorCalibration{{.gain = 1, .offset = 0, .lowest = 0.1, .highest = 40},
+                                         CalibrationLine{1, 0, 0.5, 2},
+                                         CalibrationLine{1, 0, 100e-6, 400e-6},
+                                         CalibrationLine{1, 0, 50e-6, 400e-6}};
     profile_.electrodeArea = SquareCentimetres(3);
     calibratedUntil_ = 2026y / 11 / 30;
     today_ = [] { return pretended; };
@@ -143,7 +184,7 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
 
 TEST_F(CalibratedBenchTest, AnImpossibleCalibrationArmsNothing) {
     RecordProperty("hazard", "H9");
-    calibration_ = AmplitudeCalibration{0.1, 0, 10, 40};
+    calibration_ = StimulatorCalibration{{0.1, 0, 10, 40}};
     open({});
     const auto armed = arm();
     ASSERT_FALSE(armed);

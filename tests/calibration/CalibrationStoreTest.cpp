@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/calibration/CalibrationStore.h"
+#include "core/session/Digest.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -18,11 +19,10 @@ StoredCalibration sample(const std::string& serial, double gain = 1.02) {
     c.serial = serial;
     c.device = "P24";
     c.unit = "V";
-    c.gain = gain;
-    c.offset = 0.1;
-    c.uncertainty_pct = 0.6;
-    c.lowest = 10;
-    c.highest = 40;
+    c.amplitude = {{gain, 0.1, 10, 40}, 0.6};
+    c.interval = {{1.0001, 1e-6, 0.5, 2}, 0.01};
+    c.phaseWidth = {{0.999, 0.2e-6, 100e-6, 400e-6}, 0.2};
+    c.gap = {{1.002, -0.3e-6, 100e-6, 400e-6}, 0.3};
     c.made = on("2026-11-21");
     c.validUntil = on("2027-11-20");
     c.session = "run.tacto";
@@ -54,8 +54,8 @@ TEST_F(CalibrationStoreFile, KeepsEveryCalibrationAndTheNewestCounts) {
     EXPECT_TRUE(textOf(path).starts_with(before));  // superseded, never overwritten
     const auto again = store();
     ASSERT_EQ(again.all().size(), 3U);
-    EXPECT_DOUBLE_EQ(again.latest("A1", "V")->gain, 1.03);
-    EXPECT_DOUBLE_EQ(again.latest("B2", "V")->gain, 0.97);
+    EXPECT_DOUBLE_EQ(again.latest("A1", "V")->amplitude.gain, 1.03);
+    EXPECT_DOUBLE_EQ(again.latest("B2", "V")->amplitude.gain, 0.97);
     EXPECT_EQ(again.latest("A1", "mA"), nullptr);
     EXPECT_EQ(again.all()[0].instruments.size(), 2U);
     EXPECT_EQ(again.all()[0].instruments[0].due, on("2027-03-01"));
@@ -114,10 +114,10 @@ TEST_F(CalibrationStoreFile, ALineCutShortByACrashIsLeftOutAndReplaced) {
     write(path, textOf(path).substr(0, whole.size() + 40));
     auto opened = store();
     EXPECT_TRUE(opened.lastLineCut());
-    EXPECT_DOUBLE_EQ(opened.latest("A1", "V")->gain, 1.01);
+    EXPECT_DOUBLE_EQ(opened.latest("A1", "V")->amplitude.gain, 1.01);
     ASSERT_TRUE(opened.add(sample("A1", 1.04)));
     EXPECT_EQ(store().all().size(), 2U);
-    EXPECT_DOUBLE_EQ(store().latest("A1", "V")->gain, 1.04);
+    EXPECT_DOUBLE_EQ(store().latest("A1", "V")->amplitude.gain, 1.04);
 }
 
 TEST_F(CalibrationStoreFile, TwoProgramsLoseNothing) {
@@ -126,6 +126,37 @@ TEST_F(CalibrationStoreFile, TwoProgramsLoseNothing) {
     ASSERT_TRUE(other.add(sample("B2")));
     ASSERT_TRUE(one.add(sample("C3")));
     EXPECT_EQ(store().all().size(), 3U);
+}
+
+TEST_F(CalibrationStoreFile, KeepsTheLineOfEachQuantity) {
+    RecordProperty("hazard", "H8");
+    ASSERT_TRUE(store().add(sample("A1")));
+    const auto again = store();
+    const auto lines = linesOf(*again.latest("A1", "V"));
+    EXPECT_EQ(lines, linesOf(sample("A1")));
+    EXPECT_TRUE(lines.complete());
+    EXPECT_DOUBLE_EQ(lines.gap->offset, -0.3e-6);
+    EXPECT_DOUBLE_EQ(again.latest("A1", "V")->phaseWidth->uncertainty_pct, 0.2);
+}
+
+TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(store().add(sample("A1")));
+    // As the store wrote it while it kept amplitudes alone.
+    auto line = nlohmann::json::parse(textOf(path));
+    for (const char* time : {"interval", "width", "gap"}) line["calibration"].erase(time);
+    line.erase("sha256");
+    line["sha256"] = sha256Hex(line.dump());
+    write(path, line.dump() + '\n');
+    auto old = store();
+    ASSERT_NE(old.latest("A1", "V"), nullptr);
+    EXPECT_DOUBLE_EQ(old.latest("A1", "V")->amplitude.gain, 1.02);
+    const auto valid = old.valid("A1", "V", on("2026-12-01"), false);
+    ASSERT_FALSE(valid);
+    EXPECT_THAT(valid.error().message, HasSubstr("is without its interval"));
+    // A whole one supersedes it.
+    ASSERT_TRUE(old.add(sample("A1")));
+    EXPECT_TRUE(store().valid("A1", "V", on("2026-12-01"), false));
 }
 
 TEST_F(CalibrationStoreFile, RefusesWhatIsNoCalibration) {
@@ -138,10 +169,14 @@ TEST_F(CalibrationStoreFile, RefusesWhatIsNoCalibration) {
     };
     EXPECT_TRUE(refused([](auto& c) { c.serial.clear(); }));
     EXPECT_TRUE(refused([](auto& c) { c.unit = "A"; }));
-    for (const double gain : {0.0, -1.0, kNan}) EXPECT_TRUE(refused([&](auto& c) { c.gain = gain; })) << gain;
-    EXPECT_TRUE(refused([](auto& c) { c.offset = kNan; }));
-    EXPECT_TRUE(refused([](auto& c) { c.uncertainty_pct = 0; }));
-    EXPECT_TRUE(refused([](auto& c) { c.highest = c.lowest; }));
+    for (const double gain : {0.0, -1.0, kNan}) EXPECT_TRUE(refused([&](auto& c) { c.amplitude.gain = gain; })) << gain;
+    EXPECT_TRUE(refused([](auto& c) { c.amplitude.offset = kNan; }));
+    EXPECT_TRUE(refused([](auto& c) { c.amplitude.uncertainty_pct = 0; }));
+    EXPECT_TRUE(refused([](auto& c) { c.amplitude.highest = c.amplitude.lowest; }));
+    EXPECT_TRUE(refused([](auto& c) { c.interval.reset(); }));
+    EXPECT_TRUE(refused([](auto& c) { c.phaseWidth->gain = kNan; }));
+    EXPECT_TRUE(refused([](auto& c) { c.gap->lowest = 0; }));
+    EXPECT_TRUE(refused([](auto& c) { c.gap->uncertainty_pct = kNan; }));
     EXPECT_TRUE(refused([](auto& c) { c.validUntil = on("2026-11-20"); }));
     EXPECT_TRUE(refused([](auto& c) { c.instruments[0].due = on("2026-11-20"); }));  // overdue when it was used
     EXPECT_FALSE(std::filesystem::exists(path));

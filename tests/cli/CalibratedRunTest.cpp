@@ -13,26 +13,34 @@ using testing::HasSubstr;
 
 class CalibratedRun : public ::testing::Test {
 protected:
-    /// On a stimulator that delivers 3 % less than it is told. Its JSON.
+    /// On a stimulator that delivers less than it is told, longer phases and shorter gaps, timed by a computer whose
+    /// clock is slow: 0.3 % by the oscilloscope. Its JSON.
     [[nodiscard]] Json run(Words words) {
-        const Words device{"--device", "sim:stimulator?gain=0.97", "--device", "sim:", "--json",
-                           "--out",    desk.at("sessions")};
+        const Words device{"--device",         "sim:stimulator?gain=0.97&widtherror=5.2us&gaperror=-7.5us",
+                           "--device",         "sim:oscilloscope?timebase=1.003",
+                           "--device",         "sim:",
+                           "--json",           "--out",
+                           desk.at("sessions")};
         words.insert(words.begin(), "run");
         words.insert(words.end(), device.begin(), device.end());
         const auto ran = desk.run(words);
         EXPECT_TRUE(Json::accept(ran.out)) << ran.err;
         return Json::accept(ran.out) ? Json::parse(ran.out) : Json::object();
     }
-    [[nodiscard]] double roughAmplitude() {
-        const Json separability = run({"separability", "--set", "source=direct", "--set", "repeats=25"});
-        for (const auto& condition : separability["results"]["conditions"]) {
-            if (condition["name"] == "rough-low") return condition["amplitude_v"]["mean"].get<double>();
-        }
-        return 0;
+    /// What the oscilloscope reads of rough-high: 40 V and 0.5 s, 200 us and 100 us.
+    [[nodiscard]] Json delivered() {
+        std::ofstream(desk.path() / "probe.js") << R"(
+protocol({ title: "Probe", purpose: "What comes out", needs: ["stimulator", "oscilloscope"] });
+function run() {
+  bench.arm({ load: 1000 });
+  bench.drive("manual", { roughness: 1, pressure: 1 });
+  const reading = measure.pulse(bench.capture({ trains: 4, rate_hz: 2e6, voltage_range_v: 52 }));
+  bench.disarm();
+  return verdict({ verdict: null, reading });
+})";
+        return run({desk.at("probe.js")})["results"]["reading"];
     }
-    [[nodiscard]] Json calibrate() {
-        return run({"stimulator-calibration", "--set", "quantities=amplitude", "--set", "store=yes"});
-    }
+    [[nodiscard]] Json calibrate() { return run({"stimulator-calibration", "--set", "store=yes"}); }
     /// As the report of a session says it.
     [[nodiscard]] std::string calibrationIn(const Json& session) {
         const auto ran = desk.run({"report", session.get<std::string>(), "--out", desk.at("r.html")});
@@ -46,11 +54,23 @@ protected:
 
 TEST_F(CalibratedRun, ACalibrationThatIsKeptIsAppliedFromThenOn) {
     RecordProperty("hazard", "H1");
-    EXPECT_NEAR(roughAmplitude(), 40 * 0.97, 0.15);
+    const Json before = delivered();
+    EXPECT_NEAR(before["amplitude"].get<double>(), 40 * 0.97, 0.15);
+    EXPECT_NEAR(before["interval_s"].get<double>(), 0.5 * 1.003, 2e-5);
+    EXPECT_NEAR(before["width_s"].get<double>(), 205.2e-6 * 1.003, 0.3e-6);
+    EXPECT_NEAR(before["gap_s"].get<double>(), 92.5e-6 * 1.003, 0.3e-6);
     const Json kept = calibrate();
     EXPECT_NEAR(kept["results"]["amplitude"]["gain"].get<double>(), 0.97, 0.004);
+    EXPECT_NEAR(kept["results"]["interval"]["gain"].get<double>(), 1.003, 1e-4);
+    EXPECT_NEAR(kept["results"]["width"]["offset"].get<double>(), 5.2e-6 * 1.003, 0.4e-6);
+    EXPECT_NEAR(kept["results"]["gap"]["offset"].get<double>(), -7.5e-6 * 1.003, 0.4e-6);
     EXPECT_THAT(calibrationIn(kept["session"]), HasSubstr("not calibrated: stimulator SIM-1"));
-    EXPECT_NEAR(roughAmplitude(), 40, 0.15);
+    const Json after = delivered();
+    EXPECT_NEAR(after["amplitude"].get<double>(), 40, 0.15);
+    EXPECT_NEAR(after["interval_s"].get<double>(), 0.5, 2e-5);
+    // As near as the device's step of 1 us allows, on the lower side.
+    EXPECT_NEAR(after["width_s"].get<double>(), 200e-6, 0.4e-6);
+    EXPECT_NEAR(after["gap_s"].get<double>(), 100e-6, 0.4e-6);
 
     // A newer one sees the stimulator as it is, not what the older one makes of it.
     const Json newer = calibrate();

@@ -1,9 +1,11 @@
 // Recordings and captures as devices: the suites that every device must pass, and what is particular to files.
 #include <cmath>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/measure/CaptureFile.h"
+#include "core/measure/PulseMeasurement.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "tests/drivers/conformance/OscilloscopeConformance.h"
 #include "tests/drivers/conformance/SensorConformance.h"
@@ -177,6 +179,24 @@ TEST(ReplayedCaptures, ComeInOrderFromArmingOnAtTheirOwnDistances) {
     EXPECT_NEAR((*scope.poll())->trigger_s, 1.6005, 2e-5) << "armed at 1.6 s: nobody waits out the gap between files";
     bench.wait(Seconds(5));
     EXPECT_FALSE(scope.poll()->has_value());
+}
+
+TEST(ReplayedCaptures, SayWhatWasToleratedWhenTheyWereRead) {
+    const ScratchDir folder;
+    const auto file = folder.path() / "a.csv";
+    ASSERT_TRUE(writeCapture(file, pulseCapture(20.0)));
+    std::ofstream(file, std::ios::app) << ",,\n";
+    FileBench bench;
+    ASSERT_TRUE(bench.open(*makeCaptureDriver(), "capture:" + folder.path().string()));
+    auto& scope = *bench.devices.oscilloscope;
+    ASSERT_TRUE(scope.arm());
+    bench.wait(Seconds(0.1));
+    const auto capture = scope.poll();
+    ASSERT_TRUE(capture->has_value());
+    ASSERT_EQ((*capture)->warnings.size(), 1U);
+    EXPECT_THAT((*capture)->warnings[0], HasSubstr("a.csv:202: a row without values at the end left out"));
+    const std::vector<Capture> all{**capture};
+    EXPECT_THAT(measureTrains(all, "voltage")->warnings, testing::Contains((*capture)->warnings[0]));
 }
 
 TEST(ReplayedCaptures, RefusesFoldersWithoutCaptures) {

@@ -47,6 +47,19 @@ TEST(ExposureMeter, ForgetsOnlyWhatNoWindowCanTouch) {
     EXPECT_EQ(meter.size(), 0U);
 }
 
+TEST(ExposureMeter, ByAClockThatIsSlowAWindowReachesFurtherBack) {
+    RecordProperty("hazard", "H1");
+    ExposureMeter meter;
+    meter.book(bookedAt(0ms));
+    EXPECT_EQ(meter.couldShare(Seconds(5), 5200ms).trains, 0U);
+    EXPECT_EQ(meter.couldShare(Seconds(5), 5200ms, 1.1).trains, 1U);
+    EXPECT_EQ(meter.couldShare(Seconds(5), 5610ms, 1.1).trains, 0U);
+    meter.forget(5609ms, 1.1);
+    EXPECT_EQ(meter.size(), 1U);
+    meter.forget(5610ms, 1.1);
+    EXPECT_EQ(meter.size(), 0U);
+}
+
 TEST(ExposureMeter, AFullMeterSaysSoAndGoesRoundWhenTimePasses) {
     ExposureMeter meter(4);
     for (int k = 0; k < 4; ++k) {

@@ -60,12 +60,15 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(PersonArea, person([](auto& s) { s.electrodeArea.reset(); }), "electrode area");
     add(PersonCalibration, person([](auto& s) { s.calibration.reset(); }), "not calibrated");
     add(PersonCalibration, person([](auto& s) { s.calibrated = false; }), "not calibrated");
+    add(PersonCalibration, person([](auto& s) { s.calibration->interval.reset(); }), "interval, phase width and gap");
+    add(PersonCalibration, person([](auto& s) { s.calibration->phaseWidth.reset(); }), "not calibrated");
+    add(PersonCalibration, person([](auto& s) { s.calibration->gap.reset(); }), "not calibrated");
     add(BadCalibration, bench([](auto& s) {
-            s.calibration = AmplitudeCalibration{1.21, 0, 10, 40};
+            s.calibration = StimulatorCalibration{{1.21, 0, 10, 40}};
             s.calibrated = true;
         }),
         "out of order");
-    add(BadCalibration, bench([](auto& s) { s.calibration = AmplitudeCalibration{1, kNaN, 10, 40}; }), "offset");
+    add(BadCalibration, bench([](auto& s) { s.calibration = StimulatorCalibration{{1, kNaN, 10, 40}}; }), "offset");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
     add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");
@@ -173,8 +176,48 @@ void addStateCases(std::vector<GateCase>& cases) {
         GateSetup setup = benchSetup();
         setup.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 11)})};
         const bool fine = Rig(setup).ask(volts(10)).has_value();
-        setup.calibration = AmplitudeCalibration{1.15, 0, 5, 40};
+        setup.calibration = StimulatorCalibration{{1.15, 0, 5, 40}};
         return fine && refuses(Rig(setup).ask(volts(10)), ErrorCode::LimitExceeded, "11.5");
+    });
+    // 40 V into 1 kohm, 0.4 ms each 0.5 s: 1.13 mA RMS.
+    const auto refusedOnly = [](Quantity quantity, double limit, KnownLines known, const std::string& value) {
+        GateSetup setup = benchSetup();
+        setup.load = LoadRange::around(Load::resistor(Ohms(1000)), 1, 1);
+        setup.limits = {limitsOf({rowFor(quantity, limit)})};
+        PulseTrain train = volts(40);
+        train.rate = Hertz(1000);
+        const bool fine = Rig(setup).ask(train, 0.5).has_value();
+        setup.calibration = std::move(known);
+        return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, value);
+    };
+    const CalibrationLine known{1, 0, 10, 50};
+    const auto times = [](double gain, double offset_us) {
+        return CalibrationLine{gain, offset_us * 1e-6, 50e-6, 1e-3};
+    };
+    add(MoreThanTold, "a phase that comes out longer than it is told", [=] {
+        return refusedOnly(Quantity::PhaseCharge, 8.5, StimulatorCalibration{known, {}, times(1.05, 5), {}}, "8.6");
+    });
+    add(MoreThanTold, "a gap that comes out shorter than it is told", [=] {
+        // Told 100 us, the capacitor empties before the second phase.
+        GateSetup setup = benchSetup(Load::skin(Ohms(500), Ohms(20'000), Nanofarads(50)));
+        setup.limits = {limitsOf({rowFor(Quantity::PeakCurrent, 102.5)})};
+        PulseTrain train = volts(40);
+        train.rate = Hertz(1000);
+        const bool fine = Rig(setup).ask(train, 0.5).has_value();
+        setup.calibration = StimulatorCalibration{known, {}, {}, times(1, -20)};
+        return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, "peak current");
+    });
+    add(MoreThanTold, "trains that come out sooner than they are told", [=] {
+        const CalibrationLine sooner{0.9, 0, 0.1, 10};
+        return refusedOnly(Quantity::RmsCurrent5s, 1.15, StimulatorCalibration{known, sooner, {}, {}}, "1.239");
+    });
+    add(IntervalBelowTrain, "an interval that comes out shorter than its train", [=] {
+        GateSetup setup = benchSetup();
+        PulseTrain train = volts(10);
+        train.pulses = 50;  // at 100 Hz
+        const bool fine = Rig(setup).ask(train, 0.5).has_value();
+        setup.calibration = StimulatorCalibration{known, CalibrationLine{0.99, 0, 0.1, 10}, {}, {}};
+        return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "come out as 0.495 s");
     });
     add(MeterFull, "more trains than the meter holds", [] {
         Rig rig(benchSetup());
@@ -207,11 +250,23 @@ void addStateCases(std::vector<GateCase>& cases) {
     });
     add(PersonBeyondCalibration, "a person beyond the calibrated range", [] {
         GateSetup setup = personSetup();
-        setup.calibration->highest = 0.3;
+        setup.calibration->amplitude.highest = 0.3;
         Rig rig(setup);
         (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
         return rig.ask(milliamps(0.36)).has_value() &&
                refuses(rig.ask(milliamps(0.37)), ErrorCode::LimitExceeded, "beyond the range");
+    });
+    add(PersonBeyondCalibration, "a person, with a phase or an interval beyond the calibrated range", [] {
+        GateSetup setup = personSetup();
+        setup.calibration->phaseWidth->highest = 180e-6;
+        setup.calibration->interval->lowest = 0.5;
+        Rig rig(setup);
+        (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());
+        PulseTrain longer = milliamps(0.3);
+        longer.phaseWidth = Micros(220);
+        return rig.ask(milliamps(0.3), 0.42).has_value() &&
+               refuses(rig.ask(longer), ErrorCode::LimitExceeded, "phase width 220 us is beyond") &&
+               refuses(rig.ask(milliamps(0.3), 0.4), ErrorCode::LimitExceeded, "interval 0.4 s is beyond");
     });
     withPerson(PersonLevel, "a jump above the ramp", [](Rig& rig) {
         (void)rig.gate.updateImpedance(Ohms(2000), rig.clock.now());

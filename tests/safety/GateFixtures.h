@@ -66,7 +66,10 @@ inline GateSetup personSetup() {
     person.discomfortLimit = Milliamps(5);
     person.rampStep = Milliamps(0.5);
     setup.person = person;
-    setup.calibration = AmplitudeCalibration{1, 0, 0.1, 50};
+    setup.calibration = StimulatorCalibration{{1, 0, 0.1, 50},
+                                              CalibrationLine{1, 0, 0.01, 10},
+                                              CalibrationLine{1, 0, 10e-6, 1e-3},
+                                              CalibrationLine{1, 0, 10e-6, 1e-3}};
     setup.calibrated = true;
     return setup;
 }

@@ -1,6 +1,7 @@
 #include "tests/safety/GateSequences.h"
 
 #include <deque>
+#include <utility>
 
 #include "core/safety/SafetyGate.h"
 #include "tests/safety/SequenceReferee.h"
@@ -26,6 +27,7 @@ public:
         at500_.forget();
         at500_.fit({500, 0, 0});
         ++total_.sequences;
+        if (dice_.chance(0.15)) pace_ = dice_.between(0.9, 1.1);
         configure();
         const int commands = 2 + dice_.pick(10);
         for (int k = 0; k < commands && total_.violation.empty(); ++k) command();
@@ -104,9 +106,19 @@ private:
             seriesOf_.reset();
         }
         device_ = {};
-        if (dice_.chance(0.3)) device_ = {dice_.between(0.85, 1.15), dice_.between(-0.2, 0.2)};
+        if (dice_.chance(0.3)) device_.amplitude = {dice_.between(0.85, 1.15), dice_.between(-0.2, 0.2)};
+        if (dice_.chance(0.15)) device_.width = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
+        if (dice_.chance(0.15)) device_.gap = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
         // Known in any case where it is off; sometimes it no longer holds.
-        if (allowed.person || device_.gain != 1) setup.calibration = {device_.gain, device_.offset, 5, 50};
+        if (allowed.person || !device_.none() || pace_ != 1) {
+            const auto time = [](const Flaw& flaw) {
+                return CalibrationLine{flaw.gain, flaw.offset * 1e-6, 50e-6, 0.5};
+            };
+            setup.calibration = {{device_.amplitude.gain, device_.amplitude.offset, 5, 50},
+                                 CalibrationLine{pace_, 0, 1e-4, 1000},
+                                 time(device_.width),
+                                 time(device_.gap)};
+        }
         setup.calibrated = setup.calibration && (allowed.person || dice_.chance(0.6));
         calibrated_ = setup.calibrated;
         const bool sound = !dice_.chance(0.03);
@@ -120,6 +132,9 @@ private:
                          current ? "current" : "voltage", allowed.area, load.text(), scale_, source_.compliance.value(),
                          done ? "ok" : done.error().message));
         body_.fit(nominal_.times(scale_));
+        readAs_ = 1;
+        last_ = PulseTrain{};  // the check, whose timing is this
+        setUnit(last_);
         if (allowed.person && configured_) measure();
     }
 
@@ -141,7 +156,7 @@ private:
                 setup.source.widthMax = Micros(-1);
                 break;
             case 5:
-                setup.calibration = {dice_.chance(0.5) ? kNaN : 1.3, 0, 5, 50};
+                setup.calibration = {{dice_.chance(0.5) ? kNaN : 1.3, 0, 5, 50}, {}, {}, {}};
                 setup.calibrated = true;
                 break;
             default:
@@ -164,6 +179,19 @@ private:
         if (!good) voidPending("a bad impedance reading");
     }
 
+    /// What a bench's device reads of its load after the last train: the truth, more or less.
+    void measureLoad() {
+        if (siValue(last_.amplitude) == 0) return;
+        IndependentBody declared, real;
+        declared.fit(nominal_);
+        real.fit(nominal_.times(scale_));
+        const double reading = real.magnitude(last_) * dice_.between(0.95, 1.05);
+        const auto done = gate_.updateImpedance(Ohms(reading), clock_.now());
+        note(fmt::format("{:.6f} load read as {}: {}", now(), reading, done ? "ok" : "refused"));
+        if (done) readAs_ = reading / declared.magnitude(last_);
+        if (!done) voidPending("a bad reading of the load");
+    }
+
     void command() {
         const double which = dice_.unit();
         if (which < 0.62) {
@@ -180,7 +208,9 @@ private:
             configure();
         } else if (which < 0.94) {
             garbage();
-        } else if (allowed_.person && configured_) {
+        } else if (configured_ && !allowed_.person) {
+            measureLoad();
+        } else if (configured_) {
             if (dice_.chance(0.6)) {
                 measure();
             } else {
@@ -235,7 +265,8 @@ private:
             return false;
         }
         if (!configured_) violation("approved without a configuration");
-        pending_.push_back({std::move(*approved), now(), interval});
+        last_ = approved->train();
+        pending_.push_back({std::move(*approved), now(), interval, readAs_});
         return true;
     }
 
@@ -248,22 +279,19 @@ private:
         if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
         if (!gate_.isCurrent(next.approval)) return;
         if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
-        PulseTrain train = next.approval.train();
-        if (isCurrent(train.amplitude)) {
-            train.amplitude = Milliamps(device_.outOf(siValue(train.amplitude) * 1e3));
-        } else {
-            train.amplitude = Volts(device_.outOf(siValue(train.amplitude)));
-        }
-        const double start = now();
+        const PulseTrain train = device_.outOf(next.approval.train());
+        const double start = now() * pace_;
         ++total_.trains;
         ++delivered_;
         const Drain drain{source_.gap == GapState::HighImpedance,
                           source_.drive == Drive::Current ? source_.compliance.value() : 1e9};
         const PulseFacts facts = body_.deliver(train, drain, start);
         at500_.deliver(train, drain, start);
-        busyUntil_ = start + train.duration().count();
+        busyUntil_ = now() + train.duration().count() / pace_;
         note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
-        referee(train, facts, next.interval, siValue(calibrated_ ? train.amplitude : next.approval.train().amplitude));
+        const double readSince = std::exchange(readAs_, next.readAs);
+        referee(train, facts, next.interval * pace_, calibrated_ ? train : next.approval.train());
+        readAs_ = readSince;
         if (allowed_.person && dice_.chance(0.7) && gate_.accept(next.approval.train())) {
             if (!sameKind(train)) accepted_ = 0;
             seriesOf_ = train;
@@ -329,12 +357,15 @@ private:
         ApprovedTrain approval;
         double granted;
         double interval;
+        double readAs;  // the load, when it was approved: by that |Z| it was a command
     };
 
     SafetyGate& gate_;
+    double pace_ = 1;   // Of true time to the computer's
     double scale_ = 1;  // Where in the permitted range the truth lies
     bool configured_ = false;
     bool calibrated_ = false;
+    PulseTrain last_;  // approved
     std::deque<Pending> pending_;
     double busyUntil_ = 0;
     int delivered_ = 0;

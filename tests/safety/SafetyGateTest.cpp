@@ -55,6 +55,27 @@ TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {
     }
 }
 
+TEST(SafetyGate, WhatAFloatingSourceLeftIsStillThereForTheNextSource) {
+    RecordProperty("hazard", "H1");
+    // 20 kohm empty 1 uF in 20 ms; a source that holds 0 V would in 0.3 ms. Nobody knows when it was connected.
+    GateSetup floating = benchSetup(Load::skin(Ohms(300), Ohms(20'000), Nanofarads(1000)));
+    floating.source.gap = GapState::HighImpedance;
+    Rig rig(floating);
+    PulseTrain train = volts(40);
+    train.shape = PulseShape::Monophasic;
+    ASSERT_TRUE(rig.ask(train));
+    GateSetup holding = benchSetup(Load::skin(Ohms(300), Ohms(20'000), Nanofarads(1000)));
+    holding.source = currentSource();
+    holding.limits = {limitsOf({rowFor(Quantity::PeakCurrent, 10)})};
+    ASSERT_TRUE(rig.gate.configure(holding));
+    rig.wait(0.12);
+    const auto soon = rig.ask(milliamps(3));
+    ASSERT_FALSE(soon);
+    EXPECT_NE(soon.error().message.find("peak current"), std::string::npos) << soon.error().message;
+    rig.wait(0.2);
+    EXPECT_TRUE(rig.ask(milliamps(3)));
+}
+
 TEST(SafetyGate, EveryDirectedCaseHolds) {
     RecordProperty("hazard", "H1");
     for (const auto& c : gateCases()) EXPECT_TRUE(c.holds()) << c.name;

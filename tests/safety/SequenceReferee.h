@@ -47,9 +47,24 @@ struct Allowed {
 };
 
 /// A device that does not deliver what it is told, but on a line of its own.
-struct Miscalibration {
+struct Flaw {
     double gain = 1, offset = 0;
     [[nodiscard]] double outOf(double told) const { return told == 0 ? 0 : std::max(0.0, gain * told + offset); }
+    [[nodiscard]] bool none() const { return gain == 1 && offset == 0; }
+};
+struct Miscalibration {
+    Flaw amplitude, width, gap;  // V or mA, and µs
+    [[nodiscard]] bool none() const { return amplitude.none() && width.none() && gap.none(); }
+    [[nodiscard]] PulseTrain outOf(PulseTrain train) const {
+        if (isCurrent(train.amplitude)) {
+            train.amplitude = Milliamps(amplitude.outOf(siValue(train.amplitude) * 1e3));
+        } else {
+            train.amplitude = Volts(amplitude.outOf(siValue(train.amplitude)));
+        }
+        train.phaseWidth = Micros(width.outOf(train.phaseWidth.count()));
+        train.interPhaseGap = Micros(gap.outOf(train.interPhaseGap.count()));
+        return train;
+    }
 };
 
 class SequenceReferee {
@@ -84,7 +99,7 @@ protected:
 
     void setAmplitude(PulseTrain& train, double si) {
         const bool current = source_.drive == Drive::Current;
-        double own = (current ? si * 1e3 : si) / device_.gain;
+        double own = (current ? si * 1e3 : si) / device_.amplitude.gain;
         if (source_.amplitudeStep > 0) own = std::floor(own / source_.amplitudeStep) * source_.amplitudeStep;
         own = std::max(own, 0.0);
         train.amplitude = current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
@@ -145,7 +160,7 @@ protected:
     }
     double magnitude(const PulseTrain& train) {
         IndependentBody probe;
-        probe.fit(allowed_.person ? Body{measured_, 0, 0} : nominal_);
+        probe.fit(allowed_.person ? Body{measured_, 0, 0} : nominal_.times(readAs_));
         return probe.magnitude(train);
     }
 
@@ -192,11 +207,12 @@ protected:
         }
     }
 
-    /// `command`: SI; what the calibrated deliver, and the others are told.
-    void referee(const PulseTrain& train, const PulseFacts& facts, double interval, double command) {
+    /// `command`: what the calibrated deliver, and the others are told.
+    void referee(const PulseTrain& train, const PulseFacts& facts, double interval, const PulseTrain& command) {
         const double amplitude = siValue(train.amplitude);
         const bool current = source_.drive == Drive::Current;
-        hold(Near::Command, current ? command * magnitude(train) : command, 40, false, "the command in V");
+        const double asked = siValue(command.amplitude);
+        hold(Near::Command, current ? asked * magnitude(command) : asked, 40, false, "the command in V");
         if (facts.peakV > 500) violation("more than 500 V");
         hold(Near::Rms5s, std::sqrt(body_.worstI2(5) / 5), 0.010, true, "RMS over 5 s in A");
         slowest_ = std::max(slowest_, interval);
@@ -229,6 +245,7 @@ protected:
     Miscalibration device_;         // What it makes of what it is told
     bool close_ = false;
     double slowest_ = 0;      // Longest interval delivered, s
+    double readAs_ = 1;       // |Z| of a bench load as told to the gate, to that which was declared
     double measured_ = 1000;  // A person's |Z| as told to the gate, Ω
     double measuredAt_ = -100;
     double accepted_ = 0;  // A

@@ -102,6 +102,23 @@ TEST(LoadSafetyRun, AStimulatorThatCannotReadBackIsNoPass) {
     EXPECT_EQ(loadOf(outcome.results, "open")["verdict"], "not evaluated");
 }
 
+TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
+    LoadSafetyRig rig({"sim:stimulator?mode=current"}, 1, true);
+    const auto outcome = rig.run({{"area", "3"}});
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
+    EXPECT_TRUE(rig.outputOff());
+    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3}) {
+        const auto load =
+            loadOf(outcome.results, ohm < 1e3 ? fmt::format("{:g} ohm", ohm) : fmt::format("{:g} kohm", ohm / 1e3));
+        EXPECT_EQ(load["verdict"], "pass") << ohm;
+        EXPECT_NEAR(load["measured_ohm"].get<double>(), ohm, 0.01 * ohm);
+    }
+    const auto skin = loadOf(outcome.results, "200 ohm + 10 kohm || 50 nF");
+    EXPECT_EQ(skin["verdict"], "pass");
+    EXPECT_LE(skin["imbalance"].get<double>(), 0.005);
+}
+
 TEST(LoadSafetyRun, ACurrentSourceNamesWhatItCannotDrive) {
     LoadSafetyRig rig({"sim:stimulator?mode=current&step=0.5mA"});
     const auto outcome = rig.run();

@@ -63,14 +63,14 @@ TEST(StimulatorCalibration, OfATwinThatIsOffFails) {
 }
 
 TEST(StimulatorCalibration, OfACurrentSourceIsInMilliamps) {
-    const auto outcome = calibrate("sim:stimulator?mode=current&gain=1.02",
-                                   {{"quantities", "amplitude"}, {"repeats", "3"}, {"amplitude_max_v", "38"}});
+    const auto outcome =
+        calibrate("sim:stimulator?mode=current&gain=1.02", {{"quantities", "amplitude"}, {"repeats", "3"}});
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& amplitude = outcome.results["amplitude"];
     EXPECT_EQ(amplitude["unit"], "mA");
     EXPECT_EQ(amplitude["levels"].size(), 11U);
     EXPECT_NEAR(amplitude["gain"].get<double>(), 1.02, 0.002);
-    EXPECT_NEAR(amplitude["full_scale"].get<double>(), 38, 1);
+    EXPECT_NEAR(amplitude["full_scale"].get<double>(), 40, 1);
 }
 
 TEST(StimulatorCalibration, AFailedKnownReferenceCalibratesNothing) {
@@ -151,7 +151,7 @@ TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) 
     ASSERT_TRUE(nothing.error);
     EXPECT_THAT(nothing.error->message, HasSubstr("SIM-1 is not calibrated"));
 
-    const auto full = calibrate("sim:stimulator?gain=1.03", {{"quantities", "amplitude"}, {"store", "true"}});
+    const auto full = calibrate("sim:stimulator?gain=1.03", {{"store", "true"}});
     ASSERT_FALSE(full.error) << full.error->message;
     EXPECT_EQ(full.results["stored"]["serial"], "SIM-1");
     EXPECT_TRUE(full.results["stored"]["supersedes"].is_null());
@@ -163,12 +163,26 @@ TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) 
     ASSERT_FALSE(changed.error) << changed.error->message;
     EXPECT_EQ(changed.verdict, ScriptVerdict::Fail);
     EXPECT_EQ(changed.reasons.size(), 3U);
+    // A phase that has grown by 1.5 us of 100 to 400: 1 % is allowed, which 100 us no longer keep.
+    const auto longer = calibrate("sim:stimulator?gain=1.03&widtherror=1.5us", {{"mode", "check"}});
+    ASSERT_FALSE(longer.error) << longer.error->message;
+    EXPECT_EQ(longer.verdict, ScriptVerdict::Fail);
+    EXPECT_THAT(longer.reasons.front(), HasSubstr("Phase width: at 100.0 us the stored calibration expects"));
+    EXPECT_EQ(longer.results["check"].size(), 12U) << "three levels of each of the four";
+}
+
+TEST_F(CalibrationKept, IsKeptOfAllFourOnly) {
+    RecordProperty("hazard", "H9");
+    const auto some = calibrate("sim:", {{"quantities", "amplitude"}, {"store", "true"}});
+    ASSERT_TRUE(some.error);
+    EXPECT_THAT(some.error->message, HasSubstr("quantities is amplitude; all is expected to keep a result"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
     RecordProperty("hazard", "H9");
-    const Settings amplitude{{"quantities", "amplitude"}, {"store", "true"}};
-    auto few = amplitude, overdue = amplitude;
+    const Settings kept{{"store", "true"}, {"repeats", "2"}};
+    auto few = kept, overdue = Settings{{"store", "true"}};
     few["levels"] = "5";
     overdue["scope_due"] = "2020-01-01";
     const auto incomplete = calibrate("sim:", few);

@@ -48,7 +48,6 @@ CalibrateWorkspace::CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, Q
 void CalibrateWorkspace::run(const QString& mode) {
     tabs_->setCurrentWidget(runner_);
     runner_->set("mode", mode);
-    if (mode == "full") runner_->set("store", "true");
     runner_->runAsked();
     showReady();
 }

@@ -143,7 +143,7 @@ QString standingTip(const CalibrationStanding& standing) {
         return QObject::tr(
                    "What the stimulator delivers was measured: within %1 of the command (95 %). Check it under "
                    "Calibrate whenever something was changed.")
-            .arg(quantityText(standing.newest->uncertainty_pct, "%", 2));
+            .arg(quantityText(standing.newest->amplitude.uncertainty_pct, "%", 2));
     }
     return QObject::tr(
                "%1 The stimulator may be used on bench loads only, not on a person, and reports say so. "

@@ -33,12 +33,19 @@ QString instrumentText(const CalibrationInstrument& one) {
 QString factsOf(const StoredCalibration& c) {
     const auto unit = QString::fromStdString(c.unit);
     QStringList facts;
+    const auto within = [](const StoredLine& line) { return quantityText(line.uncertainty_pct, "%", 2); };
     facts << QObject::tr("Delivers %1 times the command%2, ± %3 (95 %), from %4 to %5")
-                 .arg(c.gain, 0, 'f', 4)
-                 .arg(c.offset < 0 ? QObject::tr(" less %1").arg(quantityText(-c.offset, unit, 2))
-                                   : QObject::tr(" plus %1").arg(quantityText(c.offset, unit, 2)),
-                      quantityText(c.uncertainty_pct, "%", 2), settingText(c.lowest, unit),
-                      settingText(c.highest, unit));
+                 .arg(c.amplitude.gain, 0, 'f', 4)
+                 .arg(c.amplitude.offset < 0 ? QObject::tr(" less %1").arg(quantityText(-c.amplitude.offset, unit, 2))
+                                             : QObject::tr(" plus %1").arg(quantityText(c.amplitude.offset, unit, 2)),
+                      within(c.amplitude), settingText(c.amplitude.lowest, unit),
+                      settingText(c.amplitude.highest, unit));
+    QStringList times;  // their lines are under Stored calibrations
+    for (const auto& time : kStoredTimes) {
+        const auto title = QString::fromUtf8(time.title.data(), qsizetype(time.title.size()));
+        if (const auto& line = c.*time.line) times << QString("%1 ± %2").arg(title, within(*line));
+    }
+    if (!times.isEmpty()) facts << times.join(", ");
     facts << QObject::tr("made %1, valid until %2").arg(day(c.made), day(c.validUntil));
     QStringList instruments;
     for (const auto& one : c.instruments) instruments << instrumentText(one);
@@ -156,9 +163,10 @@ void CalibrationCard::setReady(bool ready) {
     ready_ = ready;
     calibrate_->setEnabled(ready);
     check_->setEnabled(ready && counts_);
-    check_->setToolTip(counts_ ? tr("Three levels up and down: does the stored calibration still hold? Takes a few "
-                                    "minutes; nothing is stored.")
-                               : tr("There is no valid calibration to check. Calibrate first."));
+    check_->setToolTip(
+        counts_ ? tr("Three levels of each quantity, up and down: does the stored calibration still hold? Takes a few "
+                     "minutes; nothing is stored.")
+                : tr("There is no valid calibration to check. Calibrate first."));
 }
 
 void CalibrationCard::colour() {

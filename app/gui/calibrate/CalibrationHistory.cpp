@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 #include <QVBoxLayout>
+#include <cmath>
 #include <set>
 
 #include "app/gui/look/Look.h"
@@ -10,7 +11,20 @@ namespace tacto::gui {
 
 namespace {
 
-enum Column { kState, kMade, kUntil, kGain, kOffset, kUncertainty, kRange, kInstruments, kColumns };
+enum Column {
+    kState,
+    kMade,
+    kUntil,
+    kGain,
+    kOffset,
+    kUncertainty,
+    kRange,
+    kInterval,
+    kWidth,
+    kGap,
+    kInstruments,
+    kColumns
+};
 
 QString day(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
 
@@ -21,6 +35,14 @@ QString instrumentsOf(const StoredCalibration& c) {
         all << QString("%1 %2, %3").arg(QString::fromStdString(one.name), QString::fromStdString(one.serial), due);
     }
     return all.isEmpty() ? QString("–") : all.join("; ");
+}
+
+QString lineText(const std::optional<StoredLine>& line) {
+    if (!line) return "–";
+    return QString("× %1 %2 %3, ± %4")
+        .arg(line->gain, 0, 'f', 4)
+        .arg(line->offset < 0 ? "−" : "+", quantityText(std::abs(line->offset), "s", 2),
+             quantityText(line->uncertainty_pct, "%", 2));
 }
 
 }  // namespace
@@ -39,7 +61,8 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
         tr("Every calibration of this stimulator. A newer one supersedes the older, which stays; what is "
            "stored cannot be changed without being noticed."));
     table_->setHorizontalHeaderLabels({tr("State"), tr("Made"), tr("Valid until"), tr("Gain"), tr("Offset"),
-                                       tr("U (95 %)"), tr("Range"), tr("Measured with")});
+                                       tr("U (95 %)"), tr("Range"), tr("Interval"), tr("Phase width"),
+                                       tr("Inter-phase gap"), tr("Measured with")});
     table_->verticalHeader()->hide();
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -72,14 +95,18 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
         auto state = !newest ? tr("– superseded") : counts ? tr("✔ counts") : tr("⚠ does not count");
         if (newest && c.validUntil < utcToday()) state = tr("⚠ expired");
         if (c.simulated) state += tr(", simulated");
-        const QString cells[kColumns] = {state,
-                                         day(c.made),
-                                         day(c.validUntil),
-                                         QString::number(c.gain, 'f', 4),
-                                         quantityText(c.offset, unit, 2),
-                                         quantityText(c.uncertainty_pct, "%", 2),
-                                         tr("%1 to %2").arg(settingText(c.lowest, unit), settingText(c.highest, unit)),
-                                         instrumentsOf(c)};
+        const QString cells[kColumns] = {
+            state,
+            day(c.made),
+            day(c.validUntil),
+            QString::number(c.amplitude.gain, 'f', 4),
+            quantityText(c.amplitude.offset, unit, 2),
+            quantityText(c.amplitude.uncertainty_pct, "%", 2),
+            tr("%1 to %2").arg(settingText(c.amplitude.lowest, unit), settingText(c.amplitude.highest, unit)),
+            lineText(c.interval),
+            lineText(c.phaseWidth),
+            lineText(c.gap),
+            instrumentsOf(c)};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
             const bool right = column >= kGain && column <= kUncertainty;

@@ -366,7 +366,10 @@ TEST_F(PulsePal, IsRefusedForAPerson) {
     setup.limits.back().id = setup.limits.back().title = "test";
     setup.limits.back().rows.push_back(row);
     setup.electrodeArea = SquareCentimetres(1);
-    setup.calibration = AmplitudeCalibration{1, 0, 1, 10};
+    setup.calibration = StimulatorCalibration{{1, 0, 1, 10},
+                                              CalibrationLine{1, 0, 0.1, 10},
+                                              CalibrationLine{1, 0, 50e-6, 1e-3},
+                                              CalibrationLine{1, 0, 50e-6, 1e-3}};
     setup.calibrated = true;
     setup.person = PersonSetup{};
     setup.person->participant = "P01";

@@ -45,11 +45,7 @@ protected:
     void type(const char* field, const QString& text) {
         workspace.runner().findChild<QLineEdit*>(field)->setText(text);
     }
-    void amplitudeOnly() {
-        auto* box = workspace.runner().findChild<QComboBox*>("quantities");
-        box->setCurrentIndex(box->findData("amplitude"));
-        type("warm_up_s", "0");
-    }
+    void withoutWarmUp() { type("warm_up_s", "0"); }
     [[nodiscard]] bool ends() {
         return comesTrue([this] { return ended != nullptr; }, 90'000) && ended->result.outcome.error == std::nullopt;
     }
@@ -68,7 +64,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(says("calibrationState"), HasSubstr("No stimulator has been open yet"));
     EXPECT_FALSE(button("checkButton")->isEnabled());
     shot(workspace, "calibrate_first");
-    amplitudeOnly();
+    withoutWarmUp();
     click(*button("calibrateButton"));
     EXPECT_FALSE(button("calibrateButton")->isEnabled());
     ASSERT_TRUE(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
@@ -88,6 +84,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     gui::applyTheme(gui::Theme::Dark);
+    QTest::qWait(20);
     shot(workspace, "calibrate_done_dark");
 
     // Then the short run, which stores nothing.
@@ -98,6 +95,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
     EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
+    QTest::qWait(20);
     shot(workspace, "calibrate_checked_dark");
 }
 
@@ -129,7 +127,7 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     EXPECT_FALSE(button("checkButton")->isEnabled());
     EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_expired_small");
-    amplitudeOnly();
+    withoutWarmUp();
     click(*button("calibrateButton"));
     ASSERT_TRUE(ends());
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
@@ -142,7 +140,7 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
 TEST_F(Calibrate, AWrongLoadStoresNothing) {
     RecordProperty("hazard", "H9");
     show({1000, 640});
-    amplitudeOnly();
+    withoutWarmUp();
     type("load", "1000");
     workspace.runner().findChild<QLineEdit*>("devices")->setText("sim:stimulator?load=2kohm sim:");
     click(*button("calibrateButton"));

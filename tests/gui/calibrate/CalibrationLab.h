@@ -34,11 +34,10 @@ inline StoredCalibration calibration(int madeDaysAgo, int validForDays) {
     c.serial = "SIM-1";
     c.device = "simulated stimulator";
     c.unit = "V";
-    c.gain = 1.0123;
-    c.offset = -0.05;
-    c.uncertainty_pct = 0.8;
-    c.lowest = 10;
-    c.highest = 40;
+    c.amplitude = {{1.0123, -0.05, 10, 40}, 0.8};
+    c.interval = {{1.00002, -1e-6, 0.5, 2}, 0.006};
+    c.phaseWidth = {{1.0004, 0.31e-6, 100e-6, 400e-6}, 0.12};
+    c.gap = {{0.9996, -0.2e-6, 100e-6, 400e-6}, 0.14};
     c.made = daysFromNow(-madeDaysAgo);
     c.validUntil = daysFromNow(validForDays - madeDaysAgo);
     c.simulated = true;

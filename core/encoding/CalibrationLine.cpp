@@ -1,0 +1,60 @@
+#include "core/encoding/CalibrationLine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacto {
+
+double CalibrationLine::delivered(double told) const noexcept {
+    if (told < lowest) return told * ratioAt(lowest);
+    if (told > highest) return told * ratioAt(highest);
+    return gain * told + offset;
+}
+
+double CalibrationLine::told(double wanted) const noexcept {
+    if (wanted < gain * lowest + offset) return wanted / ratioAt(lowest);
+    if (wanted > gain * highest + offset) return wanted / ratioAt(highest);
+    return (wanted - offset) / gain;
+}
+
+double CalibrationLine::atMost(double told) const noexcept {
+    const double line = told > 0 ? gain * told + offset : told;
+    const double ratio = delivered(told);
+    return std::max(line, ratio);
+}
+
+double CalibrationLine::atLeast(double told) const noexcept {
+    const double line = told > 0 ? std::max(gain * told + offset, 0.0) : told;
+    return std::min(line, delivered(told));
+}
+
+Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity) {
+    if (!(std::isfinite(line.gain) && line.gain > 0 && std::isfinite(line.offset))) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the stimulator's calibration of {} has the gain {} and the offset {}; finite numbers and a gain "
+                    "above 0 are needed",
+                    quantity, line.gain, line.offset);
+    }
+    if (!(line.lowest > 0 && line.highest > line.lowest && std::isfinite(line.highest))) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the stimulator's calibration of {} covers {} to {}; a range above 0 is needed", quantity,
+                    line.lowest, line.highest);
+    }
+    return {};
+}
+
+Result<void> validate(const CalibrationLine& line, std::string_view quantity) {
+    if (auto sound = validateNumbers(line, quantity); !sound) return sound;
+    for (const double told : {line.lowest, line.highest}) {
+        const double off = line.delivered(told) / told - 1;
+        if (!(std::abs(off) <= kLargestMiscalibration)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "by its calibration of {} the stimulator delivers {:.4g} when it is told {:.4g}, {:.3g} % off; "
+                        "at most 20 % is accepted: it is out of order, or the calibration is not its own",
+                        quantity, line.delivered(told), told, 100 * off);
+        }
+    }
+    return {};
+}
+
+}  // namespace tacto

@@ -1,0 +1,45 @@
+// CalibrationLine.h - what a stimulator delivers for what it is told, and the other way round: a straight line.
+//
+// Within the calibrated range delivered = gain · told + offset. Outside it the ratio of the nearer end holds, so that 0
+// stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.
+//
+// A stimulator that is off by more than 20 % anywhere in its range is out of order (IEC 60601-2-10 allows its output
+// ± 20 %): its calibration is refused, not applied. So whatever stands in a calibration file, no command grows by more
+// than a quarter.
+//
+// Thread-safety: values; pure functions that do not allocate, but for the text of an error.
+#pragma once
+
+#include <string_view>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct CalibrationLine {
+    double gain = 1;
+    double offset = 0;  ///< in the quantity's unit, as the two below
+    double lowest = 0;  ///< the calibrated range, as told: 0 < lowest < highest
+    double highest = 0;
+
+    /// Both for values of 0 and more; NaN stays NaN.
+    [[nodiscard]] double delivered(double told) const noexcept;
+    [[nodiscard]] double told(double delivered) const noexcept;
+    /// The most and the least that may be delivered: outside the range the line, too, may go on. For judging.
+    [[nodiscard]] double atMost(double told) const noexcept;
+    [[nodiscard]] double atLeast(double told) const noexcept;
+    bool operator==(const CalibrationLine&) const = default;
+
+private:
+    [[nodiscard]] double ratioAt(double end) const noexcept { return gain + offset / end; }
+};
+
+inline constexpr double kLargestMiscalibration = 0.2;
+
+/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, or a range that is none;
+/// `quantity` is named.
+[[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
+/// Errors: as above, and for an output more than 20 % from what is told at either end of the range.
+[[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);
+
+}  // namespace tacto

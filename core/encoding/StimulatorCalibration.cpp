@@ -1,0 +1,77 @@
+#include "core/encoding/StimulatorCalibration.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+namespace {
+
+template <class Change>
+PulseTrain withAmplitude(PulseTrain train, Change change) noexcept {
+    if (const auto* volts = std::get_if<Volts>(&train.amplitude)) {
+        train.amplitude = Volts(change(volts->value()));
+    } else {
+        train.amplitude = Milliamps(change(std::get<Milliamps>(train.amplitude).value()));
+    }
+    return train;
+}
+
+Seconds told(Seconds wanted, const std::optional<CalibrationLine>& line) noexcept {
+    return line ? Seconds(line->told(wanted.count())) : wanted;
+}
+
+template <class Check>
+Result<void> ofEachLine(const StimulatorCalibration& c, Check check) {
+    if (auto sound = check(c.amplitude, "amplitude"); !sound) return sound;
+    if (c.interval) {
+        if (auto sound = check(*c.interval, "interval"); !sound) return sound;
+    }
+    if (c.phaseWidth) {
+        if (auto sound = check(*c.phaseWidth, "phase width"); !sound) return sound;
+    }
+    return c.gap ? check(*c.gap, "inter-phase gap") : Result<void>();
+}
+
+}  // namespace
+
+Result<void> validateNumbers(const StimulatorCalibration& calibration) {
+    return ofEachLine(calibration, [](const auto& line, auto quantity) { return validateNumbers(line, quantity); });
+}
+
+Result<void> validate(const StimulatorCalibration& calibration) {
+    return ofEachLine(calibration, [](const auto& line, auto quantity) { return validate(line, quantity); });
+}
+
+PulseTrain toldFor(PulseTrain train, const KnownLines& calibration) noexcept {
+    if (!calibration) return train;
+    if (calibration->phaseWidth) train.phaseWidth = told(train.phaseWidth, calibration->phaseWidth);
+    if (calibration->gap) train.interPhaseGap = told(train.interPhaseGap, calibration->gap);
+    return withAmplitude(train, [&](double wanted) { return calibration->amplitude.told(wanted); });
+}
+
+Seconds toldFor(Seconds interval, const KnownLines& calibration) noexcept {
+    return calibration ? told(interval, calibration->interval) : interval;
+}
+
+PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& c) noexcept {
+    if (c.phaseWidth) train.phaseWidth = Seconds(c.phaseWidth->atMost(Seconds(train.phaseWidth).count()));
+    if (c.gap) train.interPhaseGap = Seconds(c.gap->atMost(Seconds(train.interPhaseGap).count()));
+    return withAmplitude(train, [&](double told) { return c.amplitude.atMost(told); });
+}
+
+PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept {
+    if (!calibration) return train;
+    return withAmplitude(train, [&](double told) { return calibration->amplitude.atMost(told); });
+}
+
+PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept {
+    if (!calibration) return train;
+    return withAmplitude(train, [&](double told) { return calibration->amplitude.atLeast(told); });
+}
+
+TimeRange deliveredRange(Seconds told, const std::optional<CalibrationLine>& line) noexcept {
+    if (!line) return {told, told};
+    return {std::min(told, Seconds(line->atLeast(told.count()))), std::max(told, Seconds(line->atMost(told.count())))};
+}
+
+}  // namespace tacto

@@ -1,0 +1,50 @@
+// StimulatorCalibration.h - a stimulator's calibration, applied: what it is told so that it delivers what is wanted,
+// and what may come out of what it is told.
+//
+// An interval is timed by the computer and measured by an oscilloscope, as everything else: where the two clocks
+// differ, the oscilloscope's counts. What is told is then rounded to the device's steps (Rounding.h), so it comes out
+// up to a step short.
+//
+// Thread-safety: values; pure functions that do not allocate, but for the text of an error.
+#pragma once
+
+#include <optional>
+
+#include "core/encoding/CalibrationLine.h"
+#include "core/encoding/PulseTrain.h"
+
+namespace tacto {
+
+struct StimulatorCalibration {
+    CalibrationLine amplitude;                    ///< V or mA, as the source
+    std::optional<CalibrationLine> interval{};    ///< s, onset to onset; where there is none, a time is as it is told
+    std::optional<CalibrationLine> phaseWidth{};  ///< s, of the leading phase
+    std::optional<CalibrationLine> gap{};         ///< s, between the phases
+    /// What a person needs: all four.
+    [[nodiscard]] bool complete() const noexcept { return interval && phaseWidth && gap; }
+    bool operator==(const StimulatorCalibration&) const = default;
+};
+using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything is as it is told
+
+/// Errors: as for one line, of the first that has one.
+[[nodiscard]] Result<void> validateNumbers(const StimulatorCalibration& calibration);
+[[nodiscard]] Result<void> validate(const StimulatorCalibration& calibration);
+
+/// `train` as the stimulator must be told it: amplitude, phase width and gap.
+[[nodiscard]] PulseTrain toldFor(PulseTrain train, const KnownLines& calibration) noexcept;
+[[nodiscard]] Seconds toldFor(Seconds interval, const KnownLines& calibration) noexcept;
+
+/// What comes out of a train that is told, as far as the calibration knows; beyond the range of a line the most.
+[[nodiscard]] PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& calibration) noexcept;
+/// `train` with the most, and with the least, amplitude that the stimulator then delivers; times as told.
+[[nodiscard]] PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
+[[nodiscard]] PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
+
+/// Between which a time that is told may come out, itself among them.
+struct TimeRange {
+    Seconds least{0};
+    Seconds most{0};
+};
+[[nodiscard]] TimeRange deliveredRange(Seconds told, const std::optional<CalibrationLine>& line) noexcept;
+
+}  // namespace tacto

@@ -1,0 +1,162 @@
+#include "core/measure/PulseAssembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/LargeReserve.h"
+#include "core/measure/PhaseShape.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr std::size_t kFewestPhaseSamples = 10;
+constexpr std::size_t kAmplePhaseSamples = 40;
+constexpr double kRinging = 0.05;        // of the area of the phase before: more is a phase of its own
+constexpr double kLower = 0.6;           // than the phase before: as high is a pulse of its own, however short
+constexpr double kRingsFor = 0.5;        // of the phase before, from its end
+constexpr double kFlickersFor = 0.1;     // of the phase after, before it: noise on a slow leading edge
+constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
+constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
+
+/// A small phase next to one of twenty times its area, shorter and lower than it: the ringing after an edge, or noise
+/// on a slow leading edge.
+bool isSmallBeside(const FoundPhase& small, const FoundPhase& large) {
+    return std::abs(small.measured.plateau) < kLower * std::abs(large.measured.plateau) &&
+           small.area < kRinging * large.area && small.to_s() - small.from_s() < 0.5 * (large.to_s() - large.from_s());
+}
+bool ringsAfter(const FoundPhase& phase, const FoundPhase& before) {
+    return isSmallBeside(phase, before) &&
+           phase.from_s() - before.to_s() <= kRingsFor * (before.to_s() - before.from_s());
+}
+bool flickersBefore(const FoundPhase& phase, const FoundPhase& after) {
+    return phase.sign == after.sign && isSmallBeside(phase, after) &&
+           after.from_s() - phase.to_s() <= kFlickersFor * (after.to_s() - after.from_s());
+}
+
+/// By samples where the edges could not be placed.
+double endOf(const FoundPhase& phase) { return std::isfinite(phase.end50) ? phase.measured.end_s : phase.to_s(); }
+double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? phase.measured.onset_s : phase.from_s(); }
+
+/// From the end of one phase to the start of the next; by samples where the edges could not be placed.
+double gapBetween(const FoundPhase& a, const FoundPhase& b) {
+    const double gap = b.measured.onset_s - a.measured.end_s;
+    if (std::isfinite(gap)) return gap;
+    return b.from_s() - a.to_s();
+}
+
+void flagPhase(const FoundPhase& phase, PulseFlags& flags) {
+    flags.clipped = flags.clipped || phase.clipped;
+    flags.truncated = flags.truncated || phase.truncated;
+    flags.incomplete = flags.incomplete || phase.incomplete;
+    flags.underSampled = flags.underSampled || phase.measured.samples < kFewestPhaseSamples;
+    flags.coarse = flags.coarse || phase.measured.samples < kAmplePhaseSamples;
+}
+
+}  // namespace
+
+PulseAssembly::PulseAssembly(const Capture& capture, const StateLevels& levels, double gapMax_s, std::size_t phases)
+    : capture_(capture), levels_(levels), gapMax_s_(gapMax_s) {
+    reserveLarge(pulses_, phases);
+}
+
+void PulseAssembly::add(const PhaseSpan& span) {
+    auto& phase = at(kept_ + (hasNewest_ ? 1 : 0));
+    measureShape(span, levels_.baseline, phase);
+    if (hasNewest_) settleNewest(false);
+    hasNewest_ = true;
+}
+
+std::vector<PulseMeasurement> PulseAssembly::finish() {
+    if (hasNewest_) settleNewest(true);
+    if (kept_ > 0) integrate(kept_ - 1);
+    while (paired_ < kept_) pairNext();
+    return std::move(pulses_);
+}
+
+/// Keeps the newest phase or leaves it out, now that what follows it is in the window, or that it is the `last`.
+void PulseAssembly::settleNewest(bool last) {
+    const auto& phase = at(kept_);
+    const bool rings = kept_ > 0 && ringsAfter(phase, at(kept_ - 1));
+    if (rings || (!last && flickersBefore(phase, at(kept_ + 1)))) {
+        if (!last) at(kept_) = at(kept_ + 1);
+        return;
+    }
+    widest_s_ = std::max(widest_s_, phase.to_s() - phase.from_s());
+    ++kept_;
+    if (kept_ >= 2) integrate(kept_ - 2);
+    while (paired_ + 2 < kept_) pairNext();
+}
+
+/// Charge of a phase with its edges: as far as two and a half edge times beyond the 50 % points (half the width where
+/// it rings), at most to the middle of the gap towards a neighbour.
+void PulseAssembly::integrate(std::size_t k) {
+    auto& phase = at(k);
+    auto& m = phase.measured;
+    if (m.samples == 0) return;
+    const auto& view = *phase.view;
+    const double slowest = std::max({m.rise_s, m.fall_s, 0.0}) * view.rate_hz;
+    double reach = (std::isfinite(slowest) ? 2.5 * slowest : 0) + 1;
+    const double noise = levels_.noise / std::abs(m.plateau);
+    if (m.overshoot > std::max(kRings, kOvershootInNoise * noise)) {
+        reach = std::max(reach, 0.5 * (phase.end50 - phase.onset));
+    }
+    double from = std::max(0.0, phase.onset - reach);
+    double to = std::min(static_cast<double>(view.samples.size() - 1), phase.end50 + reach);
+    if (k > 0) from = std::max(from, view.positionOf(0.5 * (endOf(at(k - 1)) + m.onset_s)));
+    if (k + 1 < kept_) to = std::min(to, view.positionOf(0.5 * (m.end_s + onsetOf(at(k + 1)))));
+    m.charge = phase.sign * integralOf(phase, levels_.baseline, from, to) / view.rate_hz;
+}
+
+/// Between a phase and the next where they can be one pulse; else NaN.
+double PulseAssembly::gapAfter(std::size_t k) const {
+    if (levels_.count != StateCount::Three || k + 1 >= kept_ || at(k).sign == at(k + 1).sign) return kNotMeasured;
+    const double gap = gapBetween(at(k), at(k + 1));
+    return gap <= gapMax_s_ ? gap : kNotMeasured;
+}
+
+/// Where a phase could belong to either neighbour, the clearly shorter gap wins: a record may begin between the phases
+/// of a pulse.
+void PulseAssembly::pairNext() {
+    const std::size_t k = paired_;
+    const double gap = gapAfter(k);
+    const double next = gapAfter(k + 1);
+    const double step = 1.0 / capture_.rate_hz;
+    const bool pairs = std::isfinite(gap) && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
+    if (pairs) {
+        addPulse(at(k), &at(k + 1), false);
+        paired_ += 2;
+        return;
+    }
+    // The phase that belongs to this one may lie beyond the record.
+    const double end_s = capture_.start_s + static_cast<double>(capture_.samples()) / capture_.rate_hz;
+    const bool cutBefore = k == 0 && at(k).from_s() - capture_.start_s <= gapMax_s_;
+    const bool cutAfter = k + 1 == kept_ && end_s - at(k).to_s() <= gapMax_s_;
+    addPulse(at(k), nullptr, levels_.count == StateCount::Three && (cutBefore || cutAfter));
+    paired_ += 1;
+}
+
+/// `cut`: its second phase may lie beyond the record.
+void PulseAssembly::addPulse(const FoundPhase& leading, const FoundPhase* second, bool cut) {
+    auto& pulse = pulses_.emplace_back();
+    pulse.seenFrom_s = leading.from_s();
+    pulse.seenTo_s = (second == nullptr ? leading : *second).to_s();
+    pulse.flags.truncated = cut;
+    flagPhase(leading, pulse.flags);
+    if (second != nullptr) flagPhase(*second, pulse.flags);
+    pulse.leading.samples = leading.measured.samples;
+    if (!pulse.flags.measured()) return;
+
+    pulse.leading = leading.measured;
+    if (second != nullptr) {
+        pulse.second = second->measured;
+        pulse.gap_s = second->measured.onset_s - leading.measured.end_s;
+    }
+    if (levels_.count == StateCount::Three) {
+        const double q1 = leading.measured.charge;
+        const double q2 = second == nullptr ? 0 : second->measured.charge;
+        pulse.imbalance = std::abs(q1 + q2) / std::max(std::abs(q1), std::abs(q2));
+    }
+}
+
+}  // namespace tacto
