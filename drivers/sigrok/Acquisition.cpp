@@ -68,7 +68,13 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
         arrived = true;
         if (resolution > 0) raw.resolution = resolution;
         auto& into = channel == wiring.voltage ? raw.voltage : raw.current;
-        if (into.size() + samples.size() > kMost) throw std::length_error("a record of more than 100 million samples");
+        const std::size_t most = plan.record > 0 ? plan.record : kMost;
+        if (into.size() + samples.size() > most) {
+            // Said at once: with what is too much libsigrok may wait for ever for an answer that it has taken already.
+            const auto why = fmt::format("the instrument gave more than the {} samples that a record holds", most);
+            queue.fail({ErrorCode::Device, why});
+            throw std::length_error(why);
+        }
         if (plan.record > 0) into.reserve(plan.record);
         into.insert(into.end(), samples.begin(), samples.end());
     };

@@ -123,10 +123,18 @@ bool EmulatedScopeServer::answer(int socket, std::string_view command) {
             reply.replace(2, 9, "000999999");
             break;
         case ScopeFault::Endless:
+        case ScopeFault::Trickle:
             reply = "#9001000000" + std::string(1'000'000, '\x7f') + "\n";
             break;
     }
-    return send(socket, reply);
+    if (fault != ScopeFault::Trickle) return send(socket, reply);
+    constexpr std::size_t kPiece = 1000;
+    for (std::size_t at = 0; at < reply.size() && !ending_; at += kPiece) {
+        if (!send(socket, std::string_view(reply).substr(at, kPiece))) return false;
+        std::array<pollfd, 1> woken{{{wake_, POLLIN, 0}}};
+        ::poll(woken.data(), woken.size(), 1);
+    }
+    return true;
 }
 
 void EmulatedScopeServer::serve() noexcept {

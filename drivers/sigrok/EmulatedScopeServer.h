@@ -26,6 +26,7 @@ enum class ScopeFault {
     Garbage,    ///< no block at all, but bytes
     LongBlock,  ///< the header promises more than is sent
     Endless,    ///< a whole megabyte where a record was asked for, announced as such
+    Trickle,    ///< the same, in pieces of a kilobyte with a pause after each
 };
 
 class EmulatedScopeServer {

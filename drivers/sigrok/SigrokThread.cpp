@@ -1,6 +1,7 @@
 #include "drivers/sigrok/SigrokThread.h"
 
 #include <condition_variable>
+#include <csignal>
 #include <deque>
 #include <glib.h>
 #include <mutex>
@@ -18,6 +19,11 @@ struct SigrokThread::State {
     bool ended = false;     // guarded by mutex
 
     void loop() {
+        // libsigrok writes to an instrument that may have hung up without asking that it be no signal.
+        sigset_t broken;
+        sigemptyset(&broken);
+        sigaddset(&broken, SIGPIPE);
+        ::pthread_sigmask(SIG_BLOCK, &broken, nullptr);
         // Without one of its own a session would take the process's main context, which is the window's.
         GMainContext* const own = g_main_context_new();
         g_main_context_push_thread_default(own);

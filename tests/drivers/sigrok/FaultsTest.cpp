@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Ways, ScopeFails,
                                          Failing{"FallsSilent", ScopeFault::Silence, ErrorCode::Timeout, 8},
                                          Failing{"Garbage", ScopeFault::Garbage, ErrorCode::Device, 5},
                                          Failing{"PromisesMore", ScopeFault::LongBlock, ErrorCode::Device, 8},
-                                         Failing{"GivesTooMuch", ScopeFault::Endless, ErrorCode::Device, 8}),
+                                         Failing{"GivesTooMuch", ScopeFault::Endless, ErrorCode::Device, 8},
+                                         Failing{"GivesTooMuchInPieces", ScopeFault::Trickle, ErrorCode::Device, 3}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
