@@ -129,30 +129,33 @@ Result<Json> predict(ScriptSession& session, const Json& list) {
                 {"command_v", command->amplitude.value()},
                 {"interval_s", command->interval.count()},
                 {"nominal_ohm", numberOrNull(ohms.value())},
+                {"forbidden", false},
+                {"predicted", ""},
                 {"not_applicable", nullptr}};
-    const auto rounded = roundToDevice(*wanted, gridOf(source));
-    if (!rounded) {
-        out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", *name, command->amplitude.value(),
-                                            rounded.error().message);
-        return out;
-    }
-    const auto& train = rounded->train;
     const GateSetup setup = setupOf(bench, *load);
     if (auto why = cannotBeChecked(setup); !why.empty()) {
         out["not_applicable"] = std::move(why);
         return out;
     }
+    const auto rounded = roundToDevice(*wanted, gridOf(source));
+    const auto& train = rounded ? rounded->train : *wanted;
     const auto why = forbids(setup, train, command->interval);
+    out["forbidden"] = !why.empty();
+    out["predicted"] = why;
+    if (!rounded) {
+        out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", *name, command->amplitude.value(),
+                                            rounded.error().message);
+        return out;
+    }
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
     const auto most = exposureOf(train, command->interval, *load, source, area);
     out["amplitude"] = siValue(train.amplitude) * (isCurrent(train.amplitude) ? 1e3 : 1);
-    out["forbidden"] = !why.empty();
-    out["predicted"] = why;
     out["rms_5s_ma"] = numberOrNull(most.at(Quantity::RmsCurrent5s));
     out["peak_ma"] = numberOrNull(most.at(Quantity::PeakCurrent));
     // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
     constexpr double kOverTheEnd = 5e3;  // mA per A
-    out["fine_range_ma"] = numberOrNull(kOverTheEnd * command->amplitude.value() / ohms.value());
+    const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
+    out["fine_range_ma"] = spikes ? numberOrNull(kOverTheEnd * command->amplitude.value() / ohms.value()) : Json();
     out["capture"] = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
     return out;
 }
@@ -224,7 +227,7 @@ std::vector<HostFunction> benchLoadFunctions() {
          "is broken at "
          "worst within 20 % of the load, predicted says by what; not_applicable says why the device cannot drive it; "
          "capture holds options for bench.capture(), fine_range_ma the current range of the fine captures of "
-         "measure.load().",
+         "measure.load(), null where the current has no charging spike.",
          "Throws without a stimulator.",
          predict},
         {"bench",

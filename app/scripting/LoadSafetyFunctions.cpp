@@ -24,15 +24,17 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const auto& train = session.bench().profile().encoding.train;
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
+    // A calibrated stimulator is told something else than what it is to deliver; a train that came without its command
+    // was told what the last one was.
+    const auto& calibration = session.bench().calibration();
+    for (const auto& capture : given->captures) {
+        const double told = std::isnan(capture.told) ? session.bench().telemetry().trainAmplitude : capture.told;
+        expected.told.push_back(calibration ? calibration->amplitude.delivered(told) : told);
+    }
     auto reading = readLoad(given->captures, expected, fine.captures);
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
     out["captures"] = given->ids;
-    // A calibrated stimulator is told something else than what it is to deliver.
-    double commanded = session.bench().telemetry().trainAmplitude;
-    if (const auto& calibration = session.bench().calibration())
-        commanded = calibration->amplitude.delivered(commanded);
-    out["commanded"] = std::isfinite(commanded) ? Json(commanded) : Json();
     return out;
 }
 
@@ -153,18 +155,19 @@ std::vector<HostFunction> loadSafetyFunctions() {
           {"fine", "list", "", "more of them in a current range that fits the end of a phase: a spike may clip there",
            true}},
          "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
-         "{ amplitude_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, charge_uc, net_charge_uc, "
+         "{ delivered, amplitude_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, charge_uc, "
+         "net_charge_uc, "
          "imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, rms_5s_v, dc_ma, power_1s_w, each with its "
          "standard "
-         "uncertainty in _u; trains, under_10_lsb, warnings, captures, commanded }: null what was not measured; "
-         "commanded is the last train's amplitude as the device was told.",
+         "uncertainty in _u; trains, under_10_lsb, warnings, captures }: null what was not measured; "
+         "delivered is the amplitude over what each train was to have, 1 as told.",
          "Throws for captures that are held no longer, or without a channel of what the source drives and of voltage.",
          measureLoad},
         {"analysis",
          "loadSafety",
          HostKind::Function,
          {{"loads", "list", "",
-           "{ name, dmm_ohm, dmm_u_ohm, serial, steps: [{ command_v, amplitude, interval_s, reading }], refusals: [{ "
+           "{ name, dmm_ohm, dmm_u_ohm, serial, steps: [{ command_v, interval_s, reading }], refusals: [{ "
            "command_v, interval_s, forbidden, refused, predicted, reason }], not_applicable, problem }"},
           {"trips", "list", "", "from bench.trip...()"},
           {"options.reference", "object", "", "the load of the known-reference check, as in loads", true},

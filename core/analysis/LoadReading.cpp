@@ -18,6 +18,9 @@ constexpr double kFewestLsb = 10;
 /// An onset may jitter against the window's edge; a hundredth of a train is no further train.
 constexpr double kWindowEdge = 0.01;
 constexpr double kEndFrom = 0.80, kEndTo = 0.97;  // of the leading phase: where |Z| is read
+/// Of a straight line that is followed from there to the end: the noise of its value over that of the mean, and the
+/// share of the way that a bend may be worth.
+constexpr double kLineNoise = 2.6, kLineDoubt = 0.2;
 
 /// Of one train, from its own capture. SI units; NaN where not measured.
 struct TrainFigures {
@@ -25,6 +28,8 @@ struct TrainFigures {
     double peak_v = kNaN, peak_a = kNaN, step_v = 0, step_a = 0;
     double magnitude_v = 0, magnitude_a = 0;
     double squares_v = kNaN, squares_a = kNaN, net_C = kNaN, phase_C = kNaN, energy_J = kNaN;
+    double line_v = 0;  ///< how far the voltage was followed from where it was read
+    double impedance = kNaN, delivered = kNaN;
     double noise_v = 0, noise_a = 0;
     double endSamples = 1;
     bool biphasic = false;
@@ -56,18 +61,24 @@ std::optional<ChannelMeasurement> pulsesOf(const Capture& capture, const Expecte
     return std::nullopt;
 }
 
-void readEnds(const LoadTrace& voltage, const LoadTrace* current, const ChannelMeasurement& pulses, TrainFigures& out) {
-    double v = 0, a = 0;
+void readEnds(const LoadTrace& voltage, const LoadTrace* current, const ChannelMeasurement& pulses, Drive drive,
+              TrainFigures& out) {
+    double v = 0, a = 0, line = 0;
     for (const auto& pulse : pulses.pulses) {
         const double from = pulse.leading.onset_s + kEndFrom * pulse.leading.width_s;
         const double to = pulse.leading.onset_s + kEndTo * pulse.leading.width_s;
-        v += std::abs(meanOf(voltage, from, to));
+        const double mean = meanOf(voltage, from, to);
+        const double end = drive == Drive::Current ? lineAt(voltage, from, to, pulse.leading.end_s) : mean;
+        v += std::abs(end);
+        line += std::abs(end - mean);
         if (current != nullptr) a += std::abs(meanOf(*current, from, to));
         out.endSamples = std::max(1.0, (to - from) / voltage.dt);
     }
     const auto n = static_cast<double>(pulses.pulses.size());
     out.end_v = v / n;
+    out.line_v = line / n;
     if (current != nullptr) out.end_a = a / n;
+    out.impedance = out.end_v / out.end_a;
 }
 
 void readCurrent(const LoadTrace& voltage, const LoadTrace& current, const ChannelMeasurement& pulses,
@@ -91,7 +102,7 @@ void readCurrent(const LoadTrace& voltage, const LoadTrace& current, const Chann
     }
 }
 
-std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrain& expected,
+std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrain& expected, double told,
                                       std::vector<std::string>& warnings) {
     const auto pulses = pulsesOf(capture, expected, warnings);
     if (!pulses) return std::nullopt;
@@ -114,12 +125,13 @@ std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrai
     const auto current = traceOf(capture, "current", out.onset_s);
     if (current && !current->clipped) {
         readCurrent(*voltage, *current, *pulses, out);
-        readEnds(*voltage, &*current, *pulses, out);
+        readEnds(*voltage, &*current, *pulses, expected.drive, out);
     } else {
         warnings.emplace_back("the current of a train is missing, clipped or has no quiet stretch before it");
-        readEnds(*voltage, nullptr, *pulses, out);
+        readEnds(*voltage, nullptr, *pulses, expected.drive, out);
     }
     out.plateau_v = expected.drive == Drive::Voltage ? pulses->amplitude.mean : out.end_v;
+    out.delivered = (expected.drive == Drive::Voltage ? out.plateau_v : 1e3 * out.end_a) / told;
     return out;
 }
 
@@ -175,21 +187,38 @@ struct ChannelDoubt {
           level(channel != nullptr ? channel->lsb / kSqrt12 * kSqrt2 : 0) {}
 };
 
+/// Of the voltage at the end of a phase, noise and the way there; `samples` were averaged.
+double endDoubt(const Trains& trains, double samples) {
+    const double line = meanOver(trains, &TrainFigures::line_v);
+    return together(
+        {(line > 0 ? kLineNoise : 1) * trains.front().noise_v / std::sqrt(samples), kLineDoubt * line / kSqrt3});
+}
+
 Reading impedanceOf(const Trains& trains, const ChannelDoubt& v, const ChannelDoubt& i, double currentLsb) {
     const double volts = meanOver(trains, &TrainFigures::end_v), amps = meanOver(trains, &TrainFigures::end_a);
     if (!(currentLsb > 0) || !(amps >= kFewestLsb * currentLsb)) return {};
     const double samples = trains.front().endSamples * static_cast<double>(trains.size());
-    const double u_v = together({v.gain * volts, v.level, trains.front().noise_v / std::sqrt(samples)});
-    const double u_a = together(
-        {i.gain * amps, i.level, trains.front().noise_a / std::sqrt(samples), spreadOf(trains, &TrainFigures::end_a)});
-    return {volts / amps, volts / amps * together({u_v / volts, u_a / amps})};
+    const double u_v = together({v.gain * volts, v.level, endDoubt(trains, samples)});
+    const double u_a = together({i.gain * amps, i.level, trains.front().noise_a / std::sqrt(samples)});
+    return {volts / amps, together({volts / amps * u_v / volts, volts / amps * u_a / amps,
+                                    spreadOf(trains, &TrainFigures::impedance)})};
 }
 
-void addVoltage(LoadReading& out, const Trains& trains, const ChannelDoubt& doubt, double dt) {
+/// The mean of the trains, each in doubt by `u` of it: their spread is that of what they were told as well.
+void addAmplitude(LoadReading& out, Reading& amplitude, const Trains& trains, double TrainFigures::*member, double u,
+                  bool driven) {
+    const double mean = meanOver(trains, member);
+    amplitude = {mean, together({u, spreadOf(trains, member)})};
+    if (!driven) return;
+    const double ratio = meanOver(trains, &TrainFigures::delivered);
+    out.delivered = {ratio, together({ratio * u / mean, spreadOf(trains, &TrainFigures::delivered)})};
+}
+
+void addVoltage(LoadReading& out, const Trains& trains, Drive drive, const ChannelDoubt& doubt, double dt) {
     const double v = meanOver(trains, &TrainFigures::plateau_v), w = meanOver(trains, &TrainFigures::width_s);
-    out.amplitude_v = {
-        v, together({doubt.gain * v, doubt.level, trains.front().noise_v / std::sqrt(trains.front().endSamples),
-                     spreadOf(trains, &TrainFigures::plateau_v)})};
+    addAmplitude(out, out.amplitude_v, trains, &TrainFigures::plateau_v,
+                 together({doubt.gain * v, doubt.level, endDoubt(trains, trains.front().endSamples)}),
+                 drive == Drive::Voltage);
     out.width_s = {w, together({dt / std::sqrt(6.0), spreadOf(trains, &TrainFigures::width_s)})};
     const double peak = largestOf(trains, &TrainFigures::peak_v);
     out.peak_v = {peak, together({doubt.gain * peak, doubt.level, trains.front().noise_v,
@@ -211,7 +240,9 @@ void addCurrent(LoadReading& out, const Trains& trains, const ExpectedTrain& exp
                 const ChannelDoubt& i, double dt, double record_s) {
     const double amps = meanOver(trains, &TrainFigures::end_a);
     const double noise = trains.front().noise_a;
-    out.amplitude_ma = times(1e3, {amps, together({i.gain * amps, i.level, spreadOf(trains, &TrainFigures::end_a)})});
+    addAmplitude(out, out.amplitude_ma, trains, &TrainFigures::end_a, together({i.gain * amps, i.level}),
+                 expected.drive == Drive::Current);
+    out.amplitude_ma = times(1e3, out.amplitude_ma);
     out.impedance_ohm = impedanceOf(trains, v, i, out.currentLsb);
     const double peak = largestOf(trains, &TrainFigures::peak_a);
     out.peak_ma = times(
@@ -297,7 +328,7 @@ void addFine(LoadReading& out, std::span<const Capture> captures, std::span<cons
         const auto two = twoRanges(captures[k % captures.size()], fine[k], expected, out.warnings);
         if (!two) return;
         TrainFigures figures;
-        readEnds(two->voltage, &two->fine, two->pulses, figures);
+        readEnds(two->voltage, &two->fine, two->pulses, expected.drive, figures);
         figures.noise_v = two->voltage.noise;
         figures.noise_a = two->fine.noise;
         if (!(figures.end_a < 0.98 * two->fine.channel->high)) return;  // the range does not fit the end either
@@ -326,6 +357,10 @@ Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& exp
         return fail(ErrorCode::InvalidArgument, "a train of {} pulses at {} Hz; at least 1 and above 0 are expected",
                     expected.pulses, expected.rate_hz);
     }
+    if (!expected.told.empty() && expected.told.size() != captures.size()) {
+        return fail(ErrorCode::InvalidArgument, "{} amplitudes told for {} captures; one for each is expected",
+                    expected.told.size(), captures.size());
+    }
     for (const auto needed : {std::string_view("voltage"), drivenBy(expected)}) {
         if (channelOf(captures.front(), needed) != nullptr) continue;
         return fail(ErrorCode::NotFound, "the capture has no channel \"{}\"", needed);
@@ -342,8 +377,9 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
     if (const auto sane = checked(captures, expected); !sane) return failure(sane);
     LoadReading out;
     Trains trains;
-    for (const auto& capture : captures) {
-        if (auto train = readTrain(capture, expected, out.warnings)) trains.push_back(*train);
+    for (std::size_t k = 0; k < captures.size(); ++k) {
+        const double told = expected.told.empty() ? kNaN : expected.told[k];
+        if (auto train = readTrain(captures[k], expected, told, out.warnings)) trains.push_back(*train);
     }
     out.trains = trains.size();
     // One train that cannot be read may have been the one above a limit.
@@ -354,7 +390,7 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
     const double dt = 1 / captures.front().rate_hz;
     out.biphasic = std::all_of(trains.begin(), trains.end(), [](const auto& train) { return train.biphasic; });
     out.currentLsb = current != nullptr ? current->lsb : 0;
-    addVoltage(out, trains, v, dt);
+    addVoltage(out, trains, expected.drive, v, dt);
     const double squares = largestOf(trains, &TrainFigures::squares_v);
     const Reading train{squares,
                         together({2 * v.gain * squares, 2 * v.level * largestOf(trains, &TrainFigures::magnitude_v),

@@ -6,7 +6,10 @@
 //
 // Uncertainty (k = 1), science.md section 9: gain tolerance/√3 of each channel, resolution lsb/√12 of what is left
 // after the baseline is taken off (an offset cancels there), noise over the samples it is averaged over, and the spread
-// of the trains. A peak also carries the largest step between neighbours/√12: a spike may stand between two samples.
+// of the trains. The voltage that a current source leaves on a capacitor still rises where a phase is read: it is
+// followed in a straight line to the phase's end, and a fifth of that way is in doubt (an exponential bends away from
+// its tangent by no more). A peak also carries the largest step between neighbours/√12: a spike may stand between two
+// samples.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -34,11 +37,12 @@ struct Reading {
 
 /// The largest of the trains measured, unless a line says otherwise.
 struct LoadReading {
-    Reading amplitude_v;       ///< plateau of the leading phase, magnitude; of a current source as amplitude_ma; mean
+    Reading delivered;         ///< amplitude over what each train was to have, 1 = as told; mean
+    Reading amplitude_v;       ///< plateau of the leading phase, magnitude; of a current source at its end; mean
     Reading amplitude_ma;      ///< at the end of the leading phase, from 80 to 97 % of its width; mean
     Reading width_s;           ///< of the leading phase, of what the source drives; mean
     Reading interval_s;        ///< onset to onset of trains; the shortest
-    Reading impedance_ohm;     ///< voltage over current there, as science.md section 4 means |Z|; mean
+    Reading impedance_ohm;     ///< voltage over current at its end, as science.md section 4 means |Z|; mean
     Reading peak_v;            ///< largest |voltage|
     Reading peak_ma;           ///< largest |current|
     Reading charge_uc;         ///< the larger |charge| of either phase of a pulse
@@ -65,13 +69,16 @@ struct ExpectedTrain {
     /// What the source imposes: its channel shows where the phases are. The other one is the load's answer, which
     /// on a capacitor goes on after the phase is over. Voltage or Current.
     Drive drive = Drive::Voltage;
+    /// Amplitude that the device was to deliver in each capture, V or mA by its drive; empty = not known.
+    std::vector<double> told{};
 };
 
 /// One capture per train, in time order, all with one command, on one time base. Channels "voltage" (V) and "current"
 /// (A). A single capture leaves the interval and all windows longer than a train unmeasured.
 /// `fine`: further trains of the same command in a current range that fits the end of a phase, where a skin
 /// equivalent's charging spike clips. |Z|, net charge and imbalance are then read there, and in `captures` only while
-/// `fine` clips. Errors: InvalidArgument without captures or for an expectation that is not above zero; NotFound
+/// `fine` clips. Errors: InvalidArgument without captures or for an expectation that is not above zero, or does not
+/// fit the captures; NotFound
 /// without a voltage channel, or without a current channel for a current source.
 [[nodiscard]] Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected,
                                            std::span<const Capture> fine = {});

@@ -53,7 +53,6 @@ struct SafetyRow {
 /// A command that was delivered and measured. Commands, not measurements, apart from `reading`.
 struct LoadStep {
     double command_v = 0;  ///< A of science.md section 4
-    double amplitude = 0;  ///< as the device was told: V or mA by its drive
     double interval_s = 0;
     LoadReading reading;
 };

@@ -14,7 +14,8 @@ struct Member {
     const char* key;
     Reading LoadReading::*reading;
 };
-constexpr Member kMembers[] = {{"amplitude_v", &LoadReading::amplitude_v},
+constexpr Member kMembers[] = {{"delivered", &LoadReading::delivered},
+                               {"amplitude_v", &LoadReading::amplitude_v},
                                {"amplitude_ma", &LoadReading::amplitude_ma},
                                {"width_s", &LoadReading::width_s},
                                {"interval_s", &LoadReading::interval_s},
@@ -68,8 +69,8 @@ Result<std::vector<json>> listAt(const json& object, const char* key) {
 
 Result<LoadStep> stepFrom(const json& from) {
     LoadStep step;
-    for (const auto& [key, into] : {std::pair("command_v", &step.command_v), std::pair("amplitude", &step.amplitude),
-                                    std::pair("interval_s", &step.interval_s)}) {
+    for (const auto& [key, into] :
+         {std::pair("command_v", &step.command_v), std::pair("interval_s", &step.interval_s)}) {
         const auto value = numberAt(from, key);
         if (!value) return failure(value);
         *into = *value;

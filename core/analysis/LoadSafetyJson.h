@@ -18,7 +18,7 @@ namespace tacto {
 
 /// Errors: InvalidArgument naming the member and what is expected there. Null is not measured.
 [[nodiscard]] Result<LoadReading> loadReadingFrom(const nlohmann::json& json);
-/// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v", "amplitude",
+/// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v",
 /// "interval_s", "reading"}],
 ///  "refusals": [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason"}], "not_applicable",
 ///  "problem"}; all but the name may be left out. Errors: as loadReadingFrom(); as parseLoad().

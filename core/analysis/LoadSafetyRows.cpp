@@ -60,10 +60,9 @@ Reading highest(const LoadRecord& record, Of of) {
 }
 
 /// How far the delivered amplitude lies above the command, % of it; negative below.
-Reading amplitudeError(const LoadStep& step, const SourceTraits& source) {
-    const Reading& got = source.drive == Drive::Current ? step.reading.amplitude_ma : step.reading.amplitude_v;
-    if (!got.measured() || !(step.amplitude > 0)) return {};
-    return {100 * (got.value - step.amplitude) / step.amplitude, 100 * got.u / step.amplitude};
+Reading amplitudeError(const LoadStep& step) {
+    const Reading& got = step.reading.delivered;
+    return {100 * (got.value - 1), 100 * got.u};
 }
 
 Reading widthError(const LoadStep& step, const PulseTrain& train) {
@@ -104,7 +103,6 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
 }
 
 void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
-    const auto amplitude = [&](const LoadStep& step) { return amplitudeError(step, input.source); };
     const auto width = [&](const LoadStep& step) { return widthError(step, input.train); };
     const auto within = [](auto error) {
         return [error](const LoadStep& step) {
@@ -114,7 +112,7 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
     };
     const char* own = "the laboratory's tolerance (science.md section 9)";
     addUpper(rows, record,
-             rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitude), "%"),
+             rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitudeError), "%"),
              input.tolerances.amplitude_pct, false, "laboratory", own);
     addUpper(rows, record, rowOf(record, "width_over", "phase width above the command", highest(record, width), "%"),
              input.tolerances.timing_pct, false, "laboratory", own);
@@ -124,7 +122,7 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
         for (const auto& asked : set.accuracy) {
             if (!(asked.tolerance_pct > 0)) continue;  // to be stated, which the table of outputs does
             Reading error;
-            if (asked.parameter == "amplitude") error = highest(record, within(amplitude));
+            if (asked.parameter == "amplitude") error = highest(record, within(amplitudeError));
             if (asked.parameter == "width") error = highest(record, within(width));
             if (asked.parameter == "rate") error = highest(record, within(rateError));
             addUpper(rows, record,

@@ -21,10 +21,8 @@ std::optional<double> amplitudeFactor(const LoadSafetyInput& input) {
     std::optional<double> factor;
     for (const auto& record : input.loads) {
         for (const auto& step : record.steps) {
-            const auto& got =
-                input.source.drive == Drive::Current ? step.reading.amplitude_ma : step.reading.amplitude_v;
-            if (!got.measured() || !(step.amplitude > 0)) continue;
-            factor = std::max({1.0, factor.value_or(1.0), (got.value + got.expanded()) / step.amplitude});
+            const auto& got = step.reading.delivered;
+            if (got.measured()) factor = std::max({1.0, factor.value_or(1.0), got.value + got.expanded()});
         }
     }
     return factor;
@@ -77,10 +75,10 @@ LoadReading strongestOf(const LoadRecord& record) {
     for (const auto& step : record.steps) {
         const auto& reading = step.reading;
         for (const auto member :
-             {&LoadReading::amplitude_v, &LoadReading::amplitude_ma, &LoadReading::width_s, &LoadReading::peak_v,
-              &LoadReading::peak_ma, &LoadReading::charge_uc, &LoadReading::net_charge_uc, &LoadReading::imbalance,
-              &LoadReading::energy_mj, &LoadReading::rms_train_ma, &LoadReading::rms_1s_ma, &LoadReading::rms_5s_ma,
-              &LoadReading::rms_5s_v, &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
+             {&LoadReading::delivered, &LoadReading::amplitude_v, &LoadReading::amplitude_ma, &LoadReading::width_s,
+              &LoadReading::peak_v, &LoadReading::peak_ma, &LoadReading::charge_uc, &LoadReading::net_charge_uc,
+              &LoadReading::imbalance, &LoadReading::energy_mj, &LoadReading::rms_train_ma, &LoadReading::rms_1s_ma,
+              &LoadReading::rms_5s_ma, &LoadReading::rms_5s_v, &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
             take(most.*member, reading.*member);
         }
         first = false;

@@ -93,6 +93,20 @@ double meanOf(const LoadTrace& trace, double from_s, double to_s) {
     return sum / static_cast<double>(to - from);
 }
 
+double lineAt(const LoadTrace& trace, double from_s, double to_s, double at_s) {
+    const std::size_t from = trace.indexAt(from_s), to = trace.indexAt(to_s);
+    if (to < from + 2) return std::numeric_limits<double>::quiet_NaN();
+    const double mid = trace.start_s + 0.5 * static_cast<double>(from + to - 1) * trace.dt;
+    double sum = 0, along = 0, squares = 0;
+    for (std::size_t i = from; i < to; ++i) {
+        const double t = trace.start_s + static_cast<double>(i) * trace.dt - mid;
+        sum += trace.at(i);
+        along += trace.at(i) * t;
+        squares += t * t;
+    }
+    return sum / static_cast<double>(to - from) + along / squares * (at_s - mid);
+}
+
 double energyOf(const LoadTrace& voltage, const LoadTrace& current) {
     const std::size_t first = std::max(voltage.quiet, current.quiet);
     const std::size_t count = std::min(voltage.size(), current.size());

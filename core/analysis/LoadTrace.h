@@ -48,6 +48,8 @@ struct TraceSums {
 [[nodiscard]] double integralOf(const LoadTrace& trace, double from_s, double to_s);
 /// Mean over [from_s, to_s); NaN for an empty stretch.
 [[nodiscard]] double meanOf(const LoadTrace& trace, double from_s, double to_s);
+/// At `at_s`, the straight line that fits the samples of [from_s, to_s) best; NaN with fewer than two.
+[[nodiscard]] double lineAt(const LoadTrace& trace, double from_s, double to_s, double at_s);
 /// ∫ v·i dt after both baselines.
 [[nodiscard]] double energyOf(const LoadTrace& voltage, const LoadTrace& current);
 

@@ -1,5 +1,6 @@
 #include "core/bench/Bench.h"
 
+#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -10,6 +11,19 @@ namespace tacto {
 namespace {
 
 constexpr Instant kCaptureGrace = std::chrono::seconds(1);
+
+/// What the stimulator was told for the train that begins at the trigger; NaN where none does.
+double toldFor(const Capture& capture, const Telemetry& now) {
+    constexpr double kNear_s = 0.05;
+    double nearest_s = kNear_s, amplitude = NAN;
+    for (const auto& train : now.told) {
+        const double off_s = std::abs(capture.trigger_s - toSeconds(train.onset));
+        if (std::isnan(train.amplitude) || !(off_s < nearest_s)) continue;
+        nearest_s = off_s;
+        amplitude = train.amplitude;
+    }
+    return amplitude;
+}
 
 }  // namespace
 
@@ -61,7 +75,8 @@ Result<void> Bench::State::open() {
         parts.massager = massager.get();
     }
     if (config.devices.oscilloscope) {
-        scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope, [this](const Capture& capture) {
+        scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope, [this](Capture& capture) {
+            capture.told = toldFor(capture, loop->telemetry());
             if (!stimulator || source.readsBack) return;
             if (const auto seen = loadSeenIn(capture)) loop->noteLoad(*seen);
         });

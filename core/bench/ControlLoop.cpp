@@ -333,6 +333,8 @@ void ControlLoop::sendTrain(Instant now) noexcept {
                                   {"amplitude", siValue(planned->rounding.train.amplitude)},
                                   {"rounded_by", planned->rounding.amplitude}});
     }
+    const auto& amplitude = planned->rounding.train.amplitude;
+    shown_.told[told_++ % shown_.told.size()] = {planned->onset, siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1)};
     post(std::move(planned->approved), planned->onset, false);
 }
 

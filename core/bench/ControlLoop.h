@@ -143,6 +143,7 @@ private:
     // The loop's own:
     std::optional<ArmCommand> arming_;
     bool checkPosted_ = false;  // of arming_
+    std::size_t told_ = 0;      // trains, for the ring of shown_
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

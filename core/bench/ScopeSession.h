@@ -19,8 +19,9 @@ class ScopeSession {
 public:
     static constexpr std::size_t kMaxCaptures = 64;
 
-    /// `device` outlives the session. `seen`, unless empty, is told of every capture that is kept, from serve().
-    explicit ScopeSession(Oscilloscope& device, std::function<void(const Capture&)> seen = {})
+    /// `device` outlives the session. `seen`, unless empty, is shown every capture that is kept, from serve(), and may
+    /// add to it.
+    explicit ScopeSession(Oscilloscope& device, std::function<void(Capture&)> seen = {})
         : device_(device), forced_(dynamic_cast<ForcedTrigger*>(&device)), seen_(std::move(seen)) {}
 
     /// Asks for `wanted` captures triggered from `now` on, with these settings; throws away older ones. The device
@@ -49,7 +50,7 @@ private:
 
     Oscilloscope& device_;
     ForcedTrigger* const forced_;  // the device's, or null
-    const std::function<void(const Capture&)> seen_;
+    const std::function<void(Capture&)> seen_;
     mutable std::mutex mutex_;
     std::optional<ScopeSettings> requested_;  // guarded
     std::size_t wanted_ = 0;                  // guarded

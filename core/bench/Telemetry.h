@@ -19,6 +19,12 @@ namespace tacto {
 enum class DriveSource { Off, Manual, Sensor };
 
 /// Trivially copyable; NaN means absent.
+/// What the stimulator was told for a train, before it delivers it.
+struct ToldTrain {
+    Instant onset{0};
+    double amplitude = NAN;  ///< V or mA by its drive
+};
+
 struct Telemetry {
     static constexpr std::size_t kMaxExposureRows = 40;
 
@@ -53,6 +59,7 @@ struct Telemetry {
     double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
     double trainAmplitude = NAN;        ///< as the stimulator was told for the last train, V or mA by its drive
+    std::array<ToldTrain, 8> told{};    ///< the last trains, in no order; those that are not there have no amplitude
     std::uint64_t trainsDelivered = 0;  ///< or bursts
     std::uint64_t trainsRefused = 0;    ///< by the limits
     std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Capture {
     double rate_hz = 0;
     double start_s = 0;    ///< time of sample 0 on the session's time base
     double trigger_s = 0;  ///< time stamp of the trigger; NaN for a record without one
+    /// Amplitude that the stimulator was told for the train it shows, V or mA by its drive; NaN = not known.
+    double told = std::numeric_limits<double>::quiet_NaN();
     bool simulated = false;
     bool untriggered = false;  ///< taken because no trigger came: it shows the signal, not an event; trigger_s is NaN
     std::vector<CaptureChannel> channels;  ///< equally long

@@ -61,7 +61,7 @@ function captureAs(command, trains, range_ma) {
 
 // Two trains, so that there is an interval to measure, after one that brings the output to its level. A refusal of
 // what no limit forbids is kept as such; anything else ends the run.
-function deliver(record, command, kind) {
+function deliver(record, command) {
   const refusedBefore = bench.live().trains_refused;
   let reading = null;
   try {
@@ -69,8 +69,8 @@ function deliver(record, command, kind) {
     do bench.wait(1.2 * command.interval_s);
     while (Math.abs(bench.live().amplitude_v - command.command_v) > 1e-6);
     const captures = captureAs(command, 2, command.capture.current_range_ma);
-    // A skin equivalent's current settles far below its charging spike: read in a range of its own.
-    reading = kind === "skin" ? measure.load(captures, captureAs(command, 2, command.fine_range_ma)) : measure.load(captures);
+    // Where current settles far below a charging spike, it is read in a range of its own.
+    reading = command.fine_range_ma !== null ? measure.load(captures, captureAs(command, 2, command.fine_range_ma)) : measure.load(captures);
   } catch (error) {
     if (bench.live().trains_refused === refusedBefore || bench.live().state === "faulted") throw error;
     record.refusals.push({ command_v: command.command_v, interval_s: command.interval_s, forbidden: false, refused: true,
@@ -78,7 +78,7 @@ function deliver(record, command, kind) {
   }
   bench.drive("off");
   if (reading === null) return;
-  record.steps.push({ command_v: command.command_v, amplitude: reading.commanded, interval_s: command.interval_s, reading: reading });
+  record.steps.push({ command_v: command.command_v, interval_s: command.interval_s, reading: reading });
   keepStep(record, command, reading);
 }
 
@@ -105,26 +105,27 @@ function valueIsRight(record, tolerances) {
   return false;
 }
 
-function measureLoad(name, kind, p, tolerances) {
+function measureLoad(name, p, tolerances) {
   const record = newRecord(name);
-  const strongest = bench.predict(name, 1);
-  if (strongest.not_applicable !== null) {
-    record.not_applicable = strongest.not_applicable;
+  const commands = [];
+  for (let i = 0; i < p.steps; ++i) commands.push(bench.predict(name, i / (p.steps - 1)));
+  if (commands.every((command) => command.not_applicable !== null)) {
+    record.not_applicable = commands[commands.length - 1].not_applicable;
     return record;
   }
   enterDmm(record, p);
   bench.fitLoad(name);
   if (!arms(record)) return record;
-  for (let i = 0; i < p.steps; ++i) {
-    const command = bench.predict(name, i / (p.steps - 1));
-    if (command.not_applicable !== null) continue; // too small for the device's step; the stronger ones are not
+  for (const command of commands) {
+    // Too small for the device's step, or more than it can; what the limits forbid is asked for all the same.
+    if (command.not_applicable !== null && !command.forbidden) continue;
     const asked = bench.attempt(command);
     if (asked.refused || command.forbidden) {
       record.refusals.push({ command_v: command.command_v, interval_s: command.interval_s, forbidden: command.forbidden,
         refused: asked.refused, predicted: command.predicted, reason: asked.reason });
       continue;
     }
-    deliver(record, command, kind);
+    deliver(record, command);
     if (record.steps.length === 1 && !valueIsRight(record, tolerances)) break;
   }
   bench.disarm();
@@ -227,7 +228,7 @@ function run(p) {
   bench.fitLoad(reference.name);
   if (arms(reference)) {
     const command = bench.predict(reference.name, 0);
-    if (!bench.attempt(command).refused) deliver(reference, command, "resistor");
+    if (!bench.attempt(command).refused) deliver(reference, command);
     bench.disarm();
   }
   let found = keep();
@@ -239,7 +240,7 @@ function run(p) {
         trips.push(bench.tripWhenArming(each.name, "1 kohm"));
         loads.push(newRecord(each.name));
       } else {
-        loads.push(measureLoad(each.name, each.kind, p, tolerances));
+        loads.push(measureLoad(each.name, p, tolerances));
       }
       keepLine(keep().loads.filter((line) => line.name === each.name)[0]);
     }

@@ -147,7 +147,7 @@ std::vector<Capture> intoSkin(const LoadTruth& truth, double parallel, double fa
     auto captures = loadCaptures(truth);
     for (auto& capture : captures) {
         auto& voltage = capture.channels[0];
-        voltage.high = 3 * truth.volts;
+        voltage.high = 30;
         voltage.low = -voltage.high;
         voltage.lsb = 2 * voltage.high / std::ldexp(1, truth.bits);
         const double decay = std::exp(-1 / (capture.rate_hz * parallel * farads));
@@ -173,15 +173,26 @@ TEST(LoadReading, OfACurrentSourceTheCurrentTellsThePhases) {
     expectTruth(found.amplitude_ma, 5, 0.01, "current");
     expectTruth(found.charge_uc, 1, 0.01, "phase charge");
     EXPECT_LE(found.imbalance.value, found.imbalance.expanded());
-    // Read from 80 to 97 % of the width.
-    double volts = 0;
-    constexpr int kParts = 1000;
-    for (int k = 0; k < kParts; ++k) {
-        const double t = truth.width_s * (0.8 + 0.17 * (k + 0.5) / kParts);
-        volts += 5e-3 * (truth.ohms + parallel * (1 - std::exp(-t / (parallel * farads)))) / kParts;
-    }
-    expectTruth(found.amplitude_v, volts, 0.01, "voltage");
-    expectTruth(found.impedance_ohm, volts / 5e-3, 0.015, "impedance");
+    // At the end of the phase, as science.md section 4 means it: 3.50 kohm.
+    const double ohms = truth.ohms + parallel * (1 - std::exp(-truth.width_s / (parallel * farads)));
+    EXPECT_NEAR(ohms, 3.5e3, 10);
+    expectTruth(found.amplitude_v, 5e-3 * ohms, 0.025, "voltage");
+    expectTruth(found.impedance_ohm, ohms, 0.025, "impedance");
+    EXPECT_NEAR(found.impedance_ohm.value, ohms, 0.005 * ohms);
+}
+
+TEST(LoadReading, TrainsThatWereToldDifferentThingsAreEachReadAgainstTheirOwn) {
+    LoadTruth stronger, weaker;
+    weaker.volts = 0.9 * stronger.volts;
+    auto captures = loadCaptures(stronger);
+    captures[1] = loadCaptures(weaker)[1];
+    const auto found = readLoad(captures, ExpectedTrain{.told = {40, 36}}).value();
+    expectTruth(found.delivered, 1, 0.01, "delivered");
+    expectTruth(found.impedance_ohm, 500, 0.012, "impedance");
+    const auto unaware = readLoad(captures, ExpectedTrain{.told = {40, 40}}).value();
+    EXPECT_GT(unaware.delivered.expanded(), 0.05) << "their spread is told";
+    EXPECT_FALSE(readLoad(captures, ExpectedTrain{}).value().delivered.measured());
+    EXPECT_FALSE(readLoad(captures, ExpectedTrain{.told = {40}}));
 }
 
 TEST(LoadReading, ACurrentSourceIsNotReadWithoutItsCurrent) {

@@ -40,9 +40,9 @@ protected:
 
     static LoadStep step(const LoadTruth& truth, double command = 0) {
         LoadStep out;
-        out.command_v = out.amplitude = command > 0 ? command : truth.volts;
+        out.command_v = command > 0 ? command : truth.volts;
         out.interval_s = 0.5;
-        out.reading = readLoad(loadCaptures(truth), ExpectedTrain{}).value();
+        out.reading = readLoad(loadCaptures(truth), ExpectedTrain{.told = {out.command_v, out.command_v}}).value();
         return out;
     }
     LoadRecord& at(std::string_view name) {
@@ -126,7 +126,7 @@ TEST_F(LoadSafetyCheck, AnyFigureThatWasNotMeasuredIsNoPass) {
     RecordProperty("hazard", "H9");
     const LoadSafetyInput whole = input;
     for (const auto member :
-         {&LoadReading::amplitude_v, &LoadReading::width_s, &LoadReading::interval_s, &LoadReading::impedance_ohm,
+         {&LoadReading::delivered, &LoadReading::width_s, &LoadReading::interval_s, &LoadReading::impedance_ohm,
           &LoadReading::imbalance, &LoadReading::rms_5s_ma, &LoadReading::peak_v, &LoadReading::rms_5s_v,
           &LoadReading::power_1s_w, &LoadReading::energy_mj, &LoadReading::dc_ma}) {
         input = whole;
