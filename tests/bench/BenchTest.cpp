@@ -306,6 +306,27 @@ TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
     EXPECT_NEAR(measured->amplitude.mean, 40.0 / 2000, 1.1e-3) << "A / |Z|, rounded to the device's step";
 }
 
+TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
+    RecordProperty("hazard", "H9");
+    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is told something else
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto captures = bench_->capture(3, ScopeSettings{});
+    ASSERT_TRUE(captures) << captures.error().message;
+    double last = 0;
+    for (const auto& capture : *captures) {
+        const auto measured = measureTrains({&capture, 1}, "voltage");
+        ASSERT_TRUE(measured);
+        EXPECT_NEAR(measured->amplitude.mean, capture.told, 0.01 * capture.told);
+        EXPECT_NE(capture.told, last);
+        last = capture.told;
+    }
+    EXPECT_EQ(last, bench_->telemetry().trainAmplitude);
+}
+
 TEST_F(BenchTest, TheSameSeedGivesTheSameSamples) {
     std::vector<double> samples[2];
     for (auto& seen : samples) {
