@@ -145,6 +145,7 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
     double tolerance = 2;
     CalibrationOptions fit;
     InstrumentErrors errors;
+    errors.unit = *unit;
     struct Option {
         const char* key;
         double* target;

@@ -78,15 +78,16 @@ double worstErrorOf(const CalibrationLevel& level) {
     return worst;
 }
 
-void decide(JudgedCalibration& judged) {
+void decide(JudgedCalibration& judged, const std::string& unitOfReadings) {
     const auto& found = judged.calibration;
+    const std::string unit = unitOfReadings.empty() ? "" : " " + unitOfReadings;
     judged.verdict = Verdict::Pass;
     for (const auto& level : judged.levels) judged.verdict = worseOf(judged.verdict, level.verdict);
     for (const auto& level : judged.levels) {
         if (judged.verdict == Verdict::Pass || level.verdict != judged.verdict) continue;
-        judged.reasons.push_back(fmt::format("at {:.6g} the error is {:+.4g} ± {:.2g} and the tolerance ± {:.4g}",
-                                             level.commanded, level.worstError, level.budget.expanded,
-                                             level.tolerance));
+        judged.reasons.push_back(fmt::format("at {:.6g}{} the error is {:+.4g} ± {:.2g}{} and the tolerance ± {:.4g}{}",
+                                             level.commanded, unit, level.worstError, level.budget.expanded, unit,
+                                             level.tolerance, unit));
     }
     if (judged.verdict == Verdict::Pass) {
         const auto used = [](const JudgedLevel& level) {
@@ -94,9 +95,10 @@ void decide(JudgedCalibration& judged) {
         };
         const auto tightest = std::max_element(judged.levels.begin(), judged.levels.end(),
                                                [&](const auto& a, const auto& b) { return used(a) < used(b); });
-        judged.reasons.push_back(
-            fmt::format("nowhere nearer to the tolerance than at {:.6g}: error {:+.2g} ± {:.2g}, tolerance ± {:.4g}",
-                        tightest->commanded, tightest->worstError, tightest->budget.expanded, tightest->tolerance));
+        judged.reasons.push_back(fmt::format(
+            "nowhere nearer to the tolerance than at {:.6g}{}: error {:+.2g} ± {:.2g}{}, tolerance ± {:.4g}{}",
+            tightest->commanded, unit, tightest->worstError, tightest->budget.expanded, unit, tightest->tolerance,
+            unit));
     }
     if (!found.complete && judged.verdict == Verdict::Pass) judged.verdict = Verdict::Indeterminate;
     judged.reasons.insert(judged.reasons.end(), found.warnings.begin(), found.warnings.end());
@@ -139,7 +141,7 @@ Result<JudgedCalibration> judgeCalibration(Calibration calibration, const Instru
         judged.levels.push_back(std::move(out));
     }
     if (auto line = judgeLine(judged, errors, options); !line) return failure(line);
-    decide(judged);
+    decide(judged, errors.unit);
     return judged;
 }
 

@@ -18,13 +18,13 @@ namespace tacto {
 /// Where R and P come from.
 enum class DriveSource { Off, Manual, Sensor };
 
-/// Trivially copyable; NaN means absent.
 /// What the stimulator was told for a train, before it delivers it.
 struct ToldTrain {
     Instant onset{0};
     double amplitude = NAN;  ///< V or mA by its drive
 };
 
+/// Trivially copyable; NaN means absent.
 struct Telemetry {
     static constexpr std::size_t kMaxExposureRows = 40;
 

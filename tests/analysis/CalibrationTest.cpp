@@ -210,11 +210,13 @@ TEST(CalibrationVerdict, HysteresisCannotHideInTheMean) {
     twin.offset = 0;
     twin.jitter = 0.001;
     twin.hysteresis = 3;  // ± 1.5 V about a mean without error
+    twin.instrument.unit = "V";
     const auto judged = judgeCalibration(*fitCalibration(twin.run(2)), twin.instrument, 2, {1, 5000});
     ASSERT_TRUE(judged);
     EXPECT_EQ(judged->verdict, Verdict::Fail);
     EXPECT_NEAR(judged->fullScale().error, 0, 0.01);
     EXPECT_NEAR(std::abs(judged->fullScale().worstError), 1.5, 0.01);
+    EXPECT_NE(judged->reasons.front().find(" V and the tolerance"), std::string::npos) << judged->reasons.front();
 }
 
 TEST(CalibrationVerdict, WithoutRepeatsThereIsNoUncertainty) {
