@@ -59,13 +59,13 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
     return {};
 }
 
-/// Why the device cannot be armed on this load at all: every arming gives its impedance check first.
-std::string cannotBeChecked(const GateSetup& setup) {
+/// What forbids arming on this load: every arming gives an impedance check first.
+std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
     const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
     if (why.empty()) return {};
-    return fmt::format("{} cannot be driven: its impedance check of {:.3g} {} alone breaks a limit: {}",
-                       setup.load.nominal.text(), siValue(check.amplitude) * (isCurrent(check.amplitude) ? 1e3 : 1),
+    return fmt::format("impedance check of {:.3g} {}: {}",
+                       siValue(check.amplitude) * (isCurrent(check.amplitude) ? 1e3 : 1),
                        isCurrent(check.amplitude) ? "mA" : "V", why);
 }
 
@@ -133,20 +133,17 @@ Result<Json> predict(ScriptSession& session, const Json& list) {
                 {"predicted", ""},
                 {"not_applicable", nullptr}};
     const GateSetup setup = setupOf(bench, *load);
-    if (auto why = cannotBeChecked(setup); !why.empty()) {
-        out["not_applicable"] = std::move(why);
-        return out;
-    }
+    out["check_forbidden"] = forbidsCheck(setup);
     const auto rounded = roundToDevice(*wanted, gridOf(source));
-    const auto& train = rounded ? rounded->train : *wanted;
-    const auto why = forbids(setup, train, command->interval);
-    out["forbidden"] = !why.empty();
-    out["predicted"] = why;
     if (!rounded) {
         out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", *name, command->amplitude.value(),
                                             rounded.error().message);
         return out;
     }
+    const auto& train = rounded->train;
+    const auto why = forbids(setup, train, command->interval);
+    out["forbidden"] = !why.empty();
+    out["predicted"] = why;
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
     const auto most = exposureOf(train, command->interval, *load, source, area);
     out["amplitude"] = siValue(train.amplitude) * (isCurrent(train.amplitude) ? 1e3 : 1);
@@ -223,9 +220,12 @@ std::vector<HostFunction> benchLoadFunctions() {
           {"strength", "number", "", "0 the weakest amplitude to 1 the strongest, at the shortest interval"}},
          "What a command would be and do on a load, by computation; nothing is delivered.",
          "{ load, roughness, pressure, command_v, interval_s, nominal_ohm, amplitude (V or mA, as the device is told), "
-         "forbidden, predicted, rms_5s_ma, peak_ma, fine_range_ma, not_applicable, capture }: forbidden when a limit "
+         "forbidden, predicted, rms_5s_ma, peak_ma, fine_range_ma, check_forbidden, not_applicable, capture }: "
+         "forbidden when a limit "
          "is broken at "
-         "worst within 20 % of the load, predicted says by what; not_applicable says why the device cannot drive it; "
+         "worst within 20 % of the load, predicted says by what; check_forbidden says what forbids arming on this "
+         "load, \"\" where nothing "
+         "does; not_applicable says why the device cannot drive it; "
          "capture holds options for bench.capture(), fine_range_ma the current range of the fine captures of "
          "measure.load(), null where the current has no charging spike.",
          "Throws without a stimulator.",

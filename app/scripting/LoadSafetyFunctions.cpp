@@ -1,5 +1,7 @@
 // Measuring what went into a load, judging the whole set, its tracings, and what is kept of a run that ends early.
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
@@ -10,6 +12,18 @@ namespace tacto {
 namespace {
 
 using Json = nlohmann::json;
+
+/// What the last trains were told, one more than were captured, if all were told the same: an instrument whose time
+/// stamps are too coarse to tell trains apart has seen no other. NaN if not.
+double settledAt(const Telemetry& now, std::size_t captures) {
+    auto told = now.told;
+    std::ranges::sort(told, std::ranges::greater(), &ToldTrain::onset);
+    const auto last = std::span(told).first(std::min(captures + 1, told.size()));
+    const bool same = captures < told.size() && std::ranges::all_of(last, [&](const auto& train) {
+                          return train.amplitude == last.front().amplitude;
+                      });
+    return same ? last.front().amplitude : std::nan("");
+}
 
 Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.load", list);
@@ -24,11 +38,11 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const auto& train = session.bench().profile().encoding.train;
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
-    // A calibrated stimulator is told something else than what it is to deliver; a train that came without its command
-    // was told what the last one was.
+    // A calibrated stimulator is told something else than what it is to deliver.
     const auto& calibration = session.bench().calibration();
+    const double settled = settledAt(session.bench().telemetry(), given->captures.size());
     for (const auto& capture : given->captures) {
-        const double told = std::isnan(capture.told) ? session.bench().telemetry().trainAmplitude : capture.told;
+        const double told = std::isnan(capture.told) ? settled : capture.told;
         expected.told.push_back(calibration ? calibration->amplitude.delivered(told) : told);
     }
     auto reading = readLoad(given->captures, expected, fine.captures);
@@ -155,7 +169,8 @@ std::vector<HostFunction> loadSafetyFunctions() {
           {"fine", "list", "", "more of them in a current range that fits the end of a phase: a spike may clip there",
            true}},
          "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
-         "{ delivered, amplitude_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, charge_uc, "
+         "{ delivered, amplitude_v, highest_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, "
+         "charge_uc, "
          "net_charge_uc, "
          "imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, rms_5s_v, dc_ma, power_1s_w, each with its "
          "standard "
@@ -168,7 +183,8 @@ std::vector<HostFunction> loadSafetyFunctions() {
          HostKind::Function,
          {{"loads", "list", "",
            "{ name, dmm_ohm, dmm_u_ohm, serial, steps: [{ command_v, interval_s, reading }], refusals: [{ "
-           "command_v, interval_s, forbidden, refused, predicted, reason }], not_applicable, problem }"},
+           "command_v, interval_s, forbidden, refused, predicted, reason, what }], undriven: [{ command_v, interval_s, "
+           "reason }], not_applicable, problem }"},
           {"trips", "list", "", "from bench.trip...()"},
           {"options.reference", "object", "", "the load of the known-reference check, as in loads", true},
           {"options.tolerances", "object", "%", "load_pct, amplitude_pct, timing_pct", true}},

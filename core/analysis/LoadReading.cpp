@@ -216,9 +216,10 @@ void addAmplitude(LoadReading& out, Reading& amplitude, const Trains& trains, do
 
 void addVoltage(LoadReading& out, const Trains& trains, Drive drive, const ChannelDoubt& doubt, double dt) {
     const double v = meanOver(trains, &TrainFigures::plateau_v), w = meanOver(trains, &TrainFigures::width_s);
-    addAmplitude(out, out.amplitude_v, trains, &TrainFigures::plateau_v,
-                 together({doubt.gain * v, doubt.level, endDoubt(trains, trains.front().endSamples)}),
-                 drive == Drive::Voltage);
+    const double u = together({doubt.gain * v, doubt.level, endDoubt(trains, trains.front().endSamples)});
+    addAmplitude(out, out.amplitude_v, trains, &TrainFigures::plateau_v, u, drive == Drive::Voltage);
+    const double highest = largestOf(trains, &TrainFigures::plateau_v);
+    out.highest_v = {highest, u * highest / v};
     out.width_s = {w, together({dt / std::sqrt(6.0), spreadOf(trains, &TrainFigures::width_s)})};
     const double peak = largestOf(trains, &TrainFigures::peak_v);
     out.peak_v = {peak, together({doubt.gain * peak, doubt.level, trains.front().noise_v,

@@ -8,8 +8,8 @@
 // after the baseline is taken off (an offset cancels there), noise over the samples it is averaged over, and the spread
 // of the trains. The voltage that a current source leaves on a capacitor still rises where a phase is read: it is
 // followed in a straight line to the phase's end, and a fifth of that way is in doubt (an exponential bends away from
-// its tangent by no more). A peak also carries the largest step between neighbours/√12: a spike may stand between two
-// samples.
+// its tangent by no more as long as it still rises by a hundredth). A peak also carries the largest step between
+// neighbours/√12: a spike may stand between two samples.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -39,6 +39,7 @@ struct Reading {
 struct LoadReading {
     Reading delivered;         ///< amplitude over what each train was to have, 1 = as told; mean
     Reading amplitude_v;       ///< plateau of the leading phase, magnitude; of a current source at its end; mean
+    Reading highest_v;         ///< the same, of the train with the most
     Reading amplitude_ma;      ///< at the end of the leading phase, from 80 to 97 % of its width; mean
     Reading width_s;           ///< of the leading phase, of what the source drives; mean
     Reading interval_s;        ///< onset to onset of trains; the shortest

@@ -65,6 +65,14 @@ struct RefusedStep {
     bool refused = false;    ///< what the program then did
     std::string predicted;   ///< the figure, as "RMS current over 5 s 11.3 mA at 100 ohm, limit 10 mA"
     std::string reason;      ///< the refusal's own sentence
+    std::string what{};      ///< what was asked for, where it is no command
+};
+
+/// A command that the device cannot give on this load, by its step or its range: named, and no more.
+struct UndrivenStep {
+    double command_v = 0;
+    double interval_s = 0;
+    std::string reason;
 };
 
 /// What was done with one load of the set.
@@ -75,7 +83,8 @@ struct LoadRecord {
     std::string serial;  ///< of the resistor; may be empty
     std::vector<LoadStep> steps;
     std::vector<RefusedStep> refusals;
-    std::string notApplicable;  ///< why the device cannot drive it by one step; empty when it can
+    std::vector<UndrivenStep> undriven;
+    std::string notApplicable;  ///< why the device can give none of the commands; empty when it can
     std::string problem;        ///< why it was left unfinished; empty when it was not
 };
 
@@ -92,7 +101,7 @@ inline constexpr std::array<std::string_view, 6> kRequiredTrips = {
     "open", "short", "open while delivering", "short while delivering", "intermittent contact", "dead-man"};
 
 struct LoadSafetyTolerances {
-    double load_pct = 5;       ///< measured against the DMM's value, else the nominal one
+    double load_pct = 5;       ///< measured against the DMM's value, else the nominal one; a current source's voltage
     double amplitude_pct = 2;  ///< delivered above commanded; the laboratory's figure (science.md section 9)
     double timing_pct = 1;     ///< phase wider, or interval shorter, than commanded
     double imbalance_pct = 1;  ///< net charge of phase charge (hazard H5)

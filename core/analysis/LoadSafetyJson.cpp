@@ -16,6 +16,7 @@ struct Member {
 };
 constexpr Member kMembers[] = {{"delivered", &LoadReading::delivered},
                                {"amplitude_v", &LoadReading::amplitude_v},
+                               {"highest_v", &LoadReading::highest_v},
                                {"amplitude_ma", &LoadReading::amplitude_ma},
                                {"width_s", &LoadReading::width_s},
                                {"interval_s", &LoadReading::interval_s},
@@ -95,7 +96,20 @@ Result<RefusedStep> refusalFrom(const json& from) {
     if (!predicted) return failure(predicted);
     auto reason = textAt(from, "reason");
     if (!reason) return failure(reason);
-    return RefusedStep{*command, *interval, *forbidden, *refused, std::move(*predicted), std::move(*reason)};
+    auto what = textAt(from, "what");
+    if (!what) return failure(what);
+    return RefusedStep{*command,           *interval,       *forbidden, *refused, std::move(*predicted),
+                       std::move(*reason), std::move(*what)};
+}
+
+Result<UndrivenStep> undrivenFrom(const json& from) {
+    const auto command = numberAt(from, "command_v");
+    if (!command) return failure(command);
+    const auto interval = numberAt(from, "interval_s");
+    if (!interval) return failure(interval);
+    auto reason = textAt(from, "reason");
+    if (!reason) return failure(reason);
+    return UndrivenStep{*command, *interval, std::move(*reason)};
 }
 
 json toJson(const LoadLine& line) {
@@ -231,6 +245,13 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
         auto refusal = refusalFrom(item);
         if (!refusal) return failure(refusal);
         out.refusals.push_back(std::move(*refusal));
+    }
+    const auto undriven = listAt(from, "undriven");
+    if (!undriven) return failure(undriven);
+    for (const auto& item : *undriven) {
+        auto step = undrivenFrom(item);
+        if (!step) return failure(step);
+        out.undriven.push_back(std::move(*step));
     }
     return out;
 }

@@ -20,8 +20,9 @@ namespace tacto {
 [[nodiscard]] Result<LoadReading> loadReadingFrom(const nlohmann::json& json);
 /// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v",
 /// "interval_s", "reading"}],
-///  "refusals": [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason"}], "not_applicable",
-///  "problem"}; all but the name may be left out. Errors: as loadReadingFrom(); as parseLoad().
+///  "refusals": [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason", "what"}],
+///  "undriven": [{"command_v", "interval_s", "reason"}], "not_applicable", "problem"}; all but the name may be left
+///  out. Errors: as loadReadingFrom(); as parseLoad().
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
 /// {"name", "evaluated", "tripped", "after_s", "reason"}
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);

@@ -65,6 +65,11 @@ Reading amplitudeError(const LoadStep& step) {
     return {100 * (got.value - 1), 100 * got.u};
 }
 
+Reading voltageError(const LoadStep& step) {
+    const Reading& got = step.reading.highest_v;
+    return {100 * (got.value - step.command_v) / step.command_v, 100 * got.u / step.command_v};
+}
+
 Reading widthError(const LoadStep& step, const PulseTrain& train) {
     const double wanted = Seconds(train.phaseWidth).count();
     return {100 * (step.reading.width_s.value - wanted) / wanted, 100 * step.reading.width_s.u / wanted};
@@ -114,6 +119,12 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
     addUpper(rows, record,
              rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitudeError), "%"),
              input.tolerances.amplitude_pct, false, "laboratory", own);
+    if (input.source.drive == Drive::Current) {
+        // It was told A / |Z|: a |Z| that was read too low makes more of A, which the current alone does not show.
+        addUpper(rows, record,
+                 rowOf(record, "voltage_over", "voltage above the command", highest(record, voltageError), "%"),
+                 input.tolerances.load_pct, false, "laboratory", own);
+    }
     addUpper(rows, record, rowOf(record, "width_over", "phase width above the command", highest(record, width), "%"),
              input.tolerances.timing_pct, false, "laboratory", own);
     addUpper(rows, record, rowOf(record, "rate_over", "interval below the command", highest(record, rateError), "%"),
@@ -188,10 +199,23 @@ void addLimits(std::vector<SafetyRow>& rows, const LoadRecord& record, const Loa
     }
 }
 
+std::string commandText(double command_v, double interval_s) {
+    return fmt::format("{:.4g} V every {:.4g} s", command_v, interval_s);
+}
+
+void addUndriven(std::vector<SafetyRow>& rows, const LoadRecord& record) {
+    for (const auto& step : record.undriven) {
+        auto row = rowOf(record, "drive", commandText(step.command_v, step.interval_s), {}, "");
+        row.verdict = RowVerdict::NotApplicable;
+        row.reason = step.reason;
+        rows.push_back(std::move(row));
+    }
+}
+
 void addRefusals(std::vector<SafetyRow>& rows, const LoadRecord& record) {
     for (const auto& asked : record.refusals) {
-        auto row =
-            rowOf(record, "refusal", fmt::format("{:.4g} V every {:.4g} s", asked.command_v, asked.interval_s), {}, "");
+        auto row = rowOf(record, "refusal",
+                         asked.what.empty() ? commandText(asked.command_v, asked.interval_s) : asked.what, {}, "");
         row.set = "gate";
         row.source = asked.predicted;
         if (asked.forbidden) {
@@ -271,6 +295,7 @@ std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& i
         return {row};
     }
     addRefusals(rows, record);
+    addUndriven(rows, record);
     // A load on which the limits forbid everything has nothing to measure.
     const bool allRefused = record.steps.empty() && !record.refusals.empty() && record.problem.empty();
     if (allRefused) return rows;

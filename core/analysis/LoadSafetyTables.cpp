@@ -75,10 +75,11 @@ LoadReading strongestOf(const LoadRecord& record) {
     for (const auto& step : record.steps) {
         const auto& reading = step.reading;
         for (const auto member :
-             {&LoadReading::delivered, &LoadReading::amplitude_v, &LoadReading::amplitude_ma, &LoadReading::width_s,
-              &LoadReading::peak_v, &LoadReading::peak_ma, &LoadReading::charge_uc, &LoadReading::net_charge_uc,
-              &LoadReading::imbalance, &LoadReading::energy_mj, &LoadReading::rms_train_ma, &LoadReading::rms_1s_ma,
-              &LoadReading::rms_5s_ma, &LoadReading::rms_5s_v, &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
+             {&LoadReading::delivered, &LoadReading::amplitude_v, &LoadReading::highest_v, &LoadReading::amplitude_ma,
+              &LoadReading::width_s, &LoadReading::peak_v, &LoadReading::peak_ma, &LoadReading::charge_uc,
+              &LoadReading::net_charge_uc, &LoadReading::imbalance, &LoadReading::energy_mj, &LoadReading::rms_train_ma,
+              &LoadReading::rms_1s_ma, &LoadReading::rms_5s_ma, &LoadReading::rms_5s_v, &LoadReading::dc_ma,
+              &LoadReading::power_1s_w}) {
             take(most.*member, reading.*member);
         }
         first = false;

@@ -5,6 +5,12 @@
 
 namespace tacto {
 
+namespace {
+
+constexpr double kSmallestShare = 0.01;  // with less, times would shrink to nothing and windows last for ever
+
+}  // namespace
+
 double CalibrationLine::delivered(double told) const noexcept {
     if (told < lowest) return told * ratioAt(lowest);
     if (told > highest) return told * ratioAt(highest);
@@ -37,8 +43,16 @@ Result<void> validateNumbers(const CalibrationLine& line, std::string_view quant
     }
     if (!(line.lowest > 0 && line.highest > line.lowest && std::isfinite(line.highest))) {
         return fail(ErrorCode::InvalidArgument,
-                    "the stimulator's calibration of {} covers {} to {}; a range above 0 is needed", quantity,
+                    "the stimulator's calibration of {} covers {} to {}; a range above 0 is needed", quantity, quantity,
                     line.lowest, line.highest);
+    }
+    for (const double told : {line.lowest, line.highest}) {
+        if (!(line.delivered(told) >= kSmallestShare * told)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "by its calibration of {} the stimulator delivers {:.4g} when it is told {:.4g}; at least a "
+                        "hundredth of it is needed",
+                        quantity, line.delivered(told), told);
+        }
     }
     return {};
 }

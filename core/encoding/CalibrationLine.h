@@ -36,8 +36,8 @@ private:
 
 inline constexpr double kLargestMiscalibration = 0.2;
 
-/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, or a range that is none;
-/// `quantity` is named.
+/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, a range that is none, or an
+/// output below a hundredth of what is told at either end of it; `quantity` is named.
 [[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
 /// Errors: as above, and for an output more than 20 % from what is told at either end of the range.
 [[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);

@@ -84,7 +84,7 @@ Result<void> SafetyGate::State::withinCalibration(const TrainRequest& request) c
 Result<void> SafetyGate::State::judge(const Judged& request) const {
     for (const ActiveLimit& limit : limits) {
         const LimitRow& row = limit.row;
-        if (row.action != LimitAction::Refuse || !row.holdsAt(request.hz())) continue;
+        if (row.action != LimitAction::Refuse || !request.fallsUnder(row)) continue;
         if (needsArea(row.quantity) && std::isnan(area)) continue;  // Reads "not evaluated"
         if (!checks(limitCheck(limit.ceiling ? RequestCeiling : RequestLimit, row.quantity))) continue;
         const bool into500 = row.judged == JudgedAt::Ohm500;
@@ -117,7 +117,7 @@ Result<void> SafetyGate::State::judgeMetered(const Judged& request, Instant now)
         if (row.action != LimitAction::Refuse || windowOf(row.quantity) == 0) continue;
         const auto& sums = windowOf(row.quantity) == 1 ? second : five;
         // Trains of different rates share the window: every band that one of them belongs to holds.
-        if (!row.holdsAt(request.hz()) && !row.holdsAt(sums.lowestHz)) continue;
+        if (!request.fallsUnder(row) && !row.holdsAt(sums.lowestHz)) continue;
         if (needsArea(row.quantity) && std::isnan(area)) continue;
         if (!checks(limitCheck(limit.ceiling ? MeterCeiling : MeterLimit, row.quantity))) continue;
         const double value =

@@ -87,6 +87,10 @@ struct SafetyGate::State {
         TrainExposure overRange, at500;
         /// For frequency bands: the lowest.
         [[nodiscard]] double hz() const noexcept { return 1 / intervals.most.count(); }
+        /// Whether the row belongs to a band that the train may come out in.
+        [[nodiscard]] bool fallsUnder(const LimitRow& row) const noexcept {
+            return row.holdsAt(hz()) || row.holdsAt(1 / intervals.least.count());
+        }
     };
     [[nodiscard]] Result<void> judge(const Judged& request) const;
     [[nodiscard]] Result<void> judgeMetered(const Judged& request, Instant now) const;

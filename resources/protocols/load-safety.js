@@ -28,7 +28,7 @@ const LOAD_COLUMNS = ["name", "serial", "nominal_ohm", "measured_ohm", "peak_v",
 const ROW_COLUMNS = ["title", "load", "value", "expanded_uncertainty", "limit", "unit", "verdict"];
 
 function newRecord(name) {
-  return { name: name, steps: [], refusals: [] };
+  return { name: name, steps: [], refusals: [], undriven: [] };
 }
 
 // The resistor's own value, from a multimeter, where the technician has one at hand.
@@ -78,7 +78,8 @@ function deliver(record, command) {
   }
   bench.drive("off");
   if (reading === null) return;
-  record.steps.push({ command_v: command.command_v, interval_s: command.interval_s, reading: reading });
+  record.steps.push({ command_v: command.command_v, interval_s: command.interval_s, rate_hz: command.capture.rate_hz,
+    reading: reading });
   keepStep(record, command, reading);
 }
 
@@ -105,20 +106,41 @@ function valueIsRight(record, tolerances) {
   return false;
 }
 
-function measureLoad(name, p, tolerances) {
-  const record = newRecord(name);
+// From the weakest up.
+function commandsOn(name, p) {
   const commands = [];
   for (let i = 0; i < p.steps; ++i) commands.push(bench.predict(name, i / (p.steps - 1)));
+  return commands;
+}
+
+// Where the impedance check alone breaks a limit, arming is what must be refused.
+function askToArm(record, forbidden) {
+  const refused = !arms(record);
+  bench.disarm();
+  record.refusals.push({ what: "arming", forbidden: true, refused: refused, predicted: forbidden,
+    reason: refused ? record.problem : "" });
+  delete record.problem;
+}
+
+function measureLoad(name, p, tolerances) {
+  const record = newRecord(name);
+  const commands = commandsOn(name, p);
   if (commands.every((command) => command.not_applicable !== null)) {
     record.not_applicable = commands[commands.length - 1].not_applicable;
     return record;
   }
   enterDmm(record, p);
   bench.fitLoad(name);
+  if (commands[0].check_forbidden !== "") {
+    askToArm(record, commands[0].check_forbidden);
+    return record;
+  }
   if (!arms(record)) return record;
   for (const command of commands) {
-    // Too small for the device's step, or more than it can; what the limits forbid is asked for all the same.
-    if (command.not_applicable !== null && !command.forbidden) continue;
+    if (command.not_applicable !== null) {
+      record.undriven.push({ command_v: command.command_v, interval_s: command.interval_s, reason: command.not_applicable });
+      continue;
+    }
     const asked = bench.attempt(command);
     if (asked.refused || command.forbidden) {
       record.refusals.push({ command_v: command.command_v, interval_s: command.interval_s, forbidden: command.forbidden,
@@ -134,7 +156,8 @@ function measureLoad(name, p, tolerances) {
 
 // Three single pulses and a burst: the strongest that is allowed.
 function burst(p) {
-  const command = bench.predict("500 ohm", 1);
+  const command = commandsOn("500 ohm", p).filter((each) => each.not_applicable === null && !each.forbidden).pop();
+  if (command === undefined) return null;
   const record = newRecord("500 ohm");
   bench.fitLoad("500 ohm");
   if (!arms(record)) return null;
@@ -165,10 +188,9 @@ function tracingsOf(loads) {
     const step = found.steps[found.steps.length - 1];
     const reading = step.reading;
     const width = reading.width_s === null ? "width not measured" : (1e6 * reading.width_s).toFixed(1) + " us per phase";
-    const command = bench.predict(name, 1);
     out.push({ condition: condition(name, step), label: name + ", " + step.command_v.toFixed(0) + " V",
       settings: "single pulse of " + step.command_v.toFixed(0) + " V into " + name + ", " + width + ", " +
-        (command.capture.rate_hz / 1e6).toFixed(1) + " MS/s" });
+        (step.rate_hz / 1e6).toFixed(1) + " MS/s" });
   }
   return out;
 }

@@ -149,6 +149,22 @@ TEST_F(LoadSafetyCheck, MoreThanTenMilliampsRmsFailsWithItsNumbers) {
     EXPECT_TRUE(named);
 }
 
+TEST_F(LoadSafetyCheck, OfACurrentSourceTheVoltageIsJudgedToo) {
+    RecordProperty("hazard", "H1");
+    // A |Z| that was read a tenth too low: the current is as told, and 10 % more than A stands on the load.
+    input.source.drive = Drive::Current;
+    LoadTruth truth;
+    truth.volts = 44;
+    auto& wrong = at("500 ohm").steps[0];
+    wrong = step(truth, 40);
+    wrong.reading.delivered = {1, 0.003};
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Fail);
+    EXPECT_EQ(rowOf(found, "500 ohm", "voltage_over").verdict, RowVerdict::Fail);
+    EXPECT_NEAR(rowOf(found, "500 ohm", "voltage_over").value, 10, 0.1);
+    EXPECT_EQ(rowOf(found, "1 kohm", "voltage_over").verdict, RowVerdict::Pass);
+}
+
 TEST_F(LoadSafetyCheck, WhatTheLimitsForbidMustHaveBeenRefused) {
     RecordProperty("hazard", "H1");
     at("100 ohm").refusals.push_back({40, 0.5, true, true, "11.3 mA", "refused: 11.3 mA"});

@@ -69,6 +69,11 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         }),
         "out of order");
     add(BadCalibration, bench([](auto& s) { s.calibration = StimulatorCalibration{{1, kNaN, 10, 40}}; }), "offset");
+    // Not applied, so it may be far off; but an interval that comes out as none would empty the meter.
+    add(BadCalibration, bench([](auto& s) {
+            s.calibration = StimulatorCalibration{{1, 0, 10, 40}, CalibrationLine{1, -0.6, 0.5, 10}};
+        }),
+        "a hundredth");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
     add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");

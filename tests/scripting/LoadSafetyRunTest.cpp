@@ -2,6 +2,7 @@
 #include <atomic>
 #include <future>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "core/base/Random.h"
 #include "tests/scripting/LoadSafetyRig.h"
@@ -108,7 +109,7 @@ TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
     EXPECT_TRUE(rig.outputOff());
-    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3}) {
+    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3}) {  // 100 ohm with 10 V: 100 mA, of 130 it can
         const auto load =
             loadOf(outcome.results, ohm < 1e3 ? fmt::format("{:g} ohm", ohm) : fmt::format("{:g} kohm", ohm / 1e3));
         EXPECT_EQ(load["verdict"], "pass") << ohm;
@@ -117,6 +118,35 @@ TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
     const auto skin = loadOf(outcome.results, "200 ohm + 10 kohm || 50 nF");
     EXPECT_EQ(skin["verdict"], "pass");
     EXPECT_LE(skin["imbalance"].get<double>(), 0.005);
+    // What it cannot give is named, and no refusal by the limits.
+    std::set<std::string> undriven;
+    for (const auto& row : outcome.results["rows"]) {
+        if (row["load"] != "100 ohm") continue;
+        EXPECT_NE(row["item"], "refusal") << row.dump();
+        if (row["item"] != "drive") continue;
+        EXPECT_EQ(row["verdict"], "not applicable");
+        undriven.insert(row["title"]);
+    }
+    EXPECT_EQ(undriven, (std::set<std::string>{"20 V every 0.5 s", "30 V every 0.5 s", "40 V every 0.5 s"}));
+    // Its check of 0.5 mA would put 50 V on 100 kohm: arming was asked for and refused.
+    EXPECT_EQ(loadOf(outcome.results, "100 kohm")["verdict"], "refused as expected");
+    EXPECT_EQ(loadOf(outcome.results, "100 kohm")["commands_refused"], 1);
+}
+
+TEST(LoadSafetyRun, AStimulatorThatCannotGiveTheLargestCommandIsCheckedWithTheOthers) {
+    RecordProperty("hazard", "H9");
+    for (const char* uri : {"sim:stimulator?mode=current&max=30mA", "sim:stimulator?mode=voltage&max=25V"}) {
+        LoadSafetyRig rig({uri});
+        const auto outcome = rig.run({{"area", "3"}});
+        ASSERT_FALSE(outcome.error) << uri << ": " << outcome.error->message;
+        EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << uri << outcome.results["reasons"].dump(1);
+        EXPECT_EQ(loadOf(outcome.results, "500 ohm")["verdict"], "pass") << uri;
+        bool named = false;
+        for (const auto& reason : outcome.results["reasons"]) {
+            named = named || reason.get<std::string>().find("500 ohm cannot be driven with 40 V") != std::string::npos;
+        }
+        EXPECT_TRUE(named) << uri << outcome.results["reasons"].dump(1);
+    }
 }
 
 TEST(LoadSafetyRun, ACurrentSourceNamesWhatItCannotDrive) {
