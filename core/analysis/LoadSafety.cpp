@@ -87,8 +87,8 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
             return std::count(verdicts.begin() + 1, verdicts.end(), verdict);
         };
         out.reasons.push_back(fmt::format(
-            "{} checks on {} loads passed, each with its uncertainty inside its limit, and {} commands that "
-            "must be refused were refused",
+            "{} checks on {} loads passed, each with its uncertainty inside its limit; of what must be refused "
+            "all was refused ({})",
             count(RowVerdict::Pass), out.loads.size(), count(RowVerdict::RefusedAsExpected)));
     }
     for (const auto verdict : {RowVerdict::Fail, RowVerdict::Indeterminate, RowVerdict::NotEvaluated,

@@ -206,6 +206,8 @@ std::string commandText(double command_v, double interval_s) {
 void addUndriven(std::vector<SafetyRow>& rows, const LoadRecord& record) {
     for (const auto& step : record.undriven) {
         auto row = rowOf(record, "drive", commandText(step.command_v, step.interval_s), {}, "");
+        row.set = "laboratory";
+        row.source = "the device's own range and step";
         row.verdict = RowVerdict::NotApplicable;
         row.reason = step.reason;
         rows.push_back(std::move(row));
