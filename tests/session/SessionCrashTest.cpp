@@ -169,12 +169,17 @@ TEST_F(SessionJournal, DamagedInTheMiddleIsFoundAlthoughSqliteSeesAnEarlierEnd) 
 
 TEST_F(SessionJournal, TornInItsLastTransactionIsWhatACrashLeaves) {
     auto bytes = test::bytesOf(wal_);
-    bytes.erase(bytes.end() - 5000, bytes.end());
-    test::writeBytes(wal_, bytes);
-    std::filesystem::remove(dir_.path() / "s.tacto-shm");
-    const auto report = verifySession(path_).value();
-    EXPECT_EQ(report.status, SessionStatus::Intact) << report.problems[0];
-    EXPECT_LT(report.rows, whole_.rows);
+    auto rows = whole_.rows;
+    // Behind the last transaction may lie one that was never finished: torn, it takes no row along.
+    for (int cuts = 0; cuts < 4 && rows == whole_.rows; ++cuts) {
+        bytes.erase(bytes.end() - 5000, bytes.end());
+        test::writeBytes(wal_, bytes);
+        std::filesystem::remove(dir_.path() / "s.tacto-shm");
+        const auto report = verifySession(path_).value();
+        EXPECT_EQ(report.status, SessionStatus::Intact) << report.problems[0];
+        rows = report.rows;
+    }
+    EXPECT_LT(rows, whole_.rows);
 }
 
 }  // namespace
