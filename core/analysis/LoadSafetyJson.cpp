@@ -68,14 +68,32 @@ Result<std::vector<json>> listAt(const json& object, const char* key) {
     return at->get<std::vector<json>>();
 }
 
-Result<LoadStep> stepFrom(const json& from) {
-    LoadStep step;
+/// What every kind of step begins with.
+template <class Step>
+Result<void> readCommand(const json& from, Step& step) {
     for (const auto& [key, into] :
          {std::pair("command_v", &step.command_v), std::pair("interval_s", &step.interval_s)}) {
         const auto value = numberAt(from, key);
         if (!value) return failure(value);
         *into = *value;
     }
+    return {};
+}
+
+template <class Step>
+Result<void> readTexts(const json& from, std::initializer_list<std::pair<const char*, std::string Step::*>> texts,
+                       Step& step) {
+    for (const auto& [key, member] : texts) {
+        auto text = textAt(from, key);
+        if (!text) return failure(text);
+        step.*member = std::move(*text);
+    }
+    return {};
+}
+
+Result<LoadStep> stepFrom(const json& from) {
+    LoadStep step;
+    if (auto read = readCommand(from, step); !read) return failure(read);
     auto reading = loadReadingFrom(from.value("reading", json::object()));
     if (!reading) return failure(reading);
     step.reading = std::move(*reading);
@@ -84,32 +102,28 @@ Result<LoadStep> stepFrom(const json& from) {
 
 Result<RefusedStep> refusalFrom(const json& from) {
     RefusedStep step;
-    const auto command = numberAt(from, "command_v");
-    if (!command) return failure(command);
-    const auto interval = numberAt(from, "interval_s");
-    if (!interval) return failure(interval);
-    const auto forbidden = flagAt(from, "forbidden");
-    if (!forbidden) return failure(forbidden);
-    const auto refused = flagAt(from, "refused");
-    if (!refused) return failure(refused);
-    auto predicted = textAt(from, "predicted");
-    if (!predicted) return failure(predicted);
-    auto reason = textAt(from, "reason");
-    if (!reason) return failure(reason);
-    auto what = textAt(from, "what");
-    if (!what) return failure(what);
-    return RefusedStep{*command,           *interval,       *forbidden, *refused, std::move(*predicted),
-                       std::move(*reason), std::move(*what)};
+    if (auto read = readCommand(from, step); !read) return failure(read);
+    for (const auto& [key, into] : {std::pair("forbidden", &step.forbidden), std::pair("refused", &step.refused)}) {
+        const auto flag = flagAt(from, key);
+        if (!flag) return failure(flag);
+        *into = *flag;
+    }
+    if (auto read = readTexts<RefusedStep>(
+            from,
+            {{"predicted", &RefusedStep::predicted}, {"reason", &RefusedStep::reason}, {"what", &RefusedStep::what}},
+            step);
+        !read) {
+        return failure(read);
+    }
+    return step;
 }
 
 Result<UndrivenStep> undrivenFrom(const json& from) {
-    const auto command = numberAt(from, "command_v");
-    if (!command) return failure(command);
-    const auto interval = numberAt(from, "interval_s");
-    if (!interval) return failure(interval);
-    auto reason = textAt(from, "reason");
-    if (!reason) return failure(reason);
-    return UndrivenStep{*command, *interval, std::move(*reason)};
+    UndrivenStep step;
+    if (auto read = readCommand(from, step); !read) return failure(read);
+    if (auto read = readTexts<UndrivenStep>(from, {{"reason", &UndrivenStep::reason}}, step); !read)
+        return failure(read);
+    return step;
 }
 
 json toJson(const LoadLine& line) {
