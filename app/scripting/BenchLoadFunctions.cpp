@@ -33,19 +33,6 @@ Result<Json> loads(ScriptSession&, const Json&) {
     return out;
 }
 
-GateSetup setupOf(Bench& bench, const Load& load) {
-    GateSetup setup;
-    setup.mode = bench.mode();
-    setup.source = bench.devices().stimulator->traits();
-    setup.load = LoadRange::declared(load);
-    setup.limits = bench.limits();
-    setup.ceilings = bench.profile().ceilings;
-    setup.electrodeArea = bench.profile().electrodeArea;
-    setup.check = bench.profile().encoding.train;
-    setup.check.pulses = 1;
-    return setup;
-}
-
 /// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
 std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
     const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
@@ -132,7 +119,7 @@ Result<Json> predict(ScriptSession& session, const Json& list) {
                 {"forbidden", false},
                 {"predicted", ""},
                 {"not_applicable", nullptr}};
-    const GateSetup setup = setupOf(bench, *load);
+    const GateSetup setup = bench.setupFor(*load);
     out["check_forbidden"] = forbidsCheck(setup);
     const auto rounded = roundToDevice(*wanted, gridOf(source));
     if (!rounded) {

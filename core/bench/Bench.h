@@ -95,6 +95,8 @@ public:
     [[nodiscard]] Result<void> useCalibration(bool use);
     [[nodiscard]] const Profile& profile() const noexcept;
     [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
+    /// What the gate is told when this load is armed: for previews.
+    [[nodiscard]] GateSetup setupFor(const Load& load) const;
 
     /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault or when the sensor that drives
     /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).

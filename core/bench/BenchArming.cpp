@@ -43,6 +43,8 @@ GateSetup Bench::State::setupFor(const Load& load) const {
     return setup;
 }
 
+GateSetup Bench::setupFor(const Load& load) const { return state_->setupFor(load); }
+
 ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
     ArmCommand command;
     command.setup = setupFor(load);

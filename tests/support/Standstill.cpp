@@ -104,8 +104,7 @@ public:
         const char* told = std::getenv(kTry);
         const int number = told == nullptr ? 1 : std::atoi(told);
         std::printf(
-            "The machine stood still for %.0f ms, and %s words between threads took over %.0f ms: try %d of %d "
-            "tells nothing.\n",
+            "The machine stood still for %.0f ms, and %s words between threads took over %.0f ms: try %d of %d.\n",
             longest_.count(), said_.c_str(), kSlowWord.count(), number, kTries);
         std::fflush(nullptr);
         if (number == kTries) return;
