@@ -7,6 +7,7 @@
 #include "core/analysis/Variation.h"
 #include "core/analysis/VariationJson.h"
 #include "core/base/Statistics.h"
+#include "tests/support/Support.h"
 
 namespace tacto {
 namespace {
@@ -17,7 +18,7 @@ VariationOptions options(std::size_t participants = 60) {
     out.trials = 10;
     out.seed = 7;
     out.stimulation.source = idealSource(Drive::Current);
-    out.stimulation.limits = loadLimitSets(TACTO_SOURCE_DIR "/resources/limits").value();
+    out.stimulation.limits = loadLimitSets(test::sourceDir() / "resources/limits").value();
     out.stimulation.electrodeArea = SquareCentimetres(1);
     return out;
 }

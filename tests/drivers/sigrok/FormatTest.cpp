@@ -9,6 +9,7 @@
 #include "core/formats/ByteFile.h"
 #include "drivers/sigrok/SigrokFormat.h"
 #include "tests/drivers/sigrok/ZipWriter.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -61,7 +62,7 @@ std::string floats(std::size_t count, float value = 1.5F) {
 }
 
 TEST_F(SrFile, TheRealOscilloscopesCaptureAgreesWithItsCsv) {
-    const fs::path data = fs::path(TACTO_SOURCE_DIR) / "../shared/data/scope/mdo4104c";
+    const fs::path data = test::sourceDir() / "../shared/data/scope/mdo4104c";
     if (!fs::exists(data / "RTC.sr")) GTEST_SKIP() << "no shared data here";
     const auto sr = format_.read(data / "RTC.sr", {}, {});
     ASSERT_TRUE(sr.has_value()) << sr.error().message;
