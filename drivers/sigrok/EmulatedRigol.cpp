@@ -124,13 +124,12 @@ void EmulatedRigol::set(std::string_view what, std::string_view value) {
         memory_ = value == "RAW";
     } else if (what == ":WAV:SOUR") {
         read_ = value == "CHAN2" ? 1 : 0;
-    } else if (what == ":WAV:END" && (read_ == 1 || !channels_[1].on)) {
-        ++readOut_;
     }
 }
 
 std::string EmulatedRigol::block() {
     const std::size_t count = length();
+    if (read_ == 1 || !channels_[1].on) ++readOut_;
     const auto& channel = channels_[static_cast<std::size_t>(read_)];
     std::vector<double> volts(count);
     if (trigger_s_) {

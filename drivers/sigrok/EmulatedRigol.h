@@ -41,7 +41,7 @@ public:
 
     /// Whether it waits for a trigger.
     [[nodiscard]] bool waiting();
-    /// Records read out completely (by :WAV:END of the last channel that is on).
+    /// Records read out: those of which the last channel that is on was asked for.
     [[nodiscard]] std::uint64_t readOut() const noexcept { return readOut_; }
 
 private:

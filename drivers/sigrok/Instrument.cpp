@@ -46,9 +46,10 @@ std::string labelOf(sigrok::HardwareDevice& device) {
 
 Result<std::unique_ptr<Instrument>> Instrument::open(std::shared_ptr<SigrokLibrary> library, const std::string& name,
                                                      const std::vector<std::pair<std::string, std::string>>& options) {
+    // Declared before the turn, so that it ends after it: closing what could not be opened takes a turn of its own.
+    std::unique_ptr<Instrument> made(new Instrument(library));
     const auto calls = library->calls();
     if (!calls) return failure(calls);
-    std::unique_ptr<Instrument> made(new Instrument(library));
     const auto opened = guarded("the instrument cannot be opened", [&]() -> Result<void> {
         const auto drivers = library->context()->drivers();
         const auto driver = drivers.find(name);

@@ -45,6 +45,17 @@ TEST(SigrokDemo, IsListedAsSimulatedAndNothingIsTouched) {
     EXPECT_TRUE(listed[1].placeholder);
 }
 
+TEST(SigrokDriver, RefusesAnUnknownDriverWithoutWaitingForItself) {
+    const SteadyClock clock;
+    const auto since = std::chrono::steady_clock::now();
+    const auto devices = openDemo("sigrok:no-such-driver", clock);
+    const Seconds took = std::chrono::steady_clock::now() - since;
+    ASSERT_FALSE(devices.has_value());
+    EXPECT_EQ(devices.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(devices.error().message, HasSubstr("\"no-such-driver\""));
+    EXPECT_LT(took.count(), 3) << "a turn in libsigrok is waited for for 5 s";
+}
+
 TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
     const SteadyClock clock;
     auto devices = openDemo("sigrok:demo?voltage=A0&current=A1&shunt=100", clock);
