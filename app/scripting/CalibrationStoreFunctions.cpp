@@ -79,6 +79,17 @@ double worstUncertainty_pct(const Json& levels) {
     return worst;
 }
 
+/// The largest distance of a level's mean from the line; NaN where a level has none.
+double largestResidual(const Json& levels) {
+    double largest = 0;
+    for (const auto& level : levels) {
+        const Json residual = level.value("residual", Json());
+        if (!residual.is_number()) return std::nan("");
+        largest = std::max(largest, std::abs(residual.get<double>()));
+    }
+    return largest;
+}
+
 /// The line of one quantity, from what analysis.calibration() found.
 Result<StoredLine> lineFound(const Arguments& arguments, const Json& found, std::string_view quantity) {
     const Json one = found.value(std::string(quantity), Json());
@@ -97,6 +108,7 @@ Result<StoredLine> lineFound(const Arguments& arguments, const Json& found, std:
     line.offset = one.value("offset", std::nan(""));
     const Json& levels = one.at("levels");
     line.uncertainty_pct = worstUncertainty_pct(levels);
+    line.residual = largestResidual(levels);
     line.lowest = levels.front().value("commanded", std::nan(""));
     line.highest = levels.back().value("commanded", std::nan(""));
     return line;

@@ -141,6 +141,7 @@ SourceTraits idealSource(Drive drive) noexcept {
     source.amplitudeMax = kFarAway;
     source.compliance = Volts(kFarAway);
     source.widthMax = Micros(100'000);
+    source.accuracy = StatedAccuracy::exact();
     return source;
 }
 

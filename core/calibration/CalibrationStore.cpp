@@ -1,5 +1,6 @@
 #include "core/calibration/CalibrationStore.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -59,7 +60,22 @@ std::string digestOf(const json& body) { return sha256Hex(body.dump()); }
 }  // namespace
 
 StimulatorCalibration linesOf(const StoredCalibration& stored) {
-    return {stored.amplitude, stored.interval, stored.phaseWidth, stored.gap};
+    const auto known = [](const StoredLine& line) {
+        CalibrationLine out = line;
+        // U is stated in % of the command; what comes out may be less than that.
+        double leastDelivered = 1;
+        for (const double told : {line.lowest, line.highest})
+            leastDelivered = std::min(leastDelivered, line.delivered(told) / told);
+        const double relative = line.uncertainty_pct / 100 / leastDelivered;
+        out.spread = line.residual ? Spread{relative, *line.residual}
+                                   : Spread{std::max(relative, kUnknownSpread.relative), kUnknownSpread.absolute};
+        return out;
+    };
+    StimulatorCalibration lines{known(stored.amplitude)};
+    if (stored.interval) lines.interval = known(*stored.interval);
+    if (stored.phaseWidth) lines.phaseWidth = known(*stored.phaseWidth);
+    if (stored.gap) lines.gap = known(*stored.gap);
+    return lines;
 }
 
 Result<CalibrationStore> CalibrationStore::open(std::filesystem::path file) {

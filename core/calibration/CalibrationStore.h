@@ -40,6 +40,8 @@ struct CalibrationInstrument {
 /// What one quantity comes out as, and how surely that is known.
 struct StoredLine : CalibrationLine {
     double uncertainty_pct = 0;  ///< U (95 %) of what is delivered, largest over the levels, in % of the command
+    /// The largest distance of a level's mean from the line, in the quantity's unit. Older files do not state it.
+    std::optional<double> residual{};
 };
 
 struct StoredCalibration {
@@ -64,6 +66,8 @@ struct StoredTime {
 inline constexpr std::array<StoredTime, 3> kStoredTimes{{{"interval", "interval", &StoredCalibration::interval},
                                                          {"width", "phase width", &StoredCalibration::phaseWidth},
                                                          {"gap", "inter-phase gap", &StoredCalibration::gap}}};
+/// The lines with their spread: U and the largest residual. Where the residual is not stated, U alone, or ± 5 % where
+/// that is more.
 [[nodiscard]] StimulatorCalibration linesOf(const StoredCalibration& stored);
 
 class CalibrationStore {

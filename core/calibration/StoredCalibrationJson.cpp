@@ -38,15 +38,22 @@ Result<void> checkLine(const StoredLine& line, const std::string& serial, std::s
         return fail(ErrorCode::InvalidArgument, "calibration of {}: uncertainty of {} {} %; above 0 was expected",
                     serial, quantity, line.uncertainty_pct);
     }
+    if (line.residual && !(*line.residual >= 0 && std::isfinite(*line.residual))) {
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration of {}: largest residual of {} {}; 0 or more was expected", serial, quantity,
+                    *line.residual);
+    }
     return {};
 }
 
 json toJson(const StoredLine& line) {
-    return {{"gain", line.gain},
-            {"offset", line.offset},
-            {"uncertainty_pct", line.uncertainty_pct},
-            {"lowest", line.lowest},
-            {"highest", line.highest}};
+    json out = {{"gain", line.gain},
+                {"offset", line.offset},
+                {"uncertainty_pct", line.uncertainty_pct},
+                {"lowest", line.lowest},
+                {"highest", line.highest}};
+    if (line.residual) out["residual"] = *line.residual;
+    return out;
 }
 
 StoredLine lineFrom(const json& in) {
@@ -56,6 +63,7 @@ StoredLine lineFrom(const json& in) {
     line.uncertainty_pct = in.at("uncertainty_pct").get<double>();
     line.lowest = in.at("lowest").get<double>();
     line.highest = in.at("highest").get<double>();
+    if (in.contains("residual")) line.residual = in.at("residual").get<double>();
     return line;
 }
 

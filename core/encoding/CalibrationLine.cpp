@@ -46,12 +46,19 @@ Result<void> validateNumbers(const CalibrationLine& line, std::string_view quant
                     "the stimulator's calibration of {} covers {} to {}; a range above 0 is needed", quantity, quantity,
                     line.lowest, line.highest);
     }
+    const Spread spread = line.spread.value_or(kUnknownSpread);
+    if (!spread.sound()) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the stimulator's calibration of {} has an uncertainty of {} % and {}; 0 or more and less than 100 "
+                    "% are needed",
+                    quantity, 100 * spread.relative, spread.absolute);
+    }
     for (const double told : {line.lowest, line.highest}) {
-        if (!(line.delivered(told) >= kSmallestShare * told)) {
+        if (!(spread.below(line.delivered(told)) >= kSmallestShare * told)) {
             return fail(ErrorCode::InvalidArgument,
-                        "by its calibration of {} the stimulator delivers {:.4g} when it is told {:.4g}; at least a "
+                        "by its calibration of {} the stimulator may deliver {:.4g} when it is told {:.4g}; at least a "
                         "hundredth of it is needed",
-                        quantity, line.delivered(told), told);
+                        quantity, spread.below(line.delivered(told)), told);
         }
     }
     return {};

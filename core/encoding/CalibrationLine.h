@@ -10,9 +10,11 @@
 // Thread-safety: values; pure functions that do not allocate, but for the text of an error.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "core/base/Result.h"
+#include "core/encoding/Spread.h"
 
 namespace tacto {
 
@@ -21,11 +23,14 @@ struct CalibrationLine {
     double offset = 0;  ///< in the quantity's unit, as the two below
     double lowest = 0;  ///< the calibrated range, as told: 0 < lowest < highest
     double highest = 0;
+    /// Of what is delivered, around the line: its uncertainty U (95 %) and the largest residual. Nothing: nobody knows.
+    std::optional<Spread> spread{};
 
     /// Both for values of 0 and more; NaN stays NaN.
     [[nodiscard]] double delivered(double told) const noexcept;
     [[nodiscard]] double told(double delivered) const noexcept;
-    /// The most and the least that may be delivered: outside the range the line, too, may go on. For judging.
+    /// The most and the least of what the line may stand for: outside the range the line, too, may go on. Without its
+    /// spread.
     [[nodiscard]] double atMost(double told) const noexcept;
     [[nodiscard]] double atLeast(double told) const noexcept;
     bool operator==(const CalibrationLine&) const = default;
@@ -36,8 +41,8 @@ private:
 
 inline constexpr double kLargestMiscalibration = 0.2;
 
-/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, a range that is none, or an
-/// output below a hundredth of what is told at either end of it; `quantity` is named.
+/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, a range that is none, a spread
+/// that is none, or an output below a hundredth of what is told at either end of it; `quantity` is named.
 [[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
 /// Errors: as above, and for an output more than 20 % from what is told at either end of the range.
 [[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);

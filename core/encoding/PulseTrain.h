@@ -49,8 +49,21 @@ struct PulseTrain {
     [[nodiscard]] Seconds duration() const noexcept;
     /// From the leading edge to the end of the last phase of one pulse.
     [[nodiscard]] Seconds pulseDuration() const noexcept;
+    /// From the first leading edge to the end of the last phase of the last pulse.
+    [[nodiscard]] Seconds outputDuration() const noexcept;
     bool operator==(const PulseTrain&) const = default;
 };
+
+/// `train` with `change` applied to its amplitude, in V or mA, whichever it is.
+template <class Change>
+[[nodiscard]] PulseTrain withAmplitude(PulseTrain train, Change change) noexcept {
+    if (const auto* volts = std::get_if<Volts>(&train.amplitude)) {
+        train.amplitude = Volts(change(volts->value()));
+    } else {
+        train.amplitude = Milliamps(change(std::get<Milliamps>(train.amplitude).value()));
+    }
+    return train;
+}
 
 /// Refuses what no stimulator could mean: values that are not finite or negative, n < 1, a pulse longer than
 /// its period, a recharge ratio not above 1. Says nothing about safety.

@@ -6,16 +6,6 @@ namespace tacto {
 
 namespace {
 
-template <class Change>
-PulseTrain withAmplitude(PulseTrain train, Change change) noexcept {
-    if (const auto* volts = std::get_if<Volts>(&train.amplitude)) {
-        train.amplitude = Volts(change(volts->value()));
-    } else {
-        train.amplitude = Milliamps(change(std::get<Milliamps>(train.amplitude).value()));
-    }
-    return train;
-}
-
 Seconds told(Seconds wanted, const std::optional<CalibrationLine>& line) noexcept {
     return line ? Seconds(line->told(wanted.count())) : wanted;
 }
@@ -67,11 +57,6 @@ PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexce
 PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept {
     if (!calibration) return train;
     return withAmplitude(train, [&](double told) { return calibration->amplitude.atLeast(told); });
-}
-
-TimeRange deliveredRange(Seconds told, const std::optional<CalibrationLine>& line) noexcept {
-    if (!line) return {told, told};
-    return {std::min(told, Seconds(line->atLeast(told.count()))), std::max(told, Seconds(line->atMost(told.count())))};
 }
 
 }  // namespace tacto

@@ -34,17 +34,11 @@ using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everythi
 [[nodiscard]] PulseTrain toldFor(PulseTrain train, const KnownLines& calibration) noexcept;
 [[nodiscard]] Seconds toldFor(Seconds interval, const KnownLines& calibration) noexcept;
 
-/// What comes out of a train that is told, as far as the calibration knows; beyond the range of a line the most.
+/// What comes out of a train that is told, by the lines alone; beyond the range of a line the most. What their spread
+/// adds, the gate judges: core/safety/DeliveryBounds.h.
 [[nodiscard]] PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& calibration) noexcept;
-/// `train` with the most, and with the least, amplitude that the stimulator then delivers; times as told.
+/// `train` with the most, and with the least, amplitude that the stimulator then delivers by its line; times as told.
 [[nodiscard]] PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
 [[nodiscard]] PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
-
-/// Between which a time that is told may come out, itself among them.
-struct TimeRange {
-    Seconds least{0};
-    Seconds most{0};
-};
-[[nodiscard]] TimeRange deliveredRange(Seconds told, const std::optional<CalibrationLine>& line) noexcept;
 
 }  // namespace tacto

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/safety/DeliveryBounds.h"
 #include "core/safety/GateRules.h"
 
 namespace tacto {
@@ -43,15 +45,25 @@ bool hasRow(std::span<const ExposureRow> rows, Quantity quantity) noexcept {
 
 std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
     const double area = gate::areaOf(setup);
-    const TrainExposure overRange = worstExposure(train, interval, setup.load, setup.source, area);
-    const TrainExposure at500 = exposureOf(train, interval, Load::resistor(Ohms(500)), setup.source, area);
-    const double hz = 1 / interval.count();
+    const DeliveryBounds bounds(setup);
+    const auto [shortest, longest] = bounds.intervals(interval);
+    TrainExposure overRange = bounds.worst(train, [&, least = shortest](const PulseTrain& out) {
+        return worstExposure(out, least, setup.load, setup.source, area);
+    });
+    TrainExposure at500 = bounds.worst(train, [&, least = shortest](const PulseTrain& out) {
+        return exposureOf(out, least, Load::resistor(Ohms(500)), setup.source, area);
+    });
+    // The command is judged as it is; that a train cannot be judged stays.
+    for (TrainExposure* exposure : {&overRange, &at500}) {
+        double& command = exposure->values[indexOf(Quantity::CommandVoltage)];
+        if (!std::isnan(command)) command = commandVoltage(bounds.commandOf(train), setup.load.nominal, setup.source);
+    }
     std::vector<ExposureRow> rows;
     for (const auto& limit : gate::activeLimits(setup)) {
-        if (!limit.row.holdsAt(hz)) continue;
+        if (!limit.row.holdsAt(1 / longest.count()) && !limit.row.holdsAt(1 / shortest.count())) continue;
         const TrainExposure& judged = limit.row.judged == JudgedAt::Ohm500 ? at500 : overRange;
         rows.push_back(gate::rowOf(limit, judged.at(limit.row.quantity), setup.electrodeArea.has_value(),
-                                   isCurrent(train.amplitude)));
+                                   isCurrent(train.amplitude) || setup.calibration));
     }
     for (const auto quantity : gate::kShown) {
         if (!gate::hasRow(rows, quantity)) rows.push_back(gate::shownRow(quantity, overRange.at(quantity)));

@@ -43,6 +43,9 @@ enum Check : int {
     ImpedanceJump,
     // approve()
     MoreThanTold,
+    Uncertainty,
+    PulseBeyondPeriod,
+    LongWithoutDeadMan,
     MeterFull,
     MalformedTrain,
     SourceKind,

@@ -70,6 +70,12 @@ Result<void> checkSource(const SourceTraits& s) {
     if (s.drive == Drive::Current && !positive(s.compliance.value())) {
         return invalid("the current source states no compliance; its voltage could not be judged");
     }
+    for (const auto& stated : {s.accuracy.amplitude, s.accuracy.phaseWidth, s.accuracy.gap, s.accuracy.interval}) {
+        if (stated && !stated->sound()) {
+            return invalid("the source states an accuracy of {} % and {}; 0 or more and less than 100 % are needed",
+                           100 * stated->relative, stated->absolute);
+        }
+    }
     return {};
 }
 

@@ -32,34 +32,6 @@ double SafetyGate::State::carriedAt(Instant now) const noexcept {
     return left;
 }
 
-PulseTrain SafetyGate::State::judgedAs(const PulseTrain& train) const noexcept {
-    const PulseTrain delivered = mostDelivered(train, setup->calibration);
-    return siValue(delivered.amplitude) > siValue(train.amplitude) && checks(MoreThanTold) ? delivered : train;
-}
-
-PulseTrain SafetyGate::State::feltAs(const PulseTrain& train) const noexcept {
-    const PulseTrain delivered = leastDelivered(train, setup->calibration);
-    return siValue(delivered.amplitude) < siValue(train.amplitude) ? delivered : train;
-}
-
-PulseTrain SafetyGate::State::commandOf(const PulseTrain& train) const noexcept {
-    if (!setup->calibrated || !setup->calibration) return train;
-    return deliveredBy(train, *setup->calibration);
-}
-
-TimeRange SafetyGate::State::intervalsOf(Seconds told) const noexcept {
-    if (!setup->calibration || !checks(MoreThanTold)) return {told, told};
-    return deliveredRange(told, setup->calibration->interval);
-}
-
-double SafetyGate::State::stretchAt(Seconds told) const noexcept {
-    if (!setup->calibration || !setup->calibration->interval) return 1;
-    const auto& line = *setup->calibration->interval;
-    double least = 1;  // of what comes out to what is told
-    for (const double at : {told.count(), line.lowest, line.highest}) least = std::min(least, line.atLeast(at) / at);
-    return 1 / least;
-}
-
 Result<void> SafetyGate::State::withinCalibration(const TrainRequest& request) const {
     const auto& known = setup->calibration;
     if (!checks(PersonBeyondCalibration) || !known || !known->complete()) return {};  // configure() demands them
@@ -96,7 +68,7 @@ Result<void> SafetyGate::State::judge(const Judged& request) const {
         } else if (row.quantity != Quantity::CommandVoltage) {  // which is the same in any case
             const Load& usual = person() ? load.nominal : setup->load.nominal;
             const auto there =
-                exposureOf(request.train, request.intervals.least, usual, setup->source, area, {request.carried_V});
+                exposureOf(request.command, request.interval, usual, setup->source, area, {request.carried_V});
             aside = fmt::format(" in the worst case ({:.4g} {} into {})", there.at(row.quantity), unitOf(row.quantity),
                                 usual.text());
         }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/safety/AcceptedLevels.h"
+#include "core/safety/DeliveryBounds.h"
 #include "core/safety/ExposureMeter.h"
 #include "core/safety/GateChecks.h"
 #include "core/safety/GateRules.h"
@@ -19,6 +20,7 @@ namespace tacto {
 
 struct SafetyGate::State {
     std::optional<GateSetup> setup;  // Nothing: everything is refused
+    std::optional<DeliveryBounds> bounds;  // of setup
     std::vector<gate::ActiveLimit> limits;
     LoadRange load;
     double area = 0;
@@ -46,44 +48,17 @@ struct SafetyGate::State {
     [[nodiscard]] bool commandIsComputed() const noexcept {
         return setup && (setup->source.drive == Drive::Current || setup->calibration.has_value());
     }
-    /// What a train counts as: the larger amplitude of what the stimulator is told and what it may deliver.
-    [[nodiscard]] PulseTrain judgedAs(const PulseTrain& train) const noexcept;
-    /// What was commanded: of a calibrated stimulator what it delivers, else what it is told.
-    [[nodiscard]] PulseTrain commandOf(const PulseTrain& train) const noexcept;
-    /// What an accepted level counts as: the smaller of what the stimulator was told and what it may have delivered.
-    [[nodiscard]] PulseTrain feltAs(const PulseTrain& train) const noexcept;
-    /// Between which an interval may come out: the shortest gives the most exposure, the longest the lowest band.
-    [[nodiscard]] TimeRange intervalsOf(Seconds told) const noexcept;
-    /// How much longer a window of real time may last by the clock that trains are booked on: 1 or more.
-    [[nodiscard]] double stretchAt(Seconds told) const noexcept;
-    /// `exposure`, a function of a train, at its worst over the phase widths and gaps that `judged` may come out with.
-    template <class Exposure>
-    [[nodiscard]] TrainExposure worstOf(const PulseTrain& judged, Exposure exposure) const noexcept {
-        TrainExposure worst = exposure(judged);
-        const auto& known = setup->calibration;
-        if (!known || !gate::checks(gate::MoreThanTold)) return worst;
-        const auto width = deliveredRange(judged.phaseWidth, known->phaseWidth);
-        const auto gap = deliveredRange(judged.interPhaseGap, known->gap);
-        for (const Seconds w : {width.least, width.most}) {
-            for (const Seconds g : {gap.least, gap.most}) {
-                PulseTrain out = judged;
-                out.phaseWidth = w;
-                out.interPhaseGap = g;
-                if (out != judged) worst = worse(worst, exposure(out));
-            }
-        }
-        return worst;
-    }
     /// Errors: LimitExceeded where a person's request leaves the range in which the stimulator was calibrated, to the
     /// side that adds exposure, by more than it may be off.
     [[nodiscard]] Result<void> withinCalibration(const TrainRequest& request) const;
     [[nodiscard]] double carriedAt(Instant now) const noexcept;
     /// A request on its way through the judgement.
     struct Judged {
-        PulseTrain train;      // as judgedAs() gave it
-        TimeRange intervals;   // between which its interval may come out
-        double stretch = 1;    // as stretchAt() gave it
-        double carried_V = 0;  // what it may find on the load
+        PulseTrain command;            // what it should come out as, for the figure beside the worst case
+        Seconds interval{0};           // as it was asked for
+        TimeRange<Seconds> intervals;  // between which it may come out
+        double stretch = 1;            // as DeliveryBounds::stretch()
+        double carried_V = 0;          // what it may find on the load
         TrainExposure overRange, at500;
         /// For frequency bands: the lowest.
         [[nodiscard]] double hz() const noexcept { return 1 / intervals.most.count(); }

@@ -13,7 +13,7 @@ using namespace gate;
 
 namespace {
 constexpr Instant kImpedanceAge = std::chrono::seconds(5);
-constexpr double kMostStretch = 1 / (1 - kLargestMiscalibration);  // the next request may need more than this one
+constexpr double kMostStretch = 2;  // the next request may need more than this one
 constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
 
 std::uint64_t firstEpoch() noexcept {
@@ -30,6 +30,7 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
     State& s = *state_;
     s.setup.reset();
     if (auto sound = checkSetup(setup); !sound) return sound;
+    s.bounds.emplace(setup);
     s.limits = activeLimits(setup);
     s.area = areaOf(setup);
     s.check = checkTrainOf(setup);
@@ -137,7 +138,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
         }
         if (auto known = s.withinCalibration(request); !known) return failure(known);
         if (checks(PersonLevel)) {
-            if (auto permitted = s.levels->permits(s.judgedAs(request.train)); !permitted) return failure(permitted);
+            if (auto permitted = s.levels->permits(s.bounds->levelOf(request.train)); !permitted) return failure(permitted);
         }
     }
     return grant(request.train, request.interval, epoch, now);
@@ -154,7 +155,7 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     }
     const Seconds interval = std::max(kCheckInterval, s.check.duration());
     if (s.person() && checks(CheckDiscomfort)) {
-        const double level = siValue(s.judgedAs(s.check).amplitude) * 1e3;
+        const double level = siValue(s.bounds->levelOf(s.check).amplitude) * 1e3;
         if (!(level <= s.levels->discomfortLimit().value())) {
             return fail(ErrorCode::LimitExceeded,
                         "the check pulse of {:.4g} mA is above this person's discomfort limit of {:.4g} mA", level,
@@ -167,28 +168,44 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
 Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant now) {
     State& s = *state_;
     State::Judged request;
-    request.intervals = s.intervalsOf(interval);
+    const DeliveryBounds& bounds = *s.bounds;
+    request.interval = interval;
+    request.intervals = bounds.intervals(interval);
     if (checks(IntervalBelowTrain) && !(train.duration() <= request.intervals.least * (1 + kRounding))) {
         return fail(ErrorCode::InvalidArgument,
                     "interval {:.6g} s would come out as {:.6g} s, which is shorter than the train, {:.6g} s",
                     interval.count(), request.intervals.least.count(), train.duration().count());
     }
-    request.stretch = s.stretchAt(interval);
+    const PulseTrain longest = bounds.largest(train);
+    if (checks(PulseBeyondPeriod) && !validate(longest)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "a pulse of {:.6g} us may come out as {:.6g} us, which is longer than its period of {:.6g} us",
+                    Micros(train.pulseDuration()).count(), Micros(longest.pulseDuration()).count(),
+                    1e6 / train.rate.value());
+    }
+    const Seconds lasts = longest.outputDuration();
+    if (checks(LongWithoutDeadMan) && !(s.setup->source.deadMan.count() > 0) && !(lasts <= kLongestWithoutDeadMan)) {
+        return fail(ErrorCode::LimitExceeded,
+                    "the train would last {:.4g} s; this stimulator has no dead-man switch that would end it if the "
+                    "program failed, and at most {:.4g} s is accepted",
+                    lasts.count(), kLongestWithoutDeadMan.count());
+    }
+    request.stretch = bounds.stretch(interval);
     s.meter.forget(now, std::max(request.stretch, kMostStretch));
     if (checks(MeterFull) && !s.meter.canBook()) {
         return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
                     s.meter.size());
     }
     request.carried_V = s.carriedAt(now);
-    request.train = s.judgedAs(train);
+    request.command = bounds.commandOf(train);
     const auto& source = s.setup->source;
-    request.overRange = s.worstOf(request.train, [&](const PulseTrain& out) {
+    request.overRange = bounds.worst(train, [&](const PulseTrain& out) {
         return worstExposure(out, request.intervals.least, s.load, source, s.area, {request.carried_V});
     });
-    request.at500 = s.worstOf(request.train, [&](const PulseTrain& out) {
+    request.at500 = bounds.worst(train, [&](const PulseTrain& out) {
         return exposureOf(out, request.intervals.least, Load::resistor(Ohms(500)), source, s.area);
     });
-    const double command_V = commandVoltage(s.commandOf(train), s.load.nominal, source);
+    const double command_V = commandVoltage(request.command, s.load.nominal, source);
     for (TrainExposure* exposure : {&request.overRange, &request.at500})
         exposure->values[indexOf(Quantity::CommandVoltage)] = command_V;
     if (auto kept = s.judge(request); !kept) return failure(kept);
@@ -219,7 +236,7 @@ Result<void> SafetyGate::accept(const PulseTrain& train) {
     if (!state_->setup || !state_->person())
         return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
     if (auto sound = validate(train); !sound) return sound;
-    return state_->levels->accept(state_->feltAs(train));
+    return state_->levels->accept(state_->bounds->acceptedAs(train));
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {

@@ -2,9 +2,26 @@
 // rounding uses it, the bench plans by it. Constant while the device is open.
 #pragma once
 
+#include <optional>
+
 #include "core/encoding/PulseTrain.h"
+#include "core/encoding/Spread.h"
 
 namespace tacto {
+
+/// How far what comes out may be from what is told, as the maker or the driver's document states it. Nothing: not
+/// stated, and ± 5 % is judged (kUnknownSpread).
+struct StatedAccuracy {
+    std::optional<Spread> amplitude{};   ///< V or mA
+    std::optional<Spread> phaseWidth{};  ///< s
+    std::optional<Spread> gap{};         ///< s
+    std::optional<Spread> interval{};    ///< s
+    /// Of an ideal source.
+    [[nodiscard]] static StatedAccuracy exact() noexcept { return {Spread{}, Spread{}, Spread{}, Spread{}}; }
+};
+
+/// The longest train of a source without a dead-man: nothing ends it when the program is gone.
+inline constexpr Seconds kLongestWithoutDeadMan{2};
 
 struct SourceTraits {
     Drive drive = Drive::Voltage;        ///< Voltage or Current; never HighImpedance
@@ -21,6 +38,7 @@ struct SourceTraits {
     bool readsBack = true;        ///< status() tells open, short and impedance after each train
     Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
     Volts checkVoltage{1};        ///< the same on a voltage source
+    StatedAccuracy accuracy;
 };
 
 }  // namespace tacto

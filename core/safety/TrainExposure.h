@@ -61,7 +61,8 @@ struct Carried {
 /// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.
 [[nodiscard]] double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_cm2) noexcept;
 
-/// Every limit of the setup's sets and ceilings against this train, worst case, without the meter; then the in-train
+/// Every limit of the setup's sets and ceilings against this train, in the worst case over the load range and over what
+/// the stimulator may make of it (DeliveryBounds.h), without the meter; then the in-train
 /// RMS without a limit. What a report and a preview show. Density rows without an area read not evaluated.
 [[nodiscard]] std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval);
 

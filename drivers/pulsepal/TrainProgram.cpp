@@ -8,6 +8,8 @@ namespace {
 /// menu takes 1). Two make a plateau.
 constexpr std::uint32_t kPhaseCyclesLeast = 2;
 constexpr std::uint32_t kPauseCyclesLeast = 2;
+/// The last cycle lies behind the train's end.
+constexpr auto kCyclesLongestTrain = static_cast<std::uint64_t>(Micros(kLongestWithoutDeadMan) / kCycle) + 1;
 
 template <class T>
 tl::unexpected<Error> unsupported(const Result<T>& failed) {
@@ -84,9 +86,11 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
         }
     }
     const std::uint64_t whole = period * static_cast<std::uint64_t>(train.pulses - 1) + pulse + 1;
-    if (whole > kCyclesMost) {
-        return fail(ErrorCode::Unsupported, "Pulse Pal: a train of {} s; at most 3600 s is accepted",
-                    static_cast<double>(whole) * kCycle.count() * 1e-6);
+    // The gate refuses it before; here nothing that it gets wrong can start what no one ends.
+    if (whole > kCyclesLongestTrain) {
+        return fail(ErrorCode::Unsupported,
+                    "Pulse Pal: a train of {:.6g} s; it has no dead-man switch, and at most {:.4g} s is accepted",
+                    static_cast<double>(whole - 1) * kCycle.count() * 1e-6, kLongestWithoutDeadMan.count());
     }
 
     TrainProgram program;

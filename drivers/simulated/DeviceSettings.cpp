@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/encoding/CalibrationLine.h"
 #include "drivers/simulated/UriParameters.h"
 
 namespace tacto::sim {
@@ -68,6 +69,15 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     settings.widthGain = from.quantity("widthgain", "", 1, 0.8, 1.25);
     settings.widthError = Seconds(from.quantity("widtherror", "s", 0, -1e-4, 1e-4));
     settings.gapError = Seconds(from.quantity("gaperror", "s", 0, -1e-4, 1e-4));
+    // The twin states what it is off by, unless that is out of order: such a device does not know it. Its onsets jitter
+    // around the rhythm that the computer keeps.
+    const double off = std::abs(settings.gain - 1);
+    traits.accuracy = {.amplitude = off <= kLargestMiscalibration
+                                        ? std::optional(Spread{off, std::abs(settings.offset) * scale})
+                                        : std::nullopt,
+                       .phaseWidth = Spread{std::abs(settings.widthGain - 1), std::abs(settings.widthError.count())},
+                       .gap = Spread{0, std::abs(settings.gapError.count())},
+                       .interval = Spread{}};
     settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
     settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));
     settings.jitter = Seconds(from.quantity("jitter", "s", settings.jitter.count(), 0, 0.01));

@@ -139,6 +139,30 @@ TEST_F(CalibrationStoreFile, KeepsTheLineOfEachQuantity) {
     EXPECT_DOUBLE_EQ(again.latest("A1", "V")->phaseWidth->uncertainty_pct, 0.2);
 }
 
+TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
+    RecordProperty("hazard", "H1");
+    auto made = sample("A1", 0.9);
+    made.amplitude.offset = 0;
+    made.amplitude.residual = 0.05;
+    made.phaseWidth->uncertainty_pct = 8;
+    ASSERT_TRUE(store().add(made));
+    const auto lines = linesOf(*store().latest("A1", "V"));
+    // 0.6 % of the command are 0.667 % of the nine tenths that come out.
+    ASSERT_TRUE(lines.amplitude.spread);
+    EXPECT_NEAR(lines.amplitude.spread->relative, 0.006 / 0.9, 1e-12);
+    EXPECT_DOUBLE_EQ(lines.amplitude.spread->absolute, 0.05);
+    // Files from before state no residual: 5 %, or U where that is more.
+    ASSERT_TRUE(lines.gap->spread);
+    EXPECT_DOUBLE_EQ(lines.gap->spread->relative, 0.05);
+    EXPECT_NEAR(lines.phaseWidth->spread->relative, 0.08, 1e-3);
+    for (const double wrong : {-1.0, kNan}) {
+        made.amplitude.residual = wrong;
+        const auto added = store().add(made);
+        ASSERT_FALSE(added) << wrong;
+        EXPECT_THAT(added.error().message, HasSubstr("largest residual"));
+    }
+}
+
 TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     RecordProperty("hazard", "H9");
     ASSERT_TRUE(store().add(sample("A1")));

@@ -50,6 +50,13 @@ void addConfigureCases(std::vector<GateCase>& cases) {
             s.source.compliance = Volts(0);
         }),
         "no compliance");
+    for (const Spread wrong : {Spread{1, 0}, Spread{-0.1, 0}, Spread{kNaN, 0}, Spread{0, -1}, Spread{0, kNaN}}) {
+        add(BadSource, bench([wrong](auto& s) { s.source.accuracy.gap = wrong; }), "states an accuracy");
+        add(BadCalibration, bench([wrong](auto& s) {
+                s.calibration = StimulatorCalibration{CalibrationLine{1, 0, 10, 40, wrong}};
+            }),
+            "has an uncertainty");
+    }
     add(BadLoad, bench([](auto& s) { s.load = LoadRange::declared(Load::openCircuit()); }), "cannot be judged");
     add(BadLoad, bench([](auto& s) { s.load.max.series = Ohms(kNaN); }), "cannot be judged");
     add(BadArea, bench([](auto& s) { s.electrodeArea = SquareCentimetres(0); }), "electrode area is");
@@ -181,7 +188,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         GateSetup setup = benchSetup();
         setup.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 11)})};
         const bool fine = Rig(setup).ask(volts(10)).has_value();
-        setup.calibration = StimulatorCalibration{{1.15, 0, 5, 40}};
+        setup.calibration = StimulatorCalibration{exactLine(1.15, 0, 5, 40)};
         return fine && refuses(Rig(setup).ask(volts(10)), ErrorCode::LimitExceeded, "11.5");
     });
     // 40 V into 1 kohm, 0.4 ms each 0.5 s: 1.13 mA RMS.
@@ -195,9 +202,9 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.calibration = std::move(known);
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, value);
     };
-    const CalibrationLine known{1, 0, 10, 50};
+    const CalibrationLine known = exactLine(1, 0, 10, 50);
     const auto times = [](double gain, double offset_us) {
-        return CalibrationLine{gain, offset_us * 1e-6, 50e-6, 1e-3};
+        return exactLine(gain, offset_us * 1e-6, 50e-6, 1e-3);
     };
     add(MoreThanTold, "a phase that comes out longer than it is told", [=] {
         return refusedOnly(Quantity::PhaseCharge, 8.5, StimulatorCalibration{known, {}, times(1.05, 5), {}}, "8.6");
@@ -213,7 +220,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, "peak current");
     });
     add(MoreThanTold, "trains that come out sooner than they are told", [=] {
-        const CalibrationLine sooner{0.9, 0, 0.1, 10};
+        const CalibrationLine sooner = exactLine(0.9, 0, 0.1, 10);
         return refusedOnly(Quantity::RmsCurrent5s, 1.15, StimulatorCalibration{known, sooner, {}, {}}, "1.239");
     });
     add(IntervalBelowTrain, "an interval that comes out shorter than its train", [=] {
@@ -221,8 +228,83 @@ void addStateCases(std::vector<GateCase>& cases) {
         PulseTrain train = volts(10);
         train.pulses = 50;  // at 100 Hz
         const bool fine = Rig(setup).ask(train, 0.5).has_value();
-        setup.calibration = StimulatorCalibration{known, CalibrationLine{0.99, 0, 0.1, 10}, {}, {}};
+        setup.calibration = StimulatorCalibration{known, exactLine(0.99, 0, 0.1, 10), {}, {}};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "come out as 0.495 s");
+    });
+    // Each quantity's spread alone makes the difference: of an applied calibration, of an old one, of the source.
+    for (const auto part : {0, 1, 2, 3}) {
+        static constexpr std::array kNames{"amplitude", "phase width", "gap", "interval"};
+        const auto spoilt = [part](auto spread) {
+            std::array<Spread, 4> all{};
+            all[static_cast<std::size_t>(part)] = spread;
+            return all;
+        };
+        const auto refusedWith = [](const auto& spoil) {
+            GateSetup setup = benchSetup(Load::skin(Ohms(500), Ohms(20'000), Nanofarads(50)));
+            setup.source.amplitudeMax = 100;
+            PulseTrain train = volts(40);
+            train.rate = Hertz(1000);
+            const auto exact = worstExposure(train, Seconds(0.5), setup.load, setup.source, kNaN);
+            setup.limits.clear();
+            for (const auto q : {Quantity::RmsCurrent5s, Quantity::PeakCurrent, Quantity::PhaseCharge})
+                setup.limits.push_back(limitsOf({rowFor(q, exact.at(q) * 1.001)}));
+            const bool fine = Rig(setup).ask(train, 0.5).has_value();
+            spoil(setup);
+            const auto asked = Rig(setup).ask(train, 0.5);
+            return fine && !asked && asked.error().code == ErrorCode::LimitExceeded;
+        };
+        add(Uncertainty, std::string("a stated inaccuracy of the ") + kNames[static_cast<std::size_t>(part)], [=] {
+            return refusedWith([&](GateSetup& setup) {
+                const auto all = spoilt(Spread{0.05, 0});
+                setup.source.accuracy = {all[0], all[1], all[2], all[3]};
+            });
+        });
+        for (const bool applied : {true, false}) {
+            add(Uncertainty, std::string("a calibration's uncertainty of the ") + kNames[static_cast<std::size_t>(part)],
+                [=] {
+                    return refusedWith([&](GateSetup& setup) {
+                        const auto all = spoilt(Spread{0, part == 0 ? 2 : part == 3 ? 0.02 : 10e-6});
+                        setup.calibration = StimulatorCalibration{
+                            CalibrationLine{1, 0, 10, 50, all[0]}, CalibrationLine{1, 0, 0.1, 10, all[3]},
+                            CalibrationLine{1, 0, 50e-6, 1e-3, all[1]}, CalibrationLine{1, 0, 50e-6, 1e-3, all[2]}};
+                        setup.calibrated = applied;
+                    });
+                });
+        }
+    }
+    add(Uncertainty, "a source that states no accuracy, and a calibration that states no uncertainty", [=] {
+        const auto refused = [](auto spoil) {
+            GateSetup setup = benchSetup();
+            setup.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 41.9)})};
+            const bool fine = Rig(setup).ask(volts(40)).has_value();
+            spoil(setup);
+            return fine && refuses(Rig(setup).ask(volts(40)), ErrorCode::LimitExceeded, "would be 42 V");
+        };
+        return refused([](GateSetup& setup) { setup.source.accuracy = {}; }) && refused([](GateSetup& setup) {
+                   setup.calibration = StimulatorCalibration{{1, 0, 10, 50}};
+                   setup.calibrated = true;
+               });
+    });
+    add(LongWithoutDeadMan, "a train over 2 s of a source without a dead-man switch", [] {
+        const auto asked = [](double deadMan_s, int pulses) {
+            GateSetup setup = benchSetup();
+            setup.source.deadMan = Seconds(deadMan_s);
+            PulseTrain train = volts(1);
+            train.pulses = pulses;  // at 100 Hz: the 201st begins after 2 s
+            return Rig(setup).ask(train, 4);
+        };
+        constexpr std::string_view kWords = "no dead-man switch";
+        return asked(0, 200).has_value() && refuses(asked(0, 201), ErrorCode::LimitExceeded, kWords) &&
+               refuses(asked(-1, 201), ErrorCode::LimitExceeded, kWords) &&
+               refuses(asked(kNaN, 201), ErrorCode::LimitExceeded, kWords) && asked(2, 201).has_value();
+    });
+    add(PulseBeyondPeriod, "a pulse that may come out longer than its period", [] {
+        GateSetup setup = benchSetup();
+        PulseTrain train = volts(10);
+        train.rate = Hertz(1990);
+        const bool fine = Rig(setup).ask(train).has_value();
+        setup.source.accuracy.phaseWidth = Spread{0, 5e-6};
+        return fine && refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "longer than its period");
     });
     add(MeterFull, "more trains than the meter holds", [] {
         Rig rig(benchSetup());

@@ -30,8 +30,10 @@ inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}
 
 inline std::vector<LimitSet> shippedLimits() { return loadLimitSets(sourceDir() / "resources" / "limits").value(); }
 
+/// Both deliver exactly what they are told, so that limits can be met to the last digit.
 inline SourceTraits voltageSource() {
     SourceTraits source;
+    source.accuracy = StatedAccuracy::exact();
     source.drive = Drive::Voltage;
     source.amplitudeMax = 60;
     source.compliance = Volts(60);
@@ -40,6 +42,7 @@ inline SourceTraits voltageSource() {
 
 inline SourceTraits currentSource() {
     SourceTraits source;
+    source.accuracy = StatedAccuracy::exact();
     source.drive = Drive::Current;
     source.amplitudeMax = 100;
     source.compliance = Volts(100);
@@ -54,6 +57,11 @@ inline GateSetup benchSetup(Load load = Load::resistor(Ohms(1000))) {
     return setup;
 }
 
+/// Of a calibration that knows what comes out to the last digit.
+inline CalibrationLine exactLine(double gain, double offset, double lowest, double highest) {
+    return {gain, offset, lowest, highest, Spread{}};
+}
+
 inline GateSetup personSetup() {
     GateSetup setup;
     setup.mode = OutputMode::Person;
@@ -66,10 +74,8 @@ inline GateSetup personSetup() {
     person.discomfortLimit = Milliamps(5);
     person.rampStep = Milliamps(0.5);
     setup.person = person;
-    setup.calibration = StimulatorCalibration{{1, 0, 0.1, 50},
-                                              CalibrationLine{1, 0, 0.01, 10},
-                                              CalibrationLine{1, 0, 10e-6, 1e-3},
-                                              CalibrationLine{1, 0, 10e-6, 1e-3}};
+    setup.calibration = StimulatorCalibration{exactLine(1, 0, 0.1, 50), exactLine(1, 0, 0.01, 10),
+                                              exactLine(1, 0, 10e-6, 1e-3), exactLine(1, 0, 10e-6, 1e-3)};
     setup.calibrated = true;
     return setup;
 }

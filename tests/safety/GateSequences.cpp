@@ -59,6 +59,7 @@ private:
         source_.compliance = Volts(current ? dice_.between(50, 150) : 60);
         source_.widthMax = Micros(theme_ == Near::Rms500 || dice_.chance(0.2) ? 400'000 : 4000);
         source_.widthMin = Micros(1);
+        source_.deadMan = Seconds(dice_.chance(0.7) ? 2 : 0);
         setup.source = source_;
         setup.limits = shippedLimits();
 
@@ -105,19 +106,30 @@ private:
             accepted_ = 0;
             seriesOf_.reset();
         }
-        device_ = {};
-        if (dice_.chance(0.3)) device_.amplitude = {dice_.between(0.85, 1.15), dice_.between(-0.2, 0.2)};
-        if (dice_.chance(0.15)) device_.width = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
-        if (dice_.chance(0.15)) device_.gap = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
-        // Known in any case where it is off; sometimes it no longer holds.
-        if (allowed.person || !device_.none() || pace_ != 1) {
-            const auto time = [](const Flaw& flaw) {
-                return CalibrationLine{flaw.gain, flaw.offset * 1e-6, 50e-6, 0.5};
+        known_ = {};
+        if (dice_.chance(0.3)) known_.amplitude = {dice_.between(0.85, 1.15), dice_.between(-0.2, 0.2)};
+        if (dice_.chance(0.15)) known_.width = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
+        if (dice_.chance(0.15)) known_.gap = {dice_.between(0.92, 1.08), dice_.between(-3, 3)};
+        const bool unsure = dice_.chance(0.4);
+        const auto doubt = [&](double most) -> std::optional<Spread> {
+            if (!unsure) return Spread{};
+            if (dice_.chance(0.3)) return std::nullopt;  // 5 %
+            return Spread{dice_.chance(0.4) ? 0 : dice_.between(0, 0.03), dice_.chance(0.5) ? 0 : dice_.between(0, most)};
+        };
+        const auto ofAmplitude = doubt(0.2), ofWidth = doubt(2e-6), ofGap = doubt(2e-6), ofInterval = doubt(1e-4);
+        device_ = {truly(known_.amplitude, ofAmplitude, 1), truly(known_.width, ofWidth, 1e6),
+                   truly(known_.gap, ofGap, 1e6)};
+        setup.source.accuracy = {ofAmplitude, ofWidth, ofGap, ofInterval};
+        // Known in any case where it is off by more than is stated; sometimes it no longer holds.
+        if (allowed.person || !known_.none() || pace_ != 1) {
+            const auto time = [](const Flaw& flaw, const std::optional<Spread>& spread) {
+                return CalibrationLine{flaw.gain, flaw.offset * 1e-6, 50e-6, 0.5, spread};
             };
-            setup.calibration = {{device_.amplitude.gain, device_.amplitude.offset, 5, 50},
-                                 CalibrationLine{pace_, 0, 1e-4, 1000},
-                                 time(device_.width),
-                                 time(device_.gap)};
+            const double paceKnown = pace_ / truly({1, 0}, ofInterval, 0).gain;
+            setup.calibration = {{known_.amplitude.gain, known_.amplitude.offset, 5, 50, ofAmplitude},
+                                 CalibrationLine{paceKnown, 0, 1e-4, 1000, ofInterval},
+                                 time(known_.width, ofWidth),
+                                 time(known_.gap, ofGap)};
         }
         setup.calibrated = setup.calibration && (allowed.person || dice_.chance(0.6));
         calibrated_ = setup.calibrated;
@@ -136,6 +148,14 @@ private:
         last_ = PulseTrain{};  // the check, whose timing is this
         setUnit(last_);
         if (allowed.person && configured_) measure();
+    }
+
+    /// What a device really does of which `known` is known as surely as `doubt` says: often all that it may be off.
+    Flaw truly(const Flaw& known, const std::optional<Spread>& doubt, double perUnit) {
+        const Spread spread = doubt.value_or(Spread{0.05, 0});
+        const auto side = [&] { return dice_.chance(0.5) ? 1.0 : dice_.between(-1, 1); };
+        const double off = 1 + side() * spread.relative;
+        return {known.gain * off, known.offset * off + side() * spread.absolute * perUnit};
     }
 
     void spoil(GateSetup& setup) {
@@ -290,12 +310,12 @@ private:
         busyUntil_ = now() + train.duration().count() / pace_;
         note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
         const double readSince = std::exchange(readAs_, next.readAs);
-        referee(train, facts, next.interval * pace_, calibrated_ ? train : next.approval.train());
+        referee(train, facts, next.interval * pace_, next.approval.train(), known_.outOf(next.approval.train()));
         readAs_ = readSince;
         if (allowed_.person && dice_.chance(0.7) && gate_.accept(next.approval.train())) {
             if (!sameKind(train)) accepted_ = 0;
             seriesOf_ = train;
-            accepted_ = std::max(accepted_, siValue(train.amplitude));
+            accepted_ = std::max(accepted_, siValue(known_.outOf(next.approval.train()).amplitude));
         }
     }
 
@@ -364,7 +384,6 @@ private:
     double pace_ = 1;   // Of true time to the computer's
     double scale_ = 1;  // Where in the permitted range the truth lies
     bool configured_ = false;
-    bool calibrated_ = false;
     PulseTrain last_;  // approved
     std::deque<Pending> pending_;
     double busyUntil_ = 0;

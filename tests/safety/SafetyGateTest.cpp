@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "core/safety/SafetyGate.h"
+#include "core/safety/TrainExposure.h"
 #include "tests/safety/GateCases.h"
 #include "tests/safety/GateFixtures.h"
 #include "tests/support/Allocations.h"
@@ -44,6 +45,75 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
                   0),
               0U)
         << refused.error().message;
+}
+
+TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
+    RecordProperty("hazard", "H1");
+    // 40 V every 0.5 s into 141.4 ohm makes 10.002 mA RMS at the low end of the load range. A good calibration, told a
+    // little less for it, with U = 0.8 %, does not know that it makes less.
+    GateSetup setup = shippedSetup(141.4);
+    setup.source.amplitudeStep = 0.05;
+    EXPECT_FALSE(Rig(setup).ask(volts(40), 0.5));
+    setup.calibration = StimulatorCalibration{{0.99993, 0, 10, 40, Spread{0.008, 0.01}},
+                                              CalibrationLine{1.000001, 0, 0.5, 2, Spread{1e-5, 0}},
+                                              CalibrationLine{1.0001, 0, 100e-6, 400e-6, Spread{0.002, 0}},
+                                              CalibrationLine{1.0001, 0, 50e-6, 400e-6, Spread{0.002, 0}}};
+    setup.calibrated = true;
+    Rig calibrated(setup);
+    ASSERT_TRUE(calibrated.configured) << calibrated.configured.error().message;
+    PulseTrain told = toldFor(volts(40), setup.calibration);
+    told.amplitude = Volts(40);
+    told.phaseWidth = Micros(199);  // rounded toward zero, as a device with steps of 1 us makes it
+    told.interPhaseGap = Micros(99);
+    const auto asked = calibrated.ask(told, toldFor(Seconds(0.5), setup.calibration).count());
+    ASSERT_FALSE(asked);
+    EXPECT_NE(asked.error().message.find("RMS current over 5 s"), std::string::npos) << asked.error().message;
+    // Taken as exact it would be accepted, at 199 us and a hair less than 40 V.
+    GateSetup exact = setup;
+    exact.calibration->amplitude.spread = Spread{};
+    for (auto* line : {&*exact.calibration->interval, &*exact.calibration->phaseWidth, &*exact.calibration->gap})
+        line->spread = Spread{};
+    EXPECT_TRUE(Rig(exact).ask(told, 0.5)) << "what was accepted before";
+    // One that nobody knows the uncertainty of is judged with 5 %, as a stimulator that is not calibrated.
+    for (auto* line : {&*setup.calibration->interval, &*setup.calibration->phaseWidth, &*setup.calibration->gap})
+        line->spread.reset();
+    setup.calibration->amplitude.spread.reset();
+    EXPECT_FALSE(Rig(setup).ask(told, 0.5));
+}
+
+TEST(SafetyGate, TheCommandIsJudgedAsItIsAndThePeakAtItsWorst) {
+    RecordProperty("hazard", "H1");
+    GateSetup setup = shippedSetup(500);
+    setup.source.accuracy = {};  // unknown: 5 %
+    Rig rig(setup);
+    const auto approved = rig.ask(volts(40), 0.5);
+    ASSERT_TRUE(approved) << approved.error().message;
+    EXPECT_FALSE(rig.ask(volts(40.01), 0.5)) << "the paper's 40 V are the command's";
+    std::vector<ExposureRow> rows;
+    rig.gate.exposure(rows);
+    const auto tabled = exposureTable(setup, volts(40), Seconds(0.5));
+    for (const std::vector<ExposureRow>* table : {&std::as_const(rows), &tabled}) {
+        const auto valueOf = [table](Quantity q) {
+            const auto sameQuantity = [q](const ExposureRow& row) { return row.quantity == q; };
+            return std::find_if(table->begin(), table->end(), sameQuantity)->value;
+        };
+        EXPECT_NEAR(valueOf(Quantity::CommandVoltage), 40, 1e-9);
+    }
+    setup.limits.push_back(limitsOf({rowFor(Quantity::PeakVoltage, 41.9)}));
+    EXPECT_FALSE(Rig(setup).ask(volts(40), 0.5)) << "42 V may come out";
+}
+
+TEST(SafetyGate, APersonsLevelsAreComparedWithoutTheirCommonUncertainty) {
+    RecordProperty("hazard", "H6");
+    GateSetup setup = personSetup();
+    for (auto* line : {&setup.calibration->amplitude, &*setup.calibration->phaseWidth}) line->spread.reset();
+    Rig rig(setup);
+    ASSERT_TRUE(rig.gate.updateImpedance(Ohms(2000), rig.clock.now()));
+    for (const double level : {0.5, 1.0, 1.5, 2.0}) {
+        ASSERT_TRUE(rig.ask(milliamps(level))) << level;
+        ASSERT_TRUE(rig.gate.accept(milliamps(level)));
+    }
+    EXPECT_FALSE(rig.ask(milliamps(2.6)));
 }
 
 TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {

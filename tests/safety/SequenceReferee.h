@@ -99,7 +99,7 @@ protected:
 
     void setAmplitude(PulseTrain& train, double si) {
         const bool current = source_.drive == Drive::Current;
-        double own = (current ? si * 1e3 : si) / device_.amplitude.gain;
+        double own = (current ? si * 1e3 : si) / known_.amplitude.gain;
         if (source_.amplitudeStep > 0) own = std::floor(own / source_.amplitudeStep) * source_.amplitudeStep;
         own = std::max(own, 0.0);
         train.amplitude = current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
@@ -207,11 +207,15 @@ protected:
         }
     }
 
-    /// `command`: what the calibrated deliver, and the others are told.
-    void referee(const PulseTrain& train, const PulseFacts& facts, double interval, const PulseTrain& command) {
-        const double amplitude = siValue(train.amplitude);
+    /// `train` came out of what was `told`; `expected` should have, by all that is known of the device.
+    void referee(const PulseTrain& train, const PulseFacts& facts, double interval, const PulseTrain& told,
+                 const PulseTrain& expected) {
+        const double amplitude = siValue(expected.amplitude);
         const bool current = source_.drive == Drive::Current;
+        const PulseTrain& command = calibrated_ ? expected : told;
         const double asked = siValue(command.amplitude);
+        const double lasts = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
+        if (source_.deadMan.count() <= 0 && lasts > 2 * kSlack) violation("over 2 s without a dead-man switch");
         hold(Near::Command, current ? asked * magnitude(command) : asked, 40, false, "the command in V");
         if (facts.peakV > 500) violation("more than 500 V");
         hold(Near::Rms5s, std::sqrt(body_.worstI2(5) / 5), 0.010, true, "RMS over 5 s in A");
@@ -242,7 +246,9 @@ protected:
     Allowed allowed_;
     IndependentBody body_, at500_;  // What is connected, and a 500 Ω resistor beside it
     Near theme_ = Near::Count;      // None
-    Miscalibration device_;         // What it makes of what it is told
+    Miscalibration known_;          // What is known of that which the device makes of what it is told
+    Miscalibration device_;         // What it really makes of it
+    bool calibrated_ = false;       // What is known holds, and trains are told by it
     bool close_ = false;
     double slowest_ = 0;      // Longest interval delivered, s
     double readAs_ = 1;       // |Z| of a bench load as told to the gate, to that which was declared

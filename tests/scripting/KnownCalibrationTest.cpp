@@ -37,10 +37,10 @@ protected:
         c.serial = output;
         c.device = "simulated stimulator";
         c.unit = unit;
-        c.amplitude = {{gain, 0, 10, 40}, 0.5};
-        c.interval = {{1.001, 0, 0.5, 2}, 0.01};
-        c.phaseWidth = {{1, 2e-6, 100e-6, 400e-6}, 0.2};
-        c.gap = {{1, -1e-6, 100e-6, 400e-6}, 0.3};
+        c.amplitude = {{gain, 0, 10, 40}, 0.5, 0.02};
+        c.interval = {{1.001, 0, 0.5, 2}, 0.01, 1e-6};
+        c.phaseWidth = {{1, 2e-6, 100e-6, 400e-6}, 0.2, 1e-7};
+        c.gap = {{1, 1e-6, 100e-6, 400e-6}, 0.3};
         c.made = today + std::chrono::days(made);
         c.validUntil = today + std::chrono::days(until);
         c.simulated = true;
@@ -67,14 +67,15 @@ TEST_F(Known, AValidOneHoldsOnItsLastDayToo) {
     keep(1.02, -10, 0);
     const auto known = knownCalibration(devices_);
     ASSERT_TRUE(known.calibration);
-    EXPECT_EQ(*known.calibration, (StimulatorCalibration{{1.02, 0, 10, 40},
-                                                         CalibrationLine{1.001, 0, 0.5, 2},
-                                                         CalibrationLine{1, 2e-6, 100e-6, 400e-6},
-                                                         CalibrationLine{1, -1e-6, 100e-6, 400e-6}}));
+    EXPECT_EQ(*known.calibration,
+              (StimulatorCalibration{{1.02, 0, 10, 40, Spread{0.5 / 100, 0.02}},
+                                     CalibrationLine{1.001, 0, 0.5, 2, Spread{0.01 / 100, 1e-6}},
+                                     CalibrationLine{1, 2e-6, 100e-6, 400e-6, Spread{0.2 / 100, 1e-7}},
+                                     CalibrationLine{1, 1e-6, 100e-6, 400e-6, kUnknownSpread}}));
     EXPECT_TRUE(known.holds);
     EXPECT_THAT(known.text, HasSubstr("amplitude gain 1.02, offset 0 V, U 0.5 %; interval gain 1.001"));
     EXPECT_THAT(known.text,
-                HasSubstr("phase width gain 1, offset 2 us, U 0.2 %; inter-phase gap gain 1, offset -1 us"));
+                HasSubstr("phase width gain 1, offset 2 us, U 0.2 %; inter-phase gap gain 1, offset 1 us"));
 }
 
 TEST_F(Known, AnExpiredOneIsKnownAndDoesNotHold) {
