@@ -39,21 +39,21 @@ int calibration(const std::string& file, bool asJson) {
         printJson(toJson(*found));
         return kDone;
     }
-    fmt::print("\n  {:>12} {:>5} {:>14} {:>12} {:>12}\n", "commanded", "n", "mean", "residual", "down - up");
+    say("\n  {:>12} {:>5} {:>14} {:>12} {:>12}\n", "commanded", "n", "mean", "residual", "down - up");
     for (const auto& level : found->levels) {
         const double turned = level.meanDown - level.meanUp;
-        fmt::print("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean,
+        say("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean,
                    level.residual, std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned));
     }
     const auto percent = [](double value) { return std::isnan(value) ? "not known" : fmt::format("{:.4g} %", value); };
-    fmt::print("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
+    say("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
                found->weighted ? ", weighted fit" : "");
-    fmt::print("  offset            {:.5g} ± {:.2g}\n", found->offset, found->offsetStandardError);
-    fmt::print("  in % of the largest command, {:.6g}:\n", found->fullScale);
-    fmt::print("  largest residual  {}\n", percent(found->residualMax_pct));
-    fmt::print("  repeatability     {}\n", percent(found->repeatability_pct));
-    fmt::print("  hysteresis        {}\n", percent(found->hysteresis_pct));
-    for (const auto& warning : found->warnings) fmt::print("  note: {}\n", warning);
+    say("  offset            {:.5g} ± {:.2g}\n", found->offset, found->offsetStandardError);
+    say("  in % of the largest command, {:.6g}:\n", found->fullScale);
+    say("  largest residual  {}\n", percent(found->residualMax_pct));
+    say("  repeatability     {}\n", percent(found->repeatability_pct));
+    say("  hysteresis        {}\n", percent(found->hysteresis_pct));
+    for (const auto& warning : found->warnings) say("  note: {}\n", warning);
     return kDone;
 }
 

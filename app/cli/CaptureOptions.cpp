@@ -30,7 +30,7 @@ public:
     ReadingBar(const ReadingBar&) = delete;
     ReadingBar& operator=(const ReadingBar&) = delete;
     ~ReadingBar() {
-        if (percent_ >= 0) fmt::print(stderr, "\r\033[K");
+        if (percent_ >= 0) say(stderr, "\r\033[K");
     }
     void show(double fraction) {
         constexpr std::chrono::seconds kQuiet{1};
@@ -38,7 +38,7 @@ public:
         if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kQuiet) return;
         percent_ = percent;
         const auto filled = static_cast<std::size_t>(30 * fraction);
-        fmt::print(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'),
+        say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'),
                    percent);
         std::fflush(stderr);
     }

@@ -29,17 +29,17 @@ int exitFor(const Error& error) noexcept {
 }
 
 int failWith(const Error& error) {
-    fmt::print(stderr, "tactoscope-cli: {}\n", error.message);
+    say(stderr, "tactoscope-cli: {}\n", lines(error.message));
     return exitFor(error);
 }
 
 int couldNotRun(const Error& error) {
-    fmt::print(stderr, "tactoscope-cli: {}\n", error.message);
+    say(stderr, "tactoscope-cli: {}\n", lines(error.message));
     return kCouldNotRun;
 }
 
 int usage(const std::string& sentence) {
-    fmt::print(stderr, "tactoscope-cli: {}\n", sentence);
+    say(stderr, "tactoscope-cli: {}\n", lines(sentence));
     return kUsage;
 }
 
@@ -68,7 +68,11 @@ Result<double> numberOption(const QCommandLineParser& parser, const char* name) 
 }
 
 void printJson(const nlohmann::json& value) {
-    fmt::print("{}\n", value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    auto text = value.dump(2, ' ', false, kReplace);
+    // What a terminal would act on is written with JSON's own escapes, so that the value stays the same.
+    if (printable(text, Newlines::Keep) != text) text = value.dump(2, ' ', true, kReplace);
+    say("{}\n", lines(text));
     std::fflush(stdout);
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/cli/Say.h"
 #include "core/base/Result.h"
 #include "core/devices/Driver.h"
 

@@ -9,6 +9,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "app/cli/Say.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {
@@ -24,7 +25,7 @@ Answer askFor(std::string_view word, std::string_view prompt, Seconds within, co
     using std::chrono::steady_clock;
     const auto deadline = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(within);
     static_cast<void>(tcflush(STDIN_FILENO, TCIFLUSH));  // only what is typed after the question is an answer
-    fmt::print(stderr, "{}", prompt);
+    say(stderr, "{}", lines(prompt));
     std::fflush(stderr);
     std::string line;
     while (!interrupts.signalled()) {

@@ -1,6 +1,6 @@
 // Confirmation.h - a word typed on a terminal before something dangerous: the second of two steps (H12).
 //
-// Thread-safety: the main thread only.
+// Thread-safety: one thread at a time.
 #pragma once
 
 #include <string_view>

@@ -44,11 +44,11 @@ int run(const QCommandLineParser& parser) {
                    {"warnings", reading->warnings}});
         return kDone;
     }
-    fmt::print("{}: {} of {} at {} from {} written\n", out,
+    say("{}: {} of {} at {} from {} written\n", out,
                capture.channels.size() == 1 ? "a channel" : fmt::format("{} channels", capture.channels.size()),
                fmt::format("{} samples", capture.samples()), formatQuantity(capture.rate_hz, "S/s", 4),
                reading->formatName);
-    for (const auto& warning : reading->warnings) fmt::print(stderr, "{}\n", warning);
+    for (const auto& warning : reading->warnings) say(stderr, "{}\n", warning);
     return kDone;
 }
 

@@ -19,9 +19,9 @@ void declare(QCommandLineParser& parser) {
 }
 
 void print(const DeviceIdentity& device, const char* mark) {
-    fmt::print("{}{:<28} {:<13} {}{}\n", mark, device.uri, nameOf(device.role), device.name,
+    say("{}{:<28} {:<13} {}{}\n", mark, device.uri, nameOf(device.role), device.name,
                device.simulated ? "  (simulated)" : "");
-    if (!device.obstacle.empty()) fmt::print("    {}\n", device.obstacle);
+    if (!device.obstacle.empty()) say("    {}\n", device.obstacle);
 }
 
 nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
@@ -74,7 +74,7 @@ int run(const QCommandLineParser& parser) {
         std::fflush(stdout);
         watch(registry, found, interrupts);
     } else {
-        fmt::print(stderr, "sim: alone fills every role that a protocol still needs.\n");
+        say(stderr, "sim: alone fills every role that a protocol still needs.\n");
     }
     return kDone;
 }

@@ -84,13 +84,13 @@ int run(const QCommandLineParser& parser) {
                    {"approved", approved.has_value()},
                    {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
     } else {
-        fmt::print("amplitude  {}  ({} into {})\ninterval   {}\n", formatQuantity(command->amplitude.value(), "V", 4),
+        say("amplitude  {}  ({} into {})\ninterval   {}\n", formatQuantity(command->amplitude.value(), "V", 4),
                    formatQuantity(amplitude_ma * 1e-3, "A", 4), load->text(),
                    formatQuantity(command->interval.count(), "s", 4));
         if (approved)
-            fmt::print("approved   yes, from 80 to 120 % of the declared load\n");
+            say("approved   yes, from 80 to 120 % of the declared load\n");
         else
-            fmt::print("approved   no: {}\n", approved.error().message);
+            say("approved   no: {}\n", approved.error().message);
     }
     return approved ? kDone : kStopped;
 }

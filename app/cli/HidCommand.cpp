@@ -46,11 +46,11 @@ Result<std::size_t> lengthOption(const QCommandLineParser& parser, const hid::Ma
 
 void print(const hid::MassagerTemplate& described, const hid::VibrationReports& reports,
            const std::vector<std::uint8_t>& bytes, double intensity) {
-    fmt::print("{}: report {:02X}, {} bytes\n", described.title, described.report, bytes.size());
-    fmt::print("intensity {:g}  {}\n", intensity, hid::hexOf(bytes));
-    fmt::print("stop         {}\n", hid::hexOf(reports.stop));
+    say("{}: report {:02X}, {} bytes\n", described.title, described.report, bytes.size());
+    say("intensity {:g}  {}\n", intensity, hid::hexOf(bytes));
+    say("stop         {}\n", hid::hexOf(reports.stop));
     for (const auto& field : reports.fields) {
-        fmt::print("byte {}, bit {}, {} bits: {} = {} ({} to {})\n", field.bit / 8, field.bit % 8, field.bits,
+        say("byte {}, bit {}, {} bits: {} = {} ({} to {})\n", field.bit / 8, field.bit % 8, field.bits,
                    hid::nameOf(field.role), hid::valueOf(field, bytes), field.min, field.max);
     }
 }

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/cli/Say.h"
+
 #include "app/cli/Verdicts.h"
 
 namespace tacto::cli {
@@ -26,11 +28,11 @@ std::string number(const json& object, const char* key) {
 }
 
 void printLoads(const json& loads) {
-    fmt::print("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V",
+    say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V",
                "peak mA", "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0);
-        fmt::print("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", text(load, "name"),
+        say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", text(load, "name"),
                    number(load, "measured_ohm"), number(load, "peak_v"), number(load, "peak_ma"),
                    number(load, "rms_5s_ma"), number(load, "charge_uc"), number(load, "net_charge_uc"),
                    number(load, "energy_mj"), text(load, "verdict"),
@@ -40,10 +42,10 @@ void printLoads(const json& loads) {
 
 void printDisclosed(const json& outputs) {
     if (outputs.empty()) return;
-    fmt::print("\n  to disclose\n");
+    say("\n  to disclose\n");
     for (const auto& output : outputs) {
         const auto bound = output.find("plus_minus_pct");
-        fmt::print("  {:<40} {:<9} {:>8} {:<7} {}\n", text(output, "output"), text(output, "load"),
+        say("  {:<40} {:<9} {:>8} {:<7} {}\n", text(output, "output"), text(output, "load"),
                    number(output, "value"), text(output, "unit"),
                    output.contains("reason") && !text(output, "reason").empty() ? text(output, "reason")
                    : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
@@ -60,12 +62,12 @@ void printRows(const json& rows, const char* heading) {
             ++passed;
             continue;
         }
-        if (!said) fmt::print("\n  {}\n", heading);
+        if (!said) say("\n  {}\n", heading);
         said = true;
-        fmt::print("  {:<20} {:<27} {:<34} {} {}\n", text(row, "verdict"), text(row, "load"), text(row, "title"),
+        say("  {:<20} {:<27} {:<34} {} {}\n", text(row, "verdict"), text(row, "load"), text(row, "title"),
                    number(row, "value"), text(row, "unit"));
     }
-    fmt::print("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
+    say("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ nlohmann::json toJson(const ChannelMeasurement& m) {
 
 void printStatistic(const char* name, const Statistics& s, const std::string& unit) {
     if (s.n == 0) return;
-    fmt::print("  {:<11} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
+    say("  {:<11} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
                formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
 }
 
@@ -112,9 +112,9 @@ int run(const QCommandLineParser& parser) {
             {{"format", reading->formatId}, {"channels", channels}, {"load", loadJson(load)}, {"warnings", warnings}});
         return kDone;
     }
-    fmt::print("{}\n", reading->formatName);
+    say("{}\n", reading->formatName);
     for (const auto& m : found.channels) {
-        fmt::print("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
+        say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
                    m.measuredPulses);
         printStatistic("amplitude", m.amplitude, m.unit);
         printStatistic("width", m.width_s, "s");
@@ -122,11 +122,11 @@ int run(const QCommandLineParser& parser) {
         printStatistic("rise", m.rise_s, "s");
         printStatistic("fall", m.fall_s, "s");
         printStatistic("gap", m.gap_s, "s");
-        if (m.imbalance.n > 0) fmt::print("  {:<11} {:>10.3g} %\n", "imbalance", 100 * m.imbalance.mean);
+        if (m.imbalance.n > 0) say("  {:<11} {:>10.3g} %\n", "imbalance", 100 * m.imbalance.mean);
         printTrust(m);
     }
     if (load) printLoad(*load);
-    for (const auto& warning : warnings) fmt::print(stderr, "{}\n", warning);
+    for (const auto& warning : warnings) say(stderr, "{}\n", warning);
     return kDone;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "app/cli/Say.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
 
@@ -18,7 +19,7 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
 
 void printFigure(const char* name, const Statistics& s, const char* unit) {
     if (s.n == 0) return;
-    fmt::print("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
+    say("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
                formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
 }
 
@@ -49,13 +50,13 @@ void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
 void printTrust(const ChannelMeasurement& m) {
     if (m.measuredPulses == 0) return;
     const auto& u = m.uncertainty;
-    fmt::print("  uncertainty (k = {:.0f}): amplitude {}, width {}, interval {}", kCoverage,
+    say("  uncertainty (k = {:.0f}): amplitude {}, width {}, interval {}", kCoverage,
                formatQuantity(kCoverage * u.amplitude, m.unit, 2), formatQuantity(kCoverage * u.width_s, "s", 2),
                formatQuantity(kCoverage * u.interval_s, "s", 2));
-    if (m.gap_s.n > 0) fmt::print(", gap {}", formatQuantity(kCoverage * u.gap_s, "s", 2));
-    if (m.imbalance.n > 0) fmt::print(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
-    fmt::print("\n");
-    if (std::isfinite(m.quality.snr_db)) fmt::print("  {:<11} {:>9.1f} dB\n", "above noise", m.quality.snr_db);
+    if (m.gap_s.n > 0) say(", gap {}", formatQuantity(kCoverage * u.gap_s, "s", 2));
+    if (m.imbalance.n > 0) say(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
+    say("\n");
+    if (std::isfinite(m.quality.snr_db)) say("  {:<11} {:>9.1f} dB\n", "above noise", m.quality.snr_db);
 }
 
 std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptions& options) {
@@ -82,7 +83,7 @@ nlohmann::json loadJson(const std::optional<LoadMeasurement>& load) {
 
 void printLoad(const LoadMeasurement& load) {
     if (load.measuredPulses == 0) return;
-    fmt::print("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current,
+    say("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current,
                load.measuredPulses, kCoverage, formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2));
     printFigure("load", load.load_ohm, "ohm");
     printFigure("impedance", load.impedance_ohm, "ohm");

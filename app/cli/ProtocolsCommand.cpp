@@ -33,7 +33,7 @@ std::string rangeOf(const nlohmann::json& parameter) {
 
 int run(const QCommandLineParser& parser) {
     if (parser.isSet("reference")) {
-        fmt::print("{}", scriptReference());
+        say("{}", lines(scriptReference()));
         return kDone;
     }
     auto all = nlohmann::json::array();
@@ -41,7 +41,7 @@ int run(const QCommandLineParser& parser) {
     for (const auto& source : ProtocolLibrary().list()) {
         const auto declaration = readDeclaration(source);
         if (!declaration) {
-            fmt::print(stderr, "tactoscope-cli: {} is left out: {}\n", source.name, declaration.error().message);
+            say(stderr, "tactoscope-cli: {} is left out: {}\n", source.name, lines(declaration.error().message));
             broken = true;
             continue;
         }
@@ -52,11 +52,11 @@ int run(const QCommandLineParser& parser) {
         return broken ? kCouldNotRun : kDone;
     }
     for (const auto& protocol : all) {
-        fmt::print("{}: {}\n", textOf(protocol, "name"), textOf(protocol, "title"));
+        say("{}: {}\n", textOf(protocol, "name"), textOf(protocol, "title"));
         for (const auto& parameter : protocol["parameters"]) {
             const auto range = rangeOf(parameter);
             const auto unit = textOf(parameter, "unit");
-            fmt::print("    --set {:<28} {}{}\n",
+            say("    --set {:<28} {}{}\n",
                        fmt::format("{}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
                                    unit.empty() ? "" : "   ", unit),
                        textOf(parameter, "label"), range.empty() ? "" : " (" + range + ")");

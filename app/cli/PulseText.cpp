@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "app/cli/Say.h"
 #include "app/cli/TextPlot.h"
 #include "app/cli/Verdicts.h"
 #include "core/base/Text.h"
@@ -125,15 +126,15 @@ void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIde
         plot.values = finding.samples->magnitudes;
         plot.mark = order.order().pulse.phaseWidth.count();
         if (finding.impedance) plot.markText = fmt::format("|Z| {}", ohms(*finding.impedance));
-        fmt::print("{}\n", draw(plot, plotColumns()));
+        say("{}\n", lines(draw(plot, plotColumns())));
     }
-    fmt::print("  stimulator  {}\n  pulse       {}{}\n", device.serial, describe(order.order().pulse),
+    say("  stimulator  {}\n  pulse       {}{}\n", device.serial, describe(order.order().pulse),
                outcome.pulse ? "" : ": not sent");
-    fmt::print("  |Z|         {} at the end of the leading phase\n",
+    say("  |Z|         {} at the end of the leading phase\n",
                finding.impedance ? ohms(*finding.impedance) : "not measured");
-    fmt::print("  declared    {}: {} to {} is accepted\n", ohms(range.nominal), ohms(range.low), ohms(range.high));
-    if (!file.empty()) fmt::print("  file        {}\n", file);
-    if (device.simulated) fmt::print("  SIMULATED: no number here was measured on hardware.\n");
+    say("  declared    {}: {} to {} is accepted\n", ohms(range.nominal), ohms(range.low), ohms(range.high));
+    if (!file.empty()) say("  file        {}\n", file);
+    if (device.simulated) say("  SIMULATED: no number here was measured on hardware.\n");
     printVerdict(outcome.verdict, outcome.reasons);
 }
 

@@ -15,7 +15,8 @@ int run(const QCommandLineParser& parser) {
     if (!parser.isSet("out")) return usage("report: --out is missing");
     const auto format = reportFormat(parser.value("out"));
     if (!format) return usage("report: " + format.error().message);
-    if (const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out")); !made) {
+    const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out"));
+    if (!made) {
         auto error = made.error();
         // The database's own words name no file.
         if (error.message.find(*session) == std::string::npos &&
@@ -24,8 +25,11 @@ int run(const QCommandLineParser& parser) {
         }
         return couldNotRun(error);
     }
-    fmt::print("{}\n", parser.value("out").toStdString());
-    return kDone;
+    say("{}\n", parser.value("out").toStdString());
+    if (made->isEmpty()) return kDone;
+    say(stderr, "tactoscope-cli: DAMAGED: {} is not what was recorded, and every page of its report says so: {}\n",
+        *session, made->join("; ").toStdString());
+    return kVerdictFailed;
 }
 
 }  // namespace

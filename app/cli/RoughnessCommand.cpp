@@ -20,9 +20,9 @@ void declare(QCommandLineParser& parser) {
 
 void printRow(const char* name, const Statistics& s) {
     if (s.n == 0)
-        fmt::print("  {:<12} –\n", name);
+        say("  {:<12} –\n", name);
     else
-        fmt::print("  {:<12} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>7}\n", name, s.mean, s.sd, s.min, s.max, s.n);
+        say("  {:<12} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>7}\n", name, s.mean, s.sd, s.min, s.max, s.n);
 }
 
 /// Whether `out` is one of the files that the recording is made of.
@@ -66,20 +66,20 @@ int run(const QCommandLineParser& parser) {
                    {"P", toJson(summary.P)}});
         return kDone;
     }
-    fmt::print("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames,
+    say("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames,
                summary.contactFrames, summary.rate_hz);
-    fmt::print("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
+    say("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
     printRow("h", summary.h);
     printRow("v", summary.v);
     printRow("R", summary.R);
     printRow("pressure Pa", summary.pressure_pa);
     printRow("P", summary.P);
     if (!summary.flags.empty()) {
-        fmt::print("\nFlags: ");
-        for (std::size_t i = 0; i < summary.flags.size(); ++i) fmt::print("{}{}", i ? ", " : "", summary.flags[i]);
-        fmt::print("\n");
+        say("\nFlags: ");
+        for (std::size_t i = 0; i < summary.flags.size(); ++i) say("{}{}", i ? ", " : "", summary.flags[i]);
+        say("\n");
     }
-    fmt::print(
+    say(
         "\nR is repeatable and specific to a material; that it ranks felt roughness rests on the reference "
         "surfaces.\n");
     return kDone;

@@ -6,10 +6,12 @@
 #include "app/cli/Command.h"
 #include "app/cli/Profiles.h"
 #include "app/cli/SignalStop.h"
+#include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/ProtocolRun.h"
+#include "app/scripting/Arming.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::cli {
@@ -36,7 +38,12 @@ Result<std::map<std::string, std::string>> settingsFrom(const QCommandLineParser
         if (equals == std::string::npos || equals == 0) {
             return fail(ErrorCode::InvalidArgument, "--set {}: KEY=VALUE is expected", text);
         }
-        settings[text.substr(0, equals)] = text.substr(equals + 1);
+        const auto key = text.substr(0, equals);
+        const auto [at, isNew] = settings.emplace(key, text.substr(equals + 1));
+        if (isNew) continue;
+        // A run that arms several loads is confirmed several times: see OperatorQuestion::confirms.
+        if (key != kConfirmArming) return fail(ErrorCode::InvalidArgument, "--set {} is given twice", key);
+        at->second += '\n' + text.substr(equals + 1);
     }
     return settings;
 }
@@ -101,13 +108,13 @@ public:
             progress.total > 0 ? static_cast<double>(progress.done) / static_cast<double>(progress.total) : 0;
         const double left = part > 0 ? std::chrono::duration<double>(now - begun_).count() * (1 - part) / part : 0;
         const auto filled = static_cast<std::size_t>(part * 30);
-        fmt::print(stderr, "\r\033[K{} [{}{}] {}/{}, {:.0f} s left", progress.label, std::string(filled, '#'),
+        say(stderr, "\r\033[K{} [{}{}] {}/{}, {:.0f} s left", progress.label, std::string(filled, '#'),
                    std::string(30 - filled, '.'), progress.done, progress.total, left);
         std::fflush(stderr);
         drawn_ = true;
     }
     void clear() {
-        if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\033[K");
+        if (std::exchange(drawn_, false)) say(stderr, "\r\033[K");
     }
 
 private:
@@ -118,14 +125,14 @@ private:
 };
 
 RunResult runScript(ProtocolRun& run, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
-    PresetOperator desk(answers);
     ProgressLine line;
+    TerminalOperator desk(answers, interrupts, [&line] { line.clear(); });
     RunRequest hooks;
     hooks.operatorDesk = &desk;
     hooks.onProgress = [&](const ScriptProgress& progress) { line.show(progress); };
     hooks.onLog = [&](const std::string& text) {
         line.clear();
-        fmt::print(stderr, "{}\n", text);
+        say(stderr, "{}\n", lines(text));
     };
     if (const auto started = run.start(std::move(hooks)); !started) {
         auto failed = run.finish();
@@ -156,14 +163,14 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
         printCalibration(outcome.results);
     else if (outcome.results.is_object())
         printResults(outcome.results);
-    fmt::print("\n");
-    if (value["simulated"].get<bool>()) fmt::print("  SIMULATED: no number here was measured on hardware.\n");
+    say("\n");
+    if (value["simulated"].get<bool>()) say("  SIMULATED: no number here was measured on hardware.\n");
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",
                  outcome.error ? std::vector<std::string>{} : outcome.reasons);
-    fmt::print("  session  {}\n", value["session"].get<std::string>());
-    if (value["report"].is_string()) fmt::print("  report   {}\n", value["report"].get<std::string>());
+    say("  session  {}\n", value["session"].get<std::string>());
+    if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
 
 /// Beside the session; the path of the PDF, or null when there is none.
@@ -173,10 +180,12 @@ json writeReports(const RunFiles& files) {
         const auto path = files.report(ending);
         const auto made =
             writeSessionReport(QString::fromStdString(files.session.string()), QString::fromStdString(path.string()));
-        if (made)
+        if (made) {
             report = path.string();
-        else
-            fmt::print(stderr, "tactoscope-cli: no report: {}\n", made.error().message);
+            for (const auto& problem : *made)
+                say(stderr, "tactoscope-cli: the session is damaged: {}\n", problem.toStdString());
+        } else
+            say(stderr, "tactoscope-cli: no report: {}\n", lines(made.error().message));
     }
     return report;
 }
@@ -195,8 +204,8 @@ int run(const QCommandLineParser& parser) {
 
     const auto result = runScript(running, answers, interrupts);
     const auto& outcome = result.outcome;
-    if (outcome.error) fmt::print(stderr, "tactoscope-cli: {}\n", outcome.error->message);
-    for (const auto& trouble : result.troubles) fmt::print(stderr, "tactoscope-cli: {}\n", trouble.message);
+    if (outcome.error) say(stderr, "tactoscope-cli: {}\n", lines(outcome.error->message));
+    for (const auto& trouble : result.troubles) say(stderr, "tactoscope-cli: {}\n", lines(trouble.message));
 
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();

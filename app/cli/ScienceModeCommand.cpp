@@ -42,8 +42,8 @@ int identifyIt(const QCommandLineParser& parser) {
                    {"simulated", seen->simulated()}});
         return kDone;
     }
-    fmt::print("identity   {}{}\n", who.id, seen->simulated() ? "  (simulated)" : "");
-    fmt::print("firmware   {}\nprotocol   ScienceMode {}\nplugged in {}\n", who.firmware.text(), who.protocol.text(),
+    say("identity   {}{}\n", who.id, seen->simulated() ? "  (simulated)" : "");
+    say("firmware   {}\nprotocol   ScienceMode {}\nplugged in {}\n", who.firmware.text(), who.protocol.text(),
                seen->place);
     return kDone;
 }
@@ -98,9 +98,9 @@ int statusOf(const QCommandLineParser& parser) {
                    {"high_voltage", highVoltageText(status.highVoltage)}});
         return kDone;
     }
-    fmt::print("stimulator    {} at {}{}\n", seen->identification.id, seen->place,
+    say("stimulator    {} at {}{}\n", seen->identification.id, seen->place,
                seen->simulated() ? "  (simulated)" : "");
-    fmt::print("stimulation   {}\nhigh voltage  {}\n", words.sentence, highVoltageText(status.highVoltage));
+    say("stimulation   {}\nhigh voltage  {}\n", words.sentence, highVoltageText(status.highVoltage));
     return kDone;
 }
 

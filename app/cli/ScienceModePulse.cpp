@@ -109,7 +109,7 @@ std::optional<int> confirm(const PulseOrder& order, const Stimulator& device, co
             why = "stopped by the operator (signal)";
             break;
     }
-    fmt::print(stderr, "\ntactoscope-cli: {}: nothing was delivered\n", why);
+    say(stderr, "\ntactoscope-cli: {}: nothing was delivered\n", why);
     return kStopped;
 }
 
@@ -167,7 +167,7 @@ int pulse(const QCommandLineParser& parser) {
     }
     // Whatever the gate has against it is a refusal.
     const auto refused = [](const Error& error) {
-        fmt::print(stderr, "tactoscope-cli: {}\n", error.message);
+        say(stderr, "tactoscope-cli: {}\n", lines(error.message));
         return static_cast<int>(kStopped);
     };
     const auto made = BenchPulse::create(std::move(*order), *device, clock);

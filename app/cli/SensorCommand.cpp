@@ -93,26 +93,26 @@ std::string calibrationText(const sensorboard::StreamCalibration& calibration) {
 
 void printText(const SensorBoard& board, const Listened& heard) {
     const auto& who = board.identity();
-    fmt::print("sensor board  {} {}{}\nfirmware      {}\n", who.name, who.serial, who.simulated ? "  (simulated)" : "",
+    say("sensor board  {} {}{}\nfirmware      {}\n", who.name, who.serial, who.simulated ? "  (simulated)" : "",
                who.firmware);
     for (std::size_t i = 0; i < board.streams().size(); ++i) {
         const auto& info = board.streams()[i];
         const auto& set = board.configuration(i);
-        fmt::print("{:<13} {} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}\n", tacto::nameOf(info.kind), info.channels,
+        say("{:<13} {} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}\n", tacto::nameOf(info.kind), info.channels,
                    nameOf(set.format), symbolOf(info.unit), info.rate_hz, heard.health[i].rate_hz,
                    calibrationText(board.calibrations()[i]));
     }
     const auto& report = heard.report;
     const auto losses = sensorboard::lossesOf(report);
-    fmt::print("listened      {:.1f} s: {}\n", heard.seconds, losses == 0 ? "nothing lost" : "something was lost");
+    say("listened      {:.1f} s: {}\n", heard.seconds, losses == 0 ? "nothing lost" : "something was lost");
     const auto known = sensorboard::rowsOf(report);
     for (const auto& row : known.rows()) {
         if (std::isfinite(row.value))
-            fmt::print("  {:<24} {:.6g}{}{}\n", row.name, row.value, *row.unit != '\0' ? " " : "", row.unit);
+            say("  {:<24} {:.6g}{}{}\n", row.name, row.value, *row.unit != '\0' ? " " : "", row.unit);
         else
-            fmt::print("  {:<24} not known yet\n", row.name);
+            say("  {:<24} not known yet\n", row.name);
     }
-    if (report.board.faultyStreams != 0) fmt::print("  the board says that a sensor of it does not answer\n");
+    if (report.board.faultyStreams != 0) say("  the board says that a sensor of it does not answer\n");
 }
 
 int run(const QCommandLineParser& parser) {

@@ -6,6 +6,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include "app/cli/Say.h"
+
 namespace tacto::cli {
 
 namespace {
@@ -20,14 +22,14 @@ class Countdown {
 public:
     explicit Countdown(double whole_s) : whole_s_(whole_s), terminal_(isatty(STDERR_FILENO) != 0) {}
     ~Countdown() {
-        if (terminal_) fmt::print(stderr, "\r\033[K");
+        if (terminal_) say(stderr, "\r\033[K");
     }
     Countdown(const Countdown&) = delete;
     Countdown& operator=(const Countdown&) = delete;
     void show(double passed_s) {
         if (!terminal_ || passed_s < next_s_) return;
         next_s_ = passed_s + kShowEvery_s;
-        fmt::print(stderr, "\r\033[Klistening, {:.0f} s left", whole_s_ - passed_s);
+        say(stderr, "\r\033[Klistening, {:.0f} s left", whole_s_ - passed_s);
         std::fflush(stderr);
     }
 

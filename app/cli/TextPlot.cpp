@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/Printable.h"
+
 namespace tacto::cli {
 
 namespace {
@@ -137,6 +139,11 @@ private:
 
 }  // namespace
 
-std::string draw(const TextPlot& plot, int columns, int rows) { return Canvas(plot, columns, rows).text(); }
+std::string draw(const TextPlot& plot, int columns, int rows) {
+    // Before they are laid out: a text that is spelled out later would be longer than its place.
+    TextPlot harmless = plot;
+    for (auto* text : {&harmless.title, &harmless.xTitle, &harmless.markText}) *text = printable(*text);
+    return Canvas(harmless, columns, rows).text();
+}
 
 }  // namespace tacto::cli

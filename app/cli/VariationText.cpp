@@ -2,6 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/cli/Say.h"
+
 #include "app/cli/Verdicts.h"
 
 namespace tacto::cli {
@@ -30,26 +32,26 @@ std::string range(const json& object, const char* key, const char* middle = "val
 }
 
 void printAim(const char* aim, const json& alone, const json& pooled) {
-    fmt::print("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
+    say("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
                number(pooled, "total"), number(pooled, "per_participant"));
 }
 
 }  // namespace
 
 void printVariation(const json& results) {
-    fmt::print("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
+    say("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
                results.value("participants", 0), results.value("complete", 0), results.value("refused", 0),
                results.value("not_felt", 0));
-    fmt::print("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
+    say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
     for (const auto& pair : results.value("separability", json::array())) {
-        fmt::print("  {:<28} {:>26} {:>26} {:>26}\n", text(pair, "a") + " / " + text(pair, "b"), range(pair, "jnd"),
+        say("  {:<28} {:>26} {:>26} {:>26}\n", text(pair, "a") + " / " + text(pair, "b"), range(pair, "jnd"),
                    range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
     }
-    fmt::print("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
+    say("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
                range(results, "information_bits", "median"));
     const json needed = results.value("trials_needed", json());
     if (!needed.is_object()) return;
-    fmt::print("\n  trials, so that with {} % probability\n", number(needed, "assurance", 100));
+    say("\n  trials, so that with {} % probability\n", number(needed, "assurance", 100));
     const json& alone = needed.at("per_participant");
     const json& pooled = needed.at("pooled");
     printAim(fmt::format("the interval is {} % wide or less", number(needed, "width", 100)).c_str(),

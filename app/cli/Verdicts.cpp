@@ -23,28 +23,28 @@ double at(const nlohmann::json& object, const char* key) {
 }  // namespace
 
 void printResults(const nlohmann::json& results) {
-    fmt::print("\n");
+    say("\n");
     for (const auto& [key, value] : results.items()) {
         if (key != "verdict")
-            fmt::print("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+            say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
 }
 
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons) {
-    fmt::print("  verdict  {}\n", verdict);
-    for (const auto& reason : reasons) fmt::print("           {}\n", reason);
+    say("  verdict  {}\n", verdict);
+    for (const auto& reason : reasons) say("           {}\n", reason);
 }
 
 void printCalibration(const nlohmann::json& results) {
     const auto reference = results.value("reference", nlohmann::json::object());
-    fmt::print("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"),
+    say("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"),
                at(reference, "measured_ohm"));
-    fmt::print("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
+    say("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
                "repeatability %", "hysteresis %", "U at the largest", "verdict");
     for (const char* name : {"amplitude", "interval", "width", "gap"}) {
         const auto found = results.value(name, nlohmann::json::object());
         if (!found.contains("gain")) continue;
-        fmt::print("  {:<12} {:>10.6f} {:>12.3g} {:>12.4f} {:>14.4f} {:>12.4f} {:>15.3g} {:<2}   {}\n", name,
+        say("  {:<12} {:>10.6f} {:>12.3g} {:>12.4f} {:>14.4f} {:>12.4f} {:>15.3g} {:<2}   {}\n", name,
                    at(found, "gain"), at(found, "offset"), at(found, "residual_max_pct_fs"),
                    at(found, "repeatability_pct_fs"), at(found, "hysteresis_pct_fs"), at(found, "expanded_uncertainty"),
                    found.value("unit", ""), found.value("verdict", ""));
@@ -52,20 +52,20 @@ void printCalibration(const nlohmann::json& results) {
 }
 
 void printSeparability(const nlohmann::json& results) {
-    fmt::print("\n  {:<14} {:>4} {:>22} {:>24}\n", "condition", "n", "amplitude (V)", "interval (s)");
+    say("\n  {:<14} {:>4} {:>22} {:>24}\n", "condition", "n", "amplitude (V)", "interval (s)");
     for (const auto& c : results.value("conditions", nlohmann::json::array())) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
-        fmt::print("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
+        say("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
                    at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
     }
-    fmt::print("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
+    say("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
     for (const auto& p : results.value("pairs", nlohmann::json::array())) {
-        fmt::print("  {:<28} {:>12.1f} {:>15.1f} {:>14.1f}\n", p.value("a", "") + " / " + p.value("b", ""),
+        say("  {:<28} {:>12.1f} {:>15.1f} {:>14.1f}\n", p.value("a", "") + " / " + p.value("b", ""),
                    at(p, "mahalanobis"), at(p, "amplitude_jnd"), at(p, "interval_jnd"));
     }
     const auto accuracy = results.value("accuracy", nlohmann::json::object());
-    fmt::print("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"),
+    say("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"),
                100 * at(accuracy, "low"), 100 * at(accuracy, "high"));
 }
 

@@ -34,10 +34,10 @@ int run(const QCommandLineParser& parser) {
                    {"chunks", report->chunks},
                    {"samples", report->samples}});
     } else {
-        fmt::print("{}: {}\n", *path, nameOf(report->status));
-        for (const auto& note : report->notes) fmt::print("  {}\n", note);
-        for (const auto& problem : report->problems) fmt::print("  {}\n", problem);
-        fmt::print("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
+        say("{}: {}\n", *path, nameOf(report->status));
+        for (const auto& note : report->notes) say("  {}\n", note);
+        for (const auto& problem : report->problems) say("  {}\n", problem);
+        say("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
                    report->captures, report->samples, report->head);
     }
     return report->status == SessionStatus::Intact ? kDone : kVerdictFailed;

@@ -16,12 +16,12 @@ constexpr const char* kNotice =
     "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
 
 void printHelp(std::FILE* to) {
-    fmt::print(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
+    say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
                TACTOSCOPE_VERSION);
     for (const auto& command : commands()) {
-        fmt::print(to, "  tactoscope-cli {} {}\n        {}\n", command.name, command.arguments, command.summary);
+        say(to, "  tactoscope-cli {} {}\n        {}\n", command.name, command.arguments, command.summary);
     }
-    fmt::print(to,
+    say(to,
                "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
                "4 stopped by safety or by the operator, 5 indeterminate. --json prints one JSON value on stdout.\n"
                "{}\n",
@@ -30,7 +30,7 @@ void printHelp(std::FILE* to) {
 
 /// Qt's own warnings are for developers; its fatal errors are for everybody.
 void quietly(QtMsgType type, const QMessageLogContext&, const QString& text) {
-    if (type == QtFatalMsg || type == QtCriticalMsg) fmt::print(stderr, "{}\n", text.toStdString());
+    if (type == QtFatalMsg || type == QtCriticalMsg) say(stderr, "{}\n", lines(text.toStdString()));
 }
 
 int runCommand(const Command& command, int argc, char** argv) {
@@ -61,15 +61,15 @@ int runCommand(const Command& command, int argc, char** argv) {
                                  command.name, command.arguments));
     }
     if (parser.isSet("help")) {
-        fmt::print("tactoscope-cli {} {}\n", command.name, command.arguments);
-        fmt::print("{}\n", parser.helpText().section('\n', 1).toStdString());
+        say("tactoscope-cli {} {}\n", command.name, command.arguments);
+        say("{}\n", lines(parser.helpText().section('\n', 1).toStdString()));
         return kDone;
     }
     try {
         return command.run(parser);
     } catch (const std::exception& surprise) {
         // Of a library: nothing of ours throws. Devices were switched off when their bench was unwound.
-        fmt::print(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
+        say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
         return kCouldNotRun;
     }
 }
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
         return kDone;
     }
     if (std::strcmp(name, "--version") == 0) {
-        fmt::print("tactoscope-cli {}\n", TACTOSCOPE_VERSION);
+        say("tactoscope-cli {}\n", TACTOSCOPE_VERSION);
         return kDone;
     }
     std::string known;

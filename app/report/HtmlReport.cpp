@@ -35,6 +35,8 @@ dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
 code, pre { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: 13px; }
 pre { background: var(--tint); padding: 12px 14px; border-radius: 4px; white-space: pre-wrap; overflow-wrap: anywhere; }
 .simulated { color: var(--quiet); text-transform: uppercase; letter-spacing: .08em; font-size: 13px; }
+.damaged { position: sticky; top: 0; padding: 6px 10px; background: #9c0006; color: #fff; font-weight: bold; }
+@media print { .damaged { position: fixed; left: 0; right: 0; } }
 .signatures { width: 100%; } .signatures td, .signatures th[scope=row] { height: 44px; vertical-align: bottom; }
 footer { border-top: 1px solid var(--rule); margin-top: 40px; padding-top: 12px; font-size: 13px; color: var(--quiet); }
 @media print {
@@ -149,7 +151,9 @@ QByteArray reportHtml(const ReportContent& content) {
         "<title>" +
         Writer::escaped(content.documentTitle) + "</title>\n<style>" + QString::fromUtf8(kStyle) +
         "</style>\n</head>\n<body>\n<main>\n";
-    html += "<p class=\"simulated\">" + Writer::escaped(content.header) + "</p>\n" + writer.take();
+    // One page on a screen, where it stays in sight; on paper it is repeated on each.
+    html += QString("<p class=\"simulated%1\">").arg(content.damaged ? " damaged" : "") +
+            Writer::escaped(content.header) + "</p>\n" + writer.take();
     html += "<footer>" + Writer::escaped(content.footer) + "</footer>\n</main>\n</body>\n</html>\n";
     return html.toUtf8();
 }

@@ -37,8 +37,9 @@ double layOut(double width, const QString& text, const QFont& font, Qt::Alignmen
 
 }  // namespace
 
-PdfPages::PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total)
-    : header_(std::move(header)), footer_(std::move(footer)), total_(total) {
+PdfPages::PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total,
+                   bool alarming)
+    : header_(std::move(header)), footer_(std::move(footer)), total_(total), alarming_(alarming) {
     if (device == nullptr) return;
     writer_ = std::make_unique<QPdfWriter>(device);
     writer_->setResolution(kResolution);
@@ -83,7 +84,7 @@ void PdfPages::furnish() {
     const double y = y_;
     const QFont font = textFont(10);
     y_ = -34;
-    text(0, kWidth, header_, font, ink::kQuiet);
+    text(0, kWidth, header_, alarming_ ? textFont(10, true) : font, alarming_ ? ink::kFault : ink::kQuiet);
     y_ = kHeight + 18;
     text(0, kWidth, footer_, font, ink::kQuiet);
     text(0, kWidth, QString("page %1 of %2").arg(page_).arg(total_), font, ink::kQuiet, Qt::AlignRight);

@@ -17,8 +17,10 @@ public:
     static constexpr double kWidth = 656;   ///< of the text
     static constexpr double kHeight = 968;  ///< of the text on one page
 
-    /// Draws on `device`; null only counts pages. `total` is printed as "page x of total".
-    PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total);
+    /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is
+    /// a warning, set so that nobody overlooks it.
+    PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total,
+             bool alarming = false);
     /// The painter of the current page, its origin at the text's top left; null when only counting.
     [[nodiscard]] QCPPainter* painter() noexcept { return painter_ ? painter_.get() : nullptr; }
 
@@ -48,6 +50,7 @@ private:
     QString header_;
     QString footer_;
     int total_;
+    bool alarming_;
     int page_ = 1;
     double y_ = 0;
 };

@@ -201,7 +201,7 @@ Result<void> writePdf(const ReportContent& content, QIODevice& device) {
     // Set twice: the first time counts the pages.
     PdfPages counting(nullptr, {}, {}, {}, 0);
     setAll(content, counting);
-    PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page());
+    PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page(), content.damaged);
     setAll(content, pages);
     if (!pages.finish()) return fail(ErrorCode::Io, "The report's pages could not be written.");
     return {};

@@ -25,8 +25,9 @@ enum class ReportFormat { Pdf, Html };
 [[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
                                        const FontCheck& installed = fontInstalled);
 
-/// Reads `sessionFile` and writes its report to `path`.
+/// Verifies `sessionFile` and writes its report to `path`. The value is what is wrong with the session: the report of
+/// one that was altered is marked DAMAGED on every page (hazard H8). Empty when it is intact.
 /// Errors: as writeReport(), and as readSessionReport().
-[[nodiscard]] Result<void> writeSessionReport(const QString& sessionFile, const QString& path);
+[[nodiscard]] Result<QStringList> writeSessionReport(const QString& sessionFile, const QString& path);
 
 }  // namespace tacto

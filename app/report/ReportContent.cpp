@@ -12,7 +12,10 @@ VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
     block.verdict = model.verdict;
     block.reasons = model.reasons;
-    switch (model.verdict) {
+    // H9: nothing passes on evidence that was altered.
+    const bool unproven = !model.damage.isEmpty() && model.verdict == ReportVerdict::Pass;
+    if (unproven) block.verdict = ReportVerdict::Indeterminate;
+    switch (block.verdict) {
         case ReportVerdict::Pass:
             block.symbol = "✔", block.word = "Pass", block.color = QColor(0x00, 0x6b, 0x50);
             break;
@@ -32,6 +35,12 @@ VerdictBlock verdictOf(const ReportModel& model) {
     }
     if (block.reasons.isEmpty()) block.reasons << "The session gives no reason.";
     if (model.simulated) block.word += " – simulated";
+    if (!model.damage.isEmpty()) {
+        block.word += " – session damaged";
+        block.reasons.prepend(unproven ? "This session said that it passed. It is not what was recorded, so nothing "
+                                         "is proven by it."
+                                       : "This session is not what was recorded.");
+    }
     return block;
 }
 
@@ -231,7 +240,9 @@ ReportContent contentOf(const ReportModel& model) {
     content.simulated = model.simulated;
     const QString title = model.title.isEmpty() ? model.protocol : model.title;
     content.documentTitle = title.isEmpty() ? "Session" : title;
-    content.header = "Tactoscope  ·  " + content.documentTitle + (model.simulated ? "  ·  simulated" : "");
+    content.damaged = !model.damage.isEmpty();
+    content.header = QString(content.damaged ? "DAMAGED: this session is not what was recorded  ·  " : "") +
+                     "Tactoscope  ·  " + content.documentTitle + (model.simulated ? "  ·  simulated" : "");
     content.footer = "Session " + (model.session.isEmpty() ? QString("–") : model.session) + "  ·  chain head " +
                      (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
 
@@ -239,6 +250,12 @@ ReportContent contentOf(const ReportModel& model) {
     auto& blocks = content.blocks;
     blocks.emplace_back(TitleBlock{content.documentTitle, subtitleOf(model)});
     blocks.emplace_back(verdictOf(model));
+    if (content.damaged) {
+        blocks.emplace_back(captions.heading("DAMAGED"));
+        blocks.emplace_back(ParagraphBlock{"“tactoscope-cli verify” finds that this session was altered or is "
+                                           "incomplete. Do not rely on what follows. It finds:\n" +
+                                           model.damage.join('\n')});
+    }
     addUsed(model, captions, blocks);
     addItems(model, captions, blocks);
 

@@ -67,6 +67,7 @@ struct ReportContent {
     QString header;  ///< running head: what this is
     QString footer;  ///< session and chain head, short
     bool simulated = false;
+    bool damaged = false;  ///< the session was altered: said on every page
     std::vector<ReportBlock> blocks;
 };
 

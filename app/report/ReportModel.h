@@ -72,6 +72,7 @@ struct ReportModel {
     QStringList reasons;     ///< why that verdict; one sentence each
     bool simulated = false;  ///< any device of the session was simulated
     QString chainHead;       ///< hex; empty only when there is none yet
+    QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
     std::vector<ReportDevice> devices;
     std::vector<ReportFact> settings;  ///< parameters with their units
     std::vector<ReportFact> identity;  ///< versions, seed, hashes

@@ -8,6 +8,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
 #include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
 
 namespace tacto {
 namespace {
@@ -170,7 +171,7 @@ ReportVerdict verdictNamed(const std::string& name) {
 
 bool isQuiet(const std::string& kind) {
     static const std::vector<std::string> quiet{
-        "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
+        "arming",  "settings", "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
         "start",   "finished", "closed", "close",   "end",         "delivering", "state",    "interlock", "rounding",
         "rounded", "progress", "paused", "resumed", "calibration", "drive",      "profile",  "capture"};
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
@@ -228,9 +229,12 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
 }  // namespace
 
 Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) {
+    const auto verified = verifySession(sessionFile);
+    if (!verified) return failure(verified);
     const auto reader = SessionReader::open(sessionFile);
     if (!reader) return failure(reader);
     ReportModel model;
+    for (const auto& problem : verified->problems) model.damage << text(problem);
     fillAbout(*reader, sessionFile, model);
 
     const auto items = reader->reportItems();
@@ -271,11 +275,12 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     return model;
 }
 
-Result<void> writeSessionReport(const QString& sessionFile, const QString& path) {
+Result<QStringList> writeSessionReport(const QString& sessionFile, const QString& path) {
     if (const auto format = reportFormat(path); !format) return failure(format);
     const auto model = readSessionReport(sessionFile.toStdString());
     if (!model) return failure(model);
-    return writeReport(*model, path);
+    if (const auto written = writeReport(*model, path); !written) return failure(written);
+    return model->damage;
 }
 
 }  // namespace tacto

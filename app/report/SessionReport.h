@@ -23,6 +23,7 @@
 
 namespace tacto {
 
+/// Verifies the file first; what is wrong with it is in ReportModel::damage, and no pass stands on it.
 /// Errors: what SessionReader answers (NotFound, Unsupported for what is not a session, ParseError, Io);
 /// InvalidArgument for exposure rows that break their contract. A report item that does so is shown as a sentence in
 /// its place instead.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/scripting/Arguments.h"
+#include "app/scripting/Arming.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/electrode/Load.h"
@@ -27,40 +28,24 @@ Result<std::string> loadText(const Arguments& arguments, const Json& value) {
     return text;
 }
 
-Result<bool> confirm(ScriptSession& session, const char* name, const std::string& text) {
-    OperatorQuestion question;
-    question.name = name;
-    question.text = text;
-    auto answer = session.ask(question);
-    if (!answer) return failure(answer);
-    return answer->is_boolean() && answer->get<bool>();
-}
-
 Result<Json> arm(ScriptSession& session, const Json& list) {
-    const Arguments arguments("bench.arm", list);
-    auto options = arguments.options(0, {"load"});
-    if (!options) return failure(options);
-    ArmRequest request;
-    if (options->contains("load")) {
-        auto load = loadText(arguments, (*options)["load"]);
-        if (!load) return failure(load);
-        request.load = *load;
-    }
-    auto& bench = session.bench();
-    // Running a protocol on a bench load is the deliberate act; a person, and a load nobody can read, need a word more.
-    request.operatorConfirmed = bench.mode() == OutputMode::BenchLoad;
-    if (!request.operatorConfirmed) {
-        auto confirmed = confirm(session, "confirm-arming", "Arm the stimulator on this person");
-        if (!confirmed) return failure(confirmed);
-        request.operatorConfirmed = *confirmed;
-    }
-    if (const auto& stimulator = bench.devices().stimulator; stimulator && !stimulator->traits().readsBack) {
-        auto confirmed = confirm(session, "confirm-load", fmt::format("{} is connected", request.load));
-        if (!confirmed) return failure(confirmed);
-        request.declaredLoadConfirmed = *confirmed;
-    }
-    if (auto armed = bench.arm(request); !armed) return failure(armed);
-    return Json();
+    auto armed = [&]() -> Result<void> {
+        const Arguments arguments("bench.arm", list);
+        auto options = arguments.options(0, {"load"});
+        if (!options) return failure(options);
+        std::string load = ArmRequest{}.load;
+        if (options->contains("load")) {
+            auto given = loadText(arguments, (*options)["load"]);
+            if (!given) return failure(given);
+            load = *given;
+        }
+        auto request = confirmedArming(session, load);
+        if (!request) return failure(request);
+        return session.bench().arm(*request);
+    }();
+    if (armed) return Json();
+    session.bench().disarm();  // also what an earlier arm() of the script had armed
+    return failure(armed);
 }
 
 Result<Json> disarm(ScriptSession& session, const Json&) {
@@ -152,6 +137,7 @@ Result<Json> fitLoad(ScriptSession& session, const Json& list) {
     auto load = loadText(arguments, arguments.at(0));
     if (!load) return failure(load);
     session.bench().disarm();
+    session.forgetConfirmed();
     if (auto& fitter = session.bench().devices().load) {
         if (auto fitted = fitter->fitLoad(*load); !fitted) return failure(fitted);
         return Json();
@@ -172,9 +158,11 @@ std::vector<HostFunction> benchFunctions() {
          HostKind::Function,
          {{"options.load", "number or text", "ohm", "declared load, ± 20 % for the limits; 1000 where left out", true}},
          "Checks the load with one small pulse and arms the output. From then on trains are delivered as the drive "
-         "says.",
+         "says. Where the output is real, the operator confirms device, load and largest amplitude first (question "
+         "confirm-arming).",
          "",
-         "Throws with what is missing; when the impedance is out of range; when the run is stopped.",
+         "Throws with what is missing; without the confirmation; when the impedance is out of range; when the run is "
+         "stopped. Then the output is disarmed.",
          arm},
         {"bench", "disarm", HostKind::Function, {}, "Ends the output. Leaving run(p) does it too.", "", "", disarm},
         {"bench",

@@ -2,6 +2,7 @@
 #include <QRegularExpression>
 #include <mutex>
 
+#include "app/scripting/Arming.h"
 #include "app/scripting/ProtocolDeclaration.h"
 #include "app/scripting/ScriptThread.h"
 
@@ -47,13 +48,10 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     }
     static const QRegularExpression presents(QStringLiteral(R"(\bbench\s*\.\s*(?:present|measureReference)\b)"));
     static const QRegularExpression fits(QStringLiteral(R"(\bbench\s*\.\s*fitLoad\b)"));
-    static const QRegularExpression arms(QStringLiteral(R"(\bbench\s*\.\s*arm\b)"));
+    static const QRegularExpression arms(QStringLiteral(R"(\bbench\s*\.\s*(?:arm|trip\w+)\b)"));
     static const QRegularExpression wires(QStringLiteral(R"(\boperator\s*\.\s*wired\b)"));
     if (wires.match(text).hasMatch()) declaration.questions.emplace_back("wiring");
-    if (arms.match(text).hasMatch()) {
-        declaration.questions.emplace_back("confirm-load");
-        declaration.questions.emplace_back("confirm-arming");
-    }
+    if (arms.match(text).hasMatch()) declaration.questions.emplace_back(kConfirmArming);
     if (presents.match(text).hasMatch()) declaration.questions.emplace_back("surface-*");
     if (fits.match(text).hasMatch()) declaration.questions.emplace_back("fit-load");
 }

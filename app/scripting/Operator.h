@@ -27,6 +27,11 @@ struct OperatorQuestion {
     std::optional<double> min;
     std::optional<double> max;
     std::string drawing;  ///< name of a shipped drawing to show; may be empty
+    /// Confirm: what exactly is confirmed. An answer that was given in advance must be this text and no "yes"; several,
+    /// one to a line, answer a question that is put several times. Empty: "yes" does.
+    std::string confirms{};
+    /// Confirm, at a terminal: the word that is typed.
+    std::string word = "yes";
 };
 
 class Operator {
@@ -34,7 +39,7 @@ public:
     virtual ~Operator() = default;
     /// true for Confirm, the key for Choose, a number or text for Enter.
     /// Errors: NotFound when nobody can answer, naming the question; Stopped when refused or cancelled;
-    /// InvalidArgument for an answer outside what is accepted.
+    /// InvalidArgument for an answer outside what is accepted; NotArmed for the confirmation of another text.
     [[nodiscard]] virtual Result<nlohmann::json> ask(const OperatorQuestion& question) = 0;
     /// Makes a waiting ask() return Stopped.
     virtual void cancel() noexcept = 0;

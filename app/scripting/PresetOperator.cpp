@@ -8,7 +8,23 @@ namespace tacto {
 
 namespace {
 
+/// What is to be given in advance, as it is typed.
+std::string presetFor(const OperatorQuestion& question) {
+    return question.confirms.empty() ? fmt::format("--set {}=...", question.name)
+                                     : fmt::format("--set {}=\"{}\"", question.name, question.confirms);
+}
+
+Result<nlohmann::json> confirmText(const OperatorQuestion& question, const std::string& answer) {
+    for (const auto given : split(answer, '\n')) {
+        if (trimmed(given) == question.confirms) return nlohmann::json(true);
+    }
+    return fail(ErrorCode::NotArmed,
+                "{}=\"{}\" does not confirm \"{}\". Nothing was delivered. Where that is what is wanted, give {}",
+                question.name, fmt::join(split(answer, '\n'), "\", \""), question.confirms, presetFor(question));
+}
+
 Result<nlohmann::json> confirm(const OperatorQuestion& question, const std::string& answer) {
+    if (!question.confirms.empty()) return confirmText(question, answer);
     if (answer == "yes" || answer == "true" || answer == "1") return nlohmann::json(true);
     if (answer == "no" || answer == "false" || answer == "0") {
         return fail(ErrorCode::Stopped, "\"{}\" was answered with {}", question.text, answer);
@@ -45,8 +61,8 @@ Result<nlohmann::json> enter(const OperatorQuestion& question, const std::string
 Result<nlohmann::json> PresetOperator::ask(const OperatorQuestion& question) {
     const auto answer = answers_.find(question.name);
     if (answer == answers_.end()) {
-        return fail(ErrorCode::NotFound, "\"{}\" needs an answer and nobody is here: give --set {}=...", question.text,
-                    question.name);
+        return fail(ErrorCode::NotFound, "\"{}\" needs an answer and nobody is here: give {}", question.text,
+                    presetFor(question));
     }
     switch (question.kind) {
         case OperatorQuestion::Kind::Confirm:

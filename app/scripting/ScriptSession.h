@@ -12,6 +12,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ public:
 
     /// Errors: as Operator::ask(); NotFound naming the question without an operator.
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question);
+    /// What the operator confirmed in this run, until a load is changed.
+    [[nodiscard]] bool hasConfirmed(const std::string& text) const { return confirmed_.contains(text); }
+    void noteConfirmed(const std::string& text) { confirmed_.insert(text); }
+    void forgetConfirmed() { confirmed_.clear(); }
     void log(const std::string& text);
     void progress(const ScriptProgress& progress);
 
@@ -86,6 +91,7 @@ private:
 
     const RunRequest& request_;
     Random random_;
+    std::set<std::string> confirmed_;
     std::deque<Held> captures_;
     std::int64_t nextCapture_ = 1;
     std::vector<nlohmann::json> trials_;

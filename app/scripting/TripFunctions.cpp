@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scripting/Arguments.h"
+#include "app/scripting/Arming.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/analysis/ResultJson.h"
@@ -33,6 +34,7 @@ constexpr std::string_view kNoReadBack =
 
 /// Changes the load without ending the output first: itself on a simulated bench, else by the operator's hands.
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
+    session.forgetConfirmed();
     if (auto& fitter = session.bench().devices().load) return fitter->fitLoad(to);
     OperatorQuestion question;
     question.name = "change-load";
@@ -40,13 +42,6 @@ Result<void> change(ScriptSession& session, const std::string& to, const std::st
     auto answer = session.ask(question);
     if (!answer) return failure(answer);
     return {};
-}
-
-ArmRequest armRequest(const std::string& load) {
-    ArmRequest request;
-    request.load = load;
-    request.operatorConfirmed = true;  // running a check on a bench load is the deliberate act, as in bench.arm()
-    return request;
 }
 
 /// The bench is in a fault that was provoked: counted, and its cause taken away.
@@ -65,16 +60,12 @@ std::string commandFor(std::string_view becomes, const std::string& load) {
 /// Lets trains run until two have been delivered, so that a trip ends something.
 Result<void> startTrains(ScriptSession& session, const std::string& load) {
     Bench& bench = session.bench();
-    ArmRequest request = armRequest(load);
-    if (!canTell(bench)) {  // nobody but the operator knows what is connected
-        OperatorQuestion question;
-        question.name = "confirm-load";
-        question.text = fmt::format("{} is connected", load);
-        auto answer = session.ask(question);
-        if (!answer) return failure(answer);
-        request.declaredLoadConfirmed = *answer == Json(true);
+    const auto request = confirmedArming(session, load);
+    if (!request) return failure(request);
+    if (auto armed = bench.arm(*request); !armed) {
+        bench.disarm();
+        return armed;
     }
-    if (auto armed = bench.arm(request); !armed) return armed;
     const auto before = bench.telemetry().trainsDelivered;
     if (auto driven = bench.drive(DriveSource::Manual, 0, 1); !driven) return driven;
     const double longest_s = 4 * bench.profile().encoding.intervalMax.count();
@@ -100,8 +91,10 @@ Result<Json> inChecking(ScriptSession& session, const Json& list) {
         return failure(fitted);
     }
     const auto delivered = bench.telemetry().trainsDelivered;
+    const auto request = confirmedArming(session, *declared);
+    if (!request) return failure(request);
     const Instant begun = session.now();
-    const auto armed = bench.arm(armRequest(*declared));
+    const auto armed = bench.arm(*request);
     const double after_s = toSeconds(session.now() - begun);
     bench.disarm();
     if (armed) return trial(*becomes, true, false, std::nan(""), "the output was armed into it");

@@ -50,6 +50,9 @@ struct ArmRequest {
     std::string load = "1 kohm";         ///< declared load, as parseLoad() reads it (bench loads)
     bool declaredLoadConfirmed = false;  ///< the operator's word, where the device cannot read back
     bool operatorConfirmed = false;      ///< deliberate: not a default button, not a key that repeats
+    /// The text that the operator was shown and confirmed: armingText() of the load. Where the output is real, nothing
+    /// else confirms it; for a simulated one it may be empty.
+    std::string confirmed{};
 };
 
 class Bench {
@@ -60,6 +63,13 @@ public:
     /// Disarmed → Checking (one small pulse) → Armed. Errors: NotArmed with what is missing; LimitExceeded; Device;
     /// Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
+    /// The same check of the load, after which the bench is disarmed, whatever came of it. Nothing but the check pulse
+    /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
+    [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
+    /// What the operator confirms before this load is armed. See core/bench/ArmingText.h.
+    [[nodiscard]] std::string armingText(const Load& load) const;
+    /// Whether what would be armed is a device and no simulation: then arm() takes no request without its text.
+    [[nodiscard]] bool outputIsReal() const noexcept;
     /// Ends output and goes to Disarmed (a fault stays). Never fails.
     void disarm() noexcept;
     /// Output off, every approval void, Disarmed, and every waiting call returns Stopped. Bypasses every queue.

@@ -1,8 +1,10 @@
 // Arming, and the ways out of a fault.
+#include <cmath>
 #include <fmt/chrono.h>
 #include <thread>
 #include <utility>
 
+#include "core/bench/ArmingText.h"
 #include "core/bench/BenchState.h"
 
 namespace tacto {
@@ -52,8 +54,7 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     const auto leading = segmentsOf(checkTrainOf(command.setup), source.gap).items[0];
     auto& evidence = command.evidence;
     evidence.limitsLoaded = !config.limits.empty();
-    const Device* output = config.devices.stimulator.get();
-    if (output == nullptr) output = config.devices.massager.get();
+    const Device* output = outputDevice();
     evidence.deviceIdentified = output != nullptr && !output->identity().name.empty();
     evidence.operatorConfirmed = request.operatorConfirmed;
     evidence.needsImpedance = config.devices.stimulator != nullptr;
@@ -65,11 +66,48 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     return command;
 }
 
+std::string Bench::State::armingText(const Load& load) const {
+    const Device* output = outputDevice();
+    if (output == nullptr) return {};
+    const auto* stimulated = config.devices.stimulator ? &source : nullptr;
+    return tacto::armingText(output->identity(), stimulated, config.profile, config.mode, load);
+}
+
+std::string Bench::armingText(const Load& load) const { return state_->armingText(load); }
+
+bool Bench::outputIsReal() const noexcept {
+    const Device* output = state_->outputDevice();
+    return output != nullptr && !output->identity().simulated;
+}
+
+/// A confirmation of another text is none: a device, profile or area may have changed since it was shown.
+Result<void> Bench::State::confirmedAsShown(const ArmRequest& request, const Load& load) const {
+    const Device* output = outputDevice();
+    const bool mayBeEmpty = output == nullptr || output->identity().simulated;
+    if (request.confirmed.empty() && mayBeEmpty) return {};
+    const auto text = armingText(load);
+    if (request.confirmed == text) return {};
+    if (request.confirmed.empty())
+        return fail(ErrorCode::NotArmed, "not armed: the operator has not confirmed \"{}\"", text);
+    return fail(ErrorCode::NotArmed, "not armed: the operator confirmed \"{}\", and what would be armed is \"{}\"",
+                request.confirmed, text);
+}
+
+Result<std::optional<Ohms>> Bench::checkImpedance(const ArmRequest& request) {
+    static_cast<void>(drive(DriveSource::Off));  // never fails for Off
+    const auto armed = arm(request);
+    const double ohms = telemetry().impedance_ohm;
+    disarm();
+    if (!armed) return failure(armed);
+    return std::isfinite(ohms) ? std::optional(Ohms(ohms)) : std::nullopt;
+}
+
 Result<void> Bench::arm(const ArmRequest& request) {
     auto& s = *state_;
     if (!s.hasOutput()) return fail(ErrorCode::Unsupported, "not armed: no stimulator and no massager is open");
     const auto load = parseLoad(request.load);
     if (!load) return failure(load);
+    if (const auto confirmed = s.confirmedAsShown(request, *load); !confirmed) return confirmed;
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibrationToday(); !holds) return holds;
     const auto ticket = s.interlock.requestArming(s.config.clock->now());

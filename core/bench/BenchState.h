@@ -144,6 +144,12 @@ struct Bench::State {
     void noteCalibration();
     Result<void> calibrationToday() const;
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
+    [[nodiscard]] const Device* outputDevice() const noexcept {
+        if (config.devices.stimulator) return config.devices.stimulator.get();
+        return config.devices.massager.get();
+    }
+    [[nodiscard]] std::string armingText(const Load& load) const;
+    [[nodiscard]] Result<void> confirmedAsShown(const ArmRequest& request, const Load& load) const;
     [[nodiscard]] ArmCommand armCommandFor(const ArmRequest& request, const Load& load) const;
 };
 

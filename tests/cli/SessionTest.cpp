@@ -54,6 +54,21 @@ TEST_F(Session, AChangedByteAnywhereIsDamageAndExitsOne) {
     }
 }
 
+TEST_F(Session, TheReportOfAnAlteredOneSaysSoAndExitsOne) {
+    RecordProperty("hazard", "H8");
+    const auto content = contentOf(session);
+    const auto altered = flipped(content.find("rough-high", content.size() / 2));
+    for (const auto* name : {"altered.html", "altered.pdf"}) {
+        const auto ran = desk.run({"report", altered, "--out", desk.at(name)});
+        EXPECT_EQ(ran.code, 1) << name << ran.err;
+        EXPECT_THAT(ran.err, HasSubstr("DAMAGED"));
+        EXPECT_TRUE(std::filesystem::exists(desk.at(name)));
+    }
+    EXPECT_THAT(contentOf(desk.at("altered.html")), HasSubstr("DAMAGED"));
+    EXPECT_EQ(desk.run({"report", session, "--out", desk.at("intact.html")}).code, 0);
+    EXPECT_THAT(contentOf(desk.at("intact.html")), testing::Not(HasSubstr("DAMAGED")));
+}
+
 TEST_F(Session, CutShortIsDamaged) {
     RecordProperty("hazard", "H8");
     const auto cut = desk.write("cut.tacto", contentOf(session).substr(0, std::filesystem::file_size(session) / 2));

@@ -139,5 +139,20 @@ TEST(TextPlot, NothingAndZeroesAreDrawnToo) {
     EXPECT_THAT(empty, Each(Not(HasSubstr("*"))));
 }
 
+TEST(TextPlotText, LabelsQuotedFromElsewhereAreSpelledOut) {
+    RecordProperty("hazard", "H10");
+    const auto values = pulse(5);
+    auto plot = plotOf(values);
+    plot.title = "volt\x1b[2Jage\n";
+    plot.xTitle = "time\r";
+    plot.mark = 200;
+    plot.markText = "|Z| \x9b";
+    const auto text = cli::draw(plot);
+    for (const unsigned char c : text) EXPECT_TRUE(c >= 0x20 || c == '\n') << static_cast<int>(c);
+    EXPECT_THAT(text, HasSubstr("volt\\x1b[2Jage\\x0a"));
+    EXPECT_THAT(text, HasSubstr("time\\x0d"));
+    EXPECT_THAT(text, HasSubstr("|Z| \\x9b"));
+}
+
 }  // namespace
 }  // namespace tacto::test

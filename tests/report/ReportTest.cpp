@@ -157,6 +157,28 @@ TEST_F(Report, MarksASimulatedSessionAndNoOther) {
     EXPECT_GT(contentOfFile(write(separabilityModel(true), "s.html")).count("SIMULATED"), 5);
 }
 
+TEST_F(Report, SaysOnEveryPageThatItsSessionWasAltered) {
+    RecordProperty("hazard", "H8");
+    if (!havePoppler()) GTEST_SKIP() << kNoPoppler;
+    auto model = separabilityModel(false);
+    model.verdict = ReportVerdict::Pass;
+    const auto intact = pdfText(write(model, "intact.pdf"));
+    EXPECT_EQ(intact.find("DAMAGED"), std::string::npos);
+    model.damage = QStringList{"row 12 (trial rough-high) was altered: its hash is wrong"};
+    const auto pdf = pdfText(write(model, "altered.pdf"));
+    std::size_t pages = 0;
+    for (std::size_t at = 0, end = 0; (end = pdf.find('\f', at)) != std::string::npos; at = end + 1) {
+        ++pages;
+        EXPECT_NE(pdf.substr(at, end - at).find("DAMAGED"), std::string::npos) << "page " << pages;
+    }
+    EXPECT_GT(pages, 2U);
+    EXPECT_NE(pdf.find("row 12 (trial rough-high) was altered"), std::string::npos);
+    EXPECT_NE(pdf.find("Indeterminate – session damaged"), std::string::npos) << "a pass is not shown as one";
+    const auto html = contentOfFile(write(model, "altered.html")).toStdString();
+    EXPECT_NE(html.find("class=\"simulated damaged\">DAMAGED"), std::string::npos);
+    EXPECT_NE(html.find("row 12 (trial rough-high) was altered"), std::string::npos);
+}
+
 TEST_F(Report, NeverCallsAMissingExposureWithin) {
     RecordProperty("hazard", "H9");
     auto model = separabilityModel(false, 3);

@@ -57,7 +57,7 @@ TEST(ProtocolDeclaration, KnowsWhatTheHostAsksOnItsOwn) {
     const auto read = readDeclaration(probe(R"js(protocol({ title: "x" });
 function run() { operator.wired(500); bench.arm({ load: 500 }); bench.present("silk"); })js"));
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->questions, (std::vector<std::string>{"wiring", "confirm-load", "confirm-arming", "surface-*"}));
+    EXPECT_EQ(read->questions, (std::vector<std::string>{"wiring", "confirm-arming", "surface-*"}));
 }
 
 TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {

@@ -94,10 +94,7 @@ TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
 TEST(LoadSafetyRun, AStimulatorThatCannotReadBackIsNoPass) {
     RecordProperty("hazard", "H9");
     LoadSafetyRig rig({"sim:stimulator?readback=no"});
-    auto request = rig.request({{"area", "3"}, {"steps", "2"}});
-    PresetOperator desk(std::map<std::string, std::string>{{"confirm-load", "yes"}});
-    request.operatorDesk = &desk;
-    const auto outcome = runProtocol(std::move(request)).value();
+    const auto outcome = rig.run({{"area", "3"}, {"steps", "2"}});
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(loadOf(outcome.results, "open")["verdict"], "not evaluated");

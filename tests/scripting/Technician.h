@@ -21,14 +21,21 @@ public:
     }
     const DeviceIdentity& identity() const noexcept override { return identity_; }
     const SourceTraits& traits() const noexcept override { return twin_->traits(); }
-    Result<void> deliver(ApprovedTrain&& train) override { return twin_->deliver(std::move(train)); }
+    Result<void> deliver(ApprovedTrain&& train) override {
+        ++delivered_;
+        return twin_->deliver(std::move(train));
+    }
     Result<StimulatorStatus> status() override { return twin_->status(); }
     Result<void> keepAlive() override { return twin_->keepAlive(); }
     void forceOff() noexcept override { twin_->forceOff(); }
 
+    /// Trains and impedance checks so far; on the virtual clock.
+    [[nodiscard]] int delivered() const noexcept { return delivered_; }
+
 private:
     std::unique_ptr<Stimulator> twin_;
     DeviceIdentity identity_;
+    int delivered_ = 0;
 };
 
 /// Fits and changes the loads as it is asked, and confirms the rest; `asked` keeps every question.

@@ -2,10 +2,12 @@
 
 #include <QMetaObject>
 #include <chrono>
+#include <cmath>
 
 #include "app/report/Report.h"
 #include "app/run/KnownCalibration.h"
 #include "app/scripting/ProtocolLibrary.h"
+#include "core/bench/ArmingText.h"
 
 namespace tacto::gui {
 
@@ -62,6 +64,11 @@ Telemetry BenchDesk::telemetry() const {
     return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
 }
 
+std::string BenchDesk::confirmationOf(const Load& load) const {
+    if (!open_ || !open_->output) return {};
+    return armingText(*open_->output, open_->source ? &*open_->source : nullptr, profile_, OutputMode::BenchLoad, load);
+}
+
 std::optional<DeviceReport> BenchDesk::deviceReport(Role role) const {
     const std::scoped_lock lock(benchMutex_);
     return bench_ != nullptr ? bench_->deviceReport(role) : std::nullopt;
@@ -110,8 +117,21 @@ void BenchDesk::arm(const ArmRequest& request) {
     post([this, request] {
         if (!live_) return report(Error{ErrorCode::NotArmed, "Not armed: no bench is open."});
         live_->bench->clearStop();
-        if (auto armed = live_->bench->arm(request); !armed) return report(armed.error());
+        if (auto armed = live_->bench->arm(request); !armed) {
+            live_->bench->disarm();  // also what was armed before
+            return report(armed.error());
+        }
         tell([this] { emit this->armed(); });
+    });
+}
+
+void BenchDesk::checkImpedance(const ArmRequest& request) {
+    post([this, request] {
+        if (!live_) return report(Error{ErrorCode::NotArmed, "The impedance was not checked: no bench is open."});
+        live_->bench->clearStop();
+        const auto found = live_->bench->checkImpedance(request);
+        if (!found) return report(found.error());
+        tell([this, ohms = *found ? (*found)->value() : std::nan("")] { emit checked(ohms); });
     });
 }
 
@@ -307,6 +327,10 @@ std::shared_ptr<const OpenBench> describe(Bench& bench, const SessionAbout& abou
     auto& devices = bench.devices();
     if (devices.sensor) open->streams.assign(devices.sensor->streams().begin(), devices.sensor->streams().end());
     if (devices.stimulator) open->source = devices.stimulator->traits();
+    if (devices.stimulator)
+        open->output = devices.stimulator->identity();
+    else if (devices.massager)
+        open->output = devices.massager->identity();
     if (devices.oscilloscope) open->scope = devices.oscilloscope->traits();
     open->paced = bench.clock().isVirtual();
     open->surfaces = devices.surface != nullptr;

@@ -41,6 +41,7 @@ struct OpenBench {
     SessionAbout about;
     std::filesystem::path session;
     std::vector<StreamInfo> streams;  ///< of the sensor; empty without one
+    std::optional<DeviceIdentity> output;  ///< what arming arms: the stimulator, else the massager
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;
     bool paced = false;        ///< on the virtual clock: `speed` means something
@@ -99,8 +100,13 @@ public:
 
     void openLive(const LiveOrder& order);
     void close();
-    /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken.
+    /// What the operator is shown and confirms before this load is armed: `request.confirmed`. Empty without a bench.
+    [[nodiscard]] std::string confirmationOf(const Load& load) const;
+    /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken. Whatever fails leaves
+    /// the bench disarmed.
     void arm(const ArmRequest& request);
+    /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() tells what it found.
+    void checkImpedance(const ArmRequest& request);
     void disarm();
     /// Outputs off before this returns; any thread. Ends a running protocol too.
     void stop(const char* by) noexcept;
@@ -127,6 +133,7 @@ signals:
     void changed();                    ///< activity, open bench or profile
     void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
+    void checked(double impedance_ohm);  ///< of the electrodes; NaN where the source does not measure it
     /// The finger slides over another surface, whoever asked for it. An empty material: it is lifted.
     void presented(const QString& material, double speed_mm_s, double force_n);
     void captured(std::shared_ptr<const tacto::Capture> capture);

@@ -66,6 +66,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     refuse->setToolTip(tr("The output goes off; what was recorded so far is kept."));
     connect(refuse, &QPushButton::clicked, this, [this] { desk_.refuse(); });
     row->addWidget(refuse);
+    if (first_ == nullptr) first_ = refuse;
     column->addLayout(row);
     trouble_ = new QLabel(body_);
     trouble_->setObjectName("promptTrouble");
@@ -119,7 +120,14 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
         row->addWidget(button);
         if (first_ == nullptr) first_ = button;
     };
-    if (question.kind == OperatorQuestion::Kind::Confirm) add(tr("&Done"), "yes", tr("It is as the sentence says."));
+    if (!question.confirms.empty()) {
+        // Not the button that has the focus: a key that is held down must not arm.
+        add(tr("&Arm output"), QString::fromStdString(question.confirms), tr("Confirms exactly what the sentence says."));
+        first_->setObjectName("confirmArming");
+        first_ = nullptr;
+    } else if (question.kind == OperatorQuestion::Kind::Confirm) {
+        add(tr("&Done"), "yes", tr("It is as the sentence says."));
+    }
     for (const auto& [key, text] : question.choices) {
         const auto name = QString::fromStdString(key);
         add(text.empty() ? name : QString::fromStdString(text), name, tr("Answers \"%1\".").arg(name));

@@ -8,6 +8,8 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kDamaged = 1;  // of tactoscope-cli report: written, of a session that was altered
+
 /// What a killed program leaves beside `out` while it writes: QSaveFile's "report.pdf.AbCdEf".
 void removeHalfWritten(const QString& out) {
     const QFileInfo file(out);
@@ -62,7 +64,10 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
         emit failed(tr("The report was cancelled; the session is complete."));
     else if (status == QProcess::CrashExit)
         emit failed(tr("No report: the program that draws it ended unexpectedly. The session is complete."));
-    else if (code != 0)
+    else if (code == kDamaged && QFileInfo::exists(out)) {
+        emit done(out);
+        emit failed(said);
+    } else if (code != 0)
         emit failed(tr("No report: %1. The session is complete.").arg(said));
     else
         emit done(out);

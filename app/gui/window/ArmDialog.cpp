@@ -25,17 +25,24 @@ protected:
 
 }  // namespace
 
-ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QDialog(parent), desk_(desk) {
-    setWindowTitle(tr("Arm the output"));
+ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWidget* parent)
+    : QDialog(parent), desk_(desk), purpose_(purpose) {
+    const bool check = purpose == Purpose::CheckImpedance;
+    setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
     setAttribute(Qt::WA_DeleteOnClose);
     const auto open = desk.open();
     readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
 
     auto* layout = new QVBoxLayout(this);
     const bool massager = open && !open->source;
-    layout->addWidget(heading(massager ? tr("Arm the massager") : tr("Arm the output on a bench load"), this));
+    layout->addWidget(heading(check      ? tr("Check the impedance of a bench load")
+                              : massager ? tr("Arm the massager")
+                                         : tr("Arm the output on a bench load"),
+                              this));
     layout->addWidget(explanation(
-        massager ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
+        check      ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
+                        "stops at any time.")
+        : massager ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
                  : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
                       "each judged "
                       "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
@@ -46,6 +53,13 @@ ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QD
     form->addRow(tr("Declared &load"), load_);
     layout->addLayout(form);
     form->setRowVisible(load_, !massager);
+    confirmed_ = new QLabel(this);
+    confirmed_->setObjectName("armingText");
+    confirmed_->setWordWrap(true);
+    auto bold = confirmed_->font();
+    bold.setBold(true);
+    confirmed_->setFont(bold);
+    layout->addWidget(confirmed_);
     trouble_ = new QLabel(this);
     trouble_->setWordWrap(true);
     auto red = trouble_->palette();
@@ -58,9 +72,10 @@ ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QD
     layout->addWidget(connected_);
 
     auto* buttons = new QDialogButtonBox(this);
-    arm_ = buttons->addButton(tr("&Arm output"), QDialogButtonBox::ActionRole);
-    arm_->setObjectName("armOutput");
-    arm_->setToolTip(tr("Second step: measures the load and arms."));
+    arm_ = buttons->addButton(check ? tr("&Check impedance") : tr("&Arm output"), QDialogButtonBox::ActionRole);
+    arm_->setObjectName(check ? "checkImpedance" : "armOutput");
+    arm_->setToolTip(check ? tr("Second step: measures the load and ends disarmed.")
+                           : tr("Second step: measures the load and arms."));
     auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
     for (auto* button : {arm_, cancel}) {
         button->setAutoDefault(false);
@@ -68,7 +83,7 @@ ArmDialog::ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent) : QD
     }
     arm_->installEventFilter(new NoRepeat(this));
     layout->addWidget(buttons);
-    connect(arm_, &QPushButton::clicked, this, &ArmDialog::arm);
+    connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
     connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
     connect(connected_, &QCheckBox::toggled, this, &ArmDialog::judge);
@@ -80,15 +95,21 @@ void ArmDialog::judge() {
     const auto parsed = parseLoad(load_->text().toStdString());
     trouble_->setText(parsed ? QString() : QString::fromStdString(parsed.error().message));
     trouble_->setVisible(!parsed);
+    text_ = parsed ? desk_.confirmationOf(*parsed) : std::string();
+    confirmed_->setText(QString::fromStdString(text_));
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 
-void ArmDialog::arm() {
+void ArmDialog::confirm() {
     ArmRequest request;
     request.load = load_->text().toStdString();
     request.operatorConfirmed = true;
     request.declaredLoadConfirmed = connected_->isChecked();
-    desk_.arm(request);
+    request.confirmed = text_;
+    if (purpose_ == Purpose::CheckImpedance)
+        desk_.checkImpedance(request);
+    else
+        desk_.arm(request);
     accept();
 }
 

@@ -1,5 +1,5 @@
-// ArmDialog.h - the second step of arming: what will be connected, what the limits will be held against, and a button
-// that is not the default one (hazard H6).
+// ArmDialog.h - the second step of arming, and of checking the impedance: what will be connected, what the limits will
+// be held against, the text that the operator confirms, and a button that is not the default one (hazards H6, H12).
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -17,16 +17,20 @@ namespace tacto::gui {
 class ArmDialog final : public QDialog {
     Q_OBJECT
 public:
-    ArmDialog(BenchDesk& desk, const QString& load, QWidget* parent);
+    enum class Purpose { Arm, CheckImpedance };
+    ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWidget* parent);
     /// The declared load, as written.
     [[nodiscard]] QString load() const { return load_->text(); }
 
 private:
     void judge();
-    void arm();
+    void confirm();
 
     BenchDesk& desk_;
+    const Purpose purpose_;
+    std::string text_;  // as it stands in confirmed_
     QLineEdit* load_;
+    QLabel* confirmed_;
     QLabel* trouble_;
     QCheckBox* connected_;
     QPushButton* arm_;

@@ -12,6 +12,7 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
@@ -19,7 +20,6 @@
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
-#include "app/gui/window/ArmDialog.h"
 #include "app/gui/window/ComingWorkspace.h"
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/ExposureDock.h"
@@ -92,14 +92,10 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(&desk_, &BenchDesk::changed, this, &MainWindow::noteChange);
     connect(&desk_, &BenchDesk::failed, this, &MainWindow::complain);
-    connect(&desk_, &BenchDesk::armed, this, [this] {
-        if (std::exchange(disarmWhenArmed_, false)) {
-            const auto impedance = desk_.telemetry().impedance_ohm;
-            desk_.disarm();
-            line_->say(tr("Impedance %1. Disarmed again.").arg(quantityText(impedance, "ohm", 4)));
-        } else {
-            line_->say(tr("Armed."));
-        }
+    connect(&desk_, &BenchDesk::armed, this, [this] { line_->say(tr("Armed.")); });
+    connect(&desk_, &BenchDesk::checked, this, [this](double ohms) {
+        line_->say(std::isnan(ohms) ? tr("This stimulator does not measure the impedance. Disarmed.")
+                                    : tr("Impedance %1. Disarmed.").arg(quantityText(ohms, "ohm", 4)));
     });
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
@@ -271,7 +267,6 @@ void MainWindow::sayFault(const Telemetry& telemetry) {
 }
 
 void MainWindow::complain(const QString& what) {
-    disarmWhenArmed_ = false;
     const auto state = desk_.telemetry().state;
     const bool off =
         state == InterlockState::Disconnected || state == InterlockState::Disarmed || state == InterlockState::Faulted;
@@ -288,19 +283,20 @@ void MainWindow::askToArm() {
     if (desk_.activity() != Activity::Live) {
         return complain(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
     }
-    auto* dialog = new ArmDialog(desk_, load_, this);
-    connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
-    dialog->open();
+    askToConfirm(ArmDialog::Purpose::Arm);
 }
 
 void MainWindow::checkImpedance() {
-    disarmWhenArmed_ = true;
-    ArmRequest request;
-    request.load = load_.toStdString();
-    request.operatorConfirmed = true;
-    request.declaredLoadConfirmed = true;
-    desk_.drive(DriveSource::Off);
-    desk_.arm(request);
+    const auto open = desk_.open();
+    if (desk_.activity() != Activity::Live || !open || !open->source)
+        return complain(tr("No impedance to check: no stimulator is open. Open the simulated bench (Ctrl+B)"));
+    askToConfirm(ArmDialog::Purpose::CheckImpedance);
+}
+
+void MainWindow::askToConfirm(ArmDialog::Purpose purpose) {
+    auto* dialog = new ArmDialog(desk_, purpose, load_, this);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
+    dialog->open();
 }
 
 void MainWindow::openSimulatedBench() {

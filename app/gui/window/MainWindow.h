@@ -18,6 +18,7 @@
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/desk/BenchDesk.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/window/ArmDialog.h"
 
 class QTabWidget;
 
@@ -78,6 +79,7 @@ private:
     void chooseFile();
     void chooseRecording();
     void checkImpedance();
+    void askToConfirm(ArmDialog::Purpose purpose);
     void openSimulatedBench();
     void setTheme(Theme theme);
     void showScope();
@@ -107,9 +109,8 @@ private:
     QMenu* recent_ = nullptr;
     QTimer frame_;
     QString load_ = "1 kohm";
-    bool disarmWhenArmed_ = false;  // an impedance check is under way
-    int faultedFrames_ = 0;         // since the bench faulted
-    QString faultText_;             // as the banner says it
+    int faultedFrames_ = 0;  // since the bench faulted
+    QString faultText_;      // as the banner says it
 };
 
 }  // namespace tacto::gui

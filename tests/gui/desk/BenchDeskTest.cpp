@@ -5,6 +5,7 @@
 
 #include "app/gui/desk/BenchDesk.h"
 #include "app/scripting/ProtocolLibrary.h"
+#include "core/electrode/Load.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
@@ -66,6 +67,47 @@ TEST_F(Desk, IsClosedUntilABenchIsOpened) {
     EXPECT_TRUE(std::filesystem::exists(desk.open()->session));
     desk.close();
     EXPECT_TRUE(comesTrue([this] { return desk.activity() == Activity::Closed; }));
+}
+
+TEST_F(Desk, AnImpedanceCheckEndsDisarmedWhateverIsComplainedAboutMeanwhile) {
+    RecordProperty("hazard", "H12");
+    open();
+    double measured = 0;
+    QObject::connect(&desk, &BenchDesk::checked, [&](double ohms) { measured = ohms; });
+    desk.drive(DriveSource::Manual, 2, 1);  // refused: a complaint of another kind, before the check ends
+    ArmRequest request{"1 kohm", true, true};
+    desk.checkImpedance(request);
+    ASSERT_TRUE(comesTrue([&] { return measured > 0; }));
+    EXPECT_NEAR(measured, 1000, 50);
+    EXPECT_FALSE(complaints.isEmpty());
+    EXPECT_EQ(desk.telemetry().state, InterlockState::Disarmed);
+    EXPECT_EQ(desk.telemetry().trainsDelivered, 0U);
+}
+
+TEST_F(Desk, ArmingThatIsRefusedLeavesTheBenchDisarmed) {
+    RecordProperty("hazard", "H12");
+    open();
+    arm();
+    ASSERT_TRUE(comesTo(InterlockState::Armed));
+    ArmRequest request{"1 kohm", true, true};
+    request.confirmed = "another stimulator into 2 kohm";
+    desk.arm(request);
+    ASSERT_TRUE(comesTo(InterlockState::Disarmed)) << "what was armed before went on";
+    ASSERT_TRUE(comesTrue([this] { return !complaints.isEmpty(); }));
+    EXPECT_THAT(complaints.last().toStdString(), HasSubstr("the operator confirmed \"another stimulator"));
+}
+
+TEST_F(Desk, SaysWhatArmingConfirms) {
+    RecordProperty("hazard", "H12");
+    EXPECT_EQ(desk.confirmationOf(Load::resistor(Ohms(1000))), "");
+    open("sim:stimulator?mode=current");
+    EXPECT_THAT(desk.confirmationOf(Load::resistor(Ohms(2000))),
+                HasSubstr("SIM-1 into 2 kohm, up to 40 V and 25 mA, electrode area not stated"));
+    ArmRequest request{"2 kohm", true, true};
+    request.confirmed = desk.confirmationOf(Load::resistor(Ohms(2000)));
+    desk.fitLoad("2 kohm");
+    desk.arm(request);
+    EXPECT_TRUE(comesTo(InterlockState::Armed)) << "as the bench says it itself";
 }
 
 TEST_F(Desk, ArmsAndDeliversByHandAndStopsAtOnce) {

@@ -39,6 +39,28 @@ TEST_F(Window, ArmingTakesTwoSteps) {
     EXPECT_EQ(state(), InterlockState::Armed);
 }
 
+TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
+    RecordProperty("hazard", "H12");
+    open();
+    auto* first = window.findChild<QPushButton*>("checkButton");
+    ASSERT_NE(first, nullptr);
+    click(*first);
+    auto* second = window.findChild<QPushButton*>("checkImpedance");
+    ASSERT_NE(second, nullptr) << "one click was enough";
+    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    const auto* text = window.findChild<QLabel*>("armingText");
+    ASSERT_NE(text, nullptr);
+    EXPECT_THAT(text->text().toStdString(), HasSubstr("into 1 kohm, up to 40 V"));
+    EXPECT_TRUE(std::isnan(window.desk().telemetry().impedance_ohm));
+    click(*second);
+    ASSERT_TRUE(comesTrue([this] {
+        const auto widgets = window.statusBar()->findChildren<QWidget*>();
+        return std::any_of(widgets.begin(), widgets.end(),
+                           [](const QWidget* widget) { return widget->toolTip().contains("kΩ. Disarmed."); });
+    }));
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
 TEST_F(Window, AHeldReturnDoesNotArm) {
     RecordProperty("hazard", "H6");
     open();

@@ -1,0 +1,18 @@
+// Printable.h - text from a file or a device as a terminal may show it: what would move the cursor, change colours or
+// turn the reading direction is spelled out instead (hazard H10).
+//
+// Thread-safety: pure function.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tacto {
+
+enum class Newlines { Escape, Keep };
+
+/// `text` with C0 and C1 control characters, DEL and bytes that are no UTF-8 written as "\x1b", and characters that
+/// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
+[[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
+
+}  // namespace tacto

@@ -1,0 +1,84 @@
+// run on hardware: the built program against a stimulator behind a pseudo-terminal that does not say it is emulated.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/sciencemode/EmulatedPty.h"
+#include "tests/cli/TerminalCli.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class RunOnHardware : public testing::Test {
+protected:
+    RunOnHardware() { RecordProperty("hazard", "H12"); }
+    static sciencemode::EmulatedSettings unit() {
+        sciencemode::EmulatedSettings settings;
+        settings.id = "P240000123";
+        return settings;
+    }
+    [[nodiscard]] Words words(const Words& more = {}) const {
+        Words all{"run", script_, "--device", "sciencemode:?tty=" + pty_->path(), "--out", "out"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    [[nodiscard]] std::size_t putOut() const {
+        return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
+    }
+    /// What --set must be given, from the sentence that refuses.
+    static std::string wanted(const std::string& said) {
+        constexpr std::string_view kBefore = "confirm-arming=\"";
+        const auto at = said.rfind(kBefore);
+        if (at == std::string::npos) return {};
+        const auto begin = at + kBefore.size();
+        return said.substr(begin, said.find('"', begin) - begin);
+    }
+
+    const SteadyClock clock_;
+    const Desk desk_;
+    const std::unique_ptr<sciencemode::EmulatedPty> pty_ = *sciencemode::EmulatedPty::open(unit(), clock_);
+    const std::string script_ = desk_.protocol("arms.js", R"js(protocol({ title: "Arms", needs: ["stimulator"],
+  parameters: { load: { label: "Load", unit: "ohm", min: 1, max: 1e6, value: 1e3 } } });
+function run(p) { bench.arm({ load: p.load }); bench.disarm(); return verdict({ verdict: "pass" }); })js");
+};
+
+TEST_F(RunOnHardware, DeliversNothingThatNobodyConfirmedAndSaysWhatToAnswer) {
+    const auto refused = desk_.run(words());
+    EXPECT_EQ(refused.code, 3) << refused.err;
+    EXPECT_EQ(putOut(), 0U);
+    const auto text = wanted(refused.err);
+    EXPECT_THAT(text, HasSubstr("P240000123 into 1 kohm, up to 40 V and 50 mA")) << refused.err;
+
+    const auto yes = desk_.run(words({"--set", "confirm-arming=yes"}));
+    EXPECT_EQ(yes.code, 4) << yes.err;
+    const auto other = desk_.run(words({"--set", "load=2000", "--set", "confirm-arming=" + text}));
+    EXPECT_EQ(other.code, 4) << other.err;
+    EXPECT_THAT(wanted(other.err), HasSubstr("into 2 kohm"));
+    EXPECT_EQ(putOut(), 0U);
+
+    const auto confirmed = desk_.run(words({"--set", "confirm-arming=" + text}));
+    EXPECT_EQ(confirmed.code, 0) << confirmed.err;
+    EXPECT_EQ(putOut(), 1U) << "the impedance check";
+}
+
+TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
+    for (const auto& [typed, code] : {std::pair("yes\n", 4), std::pair("\n", 4), std::pair("bench load\n", 0)}) {
+        TerminalCli cli(desk_, words(), 200);
+        ASSERT_TRUE(cli.waitFor("anything else delivers nothing: ")) << cli.screen();
+        EXPECT_THAT(cli.screen(), HasSubstr("P240000123 into 1 kohm, up to 40 V and 50 mA"));
+        EXPECT_EQ(putOut(), 0U) << "before it was confirmed";
+        cli.type(typed);
+        EXPECT_EQ(cli.wait(), code) << cli.screen();
+    }
+    EXPECT_EQ(putOut(), 1U);
+}
+
+TEST_F(RunOnHardware, OneAnswerIsNotSilentlyReplacedByAnother) {
+    const auto ran = desk_.run(words({"--set", "load=1000", "--set", "load=2000"}));
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("load is given twice"));
+}
+
+}  // namespace
+}  // namespace tacto::test
