@@ -140,9 +140,18 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
 /// Serves the session until it has an answer: it bounds every wait of its own.
 TrainReport BenchPulse::report() {
     constexpr Instant kBeatEvery = std::chrono::milliseconds(5);
+    heartbeat_.revive(clock_.elapsed());  // nothing beats between two pulses; approvals expire
     for (;;) {
         const Instant now = clock_.now();
-        heartbeat_.beat(now);
+        if (!heartbeat_.beat(clock_.elapsed())) {
+            gate_.latchStop();
+            session_.forceOff();
+            TrainReport silent;
+            silent.outcome = TrainOutcome::LoopSilent;
+            silent.onset = silent.statusAt = now;
+            silent.error = std::string_view("this program stood still for more than 100 ms");
+            return silent;
+        }
         const Instant next = session_.serve(now);
         if (const auto made = session_.takeReport()) return *made;
         const Instant left = std::min(next, now + kBeatEvery) - clock_.now();

@@ -134,11 +134,7 @@ RunResult runScript(ProtocolRun& run, const std::map<std::string, std::string>& 
         line.clear();
         say(stderr, "{}\n", lines(text));
     };
-    if (const auto started = run.start(std::move(hooks)); !started) {
-        auto failed = run.finish();
-        failed.outcome.error = started.error();
-        return failed;
-    }
+    if (const auto started = run.start(std::move(hooks)); !started) return run.finish();
     interrupts.onStop([&run] { run.script()->stop("operator (signal)"); });
     if (interrupts.signalled()) run.script()->stop("operator (signal)");
     static_cast<void>(run.script()->wait());
@@ -191,9 +187,15 @@ json writeReports(const RunFiles& files) {
 }
 
 int run(const QCommandLineParser& parser) {
+    const auto stops = std::make_shared<StopCounter>();
+    const auto asked = stops->mark();  // the command itself is the order: every signal comes after it
     SignalStop interrupts;
+    interrupts.onStop([stops] { stops->raise(); });
+    if (interrupts.signalled()) stops->raise();
     auto order = orderFrom(parser);
     if (!order) return order.error();
+    order->stops = stops;
+    order->asked = asked;
     const auto protocol = order->script.name;
     const auto seed = order->seed;
     const auto answers = order->settings.answers;

@@ -62,8 +62,12 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
         run->clock_ = std::make_shared<VirtualClock>();
     else
         run->clock_ = std::make_shared<SteadyClock>();
-    auto devices = registry.open(order.uris, order.declaration.needs,
-                                 OpenContext{*run->clock_, order.seed, declaredLoad(order.settings.parameters)});
+    const OpenContext context{.clock = *run->clock_,
+                              .seed = order.seed,
+                              .declaredLoad = declaredLoad(order.settings.parameters),
+                              .stops = order.stops.get(),
+                              .asked = order.asked};
+    auto devices = registry.open(order.uris, order.declaration.needs, context);
     if (!devices) return failure(devices);
     auto files = prepareRunFiles(order.out, order.script.name);
     if (!files) return failure(files);
@@ -79,10 +83,13 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.limits = order.limits.sets;
     config.session = run->session_.get();
     config.tap = tap;
+    config.stops = order.stops;
+    config.asked = order.asked;
     applyKnown(knownCalibration(config.devices), config);
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     run->bench_ = std::move(*bench);
+    if (!order.stops) run->order_.asked = run->bench_->stops().mark();
     return run;
 }
 
@@ -95,10 +102,14 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     hooks.parameters = order_.settings.parameters;
     hooks.seed = order_.seed;
     hooks.bench = bench_.get();
+    hooks.asked = order_.asked;
     hooks.session = session_.get();
     hooks.captureFolder = files_.captures;
     auto started = ScriptRun::start(std::move(hooks));
-    if (!started) return failure(started);
+    if (!started) {
+        notStarted_ = started.error();
+        return failure(started);
+    }
     script_ = std::move(*started);
     return {};
 }
@@ -109,6 +120,13 @@ RunResult ProtocolRun::finish() {
     result.session = files_.session;
     if (script_) result.outcome = script_->wait();
     script_.reset();
+    if (notStarted_) {
+        result.outcome.error = notStarted_;
+        result.outcome.reasons = {notStarted_->message};
+        if (notStarted_->code == ErrorCode::Stopped) result.outcome.verdict = ScriptVerdict::Stopped;
+        if (session_)
+            static_cast<void>(session_->event(clock_->now(), "script not started", {{"why", notStarted_->message}}));
+    }
     if (bench_) result.stoppedBySafety = endedBySafety(result.outcome, *bench_);
     const bool abandoned = result.outcome.abandoned;
     // The script's thread still runs and may never end: what it could touch is left as it is.

@@ -27,6 +27,10 @@ struct RunOrder {
     Profile profile;
     ShippedLimits limits;
     std::string out;  ///< folder, as prepareRunFiles() takes it
+    /// Whose stops end the run, from the opening of its devices on; null: the bench's own. `asked` is when the operator
+    /// asked for the run.
+    std::shared_ptr<StopCounter> stops = nullptr;
+    StopMark asked = {};
 };
 
 /// The load that a protocol's parameters declare: what the simulated bench starts with.
@@ -49,7 +53,8 @@ struct RunResult {
 
 class ProtocolRun {
 public:
-    /// Opens devices, makes the session file and the bench. Errors: as Registry::open(), prepareRunFiles(),
+    /// Opens devices, makes the session file and the bench. A stop ends the opening of devices; one that comes later is
+    /// found by start(). Errors: as Registry::open(), prepareRunFiles(),
     /// SessionWriter::create() and Bench::create().
     /// `tap` may be null; else it outlives the run.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
@@ -60,7 +65,7 @@ public:
     ProtocolRun& operator=(const ProtocolRun&) = delete;
 
     /// Fills in script, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks and operator
-    /// are the caller's, and starts the script. Errors: as ScriptRun::start().
+    /// are the caller's, and starts the script. Errors: as ScriptRun::start(); finish() tells them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
     /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench: it is
     /// leaked on purpose, with outputs off.
@@ -79,6 +84,7 @@ private:
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<SessionWriter> session_;
     std::unique_ptr<Bench> bench_;
+    std::optional<Error> notStarted_;
     std::unique_ptr<ScriptRun> script_;  // Last: ends first
 };
 

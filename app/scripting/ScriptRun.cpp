@@ -219,7 +219,10 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     if (QCoreApplication::instance() == nullptr) {
         return fail(ErrorCode::InvalidArgument, "a script cannot run without a QCoreApplication");
     }
-    request.bench->clearStop();
+    if (auto begun = request.bench->begin(request.asked); !begun) {
+        return fail(ErrorCode::Stopped, "stopped by operator before the script began: nothing was delivered");
+    }
+    request.bench->resume();  // a pause from before this run is over
     auto state = std::make_shared<State>(std::move(request));
     state->faultsBefore = state->request.bench->faults();
     State* raw = state.get();  // the thread keeps the port, which is the state, alive

@@ -25,6 +25,7 @@
 #include "app/scripting/ProtocolDeclaration.h"
 #include "core/base/Result.h"
 #include "core/measure/Capture.h"
+#include "core/safety/StopCounter.h"
 
 namespace tacto {
 
@@ -43,6 +44,7 @@ struct RunRequest {
     nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
     std::uint64_t seed = 1;
     Bench* bench = nullptr;               ///< not owned; used by nobody else until the run is over, stop() apart
+    StopMark asked = {};                  ///< of the bench's stops(): when the operator asked for the run
     SessionWriter* session = nullptr;     ///< not owned; null records nothing
     Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails with its name
     std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
@@ -72,7 +74,8 @@ struct ScriptOutcome {
 
 class ScriptRun {
 public:
-    /// Starts the thread. Clears an earlier stop of the bench. Errors: InvalidArgument without a bench.
+    /// Starts the thread. Errors: Stopped when a stop of the bench has come since `request.asked`; InvalidArgument
+    /// without a bench.
     [[nodiscard]] static Result<std::unique_ptr<ScriptRun>> start(RunRequest request);
     /// Stops, waits as wait() does.
     ~ScriptRun();

@@ -47,6 +47,7 @@ Result<void> Bench::State::open() {
 
     ControlLoop::Parts parts{*config.clock, gate,    interlock, heartbeat, config.mode,
                              nullptr,       nullptr, 0,         {},        config.tap};
+    parts.stops = stops.get();
     const auto wake = [this] {
         if (outputThread) outputThread->wake();
     };
@@ -140,7 +141,11 @@ void Bench::State::turn(Instant until) noexcept {
 }
 
 Result<void> Bench::State::health() const {
-    if (stopped.load(std::memory_order_acquire)) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    if (stopped()) {
+        const Instant slept = loop->sleptBeforeStop();
+        if (slept == Instant(0)) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+        return fail(ErrorCode::Stopped, "stopped: the computer slept for {:.0f} s. Output is off.", toSeconds(slept));
+    }
     if (interlock.state() == InterlockState::Faulted) {
         return fail(ErrorCode::Device, "fault: {}. Output is off.", interlock.reason().view());
     }
@@ -169,16 +174,23 @@ void Bench::disarm() noexcept {
 }
 
 void Bench::stop(const char* by) noexcept {
-    state_->stopped.store(true, std::memory_order_release);
+    state_->stops->raise();  // first: see ControlLoop::mayPost()
     state_->off(by);
     { const std::scoped_lock lock(state_->waitMutex); }
     state_->waitChanged.notify_all();
 }
 
-void Bench::clearStop() noexcept {
-    resume();  // a pause from before the stop is over too
-    state_->stopped.store(false, std::memory_order_release);
+Result<void> Bench::begin(StopMark asked) {
+    auto& s = *state_;
+    if (s.stops->movedSince(asked)) {
+        return fail(ErrorCode::Stopped, "stopped before this was begun. Output is off.");
+    }
+    s.loop->forgetSleep();
+    s.order.store(asked, std::memory_order_release);
+    return {};
 }
+
+StopCounter& Bench::stops() noexcept { return *state_->stops; }
 
 void Bench::pause() noexcept {
     state_->paused.store(true, std::memory_order_release);
@@ -200,6 +212,7 @@ void Bench::resume() noexcept {
 
 Result<void> Bench::drive(DriveSource source, double roughness, double pressure) {
     auto& s = *state_;
+    if (source != DriveSource::Off && s.stopped()) return fail(ErrorCode::Stopped, "stopped. Output is off.");
     if (source == DriveSource::Sensor && !s.sensor) {
         return fail(ErrorCode::Unsupported, "no fingertip sensor is open to drive the output");
     }

@@ -5,8 +5,11 @@
 // moves only inside them. On the steady clock the loop and one session thread per device run by
 // themselves and the same calls wait. The step code is the same.
 //
-// Thread-safety: stop(), pause(), resume(), telemetry() and deviceReport() from any thread; everything else has one
-// caller (a script's thread, or the program).
+// Every call that starts output is done for an order of the operator, which begin() names by the moment at which it was
+// given. A stop ends that order for good; only an order from after the stop runs.
+//
+// Thread-safety: stop(), pause(), resume(), stops(), telemetry() and deviceReport() from any thread; everything else has
+// one caller (a script's thread, or the program).
 #pragma once
 
 #include <chrono>
@@ -21,6 +24,7 @@
 #include "core/devices/Driver.h"
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/StopCounter.h"
 
 namespace tacto {
 
@@ -43,6 +47,10 @@ struct BenchConfig {
     /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
     std::optional<std::chrono::sys_days> calibratedUntil;
     std::chrono::sys_days (*today)() = nullptr;  ///< UTC; null asks the system
+    /// Whose stops end the orders of this bench; null: its own. `asked` is when the operator asked for the bench, and its
+    /// first order; without `stops` that is now.
+    std::shared_ptr<StopCounter> stops;
+    StopMark asked = {};
 };
 
 /// What the operator states when arming.
@@ -60,7 +68,15 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<Bench>> create(BenchConfig config);
     ~Bench();  ///< outputs off, threads joined
 
-    /// Disarmed → Checking (one small pulse) → Armed. Errors: NotArmed with what is missing; LimitExceeded; Device;
+    /// The order for which everything is done from now on; the operator gave it at `asked`, a mark of stops().
+    /// Errors: Stopped when a stop has come since. Then the bench keeps its order from before.
+    [[nodiscard]] Result<void> begin(StopMark asked);
+    /// What stop() raises.
+    [[nodiscard]] StopCounter& stops() noexcept;
+
+    /// Disarmed → Checking (one small pulse) → Armed. Where the stimulator does not read back and an oscilloscope is open,
+    /// that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for captures.
+    /// Errors: NotArmed with what is missing; LimitExceeded; Device;
     /// Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
     /// The same check of the load, after which the bench is disarmed, whatever came of it. Nothing but the check pulse
@@ -72,10 +88,9 @@ public:
     [[nodiscard]] bool outputIsReal() const noexcept;
     /// Ends output and goes to Disarmed (a fault stays). Never fails.
     void disarm() noexcept;
-    /// Output off, every approval void, Disarmed, and every waiting call returns Stopped. Bypasses every queue.
+    /// Output off, every approval void, Disarmed, and every waiting call returns Stopped until begin() names an order
+    /// from after it. Bypasses every queue.
     void stop(const char* by) noexcept;
-    /// Clears a stop so that the next arm() may run. A new script run does this once, at its start.
-    void clearStop() noexcept;
     void pause() noexcept;
     void resume() noexcept;
     /// Leaves Faulted. A device that was unplugged is looked for again, by identity, which may take two seconds.
@@ -93,7 +108,7 @@ public:
     [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
 
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
-    /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor.
+    /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.

@@ -1,4 +1,5 @@
 // Arming, and the ways out of a fault.
+#include <algorithm>
 #include <cmath>
 #include <fmt/chrono.h>
 #include <thread>
@@ -12,6 +13,8 @@ namespace tacto {
 namespace {
 
 constexpr Seconds kArmWithin{2};
+constexpr Seconds kConfirmedWithin{5};  // by an oscilloscope, which may be slow to arm and to read
+constexpr double kCheckRecord = 4;      // lengths of the pulse in the record of it
 
 }  // namespace
 
@@ -49,6 +52,7 @@ GateSetup Bench::setupFor(const Load& load) const { return state_->setupFor(load
 
 ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& load) const {
     ArmCommand command;
+    command.asked = order.load(std::memory_order_acquire);
     command.setup = setupFor(load);
     // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
     const auto leading = segmentsOf(checkTrainOf(command.setup), source.gap).items[0];
@@ -61,6 +65,7 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     evidence.readsBack = source.readsBack;
     evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
     evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
+    command.confirmByCapture = scope && config.devices.stimulator && !source.readsBack;
     if (scope && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
     evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
     return command;
@@ -102,6 +107,39 @@ Result<std::optional<Ohms>> Bench::checkImpedance(const ArmRequest& request) {
     return std::isfinite(ohms) ? std::optional(Ohms(ohms)) : std::nullopt;
 }
 
+/// Arms the oscilloscope for the check pulse of a source that does not read back, and waits until it takes a trigger.
+Result<void> Bench::State::lookAtCheck(const ArmCommand& command) {
+    const PulseTrain check = checkTrainOf(command.setup);
+    const double ohm = command.declared.value_or(Ohms(1000)).value();
+    const double volts = siValue(check.amplitude) * (isCurrent(check.amplitude) ? ohm : 1);
+    const auto& traits = config.devices.oscilloscope->traits();
+    ScopeSettings settings;
+    settings.sampleRate = std::min(settings.sampleRate, traits.maxRate);
+    const double wanted = std::ceil(kCheckRecord * check.pulseDuration().count() * settings.sampleRate.value());
+    settings.samples = std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, traits.memoryDepth);
+    settings.preTrigger = 0.3;
+    settings.triggerLevel = 0.3 * volts;
+    settings.voltageRange = Volts(2 * volts);
+    settings.currentRange = Milliamps(4e3 * volts / ohm);  // a load far below the declared one is shown too
+    scope->request(settings, config.clock->now(), 1);
+    const auto waiting = advance(config.clock->now() + toInstant(kConfirmedWithin),
+                                 [this] { return scope->waiting() || scope->failed(); });
+    if (!waiting) return failure(waiting);
+    if (const auto taken = scope->take(); !taken) {
+        return fail(ErrorCode::NotArmed, "not armed: the oscilloscope that confirms the check pulse failed: {}",
+                    taken.error().message);
+    }
+    if (*waiting) return {};
+    return fail(ErrorCode::NotArmed, "not armed: the oscilloscope that confirms the check pulse is not ready");
+}
+
+bool Bench::State::passOnCheck(const PulseTrain& check) {
+    if (scope->ready() == 0 && !scope->failed()) return false;
+    const auto taken = scope->take();
+    loop->confirmCheck(taken ? loadConfirmedBy(taken->front(), check) : Result<Ohms>(failure(taken)));
+    return true;
+}
+
 Result<void> Bench::arm(const ArmRequest& request) {
     auto& s = *state_;
     if (!s.hasOutput()) return fail(ErrorCode::Unsupported, "not armed: no stimulator and no massager is open");
@@ -110,21 +148,40 @@ Result<void> Bench::arm(const ArmRequest& request) {
     if (const auto confirmed = s.confirmedAsShown(request, *load); !confirmed) return confirmed;
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibrationToday(); !holds) return holds;
+    const auto command = s.armCommandFor(request, *load);
+    const PulseTrain check = checkTrainOf(command.setup);
+    // Without the operator's word for the load arming is refused, and no pulse is sent.
+    const bool looks = command.confirmByCapture && command.evidence.declaredLoadConfirmed;
     const auto ticket = s.interlock.requestArming(s.config.clock->now());
     if (!ticket) return failure(ticket);
+    if (looks) {
+        if (const auto looking = s.lookAtCheck(command); !looking) {
+            cancelCaptures();
+            return looking;
+        }
+    }
     if (const auto confirmed = s.interlock.confirmArming(*ticket, s.config.clock->now()); !confirmed) return confirmed;
-    s.loop->arm(s.armCommandFor(request, *load));
+    s.loop->arm(command);
+    const Seconds within = looks ? kConfirmedWithin : kArmWithin;
     std::optional<Result<void>> outcome;
-    const auto finished = s.advance(s.config.clock->now() + toInstant(kArmWithin), [&] {
+    bool passedOn = !looks;
+    const auto finished = s.advance(s.config.clock->now() + toInstant(within), [&] {
+        if (!passedOn) passedOn = s.passOnCheck(check);
         outcome = s.loop->armed();
         return outcome.has_value();
     });
+    if (looks) cancelCaptures();
     if (outcome) return *outcome;
     // A fault ends arming and health() sees it first: say why in arming's own words if it has any.
     if (auto late = s.loop->armed()) return *late;
     disarm();
     if (!finished) return failure(finished);
-    return fail(ErrorCode::Timeout, "not armed: the impedance check did not end within {} s", kArmWithin.count());
+    if (!passedOn) {
+        return fail(ErrorCode::NotArmed,
+                    "not armed: the check pulse is not confirmed: the oscilloscope showed nothing within {} s",
+                    within.count());
+    }
+    return fail(ErrorCode::Timeout, "not armed: the impedance check did not end within {} s", within.count());
 }
 
 /// Asks one device's session how its device is, and waits for the answer.
@@ -149,7 +206,7 @@ Result<void> Bench::State::askAgain(Session& session, DeviceThread* thread, Inst
 
 /// What a device's session reported while the device was gone (a keep-alive that failed) belongs to the fault that is
 /// being left; judged after the reset it would be the next one.
-void Bench::State::letReportsBeJudged() noexcept {
+Result<void> Bench::State::letReportsBeJudged() {
     constexpr std::uint64_t kSteps = 2;  // one may be under way
     constexpr Instant kWithin = std::chrono::milliseconds(500);
     const auto begin = loop->telemetry().steps;
@@ -160,12 +217,25 @@ void Bench::State::letReportsBeJudged() noexcept {
         else
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    if (loop->telemetry().steps >= begin + kSteps) return {};
+    return fail(ErrorCode::NotArmed, "the fault is still there: the control loop does not run");
 }
 
+/// Each cause is looked at again, here or before anything else can be delivered:
+///   device lost, device fault, status missing   the device is asked, and must answer and deliver nothing
+///   stale sensor, a failed sensor               the sensor is asked
+///   loop silent                                 the loop must take its steps again
+///   open, short, net charge, limit broken       the check pulse with which arming begins: see judgeCheck(). A source
+///                                               that does not read back arms on the operator's word for the load
+///   internal error                              is never gone: the program is restarted
 Result<void> Bench::resetFault() {
     auto& s = *state_;
     if (s.interlock.state() != InterlockState::Faulted) return {};
-    // Looked at again: a device that answers and delivers nothing is well; what its load is, the next check tells.
+    if (s.interlock.causePersists(FaultCause::Internal)) {
+        return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
+                    s.interlock.reason().view());
+    }
+    if (s.massager) s.massager->forceOff();  // a massager is asked nothing: whether it is there, the next burst tells
     if (s.stimulator) {
         constexpr Instant kAnswerWithin = std::chrono::milliseconds(500);
         const auto well = s.askAgain(*s.stimulator, s.outputThread.get(), kAnswerWithin, "stimulator");
@@ -176,7 +246,7 @@ Result<void> Bench::resetFault() {
         if (const auto well = s.askAgain(*s.sensor, s.sensorThread.get(), kOpenWithin, "fingertip sensor"); !well)
             return well;
     }
-    s.letReportsBeJudged();
+    if (const auto judged = s.letReportsBeJudged(); !judged) return judged;
     for (int cause = 0; cause < kFaultCauseCount; ++cause) s.interlock.causeGone(static_cast<FaultCause>(cause));
     return s.interlock.reset();
 }
@@ -194,7 +264,7 @@ Result<void> Bench::withholdHeartbeat(Seconds duration) {
     }
     const Instant until = s.config.clock->now() + toInstant(duration);
     if (s.virtualClock != nullptr) {
-        while (!s.stopped && s.config.clock->now() < until) {
+        while (!s.stopped() && s.config.clock->now() < until) {
             // The output alone is served, as its own thread would do while the loop hangs.
             s.virtualClock->advanceTo(s.hasOutput() ? std::min(until, s.outputDue) : until);
             const Instant now = s.config.clock->now();
@@ -206,11 +276,11 @@ Result<void> Bench::withholdHeartbeat(Seconds duration) {
         s.heartbeatWithheld.store(true, std::memory_order_release);
         {
             std::unique_lock lock(s.waitMutex);
-            s.waitChanged.wait_for(lock, until - s.config.clock->now(), [&s] { return s.stopped.load(); });
+            s.waitChanged.wait_for(lock, until - s.config.clock->now(), [&s] { return s.stopped(); });
         }
         s.heartbeatWithheld.store(false, std::memory_order_release);
     }
-    if (s.stopped) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    if (s.stopped()) return fail(ErrorCode::Stopped, "stopped. Output is off.");
     return {};
 }
 

@@ -38,7 +38,8 @@ struct Bench::State {
     std::unique_ptr<ScopeSession> scope;
     std::unique_ptr<ControlLoop> loop;
 
-    std::atomic<bool> stopped{false};
+    std::shared_ptr<StopCounter> stops;
+    std::atomic<StopMark> order;  // the operator's, for which everything is done: see begin()
     std::atomic<bool> paused{false};
     std::mutex waitMutex;
     std::condition_variable waitChanged;  // a stop, a pause or its end
@@ -60,7 +61,9 @@ struct Bench::State {
           virtualClock(dynamic_cast<VirtualClock*>(config.clock.get())),
           source(traitsOf(config.devices)),
           applied(config.calibrationHolds ? config.calibration : std::nullopt),
-          gate(*config.clock) {}
+          gate(*config.clock),
+          stops(config.stops ? config.stops : std::make_shared<StopCounter>()),
+          order(config.stops ? config.asked : stops->mark()) {}
 
     ~State() {
         off("the bench closes");
@@ -84,6 +87,10 @@ struct Bench::State {
         recorder.reset();
     }
 
+    /// A stop has come since the operator gave the order that is carried out now.
+    [[nodiscard]] bool stopped() const noexcept {
+        return stops->movedSince(order.load(std::memory_order_acquire));
+    }
     [[nodiscard]] const ReportingDevice* reportingDevice(Role role) const noexcept {
         const auto& devices = config.devices;
         const Device* device = role == Role::Sensor         ? static_cast<const Device*>(devices.sensor.get())
@@ -127,7 +134,7 @@ struct Bench::State {
     [[nodiscard]] Result<void> open();
     void startThreads();
     void turn(Instant until) noexcept;
-    void letReportsBeJudged() noexcept;
+    [[nodiscard]] Result<void> letReportsBeJudged();
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
     [[nodiscard]] Result<void> health() const;
@@ -150,6 +157,9 @@ struct Bench::State {
     }
     [[nodiscard]] std::string armingText(const Load& load) const;
     [[nodiscard]] Result<void> confirmedAsShown(const ArmRequest& request, const Load& load) const;
+    [[nodiscard]] Result<void> lookAtCheck(const ArmCommand& command);
+    /// Hands over what the oscilloscope showed of the check pulse; true when it was handed over.
+    [[nodiscard]] bool passOnCheck(const PulseTrain& check);
     [[nodiscard]] ArmCommand armCommandFor(const ArmRequest& request, const Load& load) const;
 };
 
@@ -164,12 +174,12 @@ Result<bool> Bench::State::advance(Instant until, Done done) {
         if (progress != nullptr && turns % 64 == 0) progress(progressContext);
         if (virtualClock != nullptr) {
             std::unique_lock lock(waitMutex);
-            waitChanged.wait(lock, [this] { return !paused || stopped; });
+            waitChanged.wait(lock, [this] { return !paused || stopped(); });
             lock.unlock();
             turn(until);
         } else {
             std::unique_lock lock(waitMutex);
-            waitChanged.wait_for(lock, std::min(kLook, until - config.clock->now()), [this] { return stopped.load(); });
+            waitChanged.wait_for(lock, std::min(kLook, until - config.clock->now()), [this] { return stopped(); });
         }
     }
 }

@@ -24,7 +24,37 @@ std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, 
     return Ohms(amplitude / visible);
 }
 
+/// As IEC 60601-2-10 asks of an amplitude.
+constexpr double kMostOff = 0.20;
+
 }  // namespace
+
+Result<Ohms> loadConfirmedBy(const Capture& capture, const PulseTrain& commanded) {
+    const auto channels = loadChannels(capture);
+    if (!channels) {
+        return fail(ErrorCode::NotArmed,
+                    "the check pulse is not confirmed: the oscilloscope needs a channel in V and one in A");
+    }
+    const bool current = isCurrent(commanded.amplitude);
+    const double wanted = siValue(commanded.amplitude);
+    const auto shown = measureChannel(capture, current ? channels->second : channels->first);
+    if (shown.measuredPulses == 0) {
+        return fail(ErrorCode::NotArmed, "the check pulse is not confirmed: the oscilloscope shows no pulse");
+    }
+    const double off = std::abs(shown.amplitude.mean - wanted);
+    const double uncertainty = std::isfinite(shown.uncertainty.amplitude) ? kCoverage * shown.uncertainty.amplitude : 0;
+    if (!(off <= kMostOff * wanted + uncertainty)) {
+        return fail(ErrorCode::NotArmed,
+                    "the check pulse is not confirmed: {:.3g} {} was commanded and the oscilloscope shows {:.3g} {}",
+                    wanted, shown.unit, shown.amplitude.mean, shown.unit);
+    }
+    const auto load = measureLoad(capture, channels->first, channels->second);
+    if (!load || !(load->load_ohm.mean > 0)) {
+        return fail(ErrorCode::NotArmed,
+                    "the check pulse is not confirmed: the oscilloscope shows no current, or more than its range");
+    }
+    return Ohms(load->load_ohm.mean);
+}
 
 std::optional<SeenLoad> loadSeenIn(const Capture& capture) {
     if (capture.untriggered || !std::isfinite(capture.trigger_s)) return std::nullopt;

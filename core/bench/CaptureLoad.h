@@ -1,4 +1,5 @@
-// CaptureLoad.h - what one capture tells of the load that its pulses met, for a stimulator that cannot read it back.
+// CaptureLoad.h - what one capture tells of the load that its pulses met, and whether they are what was commanded: for a
+// stimulator that cannot read it back.
 //
 // Thread-safety: pure function.
 #pragma once
@@ -6,7 +7,9 @@
 #include <optional>
 
 #include "core/base/Clock.h"
+#include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/encoding/PulseTrain.h"
 #include "core/measure/Capture.h"
 
 namespace tacto {
@@ -19,5 +22,9 @@ struct SeenLoad {
 
 /// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
 [[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);
+
+/// |Z| of the load, where `capture` shows `commanded`: a voltage or a current within 20 % and the reading's own
+/// uncertainty of it. Errors: NotArmed, saying what the oscilloscope shows instead, or that it shows no load.
+[[nodiscard]] Result<Ohms> loadConfirmedBy(const Capture& capture, const PulseTrain& commanded);
 
 }  // namespace tacto

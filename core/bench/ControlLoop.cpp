@@ -1,6 +1,7 @@
 #include "core/bench/ControlLoop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
 constexpr Instant kReportLook = std::chrono::milliseconds(100);
+constexpr Instant kSlept = std::chrono::seconds(1);  // shorter is a silence as any other
 constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
 
 }  // namespace
@@ -54,20 +56,63 @@ void ControlLoop::replacePlanner(std::unique_ptr<TrainPlanner> planner) {
     inboxFull_.store(true, std::memory_order_release);
 }
 
+void ControlLoop::confirmCheck(const Result<Ohms>& seen) {
+    const std::scoped_lock lock(inboxMutex_);
+    inbox_.confirmed = seen;
+    inboxFull_.store(true, std::memory_order_release);
+}
+
 void ControlLoop::noteLoad(const SeenLoad& seen) {
     const std::scoped_lock lock(inboxMutex_);
     inbox_.load = seen;
     inboxFull_.store(true, std::memory_order_release);
 }
 
+/// Before anything else: what was approved before a silence must not be written after it, whichever thread wakes first.
+void ControlLoop::beat(Instant now) noexcept {
+    const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
+    const Instant asleep = parts_.clock.asleep();
+    const Instant slept = asleep - asleepSeen_;
+    if (slept > kSlept)
+        wakeFromSleep(now, slept);
+    else if (!inTime)
+        wakeFromSilence(now);
+    else
+        return;
+    asleepSeen_ = asleep;
+    parts_.heartbeat.revive(parts_.clock.elapsed());
+}
+
+void ControlLoop::wakeFromSilence(Instant now) noexcept {
+    const auto state = parts_.interlock.state();
+    const bool wasOn = state == InterlockState::Checking || state == InterlockState::Armed ||
+                       state == InterlockState::Delivering || state == InterlockState::Paused;
+    if (wasOn) return trip(FaultCause::LoopSilent, "the control loop was silent for more than 100 ms", now);
+    parts_.gate.latchStop();
+    outputsOff();
+}
+
+void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
+    slept_.store(slept.count(), std::memory_order_release);
+    if (parts_.stops != nullptr) parts_.stops->raise();  // an order from before the sleep is over
+    std::array<char, 80> why{};
+    fmt::format_to_n(why.data(), why.size() - 1, "the computer slept for {:.0f} s", toSeconds(slept));
+    parts_.interlock.disarm(why.data());
+    parts_.gate.latchStop();
+    outputsOff();
+    drive_ = {};
+    if (parts_.recorder != nullptr) parts_.recorder->event(now, "sleep", {{"slept_s", toSeconds(slept)}}, why.data());
+}
+
 void ControlLoop::step(Instant now) noexcept {
-    parts_.heartbeat.beat(now);
+    beat(now);
     takeCommands(now);
     noteState(now);
     readFinger(now);
     watchSensor(now);
     judgeReports();
     if (arming_ && !checkPosted_) beginCheck(now);
+    if (arming_ && checkRead_ && confirmed_) armOnCapture(now);
     watchForSilence(now);
     updateWish(now);
     if (parts_.massager != nullptr)
@@ -99,10 +144,13 @@ void ControlLoop::takeCommands(Instant now) noexcept {
     }
     if (taken.arm) {
         arming_ = std::move(taken.arm);
-        checkPosted_ = false;
+        order_ = arming_->asked;
+        checkPosted_ = checkRead_ = false;
+        confirmed_.reset();
         impedance_.reset();
         planner_->wantNothing();
     }
+    if (taken.confirmed && arming_) confirmed_ = std::move(taken.confirmed);
     if (taken.load) judgeLoad(*taken.load, now);
 }
 
@@ -131,33 +179,47 @@ void ControlLoop::beginCheck(Instant now) noexcept {
     if (parts_.interlock.state() != InterlockState::Checking) {
         return finishArming(fail(ErrorCode::Stopped, "arming ended: {}", nameOf(parts_.interlock.state())));
     }
+    if (stopped()) return endArmingForStop();
     if (parts_.stimulator != nullptr && !parts_.stimulator->idle()) return;  // an earlier train is still being read
     checkPosted_ = true;
     if (const auto configured = parts_.gate.configure(arming_->setup); !configured) {
         parts_.interlock.disarm("arming was refused");
         return finishArming(failure(configured));
     }
-    if (!arming_->evidence.readsBack || parts_.stimulator == nullptr) {
-        arming_->evidence.impedanceAt = now;
-        const auto permitted = parts_.interlock.arm(arming_->evidence, now);
-        if (!permitted) parts_.interlock.disarm("arming was refused");
-        planner_->armedOn(arming_->declared);
-        impedanceHigh_ = arming_->evidence.impedanceHigh;
-        armedAt_ = now;
-        return finishArming(permitted);
-    }
+    const bool looksAtCapture = arming_->confirmByCapture && arming_->evidence.declaredLoadConfirmed;
+    if (parts_.stimulator == nullptr || !(arming_->evidence.readsBack || looksAtCapture)) return armWithoutCheck(now);
     auto check = parts_.gate.approveCheck(now);
     if (!check) {
         parts_.interlock.disarm("the impedance check was refused");
         return finishArming(failure(check));
     }
-    if (!mayPost(true)) return;  // stopped meanwhile: noteState() ends the arming
+    if (!mayPost(true)) return endArmingForStop();
     post(std::move(*check), now, true);
 }
 
-/// Asked after an approval was granted and before it is posted. A stop disarms before it voids approvals, so an
-/// approval made after the voiding finds the interlock disarmed here, and one made before it is void.
+/// On the operator's word alone, and for a massager: nothing measures the load.
+void ControlLoop::armWithoutCheck(Instant now) noexcept {
+    arming_->evidence.impedanceAt = now;
+    const auto permitted = parts_.interlock.arm(arming_->evidence, now);
+    if (!permitted) parts_.interlock.disarm("arming was refused");
+    planner_->armedOn(arming_->declared);
+    impedanceHigh_ = arming_->evidence.impedanceHigh;
+    armedAt_ = now;
+    finishArming(permitted);
+}
+
+bool ControlLoop::stopped() const noexcept { return parts_.stops != nullptr && parts_.stops->movedSince(order_); }
+
+void ControlLoop::endArmingForStop() noexcept {
+    parts_.interlock.disarm("stopped");  // the stop itself may have come before Checking was entered
+    finishArming(fail(ErrorCode::Stopped, "arming ended: stopped. Output is off."));
+}
+
+/// Asked after an approval was granted and before it is posted. A stop raises its counter and disarms before it voids
+/// approvals, so an approval made after the voiding is held back here, and one made before it is void. The counter
+/// counts where the stop came before the interlock had anything to disarm.
 bool ControlLoop::mayPost(bool isCheck) const noexcept {
+    if (stopped()) return false;
     const auto state = parts_.interlock.state();
     if (isCheck && arming_) return state == InterlockState::Checking;
     return (state == InterlockState::Armed || state == InterlockState::Delivering) &&
@@ -366,8 +428,6 @@ bool ControlLoop::beginDelivery() noexcept {
 }
 
 void ControlLoop::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
-    const auto& sent = train.train();
-    postedEnd_ = onset + toInstant((sent.pulses - 1) / sent.rate.value()) + toInstant(sent.pulseDuration());
     parts_.stimulator->post(std::move(train), onset, isCheck);
     exposureAt_ = Instant(0);
 }
@@ -380,11 +440,15 @@ void ControlLoop::refused(Instant now, std::string_view why) noexcept {
     if (parts_.recorder != nullptr) parts_.recorder->event(now, "refused", {}, why);
 }
 
+void ControlLoop::outputsOff() noexcept {
+    if (parts_.stimulator != nullptr) parts_.stimulator->forceOff();
+    if (parts_.massager != nullptr) parts_.massager->forceOff();
+}
+
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) noexcept {
     parts_.interlock.fault(cause, reason);
     parts_.gate.latchStop();
-    if (parts_.stimulator != nullptr) parts_.stimulator->forceOff();
-    if (parts_.massager != nullptr) parts_.massager->forceOff();
+    outputsOff();
     faults_.fetch_add(1, std::memory_order_acq_rel);
     if (parts_.recorder != nullptr) parts_.recorder->event(now, "fault", {}, reason);
     noteState(now);

@@ -23,6 +23,7 @@
 #include "core/bench/TrainPlanner.h"
 #include "core/devices/DeviceReport.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/StopCounter.h"
 #include "core/session/SessionRecorder.h"
 
 namespace tacto {
@@ -40,6 +41,10 @@ struct ArmCommand {
     /// |Z| of the declared load, where captures will tell what becomes of it and the stimulator does not: what a
     /// profile that holds charge or energy refers to.
     std::optional<Ohms> declared{};
+    StopMark asked = {};  ///< when the operator gave the order to arm
+    /// The source does not read back and an oscilloscope looks: the check pulse is delivered all the same, and armed is
+    /// what confirmCheck() says.
+    bool confirmByCapture = false;
 };
 
 class ControlLoop {
@@ -60,11 +65,16 @@ public:
         BenchTap* tap = nullptr;                        ///< may be null: nobody looks
         MassagerSession* massager = nullptr;            ///< in place of a stimulator, else null
         const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
+        /// A stop after the order to arm holds back every check pulse and train of it. Null: only the interlock does.
+        StopCounter* stops = nullptr;
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
     /// Begins the check; the interlock is in Checking. armed() tells the end.
     void arm(ArmCommand command);
+    /// What the oscilloscope showed of the check pulse: |Z|, or why it does not confirm it. Arming with
+    /// `confirmByCapture` waits for it. From another thread.
+    void confirmCheck(const Result<Ohms>& seen);
     /// Nothing while the check goes on, then success or why not. Taken once.
     [[nodiscard]] std::optional<Result<void>> armed();
     void drive(const DriveCommand& command);
@@ -78,7 +88,9 @@ public:
     /// a load outside its range, and an open one, end delivery. From another thread.
     void noteLoad(const SeenLoad& seen);
 
-    /// One turn at `now`. Does not allocate in a steady state.
+    /// One turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one before
+    /// (the process was stopped, the machine stood still) finds a fault and switches off before anything else; one after
+    /// the computer slept for more than a second disarms, and counts as a stop.
     void step(Instant now) noexcept;
     /// Records a change of the interlock that came from outside, for a bench that will not step again.
     void noteState(Instant now) noexcept;
@@ -86,6 +98,12 @@ public:
     [[nodiscard]] Telemetry telemetry() const noexcept { return latest_.read(); }
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
+    /// For how long the computer slept before the last stop that a sleep was; 0 = never. Any thread.
+    [[nodiscard]] Instant sleptBeforeStop() const noexcept {
+        return Instant(slept_.load(std::memory_order_acquire));
+    }
+    /// What comes from now on is another order, which no sleep has stopped.
+    void forgetSleep() noexcept { slept_.store(0, std::memory_order_release); }
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
@@ -96,9 +114,17 @@ private:
         std::unique_ptr<FingerInput> finger;
         std::unique_ptr<TrainPlanner> planner;
         std::optional<SeenLoad> load;
+        std::optional<Result<Ohms>> confirmed;
     };
+    void beat(Instant now) noexcept;
+    void wakeFromSilence(Instant now) noexcept;
+    void wakeFromSleep(Instant now, Instant slept) noexcept;
+    void outputsOff() noexcept;
     void takeCommands(Instant now) noexcept;
     void beginCheck(Instant now) noexcept;
+    void armWithoutCheck(Instant now) noexcept;
+    void armOnCapture(Instant now) noexcept;
+    void armOnImpedance(const ArmingEvidence& evidence, Instant at) noexcept;
     void finishArming(Result<void> result) noexcept;
     void readFinger(Instant now) noexcept;
     void watchSensor(Instant now) noexcept;
@@ -113,6 +139,8 @@ private:
     void updateImpedance(Ohms measured, Instant at) noexcept;
     void recordOutcome(const TrainReport& report, const char* name) noexcept;
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
+    [[nodiscard]] bool stopped() const noexcept;
+    void endArmingForStop() noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
     void watchForSilence(Instant now) noexcept;
     void updateWish(Instant now) noexcept;
@@ -130,6 +158,7 @@ private:
     std::atomic<bool> paused_{false};
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
+    std::atomic<Instant::rep> slept_{0};
 
     std::mutex inboxMutex_;  // held to move a setting in or out
     Inbox inbox_;
@@ -143,6 +172,10 @@ private:
     // The loop's own:
     std::optional<ArmCommand> arming_;
     bool checkPosted_ = false;  // of arming_
+    bool checkRead_ = false;    // of arming_: the device has reported, the capture has not come
+    std::optional<Result<Ohms>> confirmed_;  // of arming_: what the capture showed
+    Instant asleepSeen_{0};     // of the clock, when it was looked at last after a silence
+    StopMark order_;            // for which the output was armed, or is being armed
     std::size_t told_ = 0;      // trains, for the ring of shown_
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
@@ -154,7 +187,6 @@ private:
     Instant impedanceAt_{0};
     Instant armedAt_{0};
     Ohms impedanceHigh_{0};  // of the load that was declared when arming
-    Instant postedEnd_{0};   // when the train in the session ends
     Telemetry shown_;
     std::vector<ExposureRow> exposure_;
     Instant exposureAt_{0};

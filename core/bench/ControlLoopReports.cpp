@@ -1,5 +1,6 @@
 // What the devices report of each train, and what becomes of it.
 #include <cmath>
+#include <utility>
 
 #include "core/bench/ControlLoop.h"
 #include "core/safety/TrainCheck.h"
@@ -56,6 +57,13 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
             .imbalanceUncertainty = present(report.imbalanceUncertainty)};
 }
 
+/// Why, when the read-back is more above the command than is permitted.
+std::optional<std::string> aboveCommand(const TrainReport& report) {
+    if (!(report.measured > kMostDelivered * report.amplitude)) return std::nullopt;  // NaN: it is not read back
+    return fmt::format("the stimulator delivered {:.3g} where {:.3g} was commanded", report.measured,
+                       report.amplitude);
+}
+
 }  // namespace
 
 void ControlLoop::judgeReports() noexcept {
@@ -107,12 +115,7 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     shown_.imbalanceUncertainty = report.imbalanceUncertainty;
     const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);
     if (judgement.stops()) return trip(causeOf(judgement.finding), judgement.reason.view(), now);
-    if (report.measured > kMostDelivered * report.amplitude) {
-        return trip(FaultCause::LimitBroken,
-                    fmt::format("the stimulator delivered {:.3g} where {:.3g} was commanded", report.measured,
-                                report.amplitude),
-                    now);
-    }
+    if (const auto above = aboveCommand(report); above) return trip(FaultCause::LimitBroken, *above, now);
     if (parts_.stimulator->device().traits().readsBack && mayPost(report.isCheck)) judgeImpedance(report);
 }
 
@@ -168,28 +171,55 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
         parts_.interlock.disarm(judgement.reason.c_str());
         return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", judgement.reason.view()));
     }
+    // A fault of before may have been reset, and its cause still be there: nothing is armed on it.
+    if (const auto above = aboveCommand(report); above) {
+        parts_.interlock.disarm("the stimulator delivered more than was commanded");
+        return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", *above));
+    }
+    if (arming_->confirmByCapture) {
+        checkRead_ = true;  // the rest is for armOnCapture()
+        return;
+    }
     if (std::isfinite(report.impedance_ohm)) evidence.impedance = Ohms(report.impedance_ohm);
-    evidence.impedanceAt = report.statusAt;
+    armOnImpedance(evidence, report.statusAt);
+}
+
+void ControlLoop::armOnCapture(Instant now) noexcept {
+    const auto seen = *std::exchange(confirmed_, std::nullopt);
+    if (!seen) {
+        parts_.interlock.disarm("the oscilloscope did not confirm the check pulse");
+        return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", seen.error().message));
+    }
+    auto evidence = arming_->evidence;
+    evidence.impedance = *seen;
+    impedanceHigh_ = evidence.impedanceHigh;
+    armedAt_ = now;
+    armOnImpedance(evidence, now);
+}
+
+void ControlLoop::armOnImpedance(const ArmingEvidence& given, Instant at) noexcept {
+    auto evidence = given;
+    evidence.impedanceAt = at;
     if (evidence.impedance) {
-        if (const auto updated = parts_.gate.updateImpedance(*evidence.impedance, report.statusAt); !updated) {
+        if (const auto updated = parts_.gate.updateImpedance(*evidence.impedance, at); !updated) {
             parts_.interlock.disarm("the measured impedance is outside its range");
             return finishArming(updated);
         }
     }
-    const auto permitted = parts_.interlock.arm(evidence, report.statusAt);
+    const auto permitted = parts_.interlock.arm(evidence, at);
     if (!permitted) {
         parts_.interlock.disarm("the impedance check did not pass");
         return finishArming(permitted);
     }
     impedance_ = evidence.impedance;
     planner_->armedOn(impedance_);
-    impedanceAt_ = report.statusAt;
+    impedanceAt_ = at;
     finishArming({});
 }
 
 void ControlLoop::watchForSilence(Instant now) noexcept {
     if (parts_.stimulator == nullptr || parts_.stimulator->idle()) return;
-    const auto judgement = judgeTrain(parts_.mode, std::nullopt, postedEnd_, now);
+    const auto judgement = judgeTrain(parts_.mode, std::nullopt, parts_.stimulator->trainEnd(), now);
     if (judgement.stops() && parts_.interlock.state() != InterlockState::Faulted) {
         trip(FaultCause::StatusMissing, judgement.reason.view(), now);
     }

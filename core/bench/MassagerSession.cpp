@@ -54,10 +54,13 @@ void MassagerSession::send(Pending&& pending, Instant now) noexcept {
     made.amplitude = burst.intensity;
     made.interval_s = pending.interval.count();
     const auto offsBefore = offs_.load(std::memory_order_acquire);
-    if (gate_.isCurrent(pending.burst) && heartbeat_.alive(clock_.now())) {
+    if (gate_.isCurrent(pending.burst) && heartbeat_.alive(clock_.elapsed())) {
         const auto sent = device_.vibrate(std::move(pending.burst));
-        // A stop that came while the write was in flight may have reached the device before it: off again.
-        if (!sent || offs_.load(std::memory_order_acquire) != offsBefore) device_.forceOff();
+        // A stop that came while the write was in flight may have reached the device before it: off again. So may a
+        // standstill of the process, or of the computer, that the write waited through.
+        if (!sent || offs_.load(std::memory_order_acquire) != offsBefore || !heartbeat_.alive(clock_.elapsed())) {
+            device_.forceOff();
+        }
         made.outcome = sent ? TrainOutcome::Delivered : TrainOutcome::Failed;
         if (!sent) made.error = std::string_view(sent.error().message);
         made.statusAt = std::max(now, clock_.now());
@@ -67,7 +70,7 @@ void MassagerSession::send(Pending&& pending, Instant now) noexcept {
 }
 
 void MassagerSession::watchLoop(Instant now) noexcept {
-    if (heartbeat_.alive(clock_.now())) {
+    if (heartbeat_.alive(clock_.elapsed())) {
         everServed_ = true;
         silenced_ = false;
         return;

@@ -9,6 +9,7 @@ void ScopeSession::request(const ScopeSettings& settings, Instant now, std::size
     const std::scoped_lock lock(mutex_);
     notBefore_s_ = toSeconds(now);
     requested_ = settings;
+    waiting_ = false;
     wanted_ = wanted;
     forceAfter_ = untriggeredAfter;
     cancelled_ = false;
@@ -20,11 +21,17 @@ void ScopeSession::cancel() {
     const std::scoped_lock lock(mutex_);
     requested_.reset();
     cancelled_ = true;
+    waiting_ = false;
 }
 
 std::size_t ScopeSession::ready() const {
     const std::scoped_lock lock(mutex_);
     return captures_.size();
+}
+
+bool ScopeSession::waiting() const {
+    const std::scoped_lock lock(mutex_);
+    return waiting_;
 }
 
 bool ScopeSession::failed() const {
@@ -77,6 +84,10 @@ Instant ScopeSession::serve(Instant now) noexcept {
         device_.disarm();
         done = device_.configure(*settings);
         if (done) done = device_.arm();
+        {
+            const std::scoped_lock lock(mutex_);
+            waiting_ = done && !requested_ && !cancelled_;
+        }
         quietSince_ = now;
         forceAsked_ = false;
     }
@@ -94,7 +105,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
             if ((*capture)->trigger_s < notBefore_s_) continue;
             captures_.push_back(std::move(**capture));
             if (captures_.size() < wanted_) continue;
-            active_ = false;
+            active_ = waiting_ = false;
             device_.disarm();
             break;
         }
@@ -104,7 +115,7 @@ Instant ScopeSession::serve(Instant now) noexcept {
         device_.disarm();
         const std::scoped_lock lock(mutex_);
         error_ = done.error();
-        active_ = false;
+        active_ = waiting_ = false;
     }
     return now + kPollEvery;
 }

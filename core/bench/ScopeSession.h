@@ -35,6 +35,8 @@ public:
     /// No more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
+    /// The device takes the next trigger: it was configured and armed for the last request.
+    [[nodiscard]] bool waiting() const;
     /// Everything captured so far, oldest first. The error of the device when it failed since request().
     [[nodiscard]] Result<std::vector<Capture>> take();
     /// Whether the device failed since request().
@@ -55,6 +57,7 @@ private:
     std::optional<ScopeSettings> requested_;  // guarded
     std::size_t wanted_ = 0;                  // guarded
     bool active_ = false;                     // guarded
+    bool waiting_ = false;                    // guarded
     bool cancelled_ = false;                  // guarded
     std::vector<Capture> captures_;           // guarded
     double notBefore_s_ = 0;                  // guarded: a trigger before it belongs to an earlier request

@@ -12,6 +12,11 @@ constexpr Instant kIdlePoll = std::chrono::milliseconds(20);
 constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
 constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
 
+/// From the onset of the first pulse to the end of the last.
+Instant durationOf(const PulseTrain& train) noexcept {
+    return toInstant((train.pulses - 1) / train.rate.value()) + toInstant(train.pulseDuration());
+}
+
 /// An open electrode may read as infinite; NaN and negative numbers are no readings.
 bool isPlausible(const StimulatorStatus& status) noexcept {
     const auto fine = [](double value) { return value >= 0; };
@@ -26,6 +31,8 @@ StimulatorSession::StimulatorSession(Stimulator& device, const SafetyGate& gate,
     : device_(device), gate_(gate), heartbeat_(heartbeat), clock_(clock), wake_(std::move(wake)) {}
 
 void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
+    const Instant latest = onset + kBeginsWithin + durationOf(train.train());
+    trainEnd_.store(latest.count(), std::memory_order_release);
     {
         const std::scoped_lock lock(mailbox_);
         pending_.emplace(Pending{std::move(train), onset, isCheck});
@@ -75,15 +82,17 @@ void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
     made.amplitude = std::visit([](auto a) { return a.value(); }, pending.train.train().amplitude);
     made.interval_s = pending.train.interval().count();
     const auto offsBefore = offs_.load(std::memory_order_acquire);
-    if (!gate_.isCurrent(pending.train) || !heartbeat_.alive(clock_.now())) {
+    if (!gate_.isCurrent(pending.train) || !heartbeat_.alive(clock_.elapsed())) {
         report(made);
         return;
     }
-    const PulseTrain train = pending.train.train();
-    const Seconds end = Seconds((train.pulses - 1) / train.rate.value()) + Seconds(train.pulseDuration());
+    const Instant duration = durationOf(pending.train.train());
     const auto delivered = device_.deliver(std::move(pending.train));
-    // A stop that came while the write was in flight may have reached the device before it: off again.
-    if (offs_.load(std::memory_order_acquire) != offsBefore) device_.forceOff();
+    // A stop that came while the write was in flight may have reached the device before it: off again. So may a
+    // standstill of the process, or of the computer, that the write waited through.
+    if (offs_.load(std::memory_order_acquire) != offsBefore || !heartbeat_.alive(clock_.elapsed())) {
+        device_.forceOff();
+    }
     if (!delivered) {
         device_.forceOff();
         made.outcome = TrainOutcome::Failed;
@@ -91,7 +100,9 @@ void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
         report(made);
         return;
     }
-    made.end = now + toInstant(end);
+    // The device may have taken its time to be programmed: the train began when it had, not when it was told to.
+    made.end = std::max(now, clock_.now()) + duration;
+    trainEnd_.store(made.end.count(), std::memory_order_release);
     awaitingStatus_ = made;
     statusDue_ = made.end + kStatusDelay;
 }
@@ -99,9 +110,16 @@ void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
 void StimulatorSession::readStatus(Instant now) noexcept {
     TrainReport made = *awaitingStatus_;
     const auto status = device_.status();
-    if (status && status->delivering && now < made.end + kStatusDeadline) {
-        statusDue_ = now + kStatusRetry;  // a device that is merely slow to end has until the deadline
-        return;
+    if (status && status->delivering) {
+        if (status->trainEnd && *status->trainEnd > made.end) {
+            awaitingStatus_->end = made.end = *status->trainEnd;
+            trainEnd_.store(made.end.count(), std::memory_order_release);
+        }
+        if (now < made.end + kStatusDeadline) {
+            // A device that is merely slow to end has until the deadline.
+            statusDue_ = std::max(now + kStatusRetry, made.end + kStatusDelay);
+            return;
+        }
     }
     awaitingStatus_.reset();
     made.statusAt = std::max(now, clock_.now());
@@ -141,13 +159,13 @@ std::optional<Result<void>> StimulatorSession::health() {
 }
 
 void StimulatorSession::feedDeadMan(Instant now) noexcept {
-    if (!heartbeat_.alive(clock_.now())) {
+    if (!heartbeat_.alive(clock_.elapsed())) {
         keptAliveAt_.reset();
         // The loop is silent: whatever the device still does on its own has to end. Said once, for the loop to find
         // when it comes back.
         if (!std::exchange(silenced_, true) && everServed_) {
             device_.forceOff();
-            const auto silence = heartbeat_.silence(clock_.now()).value_or(Instant(0));
+            const auto silence = heartbeat_.silence(clock_.elapsed()).value_or(Instant(0));
             silencedAfter_.store(silence.count(), std::memory_order_relaxed);
             TrainReport silent;
             silent.outcome = TrainOutcome::LoopSilent;

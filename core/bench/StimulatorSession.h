@@ -28,6 +28,12 @@ public:
                       std::function<void()> wake);
 
     [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
+    /// How long deliver() may take until the train begins: a device is programmed first.
+    static constexpr Instant kBeginsWithin = std::chrono::milliseconds(200);
+    /// When the train that is in the session ends at the latest, as far as it is known: its status is due from then on.
+    /// Any thread.
+    [[nodiscard]] Instant trainEnd() const noexcept { return Instant(trainEnd_.load(std::memory_order_acquire)); }
+
     /// Hands over a train to be written at `onset`. The session must be idle().
     void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
     [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
@@ -76,6 +82,7 @@ private:
     const std::function<void()> wake_;
 
     std::atomic<bool> busy_{false};
+    std::atomic<Instant::rep> trainEnd_{0};
     std::atomic<std::uint64_t> offs_{0};  // forceOff() calls; a write that saw one pass switches off again
     std::mutex mailbox_;                  // guards pending_; held for a move only
     std::optional<Pending> pending_;

@@ -14,6 +14,7 @@
 #include "core/devices/Oscilloscope.h"
 #include "core/devices/Stimulator.h"
 #include "core/devices/TactileSensor.h"
+#include "core/safety/StopCounter.h"
 
 namespace tacto {
 
@@ -26,6 +27,10 @@ struct OpenContext {
     std::uint64_t seed = 1;
     std::string declaredLoad =
         kDefaultLoad;  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
+    /// Outlives the opening; null: nothing stops it. `asked` is when the operator asked for the devices.
+    const StopCounter* stops = nullptr;
+    StopMark asked = {};
+    [[nodiscard]] bool stopped() const noexcept { return stops != nullptr && stops->movedSince(asked); }
 };
 
 /// The open devices of a bench, at most one per role. Owns them.
@@ -63,8 +68,9 @@ public:
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
     /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
-    /// Errors: NotFound naming the unknown scheme and the known ones, or the role that nothing fills; as
-    /// Driver::open().
+    /// A stop ends the opening as soon as the driver that is at work returns; what was opened is switched off and
+    /// closed. Errors: Stopped; NotFound naming the unknown scheme and the known ones, or the role that nothing fills;
+    /// as Driver::open().
     [[nodiscard]] Result<DeviceSet> open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
                                          const OpenContext& context);
 

@@ -75,10 +75,18 @@ Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set
     DeviceSet devices;
     std::vector<DeviceUri> order(uris.begin(), uris.end());
     std::ranges::stable_partition(order, [](const DeviceUri& uri) { return !uri.path.empty(); });
+    const auto stopped = [&devices] {
+        if (devices.stimulator) devices.stimulator->forceOff();
+        if (devices.massager) devices.massager->forceOff();
+        return fail(ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered");
+    };
+    if (context.stopped()) return stopped();
     for (const auto& uri : order) {
         const auto driver = driverFor(uri);
         if (!driver) return failure(driver);
-        if (const auto opened = (*driver)->open(uri, needed, context, devices); !opened) return failure(opened);
+        const auto opened = (*driver)->open(uri, needed, context, devices);
+        if (context.stopped()) return stopped();
+        if (!opened) return failure(opened);
     }
     for (const auto role : needed) {
         if (devices.has(role)) continue;

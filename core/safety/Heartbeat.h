@@ -4,6 +4,11 @@
 // on. After 100 ms of silence the answer is no: device threads force their output off and stop holding off dead-man
 // switches, so a hung program ends in silence. Not alive before the first beat.
 //
+// A heart that stood still stays dead. After a standstill of the whole process nobody knows which thread wakes first, so
+// a beat that comes too late is refused: the loop switches off, voids what was approved, and only then calls revive().
+//
+// All moments are Clock::elapsed(), which counts the time for which the computer slept.
+//
 // Thread-safety: any thread may call anything; lock-free.
 #pragma once
 
@@ -19,7 +24,16 @@ class Heartbeat {
 public:
     static constexpr Instant kSilence = std::chrono::milliseconds(100);
 
-    void beat(Instant now) noexcept { last_.store(now.count(), std::memory_order_release); }
+    /// False, and nothing is alive, when the last beat was more than kSilence ago. The first beat, and the first after
+    /// end(), is never late. One caller, the loop.
+    bool beat(Instant now) noexcept {
+        const auto last = last_.load(std::memory_order_relaxed);
+        if (last != kNever && now.count() - last > kSilence.count()) return false;
+        last_.store(now.count(), std::memory_order_release);
+        return true;
+    }
+    /// The loop has switched the outputs off and voided every approval: it beats again.
+    void revive(Instant now) noexcept { last_.store(now.count(), std::memory_order_release); }
     /// The loop ends on purpose: not alive until the next beat.
     void end() noexcept { last_.store(kNever, std::memory_order_release); }
     [[nodiscard]] bool alive(Instant now) const noexcept {

@@ -148,6 +148,8 @@ Result<StimulatorStatus> ScienceModeStimulator::status() {
         if (playing()) {
             auto status = snapshot(clock_.now());
             status.delivering = true;
+            status.trainEnd = play_->due + (play_->pulses - play_->sent - 1) * play_->period +
+                              toInstant(Seconds(play_->plan.points.duration()));
             return status;
         }
         if (ended_) return tl::unexpected<Error>(*std::exchange(ended_, std::nullopt));

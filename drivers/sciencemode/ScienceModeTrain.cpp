@@ -94,7 +94,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
         play_.reset();
         if (consumed.train().pulses > 1 && reading.electrode != ElectrodeState::Open) {
             const Instant period = toInstant(1 / consumed.train().rate.value());
-            play_ = Play{*plan, *request, consumed.train().pulses, 1, period, first, first + period, offs};
+            play_ = Play{*plan, *request, consumed.train().pulses, 1, period, clock_.asleep(), first + period, offs};
         }
     }
     changed_.notify_one();
@@ -123,7 +123,8 @@ void ScienceModeStimulator::firePlayed(Instant now) {
         if (!playing() || now < play_->due) return;  // another train by now
         play = *play_;
     }
-    const Instant late = now - (play.planned + play.sent * play.period);
+    // Each pulse is judged on its own interval: those before it have slipped, and moved it. A computer that slept is late.
+    const Instant late = now - play.due + (clock_.asleep() - play.asleep);
     PulseReading reading;
     Instant written{0};
     Result<Sent> fired = Sent::Stopped;

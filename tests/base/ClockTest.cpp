@@ -23,6 +23,25 @@ TEST(VirtualClock, IgnoresAMomentAlreadyPast) {
     EXPECT_EQ(clock.now(), 2s);
 }
 
+TEST(VirtualClock, StandsStillWhileTheComputerSleeps) {
+    VirtualClock clock;
+    clock.advanceTo(2s);
+    clock.sleepFor(3s);
+    EXPECT_EQ(clock.now(), 2s);
+    EXPECT_EQ(clock.asleep(), 3s);
+    EXPECT_EQ(clock.elapsed(), 5s);
+}
+
+TEST(SteadyClock, HasNotSleptWhileThisTestRuns) {
+    SteadyClock clock;
+    const Instant begun = clock.now();
+    while (clock.now() < begun + 20ms) {
+        // Read by turns with other threads on the machine: a pause between two readings is no sleep.
+        ASSERT_LT(clock.asleep(), 5ms);
+    }
+    EXPECT_GE(clock.elapsed(), begun + 20ms);
+}
+
 TEST(SteadyClock, NeverGoesBack) {
     SteadyClock clock;
     Instant last = clock.now();

@@ -151,7 +151,7 @@ TEST_F(BenchTest, StopVoidsEverythingAndEndsWaiting) {
     const auto waited = bench_->wait(Seconds(2));
     ASSERT_FALSE(waited);
     EXPECT_EQ(waited.error().code, ErrorCode::Stopped);
-    bench_->clearStop();
+    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
     ASSERT_TRUE(bench_->wait(Seconds(2)));
     EXPECT_EQ(state(), InterlockState::Disarmed);
     EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
@@ -179,6 +179,34 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     EXPECT_FALSE(bench_->wait(Seconds(60)));
     EXPECT_LT(bench_->clock().now(), 13s) << "2 % a second: 20 % after ten";
     EXPECT_EQ(state(), InterlockState::Faulted);
+
+    // Somebody who resets without looking arms nothing: the drift is still there.
+    ASSERT_TRUE(bench_->resetFault());
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    const auto armed = arm();
+    ASSERT_FALSE(armed);
+    EXPECT_NE(armed.error().message.find("where"), std::string::npos) << armed.error().message;
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    bench_->idle(Seconds(3));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+}
+
+TEST_F(BenchTest, AResetLeavesNoFaultWhoseCauseIsStillThere) {
+    RecordProperty("hazard", "H3");
+    for (const auto* fault : {"open@3.1s", "short@3.1s"}) {
+        open({std::string("sim:stimulator?fault=") + fault});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_FALSE(bench_->wait(Seconds(20)));
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        ASSERT_TRUE(bench_->resetFault());
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        EXPECT_FALSE(arm()) << fault << ": the check pulse looks first";
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        bench_->idle(Seconds(3));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered) << fault;
+    }
 }
 
 TEST_F(BenchTest, PausedDeliversNothingAndGoesOnAfterwards) {

@@ -36,10 +36,12 @@ public:
         if (statusFails) return fail(ErrorCode::Timeout, "the fake does not answer");
         StimulatorStatus answer;
         answer.at = clock_.now();
+        answer.delivering = clock_.now() < stillOnUntil;
+        if (answer.delivering && saysWhenItEnds) answer.trainEnd = stillOnUntil;
         answer.electrode = electrode;
         answer.impedance = impedance;
         answer.trainsDelivered = static_cast<std::uint64_t>(delivered.load());
-        on = false;
+        on = answer.delivering;
         return answer;
     }
     Result<void> keepAlive() override {
@@ -55,6 +57,8 @@ public:
     std::function<void()> onDeliver;
     bool deliverFails = false;
     bool statusFails = false;
+    Instant stillOnUntil{0};  ///< a train goes on until then
+    bool saysWhenItEnds = true;
     std::atomic<bool> statusBlocks{false};
     ElectrodeState electrode = ElectrodeState::Ok;
     Ohms impedance{1000};
@@ -92,8 +96,9 @@ private:
 }
 
 /// Takes `loop` through arming on a declared kiloohm; armed after its next steps.
-inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock) {
-    if (!interlock.connect()) return;
+inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock,
+                    StopMark asked = {}) {
+    if (interlock.state() == InterlockState::Disconnected && !interlock.connect()) return;
     const auto ticket = interlock.requestArming(clock.now()).value();
     if (!interlock.confirmArming(ticket, clock.now())) return;
     ArmCommand command;
@@ -105,6 +110,7 @@ inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulato
     command.evidence.impedanceHigh = Ohms(1200);
     command.evidence.readsBack = device.traits().readsBack;
     command.evidence.declaredLoadConfirmed = !device.traits().readsBack;
+    command.asked = asked;
     loop.arm(std::move(command));
 }
 

@@ -116,12 +116,70 @@ TEST_F(SeenLoadTest, ChargeStaysByWhatTheCapturesShow) {
     EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1140, 40);
 }
 
-TEST_F(SeenLoadTest, UntilACaptureThereIsTheDeclaredLoad) {
+TEST_F(SeenLoadTest, UntilACaptureThereIsTheLoadThatArmingSaw) {
     deliver(Hold::Charge, "load=1kohm, drift 1.5 %/s");
+    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 30);
     ASSERT_TRUE(bench_->wait(Seconds(5)));
-    EXPECT_TRUE(std::isnan(bench_->telemetry().impedance_ohm)) << "declared is not measured";
+    EXPECT_NEAR(bench_->telemetry().impedance_ohm, 1000, 30) << "nobody looked since";
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 25, 0.01);
     EXPECT_GT(bench_->telemetry().trainsDelivered, 8U);
+}
+
+TEST_F(SeenLoadTest, IsLookedAtBySmallPulseBeforeAnythingIsArmed) {
+    RecordProperty("hazard", "H4");
+    struct Case {
+        const char* uri;
+        const char* why;
+    };
+    for (const auto& [uri, why] : {Case{"sim:stimulator?readback=no&load=300ohm", "the declared load is 1 kohm"},
+                                   Case{"sim:stimulator?readback=no&load=open", "electrode is open"},
+                                   Case{"sim:stimulator?readback=no&gain=1.3", "delivered 1.3 where 1"},
+                                   Case{"sim:stimulator?readback=no&gain=0.7", "1 V was commanded"}}) {
+        open({uri});
+        const auto armed = arm();
+        ASSERT_FALSE(armed) << uri;
+        EXPECT_NE(armed.error().message.find(why), std::string::npos) << armed.error().message;
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        bench_->idle(Seconds(3));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << uri;
+    }
+    open({"sim:stimulator?readback=no", "sim:oscilloscope?fault=unplug@0s"});
+    const auto blind = arm();
+    ASSERT_FALSE(blind) << "nothing is armed on an oscilloscope that sees nothing";
+    EXPECT_EQ(blind.error().code, ErrorCode::NotArmed) << blind.error().message;
+    open({"sim:stimulator?readback=no"}, {Role::Stimulator});
+    ASSERT_TRUE(arm()) << "without an oscilloscope the operator's word for the load stands";
+    EXPECT_TRUE(std::isnan(bench_->telemetry().impedance_ohm)) << "and declared is not measured";
+}
+
+TEST_F(SeenLoadTest, ConfirmsOnlyWhatWasCommandedIntoALoad) {
+    RecordProperty("hazard", "H4");
+    deliver(Hold::Voltage, "load=1kohm");
+    const auto captures = bench_->capture(1, ScopeSettings{});
+    ASSERT_TRUE(captures);
+    const Capture& shown = captures->front();
+    PulseTrain commanded;
+    commanded.amplitude = Volts(shown.told);
+    const auto load = loadConfirmedBy(shown, commanded);
+    ASSERT_TRUE(load) << load.error().message;
+    EXPECT_NEAR(load->value(), 1000, 30);
+    for (const double factor : {0.79, 1.27}) {
+        commanded.amplitude = Volts(factor * shown.told);
+        EXPECT_FALSE(loadConfirmedBy(shown, commanded)) << factor;
+    }
+    commanded.amplitude = Milliamps(shown.told);
+    EXPECT_TRUE(loadConfirmedBy(shown, commanded)) << "as many mA as volts into 1 kohm";
+    commanded.amplitude = Volts(shown.told);
+    Capture silent = shown;
+    for (auto& sample : silent.channels[1].samples) sample = 0;
+    EXPECT_FALSE(loadConfirmedBy(silent, commanded)) << "voltage and no current";
+    silent = shown;
+    silent.channels.pop_back();
+    EXPECT_FALSE(loadConfirmedBy(silent, commanded)) << "nothing that measures a current";
+    silent = shown;
+    for (auto& sample : silent.channels[0].samples) sample = 0;
+    EXPECT_FALSE(loadConfirmedBy(silent, commanded)) << "no pulse";
 }
 
 TEST_F(SeenLoadTest, ALoadThatLeavesItsRangeEndsDelivery) {

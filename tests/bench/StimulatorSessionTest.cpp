@@ -118,6 +118,50 @@ TEST_F(StimulatorSessionTest, FeedsTheDeadManSwitchManyTimesWithinItsTime) {
     EXPECT_GE(device_.keptAlive, 8);
 }
 
+TEST_F(StimulatorSessionTest, ATrainEndsALengthAfterTheDeviceHadBegunIt) {
+    RecordProperty("hazard", "H2");
+    // A Pulse Pal is programmed for 4 to 36 ms before it begins: that is not the status deadline's time.
+    device_.onDeliver = [this] { clock_.advanceTo(clock_.now() + Instant(60ms)); };
+    post(10ms);
+    passTo(10ms);
+    EXPECT_EQ(clock_.now(), Instant(70ms));
+    EXPECT_EQ(session_.trainEnd(), Instant(70ms) + Instant(500us)) << "one pulse of two phases and a gap";
+    passTo(80ms);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->outcome, TrainOutcome::Delivered);
+    EXPECT_EQ(report->onset, Instant(10ms));
+    EXPECT_EQ(report->end, Instant(70ms) + Instant(500us));
+    EXPECT_LE(report->statusAt - report->end, Instant(10ms));
+}
+
+TEST_F(StimulatorSessionTest, ATrainThatSlipsEndsWhenItsDriverSays) {
+    RecordProperty("hazard", "H2");
+    // Pulses that the host sends one by one: 300 ms later than planned in all, and none late by itself.
+    device_.stillOnUntil = Instant(300ms);
+    post();
+    passTo(299ms);
+    EXPECT_FALSE(session_.takeReport());
+    EXPECT_EQ(session_.trainEnd(), Instant(300ms));
+    passTo(310ms);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->outcome, TrainOutcome::Delivered);
+    EXPECT_FALSE(report->stillDelivering);
+    EXPECT_EQ(report->end, Instant(300ms));
+}
+
+TEST_F(StimulatorSessionTest, ADeviceThatIsStuckOnIsFoundWithinTheDeadline) {
+    RecordProperty("hazard", "H2");
+    device_.stillOnUntil = Instant(10s);
+    device_.saysWhenItEnds = false;
+    post();
+    passTo(60ms);
+    const auto report = session_.takeReport();
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(report->stillDelivering);
+}
+
 TEST_F(StimulatorSessionTest, ADeviceThatRefusesIsSwitchedOffAndReported) {
     device_.deliverFails = true;
     post();

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 class StopTest : public testing::Test {
 protected:
-    void open(bool realTime) {
+    void open(bool realTime, std::shared_ptr<StopCounter> stops = nullptr, StopMark asked = {}) {
         bench_.reset();
         if (realTime)
             clock_ = std::make_shared<SteadyClock>();
@@ -25,6 +25,8 @@ protected:
         config.devices.stimulator = std::move(device);
         config.clock = clock_;
         config.limits = {test::generousLimits()};
+        config.stops = std::move(stops);
+        config.asked = asked;
         bench_ = Bench::create(std::move(config)).value();
     }
     [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
@@ -55,7 +57,7 @@ TEST_F(StopTest, DuringAWriteSwitchesOffAfterTheWrite) {
     EXPECT_FALSE(device_->on);
     device_->onDeliver = nullptr;
     const int delivered = device_->delivered;
-    bench_->clearStop();
+    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
     ASSERT_TRUE(bench_->wait(Seconds(3)));
     EXPECT_EQ(device_->delivered, delivered);
 }
@@ -70,10 +72,75 @@ TEST_F(StopTest, DuringTheCheckEndsArmingAndDeliversNothingMore) {
     const int delivered = device_->delivered;
     EXPECT_FALSE(arm()) << "a stopped bench does not arm";
     EXPECT_EQ(device_->delivered, delivered) << "not even a check pulse";
-    bench_->clearStop();
+    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     EXPECT_EQ(device_->delivered, delivered) << "and no check left over from before";
     EXPECT_TRUE(arm());
+}
+
+TEST_F(StopTest, IsNeverForgottenByAnOrderFromBeforeIt) {
+    RecordProperty("hazard", "H2");
+    open(false);
+    const auto asked = bench_->stops().mark();
+    bench_->stop("test");
+    const auto begun = bench_->begin(asked);
+    ASSERT_FALSE(begun);
+    EXPECT_EQ(begun.error().code, ErrorCode::Stopped);
+    EXPECT_FALSE(bench_->begin(StopMark())) << "nor by one whose mark was forgotten";
+    EXPECT_FALSE(bench_->begin(StopCounter().mark())) << "nor by one of another counter";
+    EXPECT_FALSE(arm());
+    EXPECT_FALSE(bench_->drive(DriveSource::Manual, 1, 1));
+    EXPECT_TRUE(bench_->drive(DriveSource::Off)) << "less output is never refused";
+    bench_->idle(Seconds(3));
+    EXPECT_EQ(device_->delivered, 0);
+    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
+    EXPECT_TRUE(arm());
+}
+
+TEST_F(StopTest, ABenchThatWasAskedForBeforeAStopDoesNothing) {
+    RecordProperty("hazard", "H2");
+    const auto stops = std::make_shared<StopCounter>();
+    const auto asked = stops->mark();
+    stops->raise();
+    open(false, stops, asked);
+    EXPECT_FALSE(arm());
+    bench_->idle(Seconds(1));
+    EXPECT_EQ(device_->delivered, 0);
+}
+
+TEST_F(StopTest, JustBeforeCheckingIsEnteredIsFollowedByNoCheckPulse) {
+    RecordProperty("hazard", "H2");
+    // The stop finds the interlock disarmed, so it has nothing to disarm, and voids approvals that do not exist yet.
+    const VirtualClock clock;
+    SafetyGate gate(clock);
+    Interlock interlock;
+    Heartbeat heartbeat;
+    test::FakeStimulator device(clock);
+    StimulatorSession session(device, gate, heartbeat, clock, {});
+    StopCounter stops;
+    ControlLoop::Parts parts{clock, gate, interlock, heartbeat, OutputMode::BenchLoad, &session, nullptr, 0, {}};
+    parts.stops = &stops;
+    for (const bool readsBack : {true, false}) {
+        device.traits_.readsBack = readsBack;
+        ControlLoop loop(parts, nullptr,
+                         std::make_unique<TrainPlanner>(EncodingProfile{}, device.traits(), gate));
+        const auto asked = stops.mark();
+        stops.raise();
+        interlock.disarm("stopped");
+        gate.latchStop();
+        test::armFake(loop, interlock, device, clock, asked);
+        loop.drive({DriveSource::Manual, 1, 1});
+        for (int i = 0; i < 3; ++i) {
+            loop.step(clock.now());
+            session.serve(clock.now());
+        }
+        EXPECT_EQ(device.delivered, 0);
+        EXPECT_EQ(interlock.state(), InterlockState::Disarmed);
+        const auto armed = loop.armed();
+        ASSERT_TRUE(armed);
+        ASSERT_FALSE(*armed);
+        EXPECT_EQ(armed->error().code, ErrorCode::Stopped);
+    }
 }
 
 TEST_F(StopTest, AtAnyMomentOfArmingAndDrivingIsFollowedByNoTrain) {

@@ -47,6 +47,7 @@ public:
         out.script = library.find("load-safety").value();
         out.parameters = applySettings(readDeclaration(out.script).value(), settings).value().parameters;
         out.bench = bench_.get();
+        out.asked = bench_->stops().mark();
         out.session = writer_.get();
         out.seed = seed_;
         return out;

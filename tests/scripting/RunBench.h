@@ -63,6 +63,7 @@ public:
         RunRequest out;
         out.script = std::move(source);
         out.bench = bench_.get();
+        out.asked = bench_->stops().mark();
         out.session = writer_.get();
         out.seed = seed_;
         out.operatorDesk = technician_.get();

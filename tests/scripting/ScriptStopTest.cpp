@@ -256,6 +256,22 @@ TEST(ScriptStop, EndsAPausedScript) {
     EXPECT_FALSE(outcome.abandoned);
 }
 
+TEST(ScriptStop, BeforeTheStartIsNotForgotten) {
+    RecordProperty("hazard", "H2");
+    RunBench rig;
+    auto request = rig.request(withRun("bench.arm({ load: 1000 });"));
+    rig.bench().stop("the operator");
+    const auto started = ScriptRun::start(request);
+    ASSERT_FALSE(started);
+    EXPECT_EQ(started.error().code, ErrorCode::Stopped) << started.error().message;
+    EXPECT_TRUE(rig.outputOff());
+    request.asked = {};
+    EXPECT_FALSE(ScriptRun::start(request)) << "a run whose mark was forgotten starts nothing";
+    request.asked = rig.bench().stops().mark();
+    const auto outcome = runProtocol(std::move(request)).value();
+    EXPECT_FALSE(outcome.error) << "asked for after the stop: " << outcome.error->message;
+}
+
 TEST(ScriptStop, AfterTheEndLeavesTheBenchAlone) {
     RunBench rig;
     auto run = ScriptRun::start(rig.request(withRun("return verdict({ verdict: 'pass' });"))).value();

@@ -79,7 +79,9 @@ Result<bool> BenchDesk::allVirtual(const std::vector<DeviceUri>& uris) const {
 }
 
 void BenchDesk::stop(const char* by) noexcept {
+    stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
+    stoppedBy_ = by;
     if (script_ != nullptr)
         script_->stop(by);
     else if (bench_ != nullptr)
@@ -105,7 +107,7 @@ void BenchDesk::resume() {
 void BenchDesk::openLive(const LiveOrder& order) {
     profile_ = order.profile;
     speed_ = order.speed;
-    post([this, order] { openOnThread(order); });
+    post([this, order, asked = stops_->mark()] { openOnThread(order, asked); });
 }
 
 void BenchDesk::close() {
@@ -114,24 +116,25 @@ void BenchDesk::close() {
 }
 
 void BenchDesk::arm(const ArmRequest& request) {
-    post([this, request] {
-        if (!live_) return report(Error{ErrorCode::NotArmed, "Not armed: no bench is open."});
-        live_->bench->clearStop();
-        if (auto armed = live_->bench->arm(request); !armed) {
-            live_->bench->disarm();  // also what was armed before
-            return report(armed.error());
-        }
+    order([this, request](Bench& bench) -> Result<void> {
+        bench.resume();  // a pause from before this arming is over
+        const auto armed = bench.arm(request);
+        if (!armed) bench.disarm();  // also what was armed before
+        if (live_->scope) requestCapture();  // arming may have used the oscilloscope
+        if (!armed) return armed;
         tell([this] { emit this->armed(); });
+        return {};
     });
 }
 
 void BenchDesk::checkImpedance(const ArmRequest& request) {
-    post([this, request] {
-        if (!live_) return report(Error{ErrorCode::NotArmed, "The impedance was not checked: no bench is open."});
-        live_->bench->clearStop();
-        const auto found = live_->bench->checkImpedance(request);
-        if (!found) return report(found.error());
+    order([this, request](Bench& bench) -> Result<void> {
+        bench.resume();  // a pause from before this check is over
+        const auto found = bench.checkImpedance(request);
+        if (live_->scope) requestCapture();  // the check may have used the oscilloscope
+        if (!found) return failure(found);
         tell([this, ohms = *found ? (*found)->value() : std::nan("")] { emit checked(ohms); });
+        return {};
     });
 }
 
@@ -142,17 +145,17 @@ void BenchDesk::disarm() {
 }
 
 void BenchDesk::resetFault() {
-    post([this] {
-        if (!live_) return;
-        if (auto reset = live_->bench->resetFault(); !reset) report(reset.error());
-    });
+    order([](Bench& bench) { return bench.resetFault(); });
 }
 
 void BenchDesk::drive(DriveSource source, double roughness, double pressure) {
-    post([this, source, roughness, pressure] {
-        if (!live_) return;
-        if (auto driven = live_->bench->drive(source, roughness, pressure); !driven) report(driven.error());
-    });
+    if (source == DriveSource::Off) {
+        post([this] {
+            if (live_) static_cast<void>(live_->bench->drive(DriveSource::Off));  // refused for nothing
+        });
+        return;
+    }
+    order([source, roughness, pressure](Bench& bench) { return bench.drive(source, roughness, pressure); });
 }
 
 void BenchDesk::setProfile(const Profile& profile) {
@@ -216,7 +219,10 @@ void BenchDesk::stopScope() {
 void BenchDesk::run(const RunOrder& order) {
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
-    post([this, order] { runOnThread(order); });
+    auto marked = order;
+    marked.stops = stops_;
+    marked.asked = stops_->mark();
+    post([this, marked = std::move(marked)] { runOnThread(marked); });
 }
 
 RunFeed BenchDesk::takeRunFeed() {
@@ -230,6 +236,15 @@ void BenchDesk::post(std::function<void()> task) {
         tasks_.push_back(std::move(task));
     }
     taskCame_.notify_all();
+}
+
+void BenchDesk::order(std::function<Result<void>(Bench&)> task) {
+    post([this, asked = stops_->mark(), task = std::move(task)] {
+        if (!live_) return report(Error{ErrorCode::NotArmed, "Nothing was done: no bench is open."});
+        auto done = live_->bench->begin(asked);
+        if (done) done = task(*live_->bench);
+        if (!done) report(done.error());
+    });
 }
 
 void BenchDesk::tell(std::function<void()> onWindow) {
@@ -308,6 +323,11 @@ void BenchDesk::publishBench(Bench* bench, ScriptRun* script) {
     script_ = script;
 }
 
+std::string BenchDesk::lastStop() const {
+    const std::scoped_lock lock(benchMutex_);
+    return stoppedBy_;
+}
+
 void BenchDesk::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
     tell([this, activity, open = std::move(open), tap = std::move(tap)] {
         activity_ = activity;
@@ -340,7 +360,7 @@ std::shared_ptr<const OpenBench> describe(Bench& bench, const SessionAbout& abou
 
 }  // namespace
 
-void BenchDesk::openOnThread(const LiveOrder& order) {
+void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
     const auto give_up = [this](const Error& error) {
@@ -356,7 +376,12 @@ void BenchDesk::openOnThread(const LiveOrder& order) {
         live->clock = std::make_shared<VirtualClock>();
     else
         live->clock = std::make_shared<SteadyClock>();
-    auto devices = registry.open(order.uris, order.needed, OpenContext{*live->clock, order.seed, kDefaultLoad});
+    const OpenContext context{.clock = *live->clock,
+                              .seed = order.seed,
+                              .declaredLoad = kDefaultLoad,
+                              .stops = stops_.get(),
+                              .asked = asked};
+    auto devices = registry.open(order.uris, order.needed, context);
     if (!devices) return give_up(devices.error());
     const auto files = prepareRunFiles("", "live");
     if (!files) return give_up(files.error());
@@ -372,12 +397,19 @@ void BenchDesk::openOnThread(const LiveOrder& order) {
     config.limits = limits_.sets;
     config.session = live->session.get();
     config.tap = live->tap.get();
+    config.stops = stops_;
+    config.asked = asked;
     applyKnown(knownCalibration(config.devices), config);
     auto bench = Bench::create(std::move(config));
     if (!bench) return give_up(bench.error());
     live->bench = std::move(*bench);
     live->servedAt = realNow();
-    publishBench(live->bench.get(), nullptr);
+    publishBench(live->bench.get(), nullptr);  // from here on a stop reaches it
+    if (stops_->movedSince(asked)) {
+        publishBench(nullptr, nullptr);
+        live->bench.reset();
+        return give_up(Error{ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered"});
+    }
     auto open = describe(*live->bench, about, files->session);
     auto tap = live->tap;
     live_ = std::move(live);
@@ -408,9 +440,11 @@ void BenchDesk::runOnThread(const RunOrder& order) {
     auto prepared = ProtocolRun::prepare(order, registry, tap.get());
     if (!prepared) {
         finished->result.outcome.error = prepared.error();
+        finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
         return end();
     }
     auto& run = **prepared;
+    publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     hooks.onProgress = [this](const ScriptProgress& progress) {
@@ -432,11 +466,13 @@ void BenchDesk::runOnThread(const RunOrder& order) {
         feed_.captures.push_back(std::move(shared));
     };
     if (auto started = run.start(std::move(hooks)); !started) {
+        publishBench(nullptr, nullptr);
         finished->result = run.finish();
-        finished->result.outcome.error = started.error();
         return end();
     }
     publishBench(&run.bench(), run.script());
+    // A stop between start and publishing has switched off the bench, and has not reached the script.
+    if (stops_->movedSince(order.asked)) run.script()->stop(lastStop().c_str());
     become(Activity::Running, describe(run.bench(), run.about(), run.files().session), tap);
     static_cast<void>(run.script()->wait());
     publishBench(nullptr, nullptr);

@@ -1,7 +1,9 @@
 // BenchDesk.h - the window's one way to the bench: opens it, drives it, runs protocols on it, and lets displays look.
 //
 // The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
-// thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue.
+// thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue, and ends everything
+// that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if no
+// stop came since it was asked for.
 //
 // A bench of simulated devices and recordings runs on the virtual clock, moved by that thread at `speed` times real
 // time; one with hardware runs on the steady clock. Every opened bench records to a session file.
@@ -108,7 +110,8 @@ public:
     /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() tells what it found.
     void checkImpedance(const ArmRequest& request);
     void disarm();
-    /// Outputs off before this returns; any thread. Ends a running protocol too.
+    /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
+    /// the driver that is at work returns.
     void stop(const char* by) noexcept;
     void pause();
     void resume();
@@ -146,16 +149,19 @@ private:
     struct Live;
     void work();
     void post(std::function<void()> task);
+    /// Carried out on the live bench unless a stop comes first; what fails is reported. For all that may start output.
+    void order(std::function<Result<void>(Bench&)> task);
     void tell(std::function<void()> onWindow);
     void report(const Error& error);
     void serveLive();
     void serveScope();
     void requestCapture();
     void endScope(const Error& error);
-    void openOnThread(const LiveOrder& order);
+    void openOnThread(const LiveOrder& order, StopMark asked);
     void closeOnThread();
     void runOnThread(const RunOrder& order);
     void publishBench(Bench* bench, ScriptRun* script);
+    [[nodiscard]] std::string lastStop() const;
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
@@ -169,9 +175,11 @@ private:
     Profile profile_;
     ShippedLimits limits_;
 
+    const std::shared_ptr<StopCounter> stops_ = std::make_shared<StopCounter>();  // of this desk and all its benches
     mutable std::mutex benchMutex_;  // held for moments: to swap the pointers, to look, to stop
     Bench* bench_ = nullptr;         // guarded by benchMutex_
     ScriptRun* script_ = nullptr;    // guarded by benchMutex_
+    std::string stoppedBy_;          // guarded by benchMutex_: the last stop
 
     std::mutex feedMutex_;
     RunFeed feed_;  // guarded by feedMutex_

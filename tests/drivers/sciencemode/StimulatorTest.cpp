@@ -202,6 +202,38 @@ TEST(ScienceModeDeliver, AHostThatIsALittleLateNeverHurriesAfterwards) {
     }
 }
 
+TEST(ScienceModeDeliver, SmallSlipsDoNotAddUpUntilTheTrainIsGivenUp) {
+    RecordProperty("hazard", "H2");
+    ScienceModeBench bench;
+    const auto train = biphasic(5, 60, 100);
+    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(train)).has_value());
+    const Instant planned = bench.clock.now() + toInstant(train.duration());
+    Instant told{0};
+    for (;;) {
+        const Instant next = bench.stimulator->serve(bench.clock.now());
+        if (next == Instant::max()) break;
+        if (const auto status = bench.status(); status.delivering) told = status.trainEnd.value_or(Instant(0));
+        bench.clock.advanceTo(next + std::chrono::microseconds(1600));
+    }
+    EXPECT_EQ(bench.line->pulses(), 60U);
+    const Instant end = bench.line->pulseList().back().end;
+    EXPECT_GT(end, planned + milliseconds(80)) << "each pulse moves those after it";
+    EXPECT_NEAR(toSeconds(told - end), 0, 0.005) << "and the status says when the train ends";
+    EXPECT_FALSE(bench.status().delivering);
+}
+
+TEST(ScienceModeDeliver, AComputerThatSleptGivesTheTrainUp) {
+    RecordProperty("hazard", "H2");
+    ScienceModeBench bench;
+    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 50)).has_value());
+    bench.wait(Seconds(0.1));
+    const auto before = bench.line->pulses();
+    bench.clock.sleepFor(std::chrono::seconds(3));  // the steady clock stands still meanwhile
+    bench.wait(Seconds(1));
+    EXPECT_EQ(bench.line->pulses(), before);
+    EXPECT_FALSE(bench.stimulator->status().has_value());
+}
+
 TEST(ScienceModeDeliver, AHostThatSleptGivesTheTrainUp) {
     RecordProperty("hazard", "H2");
     ScienceModeBench bench;

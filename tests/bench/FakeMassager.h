@@ -1,0 +1,47 @@
+// FakeMassager.h - a massager that remembers what it was sent, and when.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "core/base/Clock.h"
+#include "core/devices/Massager.h"
+
+namespace tacto::test {
+
+/// Remembers what it was told. Bursts end by themselves.
+class FakeMassager final : public Massager {
+public:
+    explicit FakeMassager(const Clock& clock) : clock_(clock) {}
+    struct Sent {
+        Instant at;
+        VibrationBurst burst;
+    };
+    const DeviceIdentity& identity() const noexcept override { return identity_; }
+    Result<void> vibrate(ApprovedBurst&& burst) override {
+        if (unplugged) return fail(ErrorCode::Device, "the massager was unplugged");
+        const std::scoped_lock lock(mutex_);
+        sent_.push_back({clock_.now(), burst.burst()});
+        if (onVibrate) onVibrate();
+        return {};
+    }
+    void forceOff() noexcept override { ++offs; }
+    [[nodiscard]] std::vector<Sent> sent() const {
+        const std::scoped_lock lock(mutex_);
+        return sent_;
+    }
+
+    std::atomic<int> offs{0};
+    std::atomic<bool> unplugged{false};
+    std::function<void()> onVibrate;
+
+private:
+    const DeviceIdentity identity_{"fake:massager", Role::Massager, "fake massager", "M1", "", true};
+    const Clock& clock_;
+    mutable std::mutex mutex_;
+    std::vector<Sent> sent_;
+};
+
+}  // namespace tacto::test

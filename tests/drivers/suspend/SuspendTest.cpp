@@ -1,0 +1,181 @@
+// H2 end to end: a process that delivers is stopped by SIGSTOP and goes on by SIGCONT. It is a race between its threads,
+// so it is tried many times. No train may reach the device afterwards until somebody arms again.
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <optional>
+#include <poll.h>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "core/base/Random.h"
+#include "drivers/sciencemode/EmulatedPty.h"
+#include "tests/support/Campaign.h"
+
+namespace tacto::test {
+namespace {
+
+using std::chrono::milliseconds;
+
+std::int64_t monotonic_ns() {
+    std::timespec at{};
+    clock_gettime(CLOCK_MONOTONIC, &at);
+    return at.tv_sec * 1'000'000'000L + at.tv_nsec;
+}
+
+/// The process that delivers.
+class Host {
+public:
+    explicit Host(const std::string& which) {
+        std::array<int, 2> in{}, out{};
+        if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) return;
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+        std::string program = TACTO_SUSPEND_HOST;
+        std::string argument = which;
+        std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+        if (posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ) != 0) pid_ = -1;
+        posix_spawn_file_actions_destroy(&actions);
+        close(in[0]);
+        close(out[1]);
+        in_ = in[1];
+        out_ = out[0];
+    }
+    ~Host() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(in_);
+        close(out_);
+    }
+    Host(const Host&) = delete;
+    Host& operator=(const Host&) = delete;
+
+    void signal(int number) const { kill(pid_, number); }
+    /// Returns when the kernel has stopped every thread of it.
+    [[nodiscard]] bool stopAndWait() const {
+        kill(pid_, SIGSTOP);
+        int status = 0;
+        return waitpid(pid_, &status, WUNTRACED) == pid_ && WIFSTOPPED(status);
+    }
+    /// The answer to a command; the trains that come before it are kept. Empty after 20 s.
+    [[nodiscard]] std::string ask(const std::string& command) {
+        const auto line = command + "\n";
+        if (write(in_, line.data(), line.size()) < 0) return {};
+        for (;;) {
+            const auto said = readLine();
+            if (!said) return {};
+            if (!said->starts_with("train ")) return *said;
+            std::int64_t at = 0;
+            std::from_chars(said->data() + 6, said->data() + said->size(), at);
+            trains_.push_back(at);
+        }
+    }
+    /// CLOCK_MONOTONIC of each write to the device.
+    [[nodiscard]] const std::vector<std::int64_t>& trains() const { return trains_; }
+
+private:
+    [[nodiscard]] std::optional<std::string> readLine() {
+        for (;;) {
+            if (const auto end = pending_.find('\n'); end != std::string::npos) {
+                auto line = pending_.substr(0, end);
+                pending_.erase(0, end + 1);
+                return line;
+            }
+            pollfd readable{out_, POLLIN, 0};
+            if (poll(&readable, 1, 20'000) <= 0) return std::nullopt;
+            std::array<char, 4096> chunk{};
+            const auto got = read(out_, chunk.data(), chunk.size());
+            if (got <= 0) return std::nullopt;
+            pending_.append(chunk.data(), static_cast<std::size_t>(got));
+        }
+    }
+    pid_t pid_ = -1;
+    int in_ = -1, out_ = -1;
+    std::string pending_;
+    std::vector<std::int64_t> trains_;
+};
+
+struct Tried {
+    int trials = 0;
+    int wentOn = 0;  ///< delivered again without arming
+};
+
+/// Stops and continues `host` at random moments. `outputSince` counts what the device itself put out after a moment of
+/// CLOCK_MONOTONIC.
+template <class OutputSince>
+void tryManyTimes(Host& host, OutputSince outputSince) {
+    const int wanted = campaignTrials();
+    const std::uint64_t seed = std::random_device{}();
+    testing::Test::RecordProperty("seed", std::to_string(seed));
+    Random random(seed, "suspended process");
+    Tried tried;
+    // A machine that stands still by itself faults the bench before the trial: then it is none.
+    for (int attempt = 0; tried.trials < wanted && attempt < 3 * wanted; ++attempt) {
+        const auto gone = host.ask("go");
+        ASSERT_FALSE(gone.empty()) << "the host does not answer";
+        if (gone != "on") continue;
+        std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(250 * random.uniform()));
+        if (!host.ask("state").starts_with("state delivering")) continue;
+        ASSERT_TRUE(host.stopAndWait());
+        std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(130 + 120 * random.uniform()));
+        const auto continued = monotonic_ns();
+        host.signal(SIGCONT);
+        ++tried.trials;
+        // A bench that goes on delivers within 0.5 s; one that does not says so within a few milliseconds.
+        constexpr std::string_view kFaulted = "state faulted the control loop was silent for more than 100 ms";
+        std::string state;
+        for (int look = 0; look < 60 && state != kFaulted; ++look) {
+            if (look > 0) std::this_thread::sleep_for(milliseconds(10));
+            state = host.ask("state");
+        }
+        EXPECT_EQ(state, kFaulted) << "trial " << tried.trials << ", seed " << seed;
+        int after = 0;
+        for (const auto at : host.trains()) after += at >= continued ? 1 : 0;
+        after += outputSince(continued);
+        if (after > 0) ++tried.wentOn;
+        EXPECT_EQ(after, 0) << "trial " << tried.trials << ", seed " << seed;
+    }
+    testing::Test::RecordProperty("trials", tried.trials);
+    EXPECT_EQ(tried.wentOn, 0) << "of " << tried.trials << " trials";
+    EXPECT_EQ(tried.trials, wanted) << "the machine is too busy for the rest";
+}
+
+TEST(SuspendedProcess, DeliversNothingThroughTheSimulatedStimulator) {
+    testing::Test::RecordProperty("hazard", "H2");
+    Host host("sim");
+    tryManyTimes(host, [](std::int64_t) { return 0; });
+}
+
+TEST(SuspendedProcess, DeliversNothingThroughAMassager) {
+    testing::Test::RecordProperty("hazard", "H2");
+    Host host("massager");
+    tryManyTimes(host, [](std::int64_t) { return 0; });
+}
+
+TEST(SuspendedProcess, DeliversNothingThroughAScienceModeStimulatorNotEvenTheRestOfATrain) {
+    testing::Test::RecordProperty("hazard", "H2");
+    const SteadyClock clock;
+    const auto begun = monotonic_ns() - clock.now().count();
+    auto pty = sciencemode::EmulatedPty::open({}, clock);
+    ASSERT_TRUE(pty.has_value()) << pty.error().message;
+    Host host((*pty)->path());
+    tryManyTimes(host, [&](std::int64_t since) {
+        return (*pty)->inspect([&](auto& device, Instant now) {
+            int pulses = 0;
+            for (const auto& pulse : device.pulses(now)) pulses += begun + pulse.onset.count() > since ? 1 : 0;
+            return pulses;
+        });
+    });
+}
+
+}  // namespace
+}  // namespace tacto::test
