@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -11,6 +13,7 @@
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace tacto::sigrok_driver {
 
@@ -72,6 +75,36 @@ Result<int> connectTo(const std::string& host, const std::string& port, Seconds 
                     patience.count());
     }
     return fail(ErrorCode::NotFound, "no instrument at {}:{}: {}", host, port, std::strerror(-last));
+}
+
+/// Whether the other end of an accepted connection is a socket of this process. Both ends of a loopback connection are
+/// on this computer, so a socket of ours that is bound to the other end's address is the other end.
+bool isOurOwn(int accepted) {
+    sockaddr_in there{};
+    sockaddr_in here{};
+    socklen_t size = sizeof there;
+    // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): how the system calls take every kind of address
+    if (::getpeername(accepted, reinterpret_cast<sockaddr*>(&there), &size) != 0) return false;
+    size = sizeof here;
+    if (::getsockname(accepted, reinterpret_cast<sockaddr*>(&here), &size) != 0) return false;
+    const auto isAt = [](const sockaddr_in& a, const sockaddr_in& b) {
+        return a.sin_family == AF_INET && b.sin_family == AF_INET && a.sin_port == b.sin_port &&
+               a.sin_addr.s_addr == b.sin_addr.s_addr;
+    };
+    std::error_code error;
+    for (std::filesystem::directory_iterator at("/proc/self/fd", error), end; !error && at != end;
+         at.increment(error)) {
+        const int own = std::atoi(at->path().filename().c_str());
+        sockaddr_in bound{};
+        sockaddr_in connected{};
+        size = sizeof bound;
+        if (::getsockname(own, reinterpret_cast<sockaddr*>(&bound), &size) != 0 || !isAt(bound, there)) continue;
+        size = sizeof connected;
+        if (::getpeername(own, reinterpret_cast<sockaddr*>(&connected), &size) == 0 && isAt(connected, here))
+            return true;
+    }
+    // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
+    return false;
 }
 
 }  // namespace
@@ -213,6 +246,10 @@ void TcpRelay::carry() noexcept {
         } else if (waiting[1].revents != 0) {
             downstream_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (downstream_ < 0) continue;
+            if (!isOurOwn(downstream_)) {  // any program of this computer may try; the instrument is not for it
+                reset(std::exchange(downstream_, -1));
+                continue;
+            }
             setOption(downstream_, IPPROTO_TCP, TCP_NODELAY, 1);
             setOption(downstream_, IPPROTO_TCP, TCP_QUICKACK, 1);
             if (!reconnect()) hangUp();

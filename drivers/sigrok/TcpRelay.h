@@ -34,7 +34,8 @@ public:
     TcpRelay(const TcpRelay&) = delete;
     TcpRelay& operator=(const TcpRelay&) = delete;
 
-    /// Where libsigrok connects to on 127.0.0.1.
+    /// Where libsigrok connects to on 127.0.0.1. A connection from another process is closed at once, and nothing of it
+    /// reaches the instrument.
     [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
     /// How long the instrument has said nothing.
     [[nodiscard]] Seconds silence() const noexcept;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
@@ -128,6 +129,31 @@ TEST_F(RelayTest, CuttingEndsAReadThatWaits) {
     });
     (*relay)->cut();
     reader.join();
+}
+
+TEST_F(RelayTest, AConnectionOfAnotherProcessIsClosedAndNothingOfItReachesTheInstrument) {
+    RecordProperty("hazard", "H10");
+    auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
+    ASSERT_TRUE(relay.has_value());
+    const Socket instrument(::accept(listener_, nullptr, nullptr));
+    auto address = loopback((*relay)->port());
+    const pid_t other = fork();
+    if (other == 0) {  // system calls only: this process has threads
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        if (::connect(socket, generic(address), sizeof address) != 0) _exit(2);
+        static_cast<void>(::send(socket, "*RST\r\n", 6, MSG_NOSIGNAL));
+        char byte = 0;
+        _exit(::recv(socket, &byte, 1, 0) <= 0 ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(other, &status, 0), other);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0) << "it was not hung up on";
+    // The relay's own client is served after it, and what it says is the first that arrives.
+    const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
+    connect(client, (*relay)->port());
+    ASSERT_EQ(::send(client, "*IDN?\r\n", 7, 0), 7);
+    EXPECT_EQ(receive(instrument, 7), "*IDN?\r\n");
 }
 
 TEST(Relay, RefusedAndUnknownHostsAreNotFound) {
