@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/run/KnownCalibration.h"
+#include "core/bench/ProfileReach.h"
 
 namespace tacto {
 
@@ -76,6 +77,14 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     auto session = SessionWriter::create(run->files_.session, run->about_, *run->clock_);
     if (!session) return failure(session);
     run->session_ = std::move(*session);
+    if (devices->stimulator) {
+        const auto& stimulator = *devices->stimulator;
+        if (auto beyond = beyondReach(order.profile, stimulator.traits(), stimulator.identity().name)) {
+            const auto kept = run->session_->event(run->clock_->now(), "profile beyond reach", {{"text", *beyond}});
+            if (!kept) return failure(kept);
+            run->warning_ = std::move(*beyond);
+        }
+    }
     BenchConfig config;
     config.devices = std::move(*devices);
     config.clock = run->clock_;
@@ -98,6 +107,7 @@ ProtocolRun::~ProtocolRun() {
 }
 
 Result<void> ProtocolRun::start(RunRequest hooks) {
+    if (!warning_.empty() && hooks.onLog) hooks.onLog(warning_);
     hooks.script = order_.script;
     hooks.parameters = order_.settings.parameters;
     hooks.seed = order_.seed;

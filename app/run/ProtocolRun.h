@@ -65,7 +65,8 @@ public:
     ProtocolRun& operator=(const ProtocolRun&) = delete;
 
     /// Fills in script, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks and operator
-    /// are the caller's, and starts the script. Errors: as ScriptRun::start(); finish() tells them too.
+    /// are the caller's, and starts the script. What is known to fail, as a profile that the stimulator cannot reach,
+    /// is said through `onLog` before. Errors: as ScriptRun::start(); finish() tells them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
     /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench: it is
     /// leaked on purpose, with outputs off.
@@ -81,6 +82,7 @@ private:
     RunOrder order_;
     RunFiles files_;
     SessionAbout about_;
+    std::string warning_;  // of what is known before the script runs; empty: none
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<SessionWriter> session_;
     std::unique_ptr<Bench> bench_;

@@ -3,6 +3,7 @@
 
 #include "core/base/Csv.h"
 #include "core/bench/Profile.h"
+#include "core/bench/ProfileReach.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -44,6 +45,41 @@ TEST(Profile, RefusesWhatItDoesNotKnowByName) {
                     parsed.error().message.find("safety") != std::string::npos)
             << parsed.error().message;
     }
+}
+
+TEST(ProfileReach, AProfileThatTheDeviceCannotReachIsNamedWithTheDeviceAndItsMost) {
+    RecordProperty("hazard", "H12");
+    Profile profile;
+    profile.name = "fingertip";
+    SourceTraits pulsePal;  // ± 10 V
+    pulsePal.drive = Drive::Voltage;
+    pulsePal.amplitudeMax = 10;
+    pulsePal.compliance = Volts(10);
+    const auto beyond = beyondReach(profile, pulsePal, "Pulse Pal 2");
+    ASSERT_TRUE(beyond);
+    for (const auto* part : {"\"fingertip\"", "10 to 40 V", "Pulse Pal 2", "10 V at most", "trains above that",
+                             "amplitude_max_v is 10 or less"}) {
+        EXPECT_NE(beyond->find(part), std::string::npos) << part << ": " << *beyond;
+    }
+    profile.encoding.amplitudeMin = Volts(20);
+    EXPECT_NE(beyondReach(profile, pulsePal, "Pulse Pal 2")->find("all its trains"), std::string::npos);
+    profile.encoding.amplitudeMin = Volts(5);
+    profile.encoding.amplitudeMax = Volts(10);
+    EXPECT_FALSE(beyondReach(profile, pulsePal, "Pulse Pal 2"));
+}
+
+TEST(ProfileReach, ACurrentSourceIsJudgedByItsComplianceAndAtTheHighestLoad) {
+    Profile profile;  // 10 to 40 V into 500 Ω to 10 kΩ
+    SourceTraits p24;
+    p24.drive = Drive::Current;
+    p24.amplitudeMax = 130;
+    p24.compliance = Volts(150);
+    EXPECT_FALSE(beyondReach(profile, p24, "P24"));
+    p24.compliance = Volts(30);
+    EXPECT_NE(beyondReach(profile, p24, "P24").value_or("").find("30 V at most"), std::string::npos);
+    p24.compliance = Volts(150);
+    p24.amplitudeMax = 2;
+    EXPECT_NE(beyondReach(profile, p24, "P24").value_or("").find("20 V at most (2 mA into 10000 Ω"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "app/run/KnownCalibration.h"
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/bench/ArmingText.h"
+#include "core/bench/ProfileReach.h"
 
 namespace tacto::gui {
 
@@ -414,6 +415,10 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
     auto tap = live->tap;
     live_ = std::move(live);
     become(Activity::Live, std::move(open), std::move(tap));
+    if (const auto& stimulator = live_->bench->devices().stimulator) {
+        const auto beyond = beyondReach(order.profile, stimulator->traits(), stimulator->identity().name);
+        if (beyond) report({ErrorCode::LimitExceeded, *beyond});
+    }
 }
 
 void BenchDesk::closeOnThread() {
