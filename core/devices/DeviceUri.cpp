@@ -42,7 +42,7 @@ std::string calibratedOutput(std::string_view serial, std::string_view uri) {
     std::string output(serial);
     const auto parsed = DeviceUri::parse(uri);
     if (output.empty() || !parsed) return output;
-    for (const std::string_view chosen : {"connector", "channel", "level"}) {
+    for (const std::string_view chosen : {"connector", "channel"}) {
         for (const auto& [key, value] : parsed->parameters) {
             if (key == chosen) output += " " + key + "=" + value;
         }

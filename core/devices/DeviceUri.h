@@ -24,8 +24,8 @@ struct DeviceUri {
     [[nodiscard]] std::string text() const;
 };
 
-/// What a calibration counts for: one output of one unit. The serial number, followed by the channel, connector and
-/// level that `uri` chooses ("PP-7 channel=2"). Empty without a serial number: what cannot be told apart is not
+/// What a calibration counts for: one output of one unit. The serial number, followed by the channel and connector
+/// that `uri` chooses ("PP-7 channel=2"). Empty without a serial number: what cannot be told apart is not
 /// calibrated.
 [[nodiscard]] std::string calibratedOutput(std::string_view serial, std::string_view uri);
 

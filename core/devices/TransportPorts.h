@@ -5,7 +5,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/devices/Transport.h"
@@ -18,6 +20,17 @@ struct TransportPort {
     std::string place;     ///< which socket, for messages and where there is no serial number
     std::string obstacle;  ///< why it cannot be opened and what helps; empty where it can
 };
+
+/// What names `port` among `all` in the path of a URI: its serial number, or its place where it has no serial number,
+/// or one that another port has too or that a URI cannot hold.
+[[nodiscard]] std::string addressOf(const TransportPort& port, std::span<const TransportPort> all);
+
+/// Those of `all` that a URI's path names, by serial number or by place.
+[[nodiscard]] std::vector<TransportPort> portsNamed(std::string_view path, std::span<const TransportPort> all);
+
+/// "pulsepal:A1 or pulsepal:1-2": the addresses of `ports` among `all`, to be chosen from.
+[[nodiscard]] std::string choiceOf(std::string_view scheme, std::span<const TransportPort> ports,
+                                   std::span<const TransportPort> all);
 
 class TransportPorts {
 public:

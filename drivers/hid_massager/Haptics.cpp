@@ -1,6 +1,7 @@
 #include "drivers/hid_massager/Haptics.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tacto::hid {
 
@@ -10,15 +11,22 @@ constexpr std::uint16_t kHapticsPage = 0x0E;
 constexpr std::uint16_t kOrdinalPage = 0x0A;
 constexpr Usage kController = usageOf(kHapticsPage, 0x01);
 constexpr Usage kWaveformList = usageOf(kHapticsPage, 0x10);
+constexpr Usage kDurationList = usageOf(kHapticsPage, 0x11);
 constexpr Usage kManualTrigger = usageOf(kHapticsPage, 0x21);
 constexpr Usage kIntensity = usageOf(kHapticsPage, 0x23);
 constexpr Usage kRepeatCount = usageOf(kHapticsPage, 0x24);
 constexpr Usage kRetriggerPeriod = usageOf(kHapticsPage, 0x25);
+constexpr Usage kCutoffTime = usageOf(kHapticsPage, 0x28);
 
 constexpr std::int64_t kStopOrdinal = 2;
 constexpr std::uint16_t kFirstOwnOrdinal = 3;
+constexpr std::int64_t kStopWaveform = 0x1002;  // and 0x1001, none
 constexpr std::int64_t kBuzzContinuous = 0x1004;
 constexpr std::int64_t kRumbleContinuous = 0x1005;
+constexpr std::int64_t kFirstInkContinuous = 0x100B;  // to 0x1011: a pen's, which last too
+constexpr std::int64_t kLastInkContinuous = 0x1011;
+constexpr Seconds kMillisecond{0.001};
+constexpr std::int64_t kPlayMost_ms = 1000;  // as the longest burst
 
 ReportField plain(const HidField& field) {
     return {field.bit, field.bits, ByteOrder::Little, field.min, field.max, VibrationRole::Intensity};
@@ -28,6 +36,14 @@ bool holds(const HidField& field, std::int64_t value) noexcept {
     const bool isSigned = field.min < 0;
     const std::int64_t high = (std::int64_t{1} << (field.bits - (isSigned ? 1 : 0))) - 1;
     return value >= 0 && value <= high;
+}
+
+bool lasts(std::int64_t waveform) noexcept { return waveform == kBuzzContinuous || waveform == kRumbleContinuous; }
+
+/// A waveform that ends by itself.
+bool isFinite(std::int64_t waveform) noexcept {
+    return waveform > kStopWaveform && !lasts(waveform) &&
+           !(waveform >= kFirstInkContinuous && waveform <= kLastInkContinuous);
 }
 
 /// Collects the controls of one controller.
@@ -55,11 +71,18 @@ std::optional<HapticControls> controlsOf(const HidDescriptor& descriptor, std::u
     found.intensity = *intensity;
     found.repeatCount = output(kRepeatCount, found.report);
     found.retriggerPeriod = output(kRetriggerPeriod, found.report);
+    found.cutoffTime = output(kCutoffTime, found.report);
     for (const auto& field : descriptor.fields) {
         if (!ours(field) || field.kind != ReportKind::Feature || pageOf(field.usage) != kOrdinalPage) continue;
         if (!descriptor.isInside(field.collection, kWaveformList) || idOf(field.usage) < kFirstOwnOrdinal) continue;
         if (found.waveforms.empty()) found.listReport = field.report;
-        if (field.report == found.listReport) found.waveforms.push_back({idOf(field.usage), field});
+        if (field.report == found.listReport) found.waveforms.push_back({idOf(field.usage), field, std::nullopt});
+    }
+    for (const auto& field : descriptor.fields) {
+        if (!ours(field) || field.kind != ReportKind::Feature || field.report != found.listReport) continue;
+        if (pageOf(field.usage) != kOrdinalPage || !descriptor.isInside(field.collection, kDurationList)) continue;
+        const auto entry = std::ranges::find(found.waveforms, idOf(field.usage), &HapticControls::Entry::ordinal);
+        if (entry != found.waveforms.end()) entry->duration = field;
     }
     if (found.waveforms.empty()) return std::nullopt;
     std::ranges::stable_sort(found.waveforms, {}, &HapticControls::Entry::ordinal);
@@ -88,16 +111,26 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
                     controls.listLength);
     }
     const HapticControls::Entry* lasting = nullptr;
+    const HapticControls::Entry* finite = nullptr;
+    Seconds playTime{0};  // of the finite one
     std::vector<std::string> present;
     for (const auto& entry : controls.waveforms) {
         const auto waveform = valueOf(plain(entry.waveform), list);
         present.push_back(fmt::format("{:04x}", waveform));
-        const bool lasts = waveform == kBuzzContinuous || waveform == kRumbleContinuous;
-        if (lasts && lasting == nullptr && holds(controls.trigger, entry.ordinal)) lasting = &entry;
+        if (!holds(controls.trigger, entry.ordinal)) continue;
+        if (lasts(waveform) && lasting == nullptr) lasting = &entry;
+        if (!isFinite(waveform) || finite != nullptr || !entry.duration || !controls.repeatCount) continue;
+        const auto milliseconds = valueOf(plain(*entry.duration), list);
+        if (milliseconds <= 0 || milliseconds > kPlayMost_ms ||
+            (controls.retriggerPeriod && !holds(*controls.retriggerPeriod, milliseconds)))
+            continue;
+        finite = &entry;
+        playTime = kMillisecond * static_cast<double>(milliseconds);
     }
-    if (lasting == nullptr) {
+    if (lasting == nullptr && finite == nullptr) {
         return fail(ErrorCode::Unsupported,
-                    "its waveforms are {}; one that lasts until it is stopped is needed, 1004 (buzz) or 1005 (rumble)",
+                    "its waveforms are {}; one that lasts until it is stopped is needed, 1004 (buzz) or 1005 (rumble), "
+                    "or one with a duration that can be repeated",
                     fmt::join(present, ", "));
     }
     if (!holds(controls.trigger, kStopOrdinal)) {
@@ -108,7 +141,18 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
     reports.start.assign(controls.length, 0);
     reports.start[0] = controls.report;
     reports.stop = reports.start;
-    setValue(plain(controls.trigger), lasting->ordinal, reports.start);
+    if (lasting != nullptr && controls.cutoffTime) {
+        setValue(plain(controls.trigger), lasting->ordinal, reports.start);
+        reports.ends = DurationField{plain(*controls.cutoffTime), kMillisecond, 0};
+    } else if (finite != nullptr) {
+        setValue(plain(controls.trigger), finite->ordinal, reports.start);
+        if (controls.retriggerPeriod) {
+            setValue(plain(*controls.retriggerPeriod), std::llround(playTime / kMillisecond), reports.start);
+        }
+        reports.ends = DurationField{plain(*controls.repeatCount), playTime, 1};
+    } else {
+        setValue(plain(controls.trigger), lasting->ordinal, reports.start);
+    }
     setValue(plain(controls.trigger), kStopOrdinal, reports.stop);
     reports.fields.push_back(plain(controls.intensity));
     if (auto sound = validate(reports); !sound) {

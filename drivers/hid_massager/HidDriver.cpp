@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <tuple>
 
 #include "drivers/hid_massager/Haptics.h"
 #include "drivers/hid_massager/HidMassager.h"
@@ -17,7 +18,7 @@ namespace {
 struct Wanted {
     std::string text;  ///< the URI, for messages
     std::optional<std::uint16_t> vendor, product;
-    std::string serial, templateName, backend;
+    std::string serial, templateName, backend, at;
 };
 
 std::optional<std::uint16_t> hex16(std::string_view text) {
@@ -49,24 +50,15 @@ Result<Wanted> readUri(const DeviceUri& uri) {
             wanted.templateName = value;
         } else if (key == "backend") {
             wanted.backend = value;
+        } else if (key == "at") {
+            wanted.at = value;
         } else {
             return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": there is no parameter \"{}\" (={}): it takes serial, template, backend",
+                        "device \"{}\": there is no parameter \"{}\" (={}): it takes serial, at, template, backend",
                         wanted.text, key, value);
         }
     }
     return wanted;
-}
-
-std::string uriOf(std::uint16_t vendor, std::uint16_t product, const std::string& serial, const Wanted& wanted) {
-    DeviceUri uri{"hid", fmt::format("{:04x}:{:04x}", vendor, product), {}};
-    // A serial number that would break the URI is left out: the device is found by the rest.
-    if (!serial.empty() && serial.find_first_of("&=?") == std::string::npos) {
-        uri.parameters.emplace_back("serial", serial);
-    }
-    if (!wanted.templateName.empty()) uri.parameters.emplace_back("template", wanted.templateName);
-    if (!wanted.backend.empty()) uri.parameters.emplace_back("backend", wanted.backend);
-    return uri.text();
 }
 
 /// A device that can be a massager.
@@ -78,7 +70,34 @@ struct Candidate {
     std::optional<HidDeviceInfo> hid;
     const MassagerTemplate* byTemplate = nullptr;  // else by its Haptics page
     std::optional<UsbDeviceInfo> usb;              // a Trance Vibrator
+    bool byPlace = false;                          // its serial number does not tell it from another candidate
+
+    [[nodiscard]] const std::string& place() const { return hid ? hid->path : usb->path; }
 };
+
+/// A serial number that would break the URI is left out: the device is found by the rest.
+bool fitsIntoUri(const std::string& serial) {
+    return !serial.empty() && serial.find_first_of("&=?") == std::string::npos;
+}
+
+/// An address that opens this device and no other.
+std::string uriOf(const Candidate& one, const Wanted& wanted) {
+    DeviceUri uri{"hid", fmt::format("{:04x}:{:04x}", one.vendor, one.product), {}};
+    if (fitsIntoUri(one.serial)) uri.parameters.emplace_back("serial", one.serial);
+    if (one.byPlace) uri.parameters.emplace_back("at", one.place());
+    if (!wanted.templateName.empty()) uri.parameters.emplace_back("template", wanted.templateName);
+    if (!wanted.backend.empty()) uri.parameters.emplace_back("backend", wanted.backend);
+    return uri.text();
+}
+
+void markTwins(std::vector<Candidate>& all) {
+    const auto key = [](const Candidate& one) {
+        return std::tuple(one.vendor, one.product, fitsIntoUri(one.serial) ? one.serial : std::string());
+    };
+    for (auto& one : all) {
+        one.byPlace = std::ranges::count_if(all, [&](const auto& other) { return key(other) == key(one); }) > 1;
+    }
+}
 
 class HidDriver final : public Driver {
 public:
@@ -92,8 +111,7 @@ public:
         const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
         std::vector<DeviceIdentity> found;
         for (const auto& one : candidates(*parts_.backends.front(), templates, nullptr)) {
-            DeviceIdentity identity{
-                uriOf(one.vendor, one.product, one.serial, {}), Role::Massager, one.name, one.serial, {}, false};
+            DeviceIdentity identity{uriOf(one, {}), Role::Massager, one.name, one.serial, {}, false};
             identity.obstacle = one.obstacle;
             found.push_back(std::move(identity));
         }
@@ -123,12 +141,7 @@ public:
         if (!chosen->obstacle.empty()) {
             return fail(ErrorCode::Io, "device \"{}\": {}", wanted->text, chosen->obstacle);
         }
-        DeviceIdentity identity{uriOf(chosen->vendor, chosen->product, chosen->serial, *wanted),
-                                Role::Massager,
-                                chosen->name,
-                                chosen->serial,
-                                {},
-                                false};
+        DeviceIdentity identity{uriOf(*chosen, *wanted), Role::Massager, chosen->name, chosen->serial, {}, false};
         auto opened = chosen->usb ? openTrance(*chosen, std::move(identity), context.clock)
                                   : openHid(*chosen, *backend, std::move(identity), context.clock);
         if (!opened) return fail(opened.error().code, "device \"{}\": {}", wanted->text, opened.error().message);
@@ -198,6 +211,7 @@ private:
             found.push_back(std::move(one));
         }
         addTrance(found, wanted);
+        markTwins(found);
         return found;
     }
 
@@ -225,6 +239,7 @@ private:
 
     static Result<Candidate> choose(const Wanted& wanted, std::vector<Candidate> found) {
         if (!wanted.serial.empty()) std::erase_if(found, [&](const auto& one) { return one.serial != wanted.serial; });
+        if (!wanted.at.empty()) std::erase_if(found, [&](const auto& one) { return one.place() != wanted.at; });
         if (found.size() == 1) return std::move(found.front());
         if (found.empty()) {
             return fail(ErrorCode::NotFound,
@@ -232,11 +247,10 @@ private:
                         "controller is expected",
                         wanted.text);
         }
-        std::vector<std::string> labels;
-        for (const auto& one : found) labels.push_back(one.label);
-        return fail(ErrorCode::InvalidArgument,
-                    "device \"{}\" could be {}: name one by vendor, product and serial=", wanted.text,
-                    fmt::join(labels, " or "));
+        std::vector<std::string> addresses;
+        for (const auto& one : found) addresses.push_back(uriOf(one, wanted));
+        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", wanted.text,
+                    fmt::join(addresses, " or "));
     }
 
     static Result<std::unique_ptr<Massager>> openHid(const Candidate& chosen, const Backend& backend,
@@ -249,8 +263,10 @@ private:
                                                     : readHaptics(*parsed, *backend, *chosen.hid);
         if (!reports) return fail(reports.error().code, "{}: {}", chosen.label, reports.error().message);
         // The descriptor is read again at each opening: the same socket may hold another device by then.
-        OpenPort again = [backend, wanted = *chosen.hid, expected = *descriptor]() -> Result<std::unique_ptr<HidPort>> {
+        OpenPort again = [backend, wanted = *chosen.hid, expected = *descriptor,
+                          byPlace = chosen.byPlace]() -> Result<std::unique_ptr<HidPort>> {
             for (const auto& info : backend->devices()) {
+                if (byPlace && info.path != wanted.path) continue;
                 if (info.vendor != wanted.vendor || info.product != wanted.product || info.serial != wanted.serial ||
                     info.usage != wanted.usage) {
                     continue;
@@ -282,10 +298,11 @@ private:
 
     Result<std::unique_ptr<Massager>> openTrance(const Candidate& chosen, DeviceIdentity identity,
                                                  const Clock& clock) const {
-        OpenPort again = [usb = parts_.usb, wanted = chosen.usb->identity()]() -> Result<std::unique_ptr<HidPort>> {
+        OpenPort again = [usb = parts_.usb, wanted = *chosen.usb,
+                          byPlace = chosen.byPlace]() -> Result<std::unique_ptr<HidPort>> {
             const auto context = usb();
             if (!context) return failure(context);
-            const auto info = (*context)->find(wanted);
+            const auto info = (*context)->find(wanted.identity(), byPlace ? wanted.path : std::string());
             if (!info) return failure(info);
             return TrancePort::open(*context, *info);
         };

@@ -3,6 +3,9 @@
 //   hid:                                  the only one that is plugged in
 //   hid:054c:0ce6                         by vendor and product, as lsusb prints them
 //   hid:054c:0ce6?serial=1234             one of several
+//   hid:054c:0ce6?at=/dev/hidraw3         one of several that share their serial number or have none, by its node, or
+//   by
+//                                         its USB socket (libusb, Trance Vibrator)
 //   hid:054c:0ce6?backend=libusb          hidapi over libusb instead of hidraw
 //   hid:1234:5678?template=dualsense      as this template says (its name, or a path to a file ending in .json)
 //   hid:0b49:064f                         the Trance Vibrator
@@ -10,6 +13,7 @@
 // What a device takes is found in this order: `template=`, the template that names its vendor and product, the Haptics
 // page of its own report descriptor. A template must fit the device's descriptor, or the device is refused (H4).
 //
+// An address that is listed, or given as a choice, opens exactly that device.
 // A device that is plugged in and may not be opened is listed with the sentence that helps.
 #pragma once
 

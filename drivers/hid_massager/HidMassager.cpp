@@ -53,10 +53,17 @@ Result<void> HidMassager::connect() {
     }
     const Instant began = clock_.now();
     const auto stopped = send(reports_.stop);
-    const std::scoped_lock state(state_);
-    timer_.askStop();
-    timer_.wrote(HidWrite::Stop, began, clock_.now(), stopped.has_value());
-    return stopped;
+    {
+        const std::scoped_lock state(state_);
+        timer_.askStop();
+        timer_.wrote(HidWrite::Stop, began, clock_.now(), stopped.has_value());
+    }
+    if (!stopped) return stopped;
+    auto watchdog = port_->watch(reports_.stop);
+    if (!watchdog) return fail(watchdog.error().code, "{}: {}", identity_.name, watchdog.error().message);
+    if (watchdog_) watchdog_->rest();  // an earlier one, whose stop the device has by now
+    watchdog_ = std::move(*watchdog);
+    return {};
 }
 
 Result<void> HidMassager::send(std::span<const std::uint8_t> report) {
@@ -76,6 +83,7 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     const ApprovedBurst consumed = std::move(burst);
     std::unique_lock lock(state_);
     const auto offs = offs_;
+    if (!clock_.isVirtual()) endBurstAfterStandstill();
     if (fault_ && !std::exchange(faultTold_, true)) return tl::unexpected<Error>(*fault_);
     // A write that an earlier call gave up may still be under way.
     if (!changed_.wait_for(lock, kPatience, [&] { return !writing_; })) {
@@ -85,7 +93,8 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     if (fault_) {
         if (auto again = reconnect(lock); !again) return again;
     }
-    if (const auto written = writeStart(reports_, consumed.burst().intensity, burst_); !written) {
+    if (const auto written = writeStart(reports_, consumed.burst().intensity, consumed.burst().duration, burst_);
+        !written) {
         return fail(ErrorCode::Device, "{} refused a burst: {}", identity_.name, written.error().message);
     }
     if (offs != offs_) return {};
@@ -160,6 +169,14 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
         timer_.dropBurst();
         return finish(fail(ErrorCode::Device, "{} refused a burst whose approval has expired", identity_.name));
     }
+    if (what != HidWrite::Stop) {
+        lastBeat_ = clock_.now();
+        if (!watchdog_->beat()) {
+            raise({ErrorCode::Device, fmt::format("{} is not driven: its watchdog has ended", identity_.name)});
+            timer_.askStop();
+            return finish(tl::unexpected<Error>(*fault_));
+        }
+    }
     std::ranges::copy(what == HidWrite::Stop ? reports_.stop : burst_, sending_.begin());
     writing_ = true;
     const auto offs = offs_;
@@ -171,11 +188,9 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     // A stop that was asked for while this was under way stands behind it, also behind a stop.
     timer_.wrote(what, began, clock_.now(), sent.has_value());
     if (offs != offs_) timer_.askStop();
+    if (sent && what == HidWrite::Stop && watchdog_) watchdog_->rest();
     if (!sent) {
-        if (sent.error().code != ErrorCode::Timeout && !fault_) {
-            fault_ = sent.error();
-            faultTold_ = job_.has_value();
-        }
+        if (sent.error().code != ErrorCode::Timeout) raise(sent.error());
         timer_.dropBurst();  // also one that waits behind a stop that failed
     }
     if (isBurst || !sent) finish(std::move(sent));
@@ -187,6 +202,30 @@ void HidMassager::finish(Result<void> result) noexcept {
     changed_.notify_all();
 }
 
+void HidMassager::raise(Error fault) {
+    if (fault_) return;
+    fault_ = std::move(fault);
+    faultTold_ = job_.has_value();
+}
+
+void HidMassager::endBurstAfterStandstill() {
+    const Instant silent = clock_.now() - lastBeat_;
+    if (writing_ || !timer_.vibrating() || silent <= Watchdog::kSilence) return;
+    raise({ErrorCode::Device, fmt::format("{} was stopped by its watchdog: this program stood still for {:.0f} ms",
+                                          identity_.name, toSeconds(silent) * 1e3)});
+    timer_.askStop();
+}
+
+Instant HidMassager::keepBeating(Instant now) {
+    if (writing_ || !timer_.vibrating()) return Instant::max();
+    if (now - lastBeat_ < Watchdog::kBeat) return lastBeat_ + Watchdog::kBeat;
+    lastBeat_ = now;
+    if (watchdog_->beat()) return now + Watchdog::kBeat;
+    raise({ErrorCode::Device, fmt::format("{} was stopped: its watchdog has ended", identity_.name)});
+    timer_.askStop();
+    return now;
+}
+
 bool HidMassager::vibrating() const {
     const std::scoped_lock state(state_);
     return timer_.vibrating();
@@ -194,16 +233,22 @@ bool HidMassager::vibrating() const {
 
 void HidMassager::run() {
     for (;;) {
+        {
+            const std::scoped_lock state(state_);
+            endBurstAfterStandstill();
+        }
         serve(clock_.now());
         std::unique_lock lock(state_);
         // A last stop that the device did not take has nobody left who could be told.
         if (quitting_ && (farewell_ || !timer_.stopDue())) return;
         if (quitting_) continue;
+        const Instant now = clock_.now();
+        const Instant beatAt = keepBeating(now);
         const auto due = timer_.next();  // anew: something may have been asked since serve()
         if (writing_ || due.what == HidWrite::Nothing) {
             changed_.wait(lock);
-        } else if (const Instant now = clock_.now(); due.at > now) {
-            changed_.wait_for(lock, due.at - now);
+        } else if (const Instant next = std::min(due.at, beatAt); next > now) {
+            changed_.wait_for(lock, next - now);
         }
     }
 }

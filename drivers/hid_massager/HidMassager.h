@@ -7,6 +7,11 @@
 // A fault is told from slowness: a write that fails, or that the device takes only part of, is Device; one that is
 // still under way after kPatience is Timeout, its burst is given up and stopped when the write returns.
 //
+// A watchdog holds the stop as well, for when this program dies or stands still. It is started when the device is
+// opened, and without one nothing is written but the stop. A burst that was under way while this program stood still
+// for longer than Watchdog::kSilence is over: it is not repeated, the device is stopped again, and the next vibrate()
+// says so.
+//
 // After a fault the next vibrate() opens the device again, by identity; what failed while nobody asked (a stop, a
 // repetition) is the error of the vibrate() after it, once.
 //
@@ -35,7 +40,8 @@ public:
     static constexpr Seconds kPatience{0.05};
 
     /// Opens the device and stops it. `open` is called again after a fault. `clock` outlives the device.
-    /// Errors: as `open`; InvalidArgument for reports that are not valid(); Device, Timeout when it takes no stop.
+    /// Errors: as `open`; InvalidArgument for reports that are not valid(); Device, Timeout when it takes no stop; as
+    /// HidPort::watch().
     [[nodiscard]] static Result<std::unique_ptr<HidMassager>> open(OpenPort open, DeviceIdentity identity,
                                                                    VibrationReports reports, const Clock& clock);
     /// The stop report, then closes. Waits for a write that is under way, as HidPort::write() says.
@@ -70,7 +76,10 @@ private:
     [[nodiscard]] Result<void> reconnect(std::unique_lock<std::mutex>& lock);  // of state_
     [[nodiscard]] Result<void> send(std::span<const std::uint8_t> report);     // the port's only writer
     void serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) noexcept;
-    void finish(Result<void> result) noexcept;  // the job, if one waits; with state_ held
+    void finish(Result<void> result) noexcept;       // the job, if one waits; with state_ held
+    void endBurstAfterStandstill();                  // these two with state_ held
+    [[nodiscard]] Instant keepBeating(Instant now);  // returns when the next beat is due
+    void raise(Error fault);
     void run();
 
     const OpenPort open_;
@@ -81,6 +90,8 @@ private:
     std::mutex urgent_;  // the pointer below; held for stopNow(), which does not wait, and for replacing it
     std::unique_ptr<HidPort> port_;
 
+    std::unique_ptr<Watchdog> watchdog_;  // touched by who may write to the port, as writing_ says
+
     mutable std::mutex state_;  // all below; held for copies only, never for a write
     std::condition_variable changed_;
     BurstTimer timer_;
@@ -90,6 +101,7 @@ private:
     bool writing_ = false;
     std::optional<Error> fault_;  // the device is to be opened again
     bool faultTold_ = false;
+    Instant lastBeat_{0};
     std::uint64_t offs_ = 0;  // forceOff() calls
     bool quitting_ = false;
     bool farewell_ = false;  // the last stop was tried

@@ -11,7 +11,7 @@
 #include <memory>
 #include <span>
 
-#include "core/base/Result.h"
+#include "drivers/hid_massager/Watchdog.h"
 
 namespace tacto::hid {
 
@@ -27,6 +27,10 @@ public:
     /// Fetches the feature report whose number is in byte 0 of `report`; returns its bytes, that one included.
     /// Errors: Device; Unsupported where there are no feature reports.
     [[nodiscard]] virtual Result<std::size_t> feature(std::span<std::uint8_t> report) = 0;
+
+    /// Starts what sends `stop`, the device's stop report, when this program cannot. Errors: the device must not be
+    /// driven; a sentence that says so.
+    [[nodiscard]] virtual Result<std::unique_ptr<Watchdog>> watch(std::span<const std::uint8_t> stop) = 0;
 
     /// Sends the stop without waiting and without allocating, where the system can do that; false where it cannot,
     /// and then the stop report must be written.

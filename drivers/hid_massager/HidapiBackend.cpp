@@ -1,11 +1,17 @@
 #include "drivers/hid_massager/HidapiBackend.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <mutex>
 #include <unistd.h>
 
 #include "drivers/hid_massager/HidapiCalls.h"
+#include "drivers/hid_massager/WatchdogProcess.h"
+#include "drivers/system/FileHolders.h"
+#include "drivers/system/KernelNodes.h"
+#include "drivers/system/Permission.h"
 
 namespace tacto::hid {
 
@@ -51,10 +57,62 @@ std::string lineOf(const std::filesystem::path& file) {
     return line;
 }
 
+/// The first interrupt OUT endpoint of an interface, as hidapi chooses it, in the descriptors that the kernel read; 0
+/// where it has none.
+std::uint8_t interruptOut(const std::filesystem::path& descriptors, std::uint8_t interface) {
+    constexpr std::uint8_t kInterface = 4;
+    constexpr std::uint8_t kEndpoint = 5;
+    constexpr std::uint8_t kInput = 0x80;
+    constexpr std::uint8_t kTypeMask = 3;
+    constexpr std::uint8_t kInterrupt = 3;
+    std::ifstream in(descriptors, std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+    const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+    bool ours = false;
+    for (std::size_t i = 0; i + 3 < bytes.size() && at(i) >= 4 && i + at(i) <= bytes.size(); i += at(i)) {
+        if (at(i + 1) == kInterface) ours = at(i + 2) == interface;
+        if (ours && at(i + 1) == kEndpoint && (at(i + 2) & kInput) == 0 && (at(i + 3) & kTypeMask) == kInterrupt) {
+            return at(i + 2);
+        }
+    }
+    return 0;
+}
+
+/// hid_write() of the libusb backend: the interrupt endpoint, or SET_REPORT where there is none (HID 1.11, 7.2.2).
+StopWay usbStopWay(const std::string& path, std::string node, std::span<const std::uint8_t> stop) {
+    constexpr std::uint8_t kToInterface = 0x21;
+    constexpr std::uint8_t kSetReport = 9;
+    constexpr std::uint8_t kOutput = 2;
+    StopWay way;
+    way.kind = StopWay::Kind::Usb;
+    way.node = std::move(node);
+    const auto dot = path.rfind('.');  // "1-4.2:1.0" is configuration 1, interface 0
+    if (dot != std::string::npos)
+        way.interface = static_cast<std::uint8_t>(std::strtoul(path.c_str() + dot + 1, nullptr, 16));
+    const auto sys = std::filesystem::path("/sys/bus/usb/devices") / path.substr(0, path.find(':'));
+    way.endpoint = interruptOut(sys / "descriptors", way.interface);
+    // A device without report numbers is not sent the 0 in front.
+    const auto bytes = stop.subspan(stop[0] == 0 ? 1 : 0);
+    way.bytes.assign(bytes.begin(), bytes.end());
+    if (way.endpoint == 0) {
+        way.setup = {kToInterface,
+                     kSetReport,
+                     stop[0],
+                     kOutput,
+                     way.interface,
+                     0,
+                     static_cast<std::uint8_t>(bytes.size()),
+                     static_cast<std::uint8_t>(bytes.size() >> 8)};
+    }
+    return way;
+}
+
 class HidapiPort final : public HidPort {
 public:
-    HidapiPort(const HidapiCalls& calls, hid_device* device, std::string label)
-        : calls_(calls), device_(device), label_(std::move(label)) {}
+    using MakeStopWay = std::function<StopWay(std::span<const std::uint8_t>)>;
+
+    HidapiPort(const HidapiCalls& calls, hid_device* device, std::string label, MakeStopWay stopWay)
+        : calls_(calls), device_(device), label_(std::move(label)), stopWay_(std::move(stopWay)) {}
     ~HidapiPort() override { calls_.close(device_); }
     HidapiPort(const HidapiPort&) = delete;
     HidapiPort& operator=(const HidapiPort&) = delete;
@@ -71,6 +129,10 @@ public:
         return std::min(static_cast<std::size_t>(came), report.size());
     }
 
+    Result<std::unique_ptr<Watchdog>> watch(std::span<const std::uint8_t> stop) override {
+        return WatchdogProcess::start(stopWay_(stop));
+    }
+
 private:
     tl::unexpected<Error> wrong(const char* what) const {
         return fail(ErrorCode::Device, "{}: {} failed: {}", label_, what, plain(calls_.error(device_)));
@@ -79,6 +141,7 @@ private:
     const HidapiCalls& calls_;
     hid_device* const device_;
     const std::string label_;
+    const MakeStopWay stopWay_;
 };
 
 class HidapiBackend final : public HidBackend {
@@ -118,21 +181,49 @@ public:
 
     Result<std::unique_ptr<HidPort>> open(const HidDeviceInfo& info) const override {
         if (!info.permitted) return fail(ErrorCode::Io, "{}", info.obstacle());
+        if (!isHidraw_) {
+            // hidapi takes the device from the kernel's driver, and so from a program that uses it through that.
+            for (const auto& node : kernelNodesOf(socketOf(info))) {
+                const auto holders = holdersOf(node);
+                if (holders.empty()) continue;
+                return fail(ErrorCode::Io, "{} is held by {} through {}; close that program first", info.label(),
+                            textOf(holders), node.string());
+            }
+        }
         const std::scoped_lock lock(hidapi_);
         auto* const device = calls_.openPath(info.path.c_str());
         if (device == nullptr) {
+            const auto holders = isHidraw_ ? std::vector<FileHolder>{} : holdersOf(nodeOf(info));
+            if (!holders.empty()) {
+                return fail(ErrorCode::Io, "{} is held by {}; close that program first", info.label(), textOf(holders));
+            }
             return fail(ErrorCode::Io, "{} could not be opened with {}: {}", info.label(), name_,
                         plain(calls_.error(nullptr)));
         }
-        return std::make_unique<HidapiPort>(calls_, device, info.label());
+        HidapiPort::MakeStopWay stopWay;
+        if (isHidraw_) {
+            stopWay = [path = info.path](std::span<const std::uint8_t> stop) {
+                StopWay way;
+                way.node = path;
+                way.bytes.assign(stop.begin(), stop.end());
+                return way;
+            };
+        } else {
+            stopWay = [path = info.path, node = nodeOf(info)](std::span<const std::uint8_t> stop) {
+                return usbStopWay(path, node, stop);
+            };
+        }
+        return std::make_unique<HidapiPort>(calls_, device, info.label(), std::move(stopWay));
     }
 
 private:
+    /// "1-4.2:1.0" is an interface of the device "1-4.2".
+    static std::string socketOf(const HidDeviceInfo& info) { return info.path.substr(0, info.path.find(':')); }
+
     /// The file whose permissions count.
     std::string nodeOf(const HidDeviceInfo& info) const {
         if (isHidraw_) return info.path;
-        // "1-4.2:1.0" is an interface of the device "1-4.2".
-        const auto device = std::filesystem::path("/sys/bus/usb/devices") / info.path.substr(0, info.path.find(':'));
+        const auto device = std::filesystem::path("/sys/bus/usb/devices") / socketOf(info);
         const auto bus = lineOf(device / "busnum");
         const auto number = lineOf(device / "devnum");
         if (bus.empty() || number.empty() || bus.size() > 3 || number.size() > 3) return "/nowhere";
@@ -155,8 +246,9 @@ std::string HidDeviceInfo::label() const {
 
 std::string HidDeviceInfo::obstacle() const {
     if (permitted) return {};
-    return label() +
-           " is there, but this user may not open it: run \"./dev install-rules\" once, then plug the device in again.";
+    // Whether the shipped rules name it or not: with its number the command is right for every device.
+    const auto number = fmt::format("{:04x}:{:04x}", vendor, product);
+    return fmt::format("{} is there, but this user may not open it: {}", label(), permissionAdvice(number));
 }
 
 std::shared_ptr<const HidBackend> hidrawBackend() {

@@ -1,5 +1,7 @@
 #include "drivers/hid_massager/TrancePort.h"
 
+#include "drivers/hid_massager/WatchdogProcess.h"
+
 namespace tacto::hid {
 
 namespace {
@@ -31,6 +33,14 @@ Result<std::size_t> TrancePort::write(std::span<const std::uint8_t> report) {
 
 Result<std::size_t> TrancePort::feature(std::span<std::uint8_t> /*report*/) {
     return fail(ErrorCode::Unsupported, "Trance Vibrator: it has no feature reports");
+}
+
+Result<std::unique_ptr<Watchdog>> TrancePort::watch(std::span<const std::uint8_t> stop) {
+    StopWay way;
+    way.kind = StopWay::Kind::Usb;
+    way.node = control_->info().node();
+    way.setup = {kSpeed.type, kSpeed.request, stop[1]};
+    return WatchdogProcess::start(way);
 }
 
 bool TrancePort::stopNow() noexcept {

@@ -31,6 +31,7 @@ public:
 
     [[nodiscard]] Result<std::size_t> write(std::span<const std::uint8_t> report) override;
     [[nodiscard]] Result<std::size_t> feature(std::span<std::uint8_t> report) override;
+    [[nodiscard]] Result<std::unique_ptr<Watchdog>> watch(std::span<const std::uint8_t> stop) override;
     [[nodiscard]] bool stopNow() noexcept override;
 
 private:

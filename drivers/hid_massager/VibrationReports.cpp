@@ -73,14 +73,20 @@ Result<void> validate(const VibrationReports& reports) {
     }
     if (reports.fields.empty()) return invalid("the report has no field for the intensity; one or more is needed");
     std::vector<bool> taken(8 * length);
-    for (std::size_t i = 0; i < reports.fields.size(); ++i) {
-        const auto& field = reports.fields[i];
+    auto fields = reports.fields;
+    if (reports.ends) fields.push_back(reports.ends->at);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const auto& field = fields[i];
         if (auto sound = check(field, i, length); !sound) return sound;
         for (std::size_t bit = 0; bit < field.bits; ++bit) {
             const auto place = placeOf(field, bit);
             if (taken[place]) return invalid("field {} stands over another one, at bit {}", i, place);
             taken[place] = true;
         }
+    }
+    if (reports.ends && !(reports.ends->unit.count() > 0 && reports.ends->unit.count() <= 60)) {
+        return invalid("the device's unit of duration is {} s; above 0 to 60 s is accepted",
+                       reports.ends->unit.count());
     }
     const double keep = reports.keepAlive.count();
     if (!(keep == 0 || (keep >= kKeepAliveLeast.count() && keep <= 60))) {
@@ -117,7 +123,24 @@ std::int64_t valueOf(const ReportField& field, std::span<const std::uint8_t> rep
     return negative ? static_cast<std::int64_t>(raw) - (std::int64_t{1} << field.bits) : static_cast<std::int64_t>(raw);
 }
 
-Result<void> writeStart(const VibrationReports& reports, double intensity, std::span<std::uint8_t> into) {
+namespace {
+
+/// The value that makes the device play for `duration` at least.
+Result<std::int64_t> valueFor(const DurationField& ends, Seconds duration) {
+    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s, whatever binary fractions say
+    const double units = std::ceil(duration.count() / ends.unit.count() * (1 - kRounding));
+    const double most = static_cast<double>(ends.at.max + ends.first);
+    if (!(duration.count() > 0) || !(units <= most)) {
+        return invalid("the burst lasts {} s; above 0 to {} s is accepted, the most that this device plays at once",
+                       duration.count(), most * ends.unit.count());
+    }
+    return std::max(static_cast<std::int64_t>(units) - ends.first, ends.at.min);
+}
+
+}  // namespace
+
+Result<void> writeStart(const VibrationReports& reports, double intensity, Seconds duration,
+                        std::span<std::uint8_t> into) {
     if (!(intensity >= 0 && intensity <= 1)) {
         return invalid("intensity is {}; 0 to 1 is accepted", intensity);
     }
@@ -129,12 +152,17 @@ Result<void> writeStart(const VibrationReports& reports, double intensity, std::
         const double range = static_cast<double>(field.max - field.min);
         setValue(field, field.min + std::llround(intensity * range), into);
     }
+    if (reports.ends) {
+        const auto value = valueFor(*reports.ends, duration);
+        if (!value) return failure(value);
+        setValue(reports.ends->at, *value, into);
+    }
     return {};
 }
 
-Result<std::vector<std::uint8_t>> startBytes(const VibrationReports& reports, double intensity) {
+Result<std::vector<std::uint8_t>> startBytes(const VibrationReports& reports, double intensity, Seconds duration) {
     std::vector<std::uint8_t> bytes(reports.start.size());
-    if (auto written = writeStart(reports, intensity, bytes); !written) return failure(written);
+    if (auto written = writeStart(reports, intensity, duration, bytes); !written) return failure(written);
     return bytes;
 }
 

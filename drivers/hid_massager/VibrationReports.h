@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,12 +38,22 @@ struct ReportField {
     friend bool operator==(const ReportField&, const ReportField&) = default;
 };
 
+/// A number by which the device ends a burst by itself: how many of the device's units the burst lasts.
+struct DurationField {
+    ReportField at;          ///< accepts min to max; its role is not used
+    Seconds unit{0.001};     ///< one millisecond, or one play of the device's own waveform
+    std::int64_t first = 0;  ///< units that the device plays at value 0: a count of repetitions begins after the first
+    friend bool operator==(const DurationField&, const DurationField&) = default;
+};
+
 struct VibrationReports {
     std::vector<std::uint8_t> start;  ///< the whole report with all constant bytes; fields are written into it
     std::vector<ReportField> fields;  ///< at least one
     std::vector<std::uint8_t> stop;   ///< the whole report
-    Seconds keepAlive{0};             ///< repeat the report this often while vibrating; 0: not needed
-    Seconds shortestWrite{0};         ///< between two writes
+    /// Makes a burst finite; nothing: the device vibrates until it is stopped.
+    std::optional<DurationField> ends = std::nullopt;
+    Seconds keepAlive{0};      ///< repeat the report this often while vibrating; 0: not needed
+    Seconds shortestWrite{0};  ///< between two writes
     friend bool operator==(const VibrationReports&, const VibrationReports&) = default;
 };
 
@@ -51,15 +62,19 @@ inline constexpr Seconds kShortestWriteMost{0.04};  ///< a burst must still begi
 inline constexpr Seconds kKeepAliveLeast{0.005};
 
 /// Errors: InvalidArgument naming the field and what would fit: outside its report, over another field, over the report
-/// number, a range that its bits cannot hold, reports of different length, times that cannot be kept.
+/// number, a range that its bits cannot hold, reports of different length, times that cannot be kept. `ends` counts as
+/// the last field.
 [[nodiscard]] Result<void> validate(const VibrationReports& reports);
 
-/// Writes the start report for `intensity` into `into`, which has the report's length. `reports` is valid. Never
-/// allocates on success. Errors: InvalidArgument unless 0 ≤ intensity ≤ 1 and `into` has the report's length.
-[[nodiscard]] Result<void> writeStart(const VibrationReports& reports, double intensity, std::span<std::uint8_t> into);
+/// Writes the start report of a burst into `into`, which has the report's length. `reports` is valid. A burst that the
+/// device ends by itself lasts at least `duration`. Never allocates on success. Errors: InvalidArgument unless
+/// 0 ≤ intensity ≤ 1, `into` has the report's length and the device can play the burst's duration.
+[[nodiscard]] Result<void> writeStart(const VibrationReports& reports, double intensity, Seconds duration,
+                                      std::span<std::uint8_t> into);
 
 /// The same in new bytes: "show bytes".
-[[nodiscard]] Result<std::vector<std::uint8_t>> startBytes(const VibrationReports& reports, double intensity);
+[[nodiscard]] Result<std::vector<std::uint8_t>> startBytes(const VibrationReports& reports, double intensity,
+                                                           Seconds duration = Seconds(0.1));
 
 /// The value that `field` holds in a report that contains it; sign-extended where its range is signed.
 [[nodiscard]] std::int64_t valueOf(const ReportField& field, std::span<const std::uint8_t> report) noexcept;

@@ -10,8 +10,6 @@ namespace pulsepal {
 namespace {
 
 /// What the device is called by: its serial number, or the socket it is in.
-std::string nameOf(const TransportPort& port) { return port.serial.empty() ? port.place : port.serial; }
-
 Result<int> channelOf(const DeviceUri& uri) {
     int channel = 1;
     bool given = false;
@@ -41,9 +39,10 @@ public:
 
     std::vector<DeviceIdentity> list() const override {
         std::vector<DeviceIdentity> found;
-        for (const auto& port : ports_->list()) {
+        const auto all = ports_->list();
+        for (const auto& port : all) {
             DeviceIdentity identity{
-                "pulsepal:" + nameOf(port), Role::Stimulator, "Pulse Pal 2", port.serial, {}, false};
+                "pulsepal:" + addressOf(port, all), Role::Stimulator, "Pulse Pal 2", port.serial, {}, false};
             identity.obstacle = port.obstacle;
             found.push_back(std::move(identity));
         }
@@ -62,8 +61,9 @@ public:
         if (!port) return failure(port);
         if (!port->obstacle.empty()) return fail(ErrorCode::Io, "device \"{}\": {}", uri.text(), port->obstacle);
         auto itself = uri;
-        itself.path = nameOf(*port);
-        auto opened = PulsePalStimulator::open(connectTo(*port), itself.text(), port->serial, *channel, context.clock);
+        itself.path = addressOf(*port, ports_->list());
+        auto opened =
+            PulsePalStimulator::open(connectTo(itself.path), itself.text(), port->serial, *channel, context.clock);
         if (!opened) return fail(opened.error().code, "device \"{}\": {}", uri.text(), opened.error().message);
         into.stimulator = std::move(*opened);
         return {};
@@ -71,30 +71,24 @@ public:
 
 private:
     Result<TransportPort> portOf(const DeviceUri& uri) const {
-        auto all = ports_->list();
-        if (!uri.path.empty()) std::erase_if(all, [&](const auto& port) { return nameOf(port) != uri.path; });
-        if (all.size() == 1) return std::move(all.front());
-        if (all.empty()) {
+        const auto all = ports_->list();
+        auto found = uri.path.empty() ? all : portsNamed(uri.path, all);
+        if (found.size() == 1) return std::move(found.front());
+        if (found.empty()) {
             return fail(ErrorCode::NotFound, "device \"{}\": no such Pulse Pal 2 is plugged in (USB {:04x}:{:04x})",
                         uri.text(), kPulsePalVendor, kPulsePalProduct);
         }
-        std::vector<std::string> names;
-        for (const auto& port : all) names.push_back("pulsepal:" + nameOf(port));
         return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", uri.text(),
-                    fmt::join(names, " or "));
+                    choiceOf("pulsepal", found, all));
     }
 
-    /// Opens the port that was opened before, wherever it is plugged in now.
-    Connect connectTo(const TransportPort& wanted) const {
-        return [ports = ports_, wanted]() -> Result<std::unique_ptr<Transport>> {
-            const auto all = ports->list();
-            const auto found =
-                std::ranges::find_if(all, [&](const auto& port) { return nameOf(port) == nameOf(wanted); });
-            if (found == all.end()) {
-                return fail(ErrorCode::NotFound, "Pulse Pal {} is not plugged in", nameOf(wanted));
-            }
-            if (!found->obstacle.empty()) return fail(ErrorCode::Io, "{}", found->obstacle);
-            return ports->open(*found);
+    /// Opens the port that was opened before: by serial number wherever it is plugged in now, else in its place.
+    Connect connectTo(const std::string& address) const {
+        return [ports = ports_, address]() -> Result<std::unique_ptr<Transport>> {
+            const auto found = portsNamed(address, ports->list());
+            if (found.size() != 1) return fail(ErrorCode::NotFound, "Pulse Pal {} is not plugged in", address);
+            if (!found.front().obstacle.empty()) return fail(ErrorCode::Io, "{}", found.front().obstacle);
+            return ports->open(found.front());
         };
     }
 

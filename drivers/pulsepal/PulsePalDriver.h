@@ -2,6 +2,7 @@
 //
 //   pulsepal:                    the only one that is plugged in
 //   pulsepal:85736323838351F0    by its USB serial number
+//   pulsepal:1-4.2               by its USB socket
 //   pulsepal:?channel=3          output 1 to 4 (1)
 //
 // The ports' transports must set DTR (UsbBulkOptions::dataTerminalReady), or the device's replies are lost.

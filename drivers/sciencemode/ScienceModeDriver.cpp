@@ -39,9 +39,6 @@ std::optional<std::string> take(std::string_view key, std::string_view value, Wa
     } else if (key == "connector") {
         if (value != "yellow" && value != "green") return "yellow or green";
         settings.connector = value == "green" ? 1 : 0;
-    } else if (key == "level") {
-        if (value != "low" && value != "mid") return "low or mid";
-        settings.midLevel = value == "mid";
     } else if (key == "measure") {
         if (value != "voltage" && value != "current") return "voltage or current";
         settings.measurement = value == "voltage" ? Measurement::Voltage : Measurement::Current;
@@ -53,7 +50,7 @@ std::optional<std::string> take(std::string_view key, std::string_view value, Wa
         if (value.empty()) return "a terminal's path, as /dev/ttyACM0";
         into.terminal = value;
     } else {
-        return "there is no such parameter: it takes channel, connector, level, measure, voltage, tty";
+        return "there is no such parameter: it takes channel, connector, measure, voltage, tty";
     }
     return std::nullopt;
 }
@@ -74,19 +71,16 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     return wanted;
 }
 
-/// Opens the port that was opened before, wherever it is plugged in now.
-Connect connectTo(std::shared_ptr<TransportPorts> ports, TransportPort port) {
-    return [ports = std::move(ports), port = std::move(port)]() -> Result<std::unique_ptr<Transport>> {
-        const auto all = ports->list();
-        const auto found = std::ranges::find_if(all, [&](const TransportPort& other) {
-            return other.serial == port.serial && (!port.serial.empty() || other.place == port.place);
-        });
-        if (found == all.end()) {
-            return fail(ErrorCode::NotFound, "the stimulator with USB serial number \"{}\" is not plugged in",
-                        port.serial);
+/// Opens the port that was opened before: by serial number wherever it is plugged in now, else in its place.
+Connect connectTo(std::shared_ptr<TransportPorts> ports, const TransportPort& port) {
+    auto address = addressOf(port, ports->list());
+    return [ports = std::move(ports), address = std::move(address)]() -> Result<std::unique_ptr<Transport>> {
+        const auto found = portsNamed(address, ports->list());
+        if (found.size() != 1) {
+            return fail(ErrorCode::NotFound, "the stimulator sciencemode:{} is not plugged in", address);
         }
-        if (!found->obstacle.empty()) return fail(ErrorCode::Io, "{}", found->obstacle);
-        return ports->open(*found);
+        if (!found.front().obstacle.empty()) return fail(ErrorCode::Io, "{}", found.front().obstacle);
+        return ports->open(found.front());
     };
 }
 
@@ -96,8 +90,15 @@ template <class Attempt>
 auto firstThatAnswers(const DeviceUri& uri, const TransportPorts* ports, Attempt attempt)
     -> decltype(attempt(TransportPort{}, std::string_view{})) {
     auto all = ports != nullptr ? ports->list() : std::vector<TransportPort>{};
-    const auto named = [&](const TransportPort& port) { return !uri.path.empty() && port.serial == uri.path; };
-    // The one with that USB serial number before those that may have that identity.
+    const auto byAddress = portsNamed(uri.path, all);
+    if (byAddress.size() > 1) {
+        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", uri.text(),
+                    choiceOf("sciencemode", byAddress, all));
+    }
+    const auto named = [&](const TransportPort& port) {
+        return !byAddress.empty() && port.place == byAddress.front().place;
+    };
+    // The one with that USB serial number or in that socket before those that may have that identity.
     std::ranges::stable_partition(all, named);
     std::optional<Error> problem;
     for (const auto& port : all) {
@@ -107,7 +108,7 @@ auto firstThatAnswers(const DeviceUri& uri, const TransportPorts* ports, Attempt
             if (made) return made;
             reason = made.error();
         }
-        // The first reason is told, but what a port of the right serial number says before all others.
+        // The first reason is told, but what the port with that address says before all others.
         if (!problem || named(port)) problem = std::move(reason);
         if (named(port)) break;
     }
@@ -145,8 +146,9 @@ public:
     std::vector<DeviceIdentity> list() const override {
         std::vector<DeviceIdentity> found;
         if (!ports_) return found;
-        for (const auto& port : ports_->list()) {
-            found.push_back({"sciencemode:" + port.serial, Role::Stimulator,
+        const auto all = ports_->list();
+        for (const auto& port : all) {
+            found.push_back({"sciencemode:" + addressOf(port, all), Role::Stimulator,
                              "ScienceMode stimulator, or another STM32 serial port", port.serial, "", false,
                              port.obstacle});
         }

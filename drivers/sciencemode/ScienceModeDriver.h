@@ -2,8 +2,8 @@
 //
 //   sciencemode:                                    the first that answers
 //   sciencemode:P24-000123                          by the device's identity, or by its USB serial number
+//   sciencemode:1-4.2                               by its USB socket
 //   sciencemode:?channel=2&connector=green          channel 0 to 3 of connector yellow or green (0, yellow)
-//   sciencemode:?level=mid                          repeat() is allowed: bench loads only, under heartbeat (low)
 //   sciencemode:?measure=current                    the read-back gives the amplitude in place of |Z| (voltage)
 //   sciencemode:?voltage=60                         high-voltage level 30, 60, 90, 120 or 150 V (the device's own)
 //   sciencemode:?tty=/dev/pts/3                     through a terminal, for a device or an emulated one behind it

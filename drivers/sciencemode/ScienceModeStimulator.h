@@ -33,7 +33,7 @@ namespace tacto::sciencemode {
 struct StimulatorSettings {
     int channel = 0;        ///< 0 to 3
     int connector = 0;      ///< 0 yellow, 1 green
-    bool midLevel = false;  ///< repeat() is allowed
+    bool midLevel = false;  ///< repeat() is allowed: only where the device's dead-man is tested (H2), by no URI
     /// Whether firmware honours a fixed level is unverified, so the compliance stated to the gate stays 150 V.
     HighVoltage highVoltage = HighVoltage::Default;
     Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude

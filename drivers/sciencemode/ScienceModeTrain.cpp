@@ -182,9 +182,7 @@ Result<void> ScienceModeStimulator::repeat(ApprovedTrain&& train, Seconds interv
     const ApprovedTrain consumed = std::move(train);
     const auto offs = offs_.load(std::memory_order_acquire);
     if (!settings_.midLevel) {
-        return fail(
-            ErrorCode::Unsupported,
-            "the stimulator was opened for low level and repeats nothing: level=mid allows it, for bench loads");
+        return fail(ErrorCode::Unsupported, "the stimulator was opened for low level and repeats nothing");
     }
     if (!(interval >= consumed.interval() - Seconds(1e-9))) {
         return fail(ErrorCode::Device, "the stimulator refused to repeat every {:.3f} s what was approved for {:.3f} s",

@@ -6,9 +6,12 @@
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include "drivers/system/FileHolders.h"
 
 namespace tacto::sciencemode {
 namespace {
@@ -21,6 +24,10 @@ SteadyTime deadlineOf(Seconds timeout) {
     // A timeout that is not a number, or negative, does not wait; an hour is for ever.
     const double s = timeout.count() > 0 ? std::min(timeout.count(), 3600.0) : 0;
     return std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds(s));
+}
+
+tl::unexpected<Error> inUse(const std::string& path) {
+    return fail(ErrorCode::Io, "terminal {} is held by {}; close that program first", path, textOf(holdersOf(path)));
 }
 
 enum class Wait { Ready, Late, Gone };
@@ -45,8 +52,17 @@ Wait waitFor(int terminal, short events, SteadyTime deadline) {
 Result<std::unique_ptr<Transport>> TtyTransport::open(const std::string& path) {
     const int terminal = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (terminal < 0) {
+        if (errno == EBUSY) return inUse(path);
         const auto code = errno == ENOENT ? ErrorCode::NotFound : ErrorCode::Io;
         return fail(code, "terminal {} cannot be opened: {}", path, reason());
+    }
+    // TIOCEXCL below stops other programs, but none of the superuser's; the lock stops those that ask for one.
+    if (flock(terminal, LOCK_EX | LOCK_NB) != 0) {
+        const bool locked = errno == EWOULDBLOCK;
+        const auto why = reason();
+        ::close(terminal);
+        if (locked) return inUse(path);
+        return fail(ErrorCode::Io, "terminal {} cannot be locked: {}", path, why);
     }
     std::unique_ptr<TtyTransport> transport(new TtyTransport(terminal, path));
     termios settings{};

@@ -1,7 +1,8 @@
 // TtyTransport.h - a Transport over a terminal device: the kernel's serial port of a USB device, or a pseudo-terminal
 // with an emulated device behind it.
 //
-// The terminal is raw and, but for processes of the superuser, this program's alone while it is open.
+// The terminal is raw and this program's alone while it is open: locked (flock), and closed to other programs than the
+// superuser's (TIOCEXCL).
 //
 // Thread-safety: as Transport. An urgent message leaves on the caller's thread unless a write() is under way, which
 // then sends it before it returns.
@@ -18,7 +19,8 @@ namespace tacto::sciencemode {
 
 class TtyTransport final : public Transport {
 public:
-    /// Errors: NotFound for a path that is not there; Io for one that may not be opened, is no terminal or in use.
+    /// Errors: NotFound for a path that is not there; Io for one that may not be opened, is no terminal,
+    /// or is held by another program, which the message names.
     [[nodiscard]] static Result<std::unique_ptr<Transport>> open(const std::string& path);
     ~TtyTransport() override;
     TtyTransport(const TtyTransport&) = delete;

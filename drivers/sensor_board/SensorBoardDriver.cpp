@@ -67,10 +67,20 @@ Opened tryPort(SensorBoardPorts& ports, const TransportPort& port, const Wanted&
 }
 
 Opened openPort(SensorBoardPorts& ports, const Wanted& wanted, const Clock& clock) {
+    const auto& path = wanted.settings.serial;
+    const auto all = ports.list();
+    const auto named = portsNamed(path, all);
+    if (named.size() > 1) {
+        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", wanted.settings.uri,
+                    choiceOf("sensor", named, all));
+    }
     std::optional<Error> problem;
-    for (const auto& port : ports.list()) {
-        if (!wanted.settings.serial.empty() && port.serial != wanted.settings.serial) continue;
-        auto opened = tryPort(ports, port, wanted, clock);
+    for (const auto& port : named.empty() ? all : named) {
+        // Without a serial number in its USB descriptor a board is asked for it.
+        if (named.empty() && !path.empty() && !port.serial.empty()) continue;
+        auto one = wanted;
+        if (port.place == path) one.settings.serial.clear();
+        auto opened = tryPort(ports, port, one, clock);
         if (opened) return opened;
         if (!problem) problem = opened.error();
     }
@@ -88,9 +98,10 @@ public:
 
     std::vector<DeviceIdentity> list() const override {
         std::vector<DeviceIdentity> found;
-        for (const auto& port : ports_->list()) {
-            found.push_back(
-                {"sensor:" + port.serial, Role::Sensor, "sensor board", port.serial, "", false, port.obstacle});
+        const auto all = ports_->list();
+        for (const auto& port : all) {
+            found.push_back({"sensor:" + addressOf(port, all), Role::Sensor, "sensor board", port.serial, "", false,
+                             port.obstacle});
         }
         return found;
     }

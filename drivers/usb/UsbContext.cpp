@@ -100,9 +100,9 @@ std::vector<UsbDeviceInfo> UsbContext::devices() const {
     return list;
 }
 
-Result<UsbDeviceInfo> UsbContext::find(const UsbIdentity& wanted) const {
+Result<UsbDeviceInfo> UsbContext::find(const UsbIdentity& wanted, std::string_view socket) const {
     auto list = devices();
-    std::erase_if(list, [&](const auto& info) { return !info.is(wanted); });
+    std::erase_if(list, [&](const auto& info) { return !info.is(wanted) || (!socket.empty() && info.path != socket); });
     if (list.empty()) {
         return fail(ErrorCode::NotFound, "no USB device {:04x}:{:04x}{} is plugged in", wanted.vendor, wanted.product,
                     wanted.serial.empty() ? "" : " with serial number " + wanted.serial);

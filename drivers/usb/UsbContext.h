@@ -39,9 +39,10 @@ public:
     /// call: it can change without plugging.
     [[nodiscard]] std::vector<UsbDeviceInfo> devices() const;
 
-    /// The one device of this identity. Errors: NotFound; InvalidArgument where several match, naming their serial
-    /// numbers; Io for one that may not be opened, with the sentence that helps.
-    [[nodiscard]] Result<UsbDeviceInfo> find(const UsbIdentity& wanted) const;
+    /// The one device of this identity, in this socket ("1-4.2") where one is named. Errors: NotFound; InvalidArgument
+    /// where several match, naming their serial numbers; Io for one that may not be opened, with the sentence that
+    /// helps.
+    [[nodiscard]] Result<UsbDeviceInfo> find(const UsbIdentity& wanted, std::string_view socket = {}) const;
 
     /// Grows with each device that comes or goes.
     [[nodiscard]] std::uint64_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }

@@ -5,6 +5,7 @@
 #include <libusb.h>
 #include <mutex>
 
+#include "drivers/system/KernelNodes.h"
 #include "drivers/usb/UsbError.h"
 #include "drivers/usb/UsbLine.h"
 
@@ -38,9 +39,10 @@ Result<std::shared_ptr<UsbDevice>> UsbDevice::open(std::shared_ptr<UsbContext> c
 }
 
 UsbDevice::~UsbDevice() {
-    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back.
+    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back. Given
+    // back is also what had no driver when it was claimed: a program that was killed may have left it so.
     for (const auto interface : claimed_) libusb_release_interface(handle_, interface);
-    for (const auto interface : detached_) libusb_attach_kernel_driver(handle_, interface);
+    for (const auto interface : claimed_) libusb_attach_kernel_driver(handle_, interface);
     libusb_close(handle_);
 }
 
@@ -55,19 +57,30 @@ Result<UsbBulkPair> UsbDevice::bulkPair(UsbFunction function) const {
 }
 
 Result<void> UsbDevice::claim(std::uint8_t interface) {
-    const int active = libusb_kernel_driver_active(handle_, interface);
-    if (active == 1) {
+    const auto taking = fmt::format("claiming interface {}", interface);
+    // 1: the kernel's own driver; another program's claim is none to libusb, and is refused below.
+    if (libusb_kernel_driver_active(handle_, interface) == 1) {
+        for (const auto& node : kernelNodesOf(info_.path)) {
+            const auto holders = holdersOf(node);
+            if (!holders.empty()) return inUse(taking, node, holders);
+        }
         if (const int code = libusb_detach_kernel_driver(handle_, interface);
             code != 0 && code != LIBUSB_ERROR_NOT_FOUND) {
             return tl::unexpected(usbError(code, label_, "taking it from the kernel's driver"));
         }
-        detached_.push_back(interface);
     }
     if (const int code = libusb_claim_interface(handle_, interface); code != 0) {
-        return tl::unexpected(usbError(code, label_, fmt::format("claiming interface {}", interface)));
+        if (code == LIBUSB_ERROR_BUSY) return inUse(taking, info_.node(), holdersOf(info_.node()));
+        return tl::unexpected(usbError(code, label_, taking));
     }
     claimed_.push_back(interface);
     return {};
+}
+
+tl::unexpected<Error> UsbDevice::inUse(const std::string& what, const std::filesystem::path& node,
+                                       const std::vector<FileHolder>& holders) const {
+    return fail(ErrorCode::Io, "{}: {} failed: {} is held by {}; close that program first", label_, what, node.string(),
+                textOf(holders));
 }
 
 Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout) {

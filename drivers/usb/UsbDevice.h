@@ -1,8 +1,8 @@
 // UsbDevice.h - an open USB device: its claimed interfaces, the kernel drivers that were asked to step aside, and
 // requests to its control endpoint.
 //
-// Destruction releases the interfaces, gives the device back to the kernel's drivers and closes it; transfers must
-// have ended before.
+// Destruction releases the interfaces, gives the device to the kernel's drivers, also where a program that was killed
+// before had left it without, and closes it; transfers must have ended before.
 // Thread-safety: one thread at a time, and never the event thread.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/Units.h"
+#include "drivers/system/FileHolders.h"
 #include "drivers/usb/UsbContext.h"
 #include "drivers/usb/UsbEndpoints.h"
 
@@ -40,8 +41,9 @@ public:
     /// Errors: Device where the device's descriptors cannot be read; as findBulkPair().
     [[nodiscard]] Result<UsbBulkPair> bulkPair(UsbFunction function) const;
 
-    /// Takes an interface for this program alone, away from the kernel's driver too.
-    /// Errors: Io (another program has it); Device (gone, or it has no such interface).
+    /// Takes an interface for this program alone, from the kernel's driver too, but never from another program: one
+    /// that has claimed it, or that has a node of the kernel's driver open (/dev/ttyACM0, /dev/hidraw0).
+    /// Errors: Io naming the program that holds it; Device (gone, or it has no such interface).
     [[nodiscard]] Result<void> claim(std::uint8_t interface);
 
     /// Sends `data` with a request, and waits. Errors: Timeout; Device (gone, refused, took fewer bytes).
@@ -58,6 +60,8 @@ public:
 private:
     UsbDevice(std::shared_ptr<UsbContext> context, UsbDeviceInfo info, libusb_device_handle* handle)
         : context_(std::move(context)), info_(std::move(info)), label_(info_.label()), handle_(handle) {}
+    [[nodiscard]] tl::unexpected<Error> inUse(const std::string& what, const std::filesystem::path& node,
+                                              const std::vector<FileHolder>& holders) const;
     [[nodiscard]] Result<std::size_t> control(const UsbRequest& request, std::span<std::uint8_t> data, Seconds timeout);
 
     const std::shared_ptr<UsbContext> context_;  // outlives the handle
@@ -65,7 +69,6 @@ private:
     const std::string label_;
     libusb_device_handle* const handle_;
     std::vector<std::uint8_t> claimed_;
-    std::vector<std::uint8_t> detached_;  // the kernel's driver is given back here
 };
 
 }  // namespace tacto

@@ -7,6 +7,8 @@
 #include <libusb.h>
 #include <unistd.h>
 
+#include "drivers/system/Permission.h"
+
 namespace tacto {
 
 namespace {
@@ -40,6 +42,8 @@ bool UsbDeviceInfo::is(const UsbIdentity& wanted) const noexcept {
     return vendor == wanted.vendor && product == wanted.product && (wanted.serial.empty() || serial == wanted.serial);
 }
 
+std::string UsbDeviceInfo::node() const { return fmt::format("/dev/bus/usb/{:03}/{:03}", bus, address); }
+
 std::string UsbDeviceInfo::label() const {
     auto text = fmt::format("USB device {:04x}:{:04x} at {}", vendor, product, path);
     if (!serial.empty()) text += fmt::format(" (serial {})", serial);
@@ -48,8 +52,7 @@ std::string UsbDeviceInfo::label() const {
 
 std::string UsbDeviceInfo::obstacle() const {
     if (permitted) return {};
-    return label() +
-           " is there, but this user may not open it: run \"./dev install-rules\" once, then plug the device in again.";
+    return fmt::format("{} is there, but this user may not open it: {}", label(), permissionAdvice());
 }
 
 UsbDeviceInfo describe(libusb_device* device) {
@@ -60,12 +63,12 @@ UsbDeviceInfo describe(libusb_device* device) {
         info.product = descriptor.idProduct;
     }
     info.path = socketOf(device);
+    info.bus = libusb_get_bus_number(device);
     info.address = libusb_get_device_address(device);
     info.serial = kernelText(info.path, "serial");
     info.maker = kernelText(info.path, "manufacturer");
     info.name = kernelText(info.path, "product");
-    const auto node = fmt::format("/dev/bus/usb/{:03}/{:03}", libusb_get_bus_number(device), info.address);
-    info.permitted = access(node.c_str(), R_OK | W_OK) == 0;
+    info.permitted = access(info.node().c_str(), R_OK | W_OK) == 0;
     return info;
 }
 

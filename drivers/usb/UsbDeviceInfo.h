@@ -19,15 +19,18 @@ struct UsbIdentity {
 struct UsbDeviceInfo {
     std::uint16_t vendor = 0;
     std::uint16_t product = 0;
-    std::string serial;        ///< empty where the device has none
-    std::string maker;         ///< as the device says; empty where it does not
-    std::string name;          ///< as the device says; empty where it does not
-    std::string path;          ///< bus and ports, as "1-4.2": the socket it is in
+    std::string serial;  ///< empty where the device has none
+    std::string maker;   ///< as the device says; empty where it does not
+    std::string name;    ///< as the device says; empty where it does not
+    std::string path;    ///< bus and ports, as "1-4.2": the socket it is in
+    std::uint8_t bus = 0;
     std::uint8_t address = 0;  ///< on its bus; another one after each plug-in
     bool permitted = false;    ///< whether this user may open it, when the list was made
 
     [[nodiscard]] UsbIdentity identity() const { return {vendor, product, serial}; }
     [[nodiscard]] bool is(const UsbIdentity& wanted) const noexcept;
+    /// "/dev/bus/usb/001/002": what a program opens; another one after each plug-in.
+    [[nodiscard]] std::string node() const;
     /// "USB device 0483:5740 at 1-4.2 (serial 17)", for messages.
     [[nodiscard]] std::string label() const;
     /// Why it cannot be opened and what helps, in a sentence; empty for a permitted device.

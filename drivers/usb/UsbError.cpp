@@ -2,6 +2,8 @@
 
 #include <libusb.h>
 
+#include "drivers/system/Permission.h"
+
 namespace tacto {
 
 namespace {
@@ -29,8 +31,7 @@ Error usbError(int code, std::string_view device, std::string_view what) {
         case LIBUSB_ERROR_BUSY:
             return sentence(ErrorCode::Io, device, what, "another program uses it; close that program first");
         case LIBUSB_ERROR_ACCESS:
-            return sentence(ErrorCode::Io, device, what,
-                            "this user may not open it; run \"./dev install-rules\" once, then plug it in again");
+            return sentence(ErrorCode::Io, device, what, "this user may not open it: " + permissionAdvice());
         default:
             return sentence(ErrorCode::Device, device, what, libusb_error_name(code));
     }

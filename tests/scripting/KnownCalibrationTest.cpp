@@ -116,8 +116,8 @@ TEST_F(Known, AnotherOutputOrUnitOfTheSameStimulatorIsAnother) {
     keep(1.05, 0, 100, "SIM-1", "mA");
     EXPECT_FALSE(knownCalibration(devices_).calibration);
     EXPECT_EQ(calibratedOutput("PP-7", "pulsepal:PP-7?channel=2"), "PP-7 channel=2");
-    EXPECT_EQ(calibratedOutput("S1", "sciencemode:S1?level=mid&connector=yellow&keep=1"),
-              "S1 connector=yellow level=mid");
+    EXPECT_EQ(calibratedOutput("S1", "sciencemode:S1?channel=2&connector=yellow&keep=1"),
+              "S1 connector=yellow channel=2");
     EXPECT_EQ(calibratedOutput("SIM-1", "sim:stimulator?gain=0.97"), "SIM-1");
     EXPECT_EQ(calibratedOutput("", "pulsepal:1-1.2?channel=2"), "") << "a socket is no serial number";
 }

@@ -141,23 +141,63 @@ TEST(HidDescriptor, AnyPrefixAndAnyChangedByteIsReadOrRefusedAndFieldsStayInside
     EXPECT_GT(read, 500);
 }
 
-TEST(Haptics, TheWaveformThatLastsIsTriggeredByItsOrdinalAndStoppedByTwo) {
-    RecordProperty("hazard", "H4");
-    const auto controls = hid::findHaptics(parsed(hapticDescriptor()));
-    ASSERT_TRUE(controls) << controls.error().message;
+/// Intensity, trigger and repeat count of hapticDescriptor(), then these two, u16 and u8.
+const Bytes kCutoffControl{0x05, 0x0E, 0x09, 0x28, 0x15, 0x00, 0x26, 0xE8, 0x03, 0x75, 0x10, 0x95, 0x01, 0x91, 0x02};
+const Bytes kRetriggerControl{0x05, 0x0E, 0x09, 0x25, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02};
+
+hid::VibrationReports hapticsOf(const Bytes& descriptor, const Bytes& list) {
+    const auto controls = hid::findHaptics(parsed(descriptor));
+    EXPECT_TRUE(controls) << controls.error().message;
     EXPECT_EQ(controls->report, 1);
     EXPECT_EQ(controls->listReport, 2);
     EXPECT_EQ(controls->listLength, 9u);
-    // Ordinal 3 is a click, 4 a rumble.
-    const auto reports = hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x05, 0x10, 50, 0, 0, 0});
-    ASSERT_TRUE(reports) << reports.error().message;
-    EXPECT_EQ(hid::startBytes(*reports, 1).value(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
-    EXPECT_EQ(hid::startBytes(*reports, 0.5).value(), (Bytes{1, 0x00, 0x80, 4, 0}));
-    EXPECT_EQ(reports->stop, (Bytes{1, 0, 0, 2, 0}));
+    const auto reports = hid::hapticReports(*controls, list);
+    EXPECT_TRUE(reports) << reports.error().message;
+    return reports.value_or(hid::VibrationReports{});
+}
+
+TEST(Haptics, TheWaveformThatLastsIsTriggeredByItsOrdinalAndStoppedByTwo) {
+    RecordProperty("hazard", "H4");
+    // Ordinal 3 is a click of unknown duration, 4 a rumble.
+    const auto reports = hapticsOf(hapticDescriptor(), Bytes{2, 0x03, 0x10, 0x05, 0x10, 0, 0, 0, 0});
+    EXPECT_EQ(hid::startBytes(reports, 1).value(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
+    EXPECT_EQ(hid::startBytes(reports, 0.5).value(), (Bytes{1, 0x00, 0x80, 4, 0}));
+    EXPECT_EQ(reports.stop, (Bytes{1, 0, 0, 2, 0}));
+    EXPECT_FALSE(reports.ends);
     // The other way round it is ordinal 3.
-    const auto swapped = hid::hapticReports(*controls, Bytes{2, 0x04, 0x10, 0x03, 0x10, 0, 0, 50, 0});
-    ASSERT_TRUE(swapped);
-    EXPECT_EQ(swapped->start[3], 3);
+    EXPECT_EQ(hapticsOf(hapticDescriptor(), Bytes{2, 0x04, 0x10, 0x03, 0x10, 0, 0, 0, 0}).start[3], 3);
+}
+
+TEST(Haptics, AWaveformOfKnownDurationIsRepeatedAsOftenAsTheBurstLastsAndEndsByItself) {
+    RecordProperty("hazard", "H2");
+    // Ordinal 3 is a click of 50 ms, 4 a rumble that lasts until it is stopped.
+    const Bytes list{2, 0x03, 0x10, 0x05, 0x10, 50, 0, 0, 0};
+    const auto reports = hapticsOf(hapticDescriptor(), list);
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));  // 2 plays
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.05)).value(), (Bytes{1, 0xFF, 0xFF, 3, 0}));
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.051)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));
+    EXPECT_EQ(hid::startBytes(reports, 0.5, Seconds(1)).value(), (Bytes{1, 0x00, 0x80, 3, 19}));
+    EXPECT_EQ(reports.stop, (Bytes{1, 0, 0, 2, 0}));
+    const auto tooLong = hid::startBytes(reports, 1, Seconds(12.9));
+    ASSERT_FALSE(tooLong);
+    EXPECT_EQ(tooLong.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(tooLong.error().message, testing::AllOf(HasSubstr("12.9 s"), HasSubstr("12.8 s")));
+    for (const double wrong : {0.0, -1.0, std::nan(""), 1e300}) {
+        EXPECT_FALSE(hid::startBytes(reports, 1, Seconds(wrong))) << wrong;
+    }
+    // Where it has a retrigger period, one play follows the other.
+    const auto spaced = hapticsOf(hapticDescriptor(kRetriggerControl), list);
+    EXPECT_EQ(hid::startBytes(spaced, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1, 50}));
+}
+
+TEST(Haptics, ACutoffTimeEndsTheWaveformThatLasts) {
+    RecordProperty("hazard", "H2");
+    const auto reports = hapticsOf(hapticDescriptor(kCutoffControl), Bytes{2, 0x03, 0x10, 0x05, 0x10, 50, 0, 0, 0});
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 4, 0, 100, 0}));
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(1)).value(), (Bytes{1, 0xFF, 0xFF, 4, 0, 0xE8, 3}));
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.0101)).value(), (Bytes{1, 0xFF, 0xFF, 4, 0, 11, 0}));
+    EXPECT_FALSE(hid::startBytes(reports, 1, Seconds(1.001)));
+    EXPECT_EQ(reports.stop, (Bytes{1, 0, 0, 2, 0, 0, 0}));
 }
 
 TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
@@ -167,6 +207,12 @@ TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
     ASSERT_FALSE(clicks);
     EXPECT_EQ(clicks.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(clicks.error().message, testing::AllOf(HasSubstr("1003"), HasSubstr("1004")));
+    // Stop, none, a pen's ink and a play of more than a second are no bursts, whatever their durations.
+    for (const std::uint8_t waveform : Bytes{0x01, 0x02, 0x0B}) {
+        EXPECT_FALSE(hid::hapticReports(*controls, Bytes{2, waveform, 0x10, 0x02, 0x10, 50, 0, 50, 0}))
+            << int{waveform};
+    }
+    EXPECT_FALSE(hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0xE9, 3, 0, 0}));
     const auto cut = hid::hapticReports(*controls, Bytes{2, 0x04, 0x10});
     ASSERT_FALSE(cut);
     EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("9 were expected")));

@@ -70,14 +70,14 @@ TEST_F(HidDriverTest, ADualSenseIsListedAndOpenedAndGetsItsOwnReport) {
 TEST_F(HidDriverTest, ADeviceWithAHapticsPageNeedsNoTemplate) {
     RecordProperty("hazard", "H4");
     const auto pad = plug(0x1234, 0x5678, "H", hapticDescriptor(), 0x000E0001);
-    pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});
+    pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});  // ordinal 3 clicks for 50 ms
     ASSERT_EQ(driver()->list().size(), 1u);
     const auto opened = open("hid:");
     ASSERT_TRUE(opened) << opened.error().message;
     SafetyGate gate(clock);
     auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
     ASSERT_TRUE(devices.massager->vibrate(std::move(*burst)));
-    EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
+    EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 3, 9}));  // 10 times, then it is over by itself
     devices.massager->forceOff();
     EXPECT_TRUE(pad->waitForLast({1, 0, 0, 2, 0}));
 }
@@ -99,6 +99,35 @@ TEST_F(HidDriverTest, OfTwoTheSerialNumberChooses) {
     ASSERT_TRUE(open("hid:054c:0ce6?serial=A2"));
     EXPECT_EQ(second->openNow(), 1);
     EXPECT_THAT(refusal("hid:054c:0ce6?serial=A3", ErrorCode::NotFound), HasSubstr("A3"));
+}
+
+TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
+    RecordProperty("hazard", "H4");
+    plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
+    plug(0x054C, 0x0CE6, "A2", outputDescriptor(2, 48));
+    plug(0x054C, 0x05C4, "", outputDescriptor(5, 32));  // the second version tells no serial number
+    plug(0x054C, 0x05C4, "", outputDescriptor(5, 32));
+    plug(0x054C, 0x0DF2, "same", outputDescriptor(2, 63));
+    plug(0x054C, 0x0DF2, "same", outputDescriptor(2, 63));
+    const auto list = driver()->list();
+    std::vector<std::string> uris;
+    for (const auto& one : list) uris.push_back(one.uri);
+    EXPECT_THAT(uris, testing::ElementsAre("hid:054c:0ce6?serial=A1", "hid:054c:0ce6?serial=A2",
+                                           "hid:054c:05c4?at=/dev/hidraw2", "hid:054c:05c4?at=/dev/hidraw3",
+                                           "hid:054c:0df2?serial=same&at=/dev/hidraw4",
+                                           "hid:054c:0df2?serial=same&at=/dev/hidraw5"));
+    for (std::size_t i = 0; i < uris.size(); ++i) {
+        ASSERT_TRUE(open(uris[i])) << uris[i];
+        EXPECT_EQ(devices.massager->identity().uri, uris[i]);
+        for (std::size_t other = 0; other < uris.size(); ++other) {
+            EXPECT_EQ(hidraw->plugged[other]->openNow(), other == i ? 1 : 0) << uris[i];
+        }
+    }
+    // What is offered to choose from are those addresses.
+    const auto choice = refusal("hid:", ErrorCode::InvalidArgument);
+    for (const auto& uri : uris) EXPECT_THAT(choice, HasSubstr(uri));
+    EXPECT_THAT(refusal("hid:054c:05c4", ErrorCode::InvalidArgument), HasSubstr(uris[2] + " or " + uris[3]));
+    EXPECT_THAT(refusal("hid:054c:05c4?at=/dev/hidraw9", ErrorCode::NotFound), HasSubstr("hidraw9"));
 }
 
 TEST_F(HidDriverTest, ADeviceThatItsTemplateDoesNotFitIsRefused) {

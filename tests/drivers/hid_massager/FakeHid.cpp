@@ -6,6 +6,24 @@ namespace {
 constexpr auto kLong = std::chrono::seconds(5);
 }
 
+class FakeWatchdog final : public hid::Watchdog {
+public:
+    explicit FakeWatchdog(FakeHidDevice& device) : device_(device) {}
+    bool beat() noexcept override {
+        const std::scoped_lock lock(device_.mutex_);
+        ++device_.beats_;
+        device_.resting_ = false;
+        return !device_.watchRefused_;
+    }
+    void rest() noexcept override {
+        const std::scoped_lock lock(device_.mutex_);
+        device_.resting_ = true;
+    }
+
+private:
+    FakeHidDevice& device_;
+};
+
 class FakeHidPort final : public hid::HidPort {
 public:
     FakeHidPort(FakeHidDevice& device, std::uint64_t session) : device_(device), session_(session) {}
@@ -40,6 +58,13 @@ public:
         return size;
     }
 
+    Result<std::unique_ptr<hid::Watchdog>> watch(std::span<const std::uint8_t> stop) override {
+        const std::scoped_lock lock(device_.mutex_);
+        if (device_.watchRefused_) return fail(ErrorCode::Io, "the massager is not driven: no watchdog");
+        device_.watchedStop_.assign(stop.begin(), stop.end());
+        return std::make_unique<FakeWatchdog>(device_);
+    }
+
     bool stopNow() noexcept override {
         const std::scoped_lock lock(device_.mutex_);
         if (device_.urgentStop_.empty() || !there()) return false;
@@ -70,6 +95,7 @@ void FakeHidDevice::refuse(bool refused) { CHANGE(refused_ = refused); }
 void FakeHidDevice::setFeature(Bytes report) { CHANGE(feature_ = std::move(report)); }
 void FakeHidDevice::setDescriptor(Bytes descriptor) { CHANGE(descriptor_ = std::move(descriptor)); }
 void FakeHidDevice::setPermitted(bool permitted) { CHANGE(info_.permitted = permitted); }
+void FakeHidDevice::refuseWatch(bool refused) { CHANGE(watchRefused_ = refused); }
 void FakeHidDevice::setUrgentStop(Bytes report) { CHANGE(urgentStop_ = std::move(report)); }
 #undef CHANGE
 
@@ -96,6 +122,21 @@ bool FakeHidDevice::waitForHeld() const {
 bool FakeHidDevice::waitForLast(const Bytes& report) const {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, kLong, [&] { return !writes_.empty() && writes_.back().bytes == report; });
+}
+
+int FakeHidDevice::beats() const {
+    const std::scoped_lock lock(mutex_);
+    return beats_;
+}
+
+bool FakeHidDevice::watchRests() const {
+    const std::scoped_lock lock(mutex_);
+    return resting_;
+}
+
+Bytes FakeHidDevice::watchedStop() const {
+    const std::scoped_lock lock(mutex_);
+    return watchedStop_;
 }
 
 int FakeHidDevice::attempts() const {
@@ -164,8 +205,8 @@ Bytes outputDescriptor(std::uint8_t number, std::size_t length) {
             0x15, 0x00, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95,   count, 0x91, 0x02, 0xC0};
 }
 
-Bytes hapticDescriptor() {
-    return {
+Bytes hapticDescriptor(const Bytes& moreControls) {
+    Bytes bytes{
         0x05, 0x0E,                                                        // usage page Haptics
         0x09, 0x01,                                                        // SimpleHapticController
         0xA1, 0x01,                                                        // application collection
@@ -187,8 +228,10 @@ Bytes hapticDescriptor() {
         0x09, 0x23, 0x15, 0x00, 0x27, 0xFF, 0xFF, 0x00, 0x00, 0x75, 0x10, 0x95, 0x01, 0x91, 0x02,  // intensity u16
         0x09, 0x21, 0x15, 0x01, 0x25, 0x04, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02,                    // manual trigger u8
         0x09, 0x24, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02,              // repeat count u8
-        0xC0,
     };
+    bytes.insert(bytes.end(), moreControls.begin(), moreControls.end());
+    bytes.push_back(0xC0);
+    return bytes;
 }
 
 hid::VibrationReports padReports(Seconds keepAlive, Seconds shortestWrite) {

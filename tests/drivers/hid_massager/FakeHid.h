@@ -50,6 +50,12 @@ public:
     [[nodiscard]] int attempts() const;
     [[nodiscard]] int openings() const;
     [[nodiscard]] int openNow() const;
+    /// No watchdog starts for its ports while it is so; one that runs has ended.
+    void refuseWatch(bool refused);
+    /// Times that a port's watchdog was told that output is on; whether the last word was that it is off.
+    [[nodiscard]] int beats() const;
+    [[nodiscard]] bool watchRests() const;
+    [[nodiscard]] Bytes watchedStop() const;
     /// Has a port's stopNow() send this report past all that waits.
     void setUrgentStop(Bytes report);
 
@@ -60,15 +66,16 @@ public:
 
 private:
     friend class FakeHidPort;
+    friend class FakeWatchdog;
     const Clock& clock_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
     hid::HidDeviceInfo info_;
-    Bytes descriptor_, feature_, urgentStop_;
+    Bytes descriptor_, feature_, urgentStop_, watchedStop_;
     std::vector<Write> writes_;
     std::optional<std::size_t> takeOnly_;
-    bool plugged_ = true, refused_ = false, held_ = false;
-    int waiting_ = 0, attempts_ = 0, openings_ = 0, openNow_ = 0;
+    bool plugged_ = true, refused_ = false, held_ = false, watchRefused_ = false, resting_ = true;
+    int beats_ = 0, waiting_ = 0, attempts_ = 0, openings_ = 0, openNow_ = 0;
     std::uint64_t session_ = 0;  // plug() makes old ports useless
 };
 
@@ -89,8 +96,8 @@ private:
 /// A report descriptor with one output report of `length` bytes (its number's byte included), on a game pad.
 [[nodiscard]] Bytes outputDescriptor(std::uint8_t number, std::size_t length);
 /// A haptic controller as in ../shared/wire/hid-vibration.md: output report 1 with u16 intensity, u8 ordinal, u8
-/// repeat; feature report 2 with the waveforms of ordinals 3 and 4, then their durations.
-[[nodiscard]] Bytes hapticDescriptor();
+/// repeat, then `moreControls`; feature report 2 with the waveforms of ordinals 3 and 4, then their durations.
+[[nodiscard]] Bytes hapticDescriptor(const Bytes& moreControls = {});
 /// The two-motor reports of a made-up device: number 5, 8 bytes, weak at byte 4, strong at byte 5.
 [[nodiscard]] hid::VibrationReports padReports(Seconds keepAlive = Seconds(0), Seconds shortestWrite = Seconds(0));
 

@@ -56,6 +56,57 @@ TEST_F(HidMassagerTest, ADeviceThatTakesNoStopIsNotOpened) {
     EXPECT_EQ(device.openNow(), 0);
 }
 
+TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
+    RecordProperty("hazard", "H2");
+    device.refuseWatch(true);
+    const auto opened = HidMassager::open([this] { return device.open(); }, identity, padReports(), clock);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("not driven")));
+    ASSERT_FALSE(device.writes().empty());
+    for (const auto& write : device.writes()) EXPECT_EQ(write.bytes, kOff);
+    device.refuseWatch(false);
+    open();
+    EXPECT_EQ(device.watchedStop(), kOff);
+    device.refuseWatch(true);  // it ended
+    const auto before = device.writes().size();
+    const auto refused = vibrate();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(refused.error().message, HasSubstr("watchdog"));
+    ASSERT_TRUE(device.waitForWrites(before + 1));
+    EXPECT_EQ(device.last(), kOff);
+    device.refuseWatch(false);
+    EXPECT_TRUE(vibrate());  // with another one
+}
+
+TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop) {
+    RecordProperty("hazard", "H2");
+    open();
+    EXPECT_EQ(device.beats(), 0);
+    ASSERT_TRUE(vibrate(Seconds(0.3)));
+    EXPECT_FALSE(device.watchRests());
+    ASSERT_TRUE(device.waitForWrites(3));
+    EXPECT_GE(device.beats(), 4);  // every 50 ms
+    massager->forceOff();
+    ASSERT_TRUE(device.waitForWrites(4));
+    massager.reset();
+    EXPECT_TRUE(device.watchRests());
+}
+
+TEST_F(HidMassagerTest, AWatchdogThatEndsInABurstEndsTheBurst) {
+    RecordProperty("hazard", "H2");
+    open();
+    ASSERT_TRUE(vibrate(Seconds(1)));
+    device.refuseWatch(true);
+    const Instant ended = clock.now();
+    ASSERT_TRUE(device.waitForWrites(3));
+    EXPECT_LE(toSeconds(clock.now() - ended), 0.5);
+    EXPECT_EQ(device.last(), kOff);
+    const auto told = vibrate();
+    ASSERT_FALSE(told);
+    EXPECT_THAT(told.error().message, HasSubstr("watchdog"));
+}
+
 TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
     open();
     ASSERT_TRUE(vibrate(Seconds(0.1)));

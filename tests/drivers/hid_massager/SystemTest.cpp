@@ -9,6 +9,7 @@
 #include "drivers/hid_massager/HidMassager.h"
 #include "drivers/hid_massager/HidapiBackend.h"
 #include "drivers/hid_massager/TrancePort.h"
+#include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 #include "tests/support/Support.h"
@@ -137,7 +138,13 @@ TEST_P(HidSystem, WhoMayNotOpenItIsTold) {
     const auto list = backend->devices();
     ASSERT_EQ(list.size(), 1u);
     EXPECT_FALSE(list[0].permitted);
-    EXPECT_THAT(list[0].obstacle(), HasSubstr("./dev install-rules"));
+    EXPECT_THAT(list[0].obstacle(), HasSubstr("./dev install-rules --device 054c:0ce6"));
+}
+
+TEST_P(HidSystem, TheNodesByWhichAnotherProgramMayUseItAreKnown) {
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {}, 3);
+    EXPECT_THAT(kernelNodesOf("1-3"), testing::ElementsAre("/dev/hidraw2"));
+    EXPECT_TRUE(kernelNodesOf("1-1").empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, HidSystem, testing::Values("hidraw", "libusb"),
@@ -190,6 +197,23 @@ TEST_F(TranceTest, IsListedAndVibratesByItsOneRequest) {
     const auto all = speeds(device);
     ASSERT_GE(all.size(), 3u);
     for (std::size_t i = 2; i < all.size(); ++i) EXPECT_EQ(all[i], 0);
+}
+
+TEST_F(TranceTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
+    RecordProperty("hazard", "H4");
+    const EmulatedUsbDevice first(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, ""), {});
+    const EmulatedUsbDevice second(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, ""), {}, 2);
+    auto seen = context->generation();
+    while (context->devices().size() < 2) seen = context->waitForChange(seen, Seconds(1));
+    const auto driver = systemDriver(provider);
+    const auto list = driver->list();
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].uri, "hid:0b49:064f?at=1-1");
+    EXPECT_EQ(list[1].uri, "hid:0b49:064f?at=1-2");
+    const auto opened = driver->open(DeviceUri::parse(list[1].uri).value(), {}, OpenContext{clock}, devices);
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_TRUE(speeds(first).empty());
+    EXPECT_EQ(speeds(second), (std::vector<int>{0}));
 }
 
 TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {

@@ -53,6 +53,22 @@ TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
     EXPECT_FALSE(makePulsePalDriver(ports)->runsOnVirtualClock());
 }
 
+TEST_F(PulsePalDriverTest, TwoWithTheSameSerialNumberAreToldApartByTheirSockets) {
+    RecordProperty("hazard", "H4");
+    plug("A1");
+    const auto second = plug("A1");
+    const auto list = makePulsePalDriver(ports)->list();
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].uri, "pulsepal:1-1");
+    EXPECT_EQ(list[1].uri, "pulsepal:1-2");
+    for (const auto* both : {"pulsepal:", "pulsepal:A1"}) {
+        EXPECT_THAT(refusal(both, ErrorCode::InvalidArgument), HasSubstr("pulsepal:1-1 or pulsepal:1-2"));
+    }
+    ASSERT_TRUE(open("pulsepal:1-2"));
+    second->unplug();
+    EXPECT_FALSE(devices.stimulator->status()) << "another one was opened";
+}
+
 TEST_F(PulsePalDriverTest, WhatCannotBeOpenedIsRefusedByName) {
     EXPECT_THAT(refusal("pulsepal:", ErrorCode::NotFound), HasSubstr("2341:003e"));
     plug("A1");

@@ -8,6 +8,7 @@
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
+#include "tests/support/OtherProgram.h"
 
 namespace tacto::test {
 namespace {
@@ -60,6 +61,13 @@ protected:
         ASSERT_TRUE(delivered.has_value()) << delivered.error().message;
     }
 
+    /// In the mode of the device that repeats by itself, which no URI opens.
+    [[nodiscard]] std::unique_ptr<ScienceModeStimulator> openForRepetition(Connect connect) const {
+        StimulatorSettings settings;
+        settings.midLevel = true;
+        return ScienceModeStimulator::open(std::move(connect), "sciencemode:", {}, settings, clock_).value();
+    }
+
     SteadyClock clock_;
     std::shared_ptr<EmulatedPorts> ports_ = std::make_shared<EmulatedPorts>(clock_);
     std::unique_ptr<Driver> driver_ = makeScienceModeDriver(ports_);
@@ -90,12 +98,33 @@ TEST_F(ScienceModeUri, FindsADeviceByItsUsbSerialOrItsIdentity) {
     EXPECT_EQ(devices_.stimulator, nullptr);
 }
 
+TEST_F(ScienceModeUri, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
+    RecordProperty("hazard", "H4");
+    ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    ports_->add({"", "1-2", ""}, named("P24-000002"));
+    ports_->add({"B", "1-3", ""}, named("P24-000003"));
+    ports_->add({"B", "1-4", ""}, named("P24-000004"));
+    const auto list = driver_->list();
+    std::vector<std::string> uris;
+    for (const auto& one : list) uris.push_back(one.uri);
+    EXPECT_THAT(uris, testing::ElementsAre("sciencemode:A1", "sciencemode:1-2", "sciencemode:1-3", "sciencemode:1-4"));
+    for (std::size_t i = 0; i < uris.size(); ++i) {
+        ports_->opened.clear();
+        ASSERT_TRUE(open(uris[i]).has_value()) << uris[i];
+        EXPECT_EQ(serial(), fmt::format("P24-00000{}", i + 1));
+        EXPECT_THAT(ports_->opened, testing::Each(fmt::format("1-{}", i + 1))) << "another one was spoken to";
+    }
+    const auto both = open("sciencemode:B");
+    ASSERT_FALSE(both.has_value());
+    EXPECT_EQ(both.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(both.error().message, HasSubstr("sciencemode:1-3 or sciencemode:1-4"));
+}
+
 TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
     ports_->add({"A1", "1-1", "1-1 may not be opened"}, named("P24-000001"));
     const auto line = ports_->add({"A2", "1-2", ""}, named("P24-000002"));
-    ASSERT_TRUE(open("sciencemode:?level=mid").has_value());
-    auto* repeating = dynamic_cast<RepeatingStimulator*>(devices_.stimulator.get());
-    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    const auto repeating = openForRepetition([&] { return ports_->open({"A2", "1-2", ""}); });
+    const auto gate = wideGate(clock_, repeating->traits());
     ASSERT_TRUE(repeating->repeat(approve(*gate, clock_, biphasic(5), Seconds(2)), Seconds(2)).has_value());
     const auto stops = [&] {
         return line->inspect([](auto& device, Instant) {
@@ -155,8 +184,9 @@ TEST_F(ScienceModeUri, ParametersReachTheDevice) {
 
 TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
-    for (const auto* wrong : {"channel=4", "channel=-1", "channel=1.5", "channel=nan", "channel=x", "connector=blue",
-                              "level=high", "measure=all", "voltage=40", "tty=", "speed=3", "channel=1&channel=2"}) {
+    for (const auto* wrong :
+         {"channel=4", "channel=-1", "channel=1.5", "channel=nan", "channel=x", "connector=blue", "level=mid",
+          "level=low", "measure=all", "voltage=40", "tty=", "speed=3", "channel=1&channel=2"}) {
         const auto refused = open(std::string("sciencemode:?") + wrong);
         ASSERT_FALSE(refused.has_value()) << wrong;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
@@ -167,16 +197,15 @@ TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
     EXPECT_EQ(second.error().code, ErrorCode::InvalidArgument) << "a bench has one stimulator";
 }
 
-TEST_F(ScienceModeUri, OnlyLevelMidRepeats) {
+TEST_F(ScienceModeUri, WhatAUriOpensNeverRepeatsByItself) {
     RecordProperty("hazard", "H2");
     const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
-    for (const bool mid : {false, true}) {
-        ASSERT_TRUE(open(mid ? "sciencemode:?level=mid" : "sciencemode:").has_value());
-        auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
-        const auto gate = wideGate(clock_, devices_.stimulator->traits());
-        EXPECT_EQ(repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.5)), Seconds(0.5)).has_value(), mid);
-    }
-    devices_ = {};
+    ASSERT_TRUE(open("sciencemode:").has_value());
+    auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
+    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    const auto refused = repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.5)), Seconds(0.5));
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
     EXPECT_FALSE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));
 }
 
@@ -222,13 +251,12 @@ TEST_F(ScienceModePty, DeliversAndReadsBack) {
 
 TEST_F(ScienceModePty, StopReachesTheDevice) {
     RecordProperty("hazard", "H2");
-    ASSERT_TRUE(open("sciencemode:?level=mid&tty=" + pty_->path()).has_value());
-    auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
-    const auto gate = wideGate(clock_, devices_.stimulator->traits());
-    ASSERT_TRUE(repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.05)), Seconds(0.05)).has_value());
+    const auto repeating = openForRepetition([&] { return TtyTransport::open(pty_->path()); });
+    const auto gate = wideGate(clock_, repeating->traits());
+    ASSERT_TRUE(repeating->repeat(approve(*gate, clock_, biphasic(5), Seconds(0.05)), Seconds(0.05)).has_value());
     ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
-    devices_.stimulator->forceOff();
-    const auto status = devices_.stimulator->status();  // its ack comes behind the stops
+    repeating->forceOff();
+    const auto status = repeating->status();  // its ack comes behind the stops
     ASSERT_TRUE(status.has_value()) << status.error().message;
     EXPECT_FALSE(status->delivering);
     EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
@@ -249,6 +277,21 @@ TEST_F(ScienceModePty, AHungUpTerminalIsADeviceThatIsGone) {
 TEST_F(ScienceModePty, RefusesWhatIsNoTerminal) {
     EXPECT_EQ(open("sciencemode:?tty=/no/such/terminal").error().code, ErrorCode::NotFound);
     EXPECT_EQ(open("sciencemode:?tty=/dev/null").error().code, ErrorCode::Io);
+}
+
+TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgramIsNamed) {
+    RecordProperty("hazard", "H2");
+    {
+        const OtherProgram other(pty_->path(), true);
+        const auto refused = open("sciencemode:?tty=" + pty_->path());
+        ASSERT_FALSE(refused.has_value());
+        EXPECT_EQ(refused.error().code, ErrorCode::Io);
+        EXPECT_THAT(refused.error().message,
+                    testing::AllOf(HasSubstr(pty_->path()), HasSubstr(other.text()), HasSubstr("close that program")));
+    }
+    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    // Nor do two parts of this program share it.
+    EXPECT_EQ(TtyTransport::open(pty_->path()).error().code, ErrorCode::Io);
 }
 
 TEST_F(ScienceModePty, AReadWaitsNoLongerThanItIsAllowed) {

@@ -3,23 +3,27 @@
 #include <cstdio>
 #include <thread>
 
-#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/sciencemode/ScienceModeStimulator.h"
+#include "drivers/sciencemode/TtyTransport.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 
 int main(int argumentCount, char** arguments) {
     using namespace tacto;
     if (argumentCount != 2) return 2;
     const SteadyClock clock;
-    DeviceSet devices;
-    const DeviceUri uri{"sciencemode", "", {{"tty", arguments[1]}, {"level", "mid"}}};
-    const auto opened = makeScienceModeDriver(nullptr)->open(uri, {}, OpenContext{clock, 1, "1 kohm"}, devices);
+    // The mode of the device that repeats by itself, which no URI opens.
+    sciencemode::StimulatorSettings settings;
+    settings.midLevel = true;
+    const std::string terminal = arguments[1];
+    const auto opened = sciencemode::ScienceModeStimulator::open(
+        [&] { return sciencemode::TtyTransport::open(terminal); }, "sciencemode:", {}, settings, clock);
     if (!opened) {
         std::fprintf(stderr, "%s\n", opened.error().message.c_str());
         return 1;
     }
-    const auto gate = test::wideGate(clock, devices.stimulator->traits());
-    auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices.stimulator);
-    const auto begun = repeating.repeat(test::approve(*gate, clock, test::biphasic(5), Seconds(0.5)), Seconds(0.5));
+    auto& stimulator = **opened;
+    const auto gate = test::wideGate(clock, stimulator.traits());
+    const auto begun = stimulator.repeat(test::approve(*gate, clock, test::biphasic(5), Seconds(0.5)), Seconds(0.5));
     if (!begun) {
         std::fprintf(stderr, "%s\n", begun.error().message.c_str());
         return 1;
@@ -27,7 +31,7 @@ int main(int argumentCount, char** arguments) {
     std::puts("delivering");
     std::fflush(stdout);
     for (;;) {
-        if (const auto kept = devices.stimulator->keepAlive(); !kept) {
+        if (const auto kept = stimulator.keepAlive(); !kept) {
             std::fprintf(stderr, "%s\n", kept.error().message.c_str());
             return 1;
         }

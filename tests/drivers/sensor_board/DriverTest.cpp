@@ -25,7 +25,11 @@ public:
     std::vector<TransportPort> list() const override {
         std::vector<TransportPort> found = extra;
         for (const auto& line : lines) {
-            for (auto& port : line->list()) found.push_back(port);
+            for (auto& port : line->list()) {
+                port.place = fmt::format("1-{}", found.size() + 1);
+                if (port.serial == hideSerial) port.serial.clear();
+                found.push_back(port);
+            }
         }
         return found;
     }
@@ -41,6 +45,7 @@ public:
     std::vector<std::shared_ptr<EmulatedBoardLine>> lines;
     std::vector<TransportPort> extra;
     std::string terminal;
+    std::string hideSerial;  ///< of the board that has none in its USB descriptor
     int opened = 0;
 };
 
@@ -80,6 +85,24 @@ TEST_F(SensorBoardDriverTest, OpensTheFirstThatAnswersOrTheOneNamed) {
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
     EXPECT_EQ(devices_.sensor->identity().uri, "sensor:TSB-2");
     EXPECT_FALSE(devices_.sensor->identity().simulated);
+}
+
+TEST_F(SensorBoardDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
+    RecordProperty("hazard", "H4");
+    ports_->hideSerial = "TSB-2";
+    const auto found = driver_->list();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].uri, "sensor:TSB-1");
+    const auto place = ports_->list()[1].place;
+    EXPECT_EQ(found[1].uri, "sensor:" + place);
+    ASSERT_TRUE(open(found[1].uri).has_value());
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
+    EXPECT_EQ(ports_->opened, 1);
+    devices_.sensor.reset();
+    // It tells its own serial number when it is asked.
+    ASSERT_TRUE(open("sensor:TSB-2").has_value());
+    EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
+    EXPECT_EQ(ports_->opened, 2);
 }
 
 TEST_F(SensorBoardDriverTest, PassesOverABoardThatMayNotBeOpened) {

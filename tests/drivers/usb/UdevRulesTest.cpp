@@ -5,7 +5,9 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <sys/wait.h>
 
+#include "drivers/system/Permission.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -55,6 +57,74 @@ TEST(UdevRules, AreCopiedByInstallRules) {
     EXPECT_EQ(textOf(target / "70-tactoscope.rules"), textOf(rules()));
     EXPECT_NE(textOf(scratch.path() / "said").find("Copied resources/udev/70-tactoscope.rules to " + target.string()),
               std::string::npos);
+}
+
+class InstallRules : public testing::Test {
+protected:
+    /// The exit code; what it said goes to said().
+    int run(const std::string& options) const {
+        const auto command = fmt::format("{} install-rules {} 2>{}", (sourceDir() / "dev").string(), options,
+                                         (scratch.path() / "said").string());
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string said() const { return textOf(scratch.path() / "said"); }
+    std::string own() const { return textOf(target / "71-tactoscope-devices.rules"); }
+    static std::string rulesFor(const std::string& vendor, const std::string& product, const std::string& grant) {
+        return fmt::format(
+            "SUBSYSTEM==\"usb\", ENV{{DEVTYPE}}==\"usb_device\", ATTR{{idVendor}}==\"{0}\", "
+            "ATTR{{idProduct}}==\"{1}\", {2}\n"
+            "SUBSYSTEM==\"hidraw\", ATTRS{{idVendor}}==\"{0}\", ATTRS{{idProduct}}==\"{1}\", {2}\n",
+            vendor, product, grant);
+    }
+
+    const ScratchDir scratch;
+    const std::filesystem::path target = scratch.path() / "rules.d";
+};
+
+TEST_F(InstallRules, ADeviceThatTheyDoNotNameIsAddedAndThoseBeforeItAreKept) {
+    ASSERT_EQ(run("--device 1234:ABCD " + target.string()), 0) << said();
+    EXPECT_NE(own().find(rulesFor("1234", "abcd", "TAG+=\"uaccess\"")), std::string::npos) << own();
+    EXPECT_EQ(textOf(target / "70-tactoscope.rules"), textOf(rules()));
+    ASSERT_EQ(run("--device 5678:0001 --device 5678:0002 " + target.string()), 0) << said();
+    for (const auto* product : {"0001", "0002"}) {
+        EXPECT_NE(own().find(rulesFor("5678", product, "TAG+=\"uaccess\"")), std::string::npos) << own();
+    }
+    EXPECT_NE(own().find(rulesFor("1234", "abcd", "TAG+=\"uaccess\"")), std::string::npos) << own();
+}
+
+TEST_F(InstallRules, AGroupMayOpenEveryDeviceWhereThereIsNoSeat) {
+    ASSERT_EQ(run("--device 1234:5678 --group plugdev " + target.string()), 0) << said();
+    const std::string grant = "TAG+=\"uaccess\", GROUP=\"plugdev\", MODE=\"0660\"";
+    EXPECT_NE(own().find(rulesFor("1234", "5678", grant)), std::string::npos) << own();
+    const auto all = textOf(target / "70-tactoscope.rules");
+    std::istringstream lines(all);
+    int granted = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("TAG+=\"uaccess\"") == std::string::npos) continue;
+        ++granted;
+        EXPECT_NE(line.find(grant), std::string::npos) << line;
+    }
+    EXPECT_EQ(granted, 13);
+}
+
+TEST_F(InstallRules, WhatIsNoDeviceOrGroupIsRefusedAndNothingIsCopied) {
+    for (const auto* wrong : {"--device 1234", "--device 12345:6789", "--device '1234:5678\",RUN+=\"x'", "--device",
+                              "--group 'a b'", "--group", "--seat 1"}) {
+        EXPECT_EQ(run(std::string(wrong) + " " + target.string()), 2) << wrong << ": " << said();
+        EXPECT_FALSE(std::filesystem::exists(target)) << wrong;
+    }
+}
+
+TEST(Permission, OverSshTheSentenceSaysThatTheSeatsRuleDoesNotHelp) {
+    EXPECT_EQ(permissionAdvice({}, Login::Seat), "run \"./dev install-rules\" once, then plug the device in again.");
+    EXPECT_EQ(permissionAdvice("1234:5678", Login::Seat),
+              "run \"./dev install-rules --device 1234:5678\" once, then plug the device in again.");
+    const auto ssh = permissionAdvice("1234:5678", Login::Ssh);
+    for (const auto* part : {"over ssh", "no seat", "\"./dev install-rules --device 1234:5678 --group plugdev\"",
+                             "usermod -aG plugdev", "log in again"}) {
+        EXPECT_NE(ssh.find(part), std::string::npos) << part << ": " << ssh;
+    }
 }
 
 }  // namespace

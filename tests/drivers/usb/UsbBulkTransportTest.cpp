@@ -106,7 +106,46 @@ TEST_F(UsbBulk, ADeviceThatAnotherProgramUsesIsRefused) {
     const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::Io);
-    EXPECT_THAT(opened.error().message, HasSubstr("another program uses it"));
+    EXPECT_THAT(opened.error().message, HasSubstr("close that program first"));
+    EXPECT_FALSE(UsbBulkTransport::open(context, context->devices().front(), {}))
+        << "the first try took its claim away";
+}
+
+TEST_F(UsbBulk, ADeviceIsNotTakenFromAProgramThatUsesItsTerminalAndThatProgramIsNamed) {
+    RecordProperty("hazard", "H2");
+    EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
+    ASSERT_TRUE(waitForDevices(1));
+    {
+        const OtherProgram other(device.addTerminal("ttyACM0"));
+        const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
+        ASSERT_FALSE(opened);
+        EXPECT_EQ(opened.error().code, ErrorCode::Io);
+        EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("/dev/ttyACM0"), HasSubstr(other.text()),
+                                                           HasSubstr("close that program")));
+        EXPECT_TRUE(device.kernelDriverBound());
+        EXPECT_TRUE(device.requests().empty()) << "it was not spoken to either";
+    }
+    EXPECT_TRUE(UsbBulkTransport::open(context, context->devices().front(), {}));
+}
+
+TEST_F(UsbBulk, AProgramThatHasClaimedTheDeviceIsNamed) {
+    EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {});
+    ASSERT_TRUE(waitForDevices(1));
+    device.claimElsewhere(0);
+    const OtherProgram other(device.nodeFile());
+    const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("/dev/bus/usb/001/002"), HasSubstr(other.text())));
+}
+
+TEST_F(UsbBulk, TheKernelsDriverThatAKilledProgramTookAwayIsBackAfterTheNextClosing) {
+    EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
+    device.loseKernelDriver();
+    auto transport = open(device);
+    ASSERT_TRUE(transport);
+    EXPECT_FALSE(device.kernelDriverBound());
+    transport.reset();
+    EXPECT_TRUE(device.kernelDriverBound());
 }
 
 TEST_F(UsbBulk, AReadEndsWithItsTimeAndAZeroTimeOnlyLooks) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "drivers/usb/UsbBulkTransport.h"
+#include "tests/support/OtherProgram.h"
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
 
 namespace tacto::test {

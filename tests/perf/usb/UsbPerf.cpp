@@ -8,7 +8,7 @@
 
 #include "core/bench/StimulatorSession.h"
 #include "core/safety/SafetyGate.h"
-#include "drivers/sciencemode/ScienceModeDriver.h"
+#include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/usb/UsbPorts.h"
 #include "tests/drivers/sciencemode/EmulatedOnUsb.h"
 #include "tests/support/Support.h"
@@ -140,22 +140,22 @@ int run() {
     test::EmulatedOnUsb plugged(bed, clock);
     auto ports = std::make_shared<WatchedPorts>(makeUsbPorts(makeUsbProvider(), {{0x0483, 0x5740}}, {}));
     for (int i = 0; i < 500 && ports->list().empty(); ++i) std::this_thread::sleep_for(10ms);
-    auto driver = makeScienceModeDriver(ports);
-    DeviceSet devices;
-    const auto opened = driver->open(*DeviceUri::parse("sciencemode:?level=mid"), {Role::Stimulator},
-                                     OpenContext{clock, 1, "1 kohm"}, devices);
+    sciencemode::StimulatorSettings settings;
+    settings.midLevel = true;
+    const auto opened = sciencemode::ScienceModeStimulator::open([&] { return ports->open(ports->list().at(0)); },
+                                                                 "sciencemode:", {}, settings, clock);
     if (!opened) {
         fmt::print(stderr, "{}\n", opened.error().message);
         return 1;
     }
     SafetyGate gate(clock);
-    if (const auto configured = gate.configure(setupFor(devices.stimulator->traits())); !configured) {
+    if (const auto configured = gate.configure(setupFor((*opened)->traits())); !configured) {
         fmt::print(stderr, "{}\n", configured.error().message);
         return 1;
     }
     fmt::print("USB, emulated by umockdev\n");
-    latency(*devices.stimulator, *ports->transport, gate, clock);
-    keepAlive(*devices.stimulator, gate, clock);
+    latency(**opened, *ports->transport, gate, clock);
+    keepAlive(**opened, gate, clock);
     return 0;
 }
 

@@ -86,6 +86,12 @@ void EmulatedUsbDevice::unplug() {
     }
     node.reset();
     umockdev_testbed_detach_ioctl(e.testbed.get(), e.path.c_str(), nullptr);
+    if (!e.terminal.empty()) {
+        for (const auto& folder : {e.terminal, fmt::format("{}/{}:1.0", e.sysfs, e.socket)}) {
+            umockdev_testbed_remove_device(e.testbed.get(), folder.c_str());
+        }
+        e.terminal.clear();
+    }
     umockdev_testbed_uevent(e.testbed.get(), e.sysfs.c_str(), "remove");
     umockdev_testbed_remove_device(e.testbed.get(), e.sysfs.c_str());
 }
@@ -144,6 +150,29 @@ void EmulatedUsbDevice::claimElsewhere(std::uint8_t interface) {
     emulation_->elsewhere.insert(interface);
 }
 
+void EmulatedUsbDevice::loseKernelDriver() {
+    const std::lock_guard lock(emulation_->mutex);
+    emulation_->kernelBound = false;
+}
+
+std::filesystem::path EmulatedUsbDevice::addTerminal(const std::string& name) {
+    auto& e = *emulation_;
+    GError* error = nullptr;
+    const auto text = fmt::format(
+        "P: {0}/{1}:1.0\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_interface\nE: DRIVER=cdc_acm\nA: bInterfaceNumber=00\\n\n\n"
+        "P: {0}/{1}:1.0/tty/{2}\nN: {2}\nE: SUBSYSTEM=tty\nE: DEVNAME=/dev/{2}\nE: MAJOR=166\nE: MINOR=0\n",
+        e.sysfs.substr(4), e.socket, name);
+    umockdev_testbed_add_from_string(e.testbed.get(), text.c_str(), &error);
+    check(error, "adding an emulated terminal");
+    e.terminal = fmt::format("{}/{}:1.0/tty/{}", e.sysfs, e.socket, name);
+    return e.testbed.root() / "dev" / name;
+}
+
+std::filesystem::path EmulatedUsbDevice::nodeFile() const {
+    const std::lock_guard lock(emulation_->mutex);
+    return emulation_->testbed.root() / emulation_->path.substr(1);
+}
+
 bool EmulatedUsbDevice::waitForWaiting(std::uint8_t endpoint, std::size_t transfers) const {
     auto& e = *emulation_;
     std::unique_lock lock(e.mutex);
@@ -161,6 +190,17 @@ std::vector<UsbBytes> EmulatedUsbDevice::waitForReceived(std::size_t transfers) 
 std::vector<UsbSetup> EmulatedUsbDevice::requests() const {
     const std::lock_guard lock(emulation_->mutex);
     return emulation_->requests;
+}
+
+std::vector<UsbSetup> EmulatedUsbDevice::waitForRequests(std::size_t count) const {
+    std::unique_lock lock(emulation_->mutex);
+    emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->requests.size() >= count; });
+    return emulation_->requests;
+}
+
+bool EmulatedUsbDevice::waitForKernelDriver() const {
+    std::unique_lock lock(emulation_->mutex);
+    return emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->kernelBound; });
 }
 
 bool EmulatedUsbDevice::kernelDriverBound() const {

@@ -13,6 +13,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -76,6 +77,13 @@ public:
     void permit(bool permitted);
     /// Claims an interface as another program would.
     void claimElsewhere(std::uint8_t interface);
+    /// The kernel's driver lets go without coming back: what a program that was killed leaves behind.
+    void loseKernelDriver();
+    /// The kernel's driver offers it as this terminal, "ttyACM0", of interface 0, until it is unplugged. Returns the
+    /// file that is behind /dev/ttyACM0.
+    [[nodiscard]] std::filesystem::path addTerminal(const std::string& name);
+    /// The file that is behind its node in /dev/bus/usb.
+    [[nodiscard]] std::filesystem::path nodeFile() const;
 
     /// Waits until so many of the host's transfers wait at the endpoint; false after 5 s.
     [[nodiscard]] bool waitForWaiting(std::uint8_t endpoint, std::size_t transfers) const;
@@ -83,8 +91,12 @@ public:
     [[nodiscard]] std::vector<UsbBytes> waitForReceived(std::size_t transfers) const;
     /// Class and vendor requests that the device got, in order.
     [[nodiscard]] std::vector<UsbSetup> requests() const;
+    /// The same, after waiting until there are so many; fewer after 5 s.
+    [[nodiscard]] std::vector<UsbSetup> waitForRequests(std::size_t count) const;
     /// Whether the kernel's driver holds its interfaces now.
     [[nodiscard]] bool kernelDriverBound() const;
+    /// Waits until it does; false after 5 s.
+    [[nodiscard]] bool waitForKernelDriver() const;
     /// Times that a host cleared a stall.
     [[nodiscard]] int cleared() const;
 

@@ -20,24 +20,26 @@ UsbSetup setupFrom(std::span<const std::uint8_t> b) {
 
 }  // namespace
 
+std::optional<UsbBytes> EmulatedUsbDevice::Emulation::answerTo(std::unique_lock<std::mutex>& lock,
+                                                               const UsbSetup& setup,
+                                                               std::span<const std::uint8_t> data) {
+    const bool input = (setup.type & kInput) != 0;
+    if ((setup.type & kTypeMask) == 0 && (setup.type & 0x1F) == 0) return standard(setup);
+    requests.push_back(setup);
+    changed.notify_all();
+    if (!behaviour.onRequest) return input ? std::nullopt : std::optional<UsbBytes>(std::in_place);
+    lock.unlock();
+    auto answer = behaviour.onRequest(setup, input ? std::span<const std::uint8_t>{} : data);
+    lock.lock();
+    return answer;
+}
+
 void EmulatedUsbDevice::Emulation::control(std::unique_lock<std::mutex>& lock, Urb urb) {
     const auto buffer = urb.buffer();
     const auto setup = setupFrom(buffer);
     const bool input = (setup.type & kInput) != 0;
     const auto data = buffer.subspan(kSetupSize, std::min<std::size_t>(buffer.size() - kSetupSize, setup.length));
-    std::optional<UsbBytes> answer;
-    if ((setup.type & kTypeMask) == 0 && (setup.type & 0x1F) == 0) {
-        answer = standard(setup);
-    } else {
-        requests.push_back(setup);
-        if (behaviour.onRequest) {
-            lock.unlock();
-            answer = behaviour.onRequest(setup, input ? std::span<std::uint8_t>{} : data);
-            lock.lock();
-        } else if (!input) {
-            answer.emplace();
-        }
-    }
+    const auto answer = answerTo(lock, setup, data);
     if (!answer) {
         wire.finish(std::move(urb), -EPIPE, 0);
     } else if (!input) {
@@ -49,6 +51,31 @@ void EmulatedUsbDevice::Emulation::control(std::unique_lock<std::mutex>& lock, U
         const int status = answer->size() > data.size() ? -EOVERFLOW : 0;
         wire.finish(std::move(urb), status, taken);
     }
+}
+
+EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::controlNow(std::unique_lock<std::mutex>& lock,
+                                                                              UMockdevIoctlData* argument,
+                                                                              const void* client) {
+    constexpr std::uint8_t kVendor = 0x40;
+    constexpr std::uint8_t kRecipientMask = 0x1F;
+    const IoctlData data(umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr));
+    const auto& asked = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
+    const UsbSetup setup{asked.bRequestType, asked.bRequest, asked.wValue, asked.wIndex, asked.wLength};
+    if ((setup.type & kInput) != 0) return refuse(ENOTTY);  // no test needs one
+    if ((setup.type & kTypeMask) != kVendor && (setup.type & kRecipientMask) == 1) {
+        const auto owner = claims.find(setup.index & 0xFFU);
+        if (owner == claims.end() || owner->second != client) return refuse(EBUSY);
+    }
+    if (controlHeld) return refuse(ETIMEDOUT);
+    std::span<const std::uint8_t> sent;
+    IoctlData bytes;
+    if (setup.length > 0) {
+        bytes.reset(
+            umockdev_ioctl_data_resolve(data.get(), offsetof(usbdevfs_ctrltransfer, data), setup.length, nullptr));
+        sent = {bytes->data, setup.length};
+    }
+    if (!answerTo(lock, setup, sent)) return refuse(EPIPE);
+    return {setup.length, 0};
 }
 
 std::optional<UsbBytes> EmulatedUsbDevice::Emulation::standard(const UsbSetup& setup) const {

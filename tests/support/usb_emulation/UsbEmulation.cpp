@@ -90,11 +90,16 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::ioctl(std::un
         }
         case USBDEVFS_GETDRIVER: {
             const auto data = resolve(argument.get(), 0, sizeof(usbdevfs_getdriver));
-            auto& asked = as<usbdevfs_getdriver>(data);
+            const auto& asked = as<usbdevfs_getdriver>(data);
             const bool held =
                 std::ranges::find(description.kernelInterfaces, asked.interface) != description.kernelInterfaces.end();
-            if (!kernelBound || !held) return refuse(ENODATA);
-            std::strncpy(asked.driver, description.kernelDriver.c_str(), sizeof asked.driver - 1);
+            const bool claimed = claims.contains(asked.interface) || elsewhere.contains(asked.interface);
+            if (!claimed && !(kernelBound && held)) return refuse(ENODATA);
+            auto driver = claimed ? std::string("usbfs") : description.kernelDriver;
+            // The request is declared as one that only takes (_IOW): what it gives must be sent back by hand.
+            umockdev_ioctl_data_update(data.get(), offsetof(usbdevfs_getdriver, driver),
+                                       reinterpret_cast<std::uint8_t*>(driver.data()),
+                                       static_cast<int>(driver.size() + 1));
             return {};
         }
         case USBDEVFS_IOCTL:
@@ -109,6 +114,10 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::ioctl(std::un
         case USBDEVFS_SETCONFIGURATION:
         case USBDEVFS_RESET:
             return {};
+        case USBDEVFS_CONTROL:
+            return controlNow(lock, argument.get(), client);
+        case USBDEVFS_BULK:
+            return bulkNow(lock, argument.get(), client);
         case USBDEVFS_SUBMITURB:
             return submit(lock, argument.get(), client);
         case USBDEVFS_REAPURB:
@@ -149,18 +158,23 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::claim(unsigne
 EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::driverIoctl(UMockdevIoctlData* argument) {
     const auto data = resolve(argument, 0, sizeof(usbdevfs_ioctl));
     const auto& held = description.kernelInterfaces;
+    const auto interface = static_cast<unsigned>(as<usbdevfs_ioctl>(data).ifno);
     switch (as<usbdevfs_ioctl>(data).ioctl_code) {
         case USBDEVFS_DISCONNECT:
+            // The kernel does not ask whose driver it is: a program's claim goes as well.
+            if (claims.erase(interface) + elsewhere.erase(interface) > 0) return {};
             if (!kernelBound) return refuse(ENODATA);
             kernelBound = false;
             return {};
         case USBDEVFS_CONNECT:
             // A driver of several interfaces binds through its first, and needs all of them.
-            if (kernelBound || held.empty() || held.front() != as<usbdevfs_ioctl>(data).ifno) return {};
-            if (std::ranges::any_of(held, [&](unsigned interface) { return claims.contains(interface); })) {
+            if (kernelBound || held.empty() || held.front() != interface) return {};
+            if (std::ranges::any_of(held,
+                                    [&](unsigned one) { return claims.contains(one) || elsewhere.contains(one); })) {
                 return refuse(EBUSY);
             }
             kernelBound = true;
+            changed.notify_all();
             return {1, 0};
         default:
             return refuse(ENOTTY);
@@ -200,6 +214,29 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::submit(std::u
     }
     pump(lock);
     return {};
+}
+
+EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::bulkNow(std::unique_lock<std::mutex>& lock,
+                                                                           UMockdevIoctlData* argument,
+                                                                           const void* client) {
+    const auto data = resolve(argument, 0, sizeof(usbdevfs_bulktransfer));
+    const auto& asked = as<usbdevfs_bulktransfer>(data);
+    const auto endpoint = static_cast<std::uint8_t>(asked.ep);
+    if (!wire.knows(endpoint)) return refuse(ENOENT);
+    if ((endpoint & kInput) != 0) return refuse(ENOTTY);  // no test needs one
+    const auto owner = claims.find(wire.interfaceOf(endpoint));
+    if (owner == claims.end() || owner->second != client) return refuse(EBUSY);
+    if (!wire.takes(endpoint)) return refuse(ETIMEDOUT);
+    const auto bytes = resolve(data.get(), offsetof(usbdevfs_bulktransfer, data), asked.len);
+    received.emplace_back(bytes->data, bytes->data + asked.len);
+    const auto copy = received.back();
+    changed.notify_all();
+    if (behaviour.onBytes) {
+        lock.unlock();
+        static_cast<void>(behaviour.onBytes(copy));
+        lock.lock();
+    }
+    return {static_cast<long>(copy.size()), 0};
 }
 
 void EmulatedUsbDevice::Emulation::pump(std::unique_lock<std::mutex>& lock) {

@@ -36,8 +36,13 @@ struct EmulatedUsbDevice::Emulation {
     Answer submit(std::unique_lock<std::mutex>& lock, UMockdevIoctlData* argument, const void* client);
     Answer claim(unsigned interface, const void* client);
     Answer driverIoctl(UMockdevIoctlData* argument);
+    Answer controlNow(std::unique_lock<std::mutex>& lock, UMockdevIoctlData* argument, const void* client);
+    Answer bulkNow(std::unique_lock<std::mutex>& lock, UMockdevIoctlData* argument, const void* client);
     Answer clearHalt(unsigned endpoint);
     void control(std::unique_lock<std::mutex>& lock, Urb urb);
+    /// What the device says to a request; nothing: it stalls. `data` is what came with it.
+    std::optional<UsbBytes> answerTo(std::unique_lock<std::mutex>& lock, const UsbSetup& setup,
+                                     std::span<const std::uint8_t> data);
     std::optional<UsbBytes> standard(const UsbSetup& setup) const;
     /// Moves what can move; calls the device with the lock let go.
     void pump(std::unique_lock<std::mutex>& lock);
@@ -51,6 +56,7 @@ struct EmulatedUsbDevice::Emulation {
     const UsbBehaviour behaviour;
     const std::string socket;
     const std::string sysfs;
+    std::string terminal;  // its folder in /sys; empty: none. The test's thread only
 
     mutable std::mutex mutex;  // guards all below
     mutable std::condition_variable changed;

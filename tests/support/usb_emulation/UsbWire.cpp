@@ -44,6 +44,11 @@ void UsbWire::setHalted(std::uint8_t endpoint, bool halted) { endpoints_.at(endp
 void UsbWire::setHeld(std::uint8_t endpoint, bool held) { endpoints_.at(endpoint).held = held; }
 void UsbWire::takeOnly(std::uint8_t endpoint, std::size_t bytes) { endpoints_.at(endpoint).takeOnly = bytes; }
 
+bool UsbWire::takes(std::uint8_t endpoint) const {
+    const auto& at = endpoints_.at(endpoint);
+    return !at.held && !at.halted && at.waiting.empty();
+}
+
 void UsbWire::submit(Urb urb) {
     auto& endpoint = endpoints_.at(urb.get().endpoint);
     endpoint.waiting.push_back(std::move(urb));

@@ -48,6 +48,8 @@ public:
     void setHeld(std::uint8_t endpoint, bool held);
     /// The next OUT transfer ends after so many bytes.
     void takeOnly(std::uint8_t endpoint, std::size_t bytes);
+    /// Whether an OUT transfer would be taken now.
+    [[nodiscard]] bool takes(std::uint8_t endpoint) const;
 
     [[nodiscard]] bool knows(std::uint8_t endpoint) const noexcept { return facts_.contains(endpoint); }
     [[nodiscard]] std::uint8_t interfaceOf(std::uint8_t endpoint) const { return facts_.at(endpoint).interface; }

@@ -1,0 +1,31 @@
+// Watchdog.h - keeps a massager's stop outside of this program, because nothing inside can send it after kill -9.
+//
+// A watchdog sends the stop when the program that made it ends without saying so, in whatever way, and when the program
+// is silent for kSilence while output is on. A massager without a watchdog is not driven (safety.md, "The gate").
+//
+// Thread-safety: one caller at a time. Destruction after rest() ends the watchdog; without it the watchdog sends the
+// stop.
+#pragma once
+
+#include <memory>
+
+#include "core/base/Result.h"
+#include "core/base/Units.h"
+#include "drivers/hid_massager/WatchdogLine.h"
+
+namespace tacto::hid {
+
+class Watchdog {
+public:
+    static constexpr Instant kSilence = kWatchdogSilence;            ///< with output on; the stop follows it
+    static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
+
+    virtual ~Watchdog() = default;
+    /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended: then there must be no
+    /// output.
+    [[nodiscard]] virtual bool beat() noexcept = 0;
+    /// The device took its stop: silence is allowed until the next beat(). Never waits.
+    virtual void rest() noexcept = 0;
+};
+
+}  // namespace tacto::hid

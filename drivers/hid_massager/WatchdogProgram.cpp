@@ -1,0 +1,178 @@
+// tactoscope-watchdog - sends a massager's stop report when the program that started it dies in whatever way (kill -9,
+// abort, out of memory), or is silent while output is on. Started by drivers/hid_massager/WatchdogProcess; of no use
+// by itself.
+//
+// It has a session of its own and ignores what a terminal sends, so that Ctrl-C and Ctrl-Z reach only the program. The
+// device's node is opened at the start and so stays the same device. All memory is taken before the first beat.
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <linux/usbdevice_fs.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "drivers/hid_massager/StopWay.h"
+#include "drivers/hid_massager/WatchdogLine.h"
+
+namespace tacto::hid {
+namespace {
+
+using SteadyTime = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRetry{20};
+constexpr std::chrono::seconds kRetriesMost{60};  // a device that takes no stop for so long is beyond this program
+constexpr unsigned kTransfer_ms = 200;
+
+enum class Sent { Taken, Gone, Failed };
+
+Sent outcomeOf(bool taken) {
+    if (taken) return Sent::Taken;
+    return errno == ENODEV || errno == ESHUTDOWN ? Sent::Gone : Sent::Failed;
+}
+
+class Device {
+public:
+    explicit Device(StopWay way) : way_(std::move(way)), node_(open(way_.node.c_str(), O_RDWR | O_CLOEXEC)) {}
+    [[nodiscard]] bool isOpen() const noexcept { return node_ >= 0; }
+
+    Sent sendStop() {
+        if (way_.kind == StopWay::Kind::Hidraw) {
+            return outcomeOf(write(node_, way_.bytes.data(), way_.bytes.size()) == std::ssize(way_.bytes));
+        }
+        if (way_.needsClaim() && !claim()) return outcomeOf(false);
+        const auto sent = outcomeOf(way_.endpoint == 0 ? sendControl() : sendInterrupt());
+        unsigned interface = way_.interface;
+        if (way_.needsClaim()) ioctl(node_, USBDEVFS_RELEASEINTERFACE, &interface);
+        return sent;
+    }
+
+    /// The dead program had taken the interface from the kernel's driver, which gets it back.
+    void giveBack() {
+        if (way_.kind != StopWay::Kind::Usb) return;
+        usbdevfs_ioctl command{way_.interface, USBDEVFS_CONNECT, nullptr};
+        ioctl(node_, USBDEVFS_IOCTL, &command);
+    }
+
+private:
+    bool claim() {
+        unsigned interface = way_.interface;
+        if (ioctl(node_, USBDEVFS_CLAIMINTERFACE, &interface) == 0) return true;
+        if (errno != EBUSY) return false;
+        // The program that this watches is silent, or the kernel's driver came back before the stop did.
+        usbdevfs_ioctl command{way_.interface, USBDEVFS_DISCONNECT, nullptr};
+        ioctl(node_, USBDEVFS_IOCTL, &command);
+        return ioctl(node_, USBDEVFS_CLAIMINTERFACE, &interface) == 0;
+    }
+
+    bool sendControl() {
+        const auto word = [&](std::size_t at) {
+            return static_cast<std::uint16_t>(way_.setup[at] | way_.setup[at + 1] << 8);
+        };
+        usbdevfs_ctrltransfer transfer{};
+        transfer.bRequestType = way_.setup[0];
+        transfer.bRequest = way_.setup[1];
+        transfer.wValue = word(2);
+        transfer.wIndex = word(4);
+        transfer.wLength = static_cast<std::uint16_t>(way_.bytes.size());
+        transfer.timeout = kTransfer_ms;
+        transfer.data = way_.bytes.data();
+        return ioctl(node_, USBDEVFS_CONTROL, &transfer) == static_cast<int>(way_.bytes.size());
+    }
+
+    bool sendInterrupt() {
+        usbdevfs_bulktransfer transfer{way_.endpoint, static_cast<unsigned>(way_.bytes.size()), kTransfer_ms,
+                                       way_.bytes.data()};
+        return ioctl(node_, USBDEVFS_BULK, &transfer) == static_cast<int>(way_.bytes.size());
+    }
+
+    StopWay way_;
+    const int node_;
+};
+
+void tell(WatchdogWord word, int error = 0) {
+    char message[1 + sizeof error] = {static_cast<char>(word)};
+    std::memcpy(message + 1, &error, sizeof error);
+    send(kWatchdogSocket, message, sizeof message, MSG_NOSIGNAL);
+}
+
+/// Milliseconds until `when` for poll(), rounded up.
+int timeUntil(SteadyTime::time_point when) {
+    const auto left = std::chrono::ceil<milliseconds>(when - SteadyTime::now()).count();
+    return left < 0 ? 0 : static_cast<int>(left);
+}
+
+/// Returns when there is nothing left to watch.
+int watch(Device& device) {
+    bool orphaned = false;
+    bool stopDue = false;
+    bool on = false;
+    SteadyTime::time_point silentAt{};  // while on
+    SteadyTime::time_point giveUpAt{};  // while orphaned
+    for (;;) {
+        if (stopDue) {
+            const auto sent = device.sendStop();
+            if (sent == Sent::Gone && orphaned) return 0;
+            if (sent != Sent::Failed) stopDue = on = false;
+        }
+        if (orphaned && !stopDue) {
+            device.giveBack();
+            return 0;
+        }
+        if (orphaned && SteadyTime::now() >= giveUpAt) return 1;
+        pollfd line{orphaned ? -1 : kWatchdogSocket, POLLIN, 0};
+        const int timeout = stopDue ? static_cast<int>(kRetry.count()) : on ? timeUntil(silentAt) : -1;
+        const int came = poll(&line, 1, timeout);
+        if (came < 0) continue;
+        if (came == 0) {
+            stopDue = true;
+            continue;
+        }
+        char word = 0;
+        const auto length = recv(kWatchdogSocket, &word, 1, 0);
+        if (length < 0 && errno == EINTR) continue;
+        if (length <= 0) {
+            orphaned = stopDue = true;
+            giveUpAt = SteadyTime::now() + kRetriesMost;
+        } else if (word == static_cast<char>(WatchdogWord::Beat)) {
+            on = true;
+            silentAt = SteadyTime::now() + kWatchdogSilence;
+        } else if (word == static_cast<char>(WatchdogWord::Rest)) {
+            on = stopDue = false;
+        } else if (word == static_cast<char>(WatchdogWord::Leave)) {
+            return 0;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tacto::hid
+
+int main(int argumentCount, char** arguments) {
+    using namespace tacto::hid;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU, SIGUSR1, SIGUSR2}) {
+        std::signal(signal, SIG_IGN);
+    }
+    // What the program had open must not stay open after its death.
+    close_range(kWatchdogSocket + 1, ~0U, 0);
+    auto way = StopWay::read(argumentCount - 1, arguments + 1);
+    if (!way || fcntl(kWatchdogSocket, F_GETFD) < 0) {
+        std::fputs("tactoscope-watchdog is started by Tactoscope, which gives it a massager to stop.\n", stderr);
+        return 2;
+    }
+    fcntl(kWatchdogSocket, F_SETFD, FD_CLOEXEC);
+    Device device(std::move(*way));
+    if (!device.isOpen()) {
+        tell(WatchdogWord::Failed, errno);
+        return 1;
+    }
+    mlockall(MCL_CURRENT | MCL_FUTURE);  // where it is allowed: it must run when memory is short
+    tell(WatchdogWord::Ready);
+    return watch(device);
+}

@@ -1,0 +1,271 @@
+// H2 end to end: another process drives an emulated massager and dies in the middle of a burst. The device lives here,
+// as hardware would: it must be sent its stop, which the dead process cannot do.
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "drivers/hid_massager/HidDriver.h"
+#include "drivers/hid_massager/TrancePort.h"
+#include "drivers/hid_massager/WatchdogProcess.h"
+#include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/usb_emulation/EmulatedHidDevice.h"
+
+namespace tacto::test {
+namespace {
+
+using hid::StopWay;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using Steady = std::chrono::steady_clock;
+
+constexpr milliseconds kStopWithin{500};
+constexpr std::size_t kLength = 48;
+
+/// The program that drives the massager.
+class Host {
+public:
+    explicit Host(std::string uri) {
+        std::array<int, 2> out{};
+        std::array<int, 2> in{};
+        if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(in.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
+        std::string program = TACTO_HOST_PROGRAM;
+        std::array<char*, 3> arguments{program.data(), uri.data(), nullptr};
+        const int spawned = posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        close(out[1]);
+        close(in[0]);
+        said_ = out[0];
+        tell_ = in[1];
+        if (spawned != 0) throw std::runtime_error("the host does not start");
+    }
+    ~Host() {
+        if (process_ > 0) {
+            kill(process_, SIGKILL);
+            waitpid(process_, nullptr, 0);
+        }
+        close(said_);
+        close(tell_);
+    }
+    Host(const Host&) = delete;
+    Host& operator=(const Host&) = delete;
+
+    [[nodiscard]] bool vibrates() const {
+        char first = 0;
+        return read(said_, &first, 1) == 1;
+    }
+    void signal(int number) const { kill(process_, number); }
+    void tell(std::string_view word) const {
+        ASSERT_EQ(write(tell_, word.data(), word.size()), std::ssize(word));
+        ASSERT_EQ(write(tell_, "\n", 1), 1);
+    }
+    /// Waits for its end; how it ended, as waitpid() says.
+    int ended() {
+        int status = 0;
+        waitpid(std::exchange(process_, -1), &status, 0);
+        return status;
+    }
+
+private:
+    pid_t process_ = -1;
+    int said_ = -1, tell_ = -1;
+};
+
+struct Death {
+    const char* name;
+    const char* word;  ///< what the host is told; empty: it is sent `signal`
+    int signal;        ///< that ends it; 0: it exits
+};
+constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
+                                        {"Abort", "abort", SIGABRT},
+                                        {"Segfault", "segv", SIGSEGV},
+                                        {"Interrupt", "", SIGINT},
+                                        {"ExitWithoutClosing", "exit", 0}}};
+
+class WatchdogDeath : public testing::TestWithParam<Death> {
+protected:
+    void SetUp() override { RecordProperty("hazard", "H2"); }
+    static void die(Host& host) {
+        const auto& how = GetParam();
+        if (*how.word != '\0')
+            host.tell(how.word);
+        else
+            host.signal(how.signal);
+        const int status = host.ended();
+        if (how.signal == 0) {
+            EXPECT_TRUE(WIFEXITED(status));
+        } else {
+            ASSERT_TRUE(WIFSIGNALED(status)) << status;
+            EXPECT_EQ(WTERMSIG(status), how.signal);
+        }
+    }
+
+    UsbTestbed bed;
+};
+
+UsbBytes padReport(std::uint8_t intensity) {
+    UsbBytes report{2, 3, 0, intensity, intensity};
+    report.resize(kLength);
+    return report;
+}
+
+TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    Host host("hid:054c:0ce6?backend=hidraw");
+    ASSERT_TRUE(host.vibrates()) << "the host ended without driving the massager";
+    ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
+    die(host);
+    const auto dead = Steady::now();
+    const auto all = pad.waitForReports(3);
+    EXPECT_LE(Steady::now() - dead, kStopWithin);
+    EXPECT_THAT(all, testing::ElementsAre(padReport(0), padReport(255), padReport(0)));
+}
+
+TEST_P(WatchdogDeath, AMassagerOverLibusbGetsItsStopAndItsKernelDriver) {
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    Host host("hid:054c:0ce6?backend=libusb");
+    ASSERT_TRUE(host.vibrates());
+    ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
+    EXPECT_FALSE(pad.usb().kernelDriverBound());
+    die(host);
+    const auto dead = Steady::now();
+    const auto all = pad.waitForReports(3);
+    EXPECT_LE(Steady::now() - dead, kStopWithin);
+    EXPECT_THAT(all, testing::ElementsAre(padReport(0), padReport(255), padReport(0)));
+    EXPECT_TRUE(pad.usb().waitForKernelDriver());
+}
+
+TEST_P(WatchdogDeath, ATranceVibratorGetsItsStop) {
+    EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
+    Host host("hid:0b49:064f");
+    ASSERT_TRUE(host.vibrates());
+    const auto speeds = [&](std::size_t count) {
+        std::vector<int> all;
+        for (const auto& setup : device.waitForRequests(count)) all.push_back(setup.value);
+        return all;
+    };
+    ASSERT_EQ(speeds(2).back(), 255);
+    die(host);
+    const auto dead = Steady::now();
+    const auto all = speeds(3);
+    EXPECT_LE(Steady::now() - dead, kStopWithin);
+    EXPECT_THAT(all, testing::ElementsAre(0, 255, 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Deaths, WatchdogDeath, testing::ValuesIn(kDeaths),
+                         [](const testing::TestParamInfo<Death>& death) { return std::string(death.param.name); });
+
+class WatchdogStandstill : public testing::TestWithParam<const char*> {
+protected:
+    UsbTestbed bed;
+};
+
+TEST_P(WatchdogStandstill, AProgramThatStandsStillInABurstIsStoppedForAndStaysOff) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    Host host(fmt::format("hid:054c:0ce6?backend={}", GetParam()));
+    ASSERT_TRUE(host.vibrates());
+    ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
+    host.signal(SIGSTOP);
+    const auto stopped = Steady::now();
+    EXPECT_EQ(pad.waitForReports(3).back(), padReport(0));
+    EXPECT_LE(Steady::now() - stopped, kStopWithin);
+    host.signal(SIGCONT);
+    host.tell("over");  // and it ends in order
+    EXPECT_EQ(host.ended(), 0);
+    for (std::size_t i = 2; i < pad.waitForReports(3).size(); ++i) EXPECT_EQ(pad.waitForReports(3)[i], padReport(0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, WatchdogStandstill, testing::Values("hidraw", "libusb"),
+                         [](const testing::TestParamInfo<const char*>& name) { return std::string(name.param); });
+
+class WatchdogProcessTest : public testing::Test {
+protected:
+    void SetUp() override { RecordProperty("hazard", "H2"); }
+    static StopWay hidraw() {
+        StopWay way;
+        way.node = "/dev/hidraw0";
+        way.bytes = padReport(0);
+        return way;
+    }
+    UsbTestbed bed;
+};
+
+TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    auto watchdog = hid::WatchdogProcess::start(hidraw());
+    ASSERT_TRUE(watchdog) << watchdog.error().message;
+    pad.refuseWrites(EIO);
+    ASSERT_TRUE((*watchdog)->beat());
+    watchdog->reset();  // as a death: no word that the output is off
+    EXPECT_TRUE(pad.waitForReports(0).empty());
+    pad.refuseWrites(0);
+    EXPECT_EQ(pad.waitForReports(1).back(), padReport(0));
+}
+
+TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    auto watchdog = hid::WatchdogProcess::start(hidraw());
+    ASSERT_TRUE(watchdog) << watchdog.error().message;
+    ASSERT_TRUE((*watchdog)->beat());
+    (*watchdog)->rest();
+    watchdog->reset();  // returns when its process has ended
+    EXPECT_TRUE(pad.waitForReports(0).empty());
+}
+
+TEST_F(WatchdogProcessTest, ThatDoesNotStartOrOpenTheDeviceMeansThatTheMassagerIsNotDriven) {
+    const auto missing = hid::WatchdogProcess::start(hidraw(), "/nowhere/tactoscope-watchdog");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(missing.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("/nowhere/")));
+    const auto other = hid::WatchdogProcess::start(hidraw(), "/bin/true");
+    ASSERT_FALSE(other);
+    EXPECT_THAT(other.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("did not answer")));
+    auto way = hidraw();
+    way.node = "/dev/hidraw9";
+    const auto closed = hid::WatchdogProcess::start(way);
+    ASSERT_FALSE(closed);
+    EXPECT_THAT(closed.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("/dev/hidraw9")));
+}
+
+TEST(StopWay, GoesThroughAProgramsArgumentsUnchanged) {
+    StopWay hidraw;
+    hidraw.node = "/dev/hidraw3";
+    hidraw.bytes = {2, 0, 255};
+    StopWay interrupt;
+    interrupt.kind = StopWay::Kind::Usb;
+    interrupt.node = "/dev/bus/usb/001/004";
+    interrupt.interface = 3;
+    interrupt.endpoint = 2;
+    interrupt.bytes = {7};
+    StopWay control = interrupt;
+    control.endpoint = 0;
+    control.setup = {0x43, 1, 0, 0, 0, 0, 0, 0};
+    control.bytes = {};
+    for (const auto& way : {hidraw, interrupt, control}) {
+        auto words = way.arguments();
+        std::vector<char*> pointers;
+        for (auto& word : words) pointers.push_back(word.data());
+        EXPECT_EQ(StopWay::read(static_cast<int>(pointers.size()), pointers.data()), way);
+        pointers.pop_back();
+        EXPECT_EQ(StopWay::read(static_cast<int>(pointers.size()), pointers.data()), std::nullopt);
+    }
+    EXPECT_FALSE(hidraw.needsClaim());
+    EXPECT_TRUE(interrupt.needsClaim());
+    EXPECT_FALSE(control.needsClaim());  // a vendor's request to the device
+    control.setup = {0x21, 9, 2, 2, 3, 0, 0, 0};
+    EXPECT_TRUE(control.needsClaim());
+}
+
+}  // namespace
+}  // namespace tacto::test
