@@ -1,6 +1,7 @@
 #include "app/gui/scope/ScopeExport.h"
 
 #include <QObject>
+#include <QTemporaryDir>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,16 +28,16 @@ std::optional<QString> saveData(const ShownCapture& shown, double from_s, double
         channel.samples.assign(trace->samples->begin() + first, trace->samples->begin() + last);
         part.channels.push_back(std::move(channel));
     }
-    // Beside the file and then in its place: who reads it never sees half of it.
-    const std::filesystem::path target(path.toStdString());
-    std::filesystem::path beside = target;
-    beside += ".part";
+    // In a folder of its own beside the file and then in its place: a reader never sees half of it, and no file of
+    // another name is touched.
+    const auto target = std::filesystem::absolute(path.toStdString());
     const auto failed = [&](const std::string& why) {
-        std::error_code ignored;
-        std::filesystem::remove(beside, ignored);
         return QObject::tr("%1 was not saved: %2. A file of that name is as it was.")
             .arg(path, QString::fromStdString(why));
     };
+    const QTemporaryDir holder(QString::fromStdString((target.parent_path() / "tactoscope-export-XXXXXX").string()));
+    if (!holder.isValid()) return failed(holder.errorString().toStdString());
+    const std::filesystem::path beside = std::filesystem::path(holder.path().toStdString()) / target.filename();
     if (const auto written = writeCapture(beside, part); !written) return failed(written.error().message);
     std::error_code error;
     std::filesystem::rename(beside, target, error);

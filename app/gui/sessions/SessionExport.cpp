@@ -1,5 +1,6 @@
 #include "app/gui/sessions/SessionExport.h"
 
+#include <QTemporaryDir>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -15,38 +16,46 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A folder that goes away unless it was kept.
+/// A new folder, made in a folder of its own beside the target: nothing that was there before is touched, and what is
+/// not kept goes away.
 class Draft {
 public:
-    explicit Draft(fs::path target) : target_(std::move(target)), path_(target_.string() + ".part") {}
-    ~Draft() {
-        std::error_code ignored;
-        if (!kept_) fs::remove_all(path_, ignored);
+    explicit Draft(fs::path target)
+        : target_(std::move(target)),
+          holder_(QString::fromStdString((fs::absolute(target_).parent_path() / "tactoscope-export-XXXXXX").string())) {
     }
-    Draft(const Draft&) = delete;
-    Draft& operator=(const Draft&) = delete;
     [[nodiscard]] const fs::path& path() const { return path_; }
 
-    [[nodiscard]] Result<void> begin() const {
+    [[nodiscard]] Result<void> begin() {
         std::error_code error;
-        if (fs::exists(target_, error))
-            return fail(ErrorCode::InvalidArgument, "{} is there already; a new folder is expected", target_.string());
-        fs::remove_all(path_, error);
-        fs::create_directories(path_, error);
+        if (fs::exists(fs::symlink_status(target_, error))) return isThere();
+        if (!holder_.isValid())
+            return fail(ErrorCode::Io, "cannot make a folder in {}: {}", fs::absolute(target_).parent_path().string(),
+                        holder_.errorString().toStdString());
+        path_ = fs::path(holder_.path().toStdString()) / "draft";
+        fs::create_directory(path_, error);
         if (error) return fail(ErrorCode::Io, "cannot make the folder {}: {}", path_.string(), error.message());
         return {};
     }
     [[nodiscard]] Result<void> keep() {
-        std::error_code error;
+        std::error_code error, ignored;
+        // A rename would take the place of a folder that came in the meantime: one of our own, and empty, is ready.
+        if (!fs::create_directory(target_, error)) {
+            if (error) return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
+            return isThere();
+        }
         fs::rename(path_, target_, error);
-        if (error) return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
-        kept_ = true;
-        return {};
+        if (!error) return {};
+        fs::remove(target_, ignored);  // not when something is in it
+        return fail(ErrorCode::Io, "cannot write {}: {}", target_.string(), error.message());
     }
 
 private:
+    [[nodiscard]] Result<void> isThere() const {
+        return fail(ErrorCode::InvalidArgument, "{} is there already; a new folder is expected", target_.string());
+    }
     fs::path target_, path_;
-    bool kept_ = false;
+    QTemporaryDir holder_;  ///< removed with what is still in it
 };
 
 class TextFile {

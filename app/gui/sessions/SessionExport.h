@@ -1,8 +1,8 @@
 // SessionExport.h - a session as files that other programs read: CSV per stream, trials, events, captures; and its
 // sensor streams as a recording that can be replayed.
 //
-// Written into a folder of its own beside the target and renamed at the end: a cancelled or failed export leaves
-// nothing.
+// Written into a new folder beside the target and renamed at the end: a cancelled or failed export leaves nothing, and
+// none touches what was there before.
 //
 // Thread-safety: pure but for the files; runs beside the window.
 #pragma once

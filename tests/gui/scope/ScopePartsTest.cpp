@@ -215,6 +215,9 @@ TEST_F(Exports, AFileThatCannotBeWrittenIsToldAndAnOldOneStays) {
 
 TEST_F(Exports, TheVisibleDataReadBackAsACapture) {
     const auto path = folder.filePath("part.csv");
+    QFile other(path + ".part");
+    ASSERT_TRUE(other.open(QIODevice::WriteOnly) && other.write("somebody's work") > 0);
+    other.close();
     const double zero = view.shown()->zero_s;
     ASSERT_EQ(gui::saveData(*view.shown(), zero - 0.5e-3, zero + 1.5e-3, path), std::nullopt);
     const auto read = readCapture(path.toStdString());
@@ -230,7 +233,8 @@ TEST_F(Exports, TheVisibleDataReadBackAsACapture) {
     for (std::size_t i = 0; i < 4000; i += 13) {
         EXPECT_EQ(capture.channels[0].samples[i], view.shown()->capture->channels[0].samples[1000 + i]);
     }
-    EXPECT_FALSE(QFile::exists(path + ".part"));
+    EXPECT_EQ(QFileInfo(path + ".part").size(), 15) << "of another name, and not ours";
+    EXPECT_EQ(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).size(), 2);
     EXPECT_TRUE(gui::saveData(*view.shown(), 0, 1, path)) << "nothing on the screen is not saved";
 }
 

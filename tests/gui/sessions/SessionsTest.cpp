@@ -69,6 +69,28 @@ TEST_F(Recorded, AForeignFileIsListedWithItsReason) {
     EXPECT_NE(entry.problem, "");
 }
 
+TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
+    RecordProperty("hazard", "H8");
+    const auto target = folder.path() / "csv";
+    const auto kept = folder.write("csv.part/notes.txt", "somebody's work");
+    const auto entries = [this] {
+        return std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
+    };
+    const auto before = entries();
+    EXPECT_FALSE(gui::exportCsv(session, target, port(true))) << "cancelled";
+    EXPECT_TRUE(std::filesystem::exists(kept));
+    EXPECT_EQ(entries(), before) << "a cancelled export leaves nothing";
+    ASSERT_TRUE(gui::exportCsv(session, target, port()));
+    EXPECT_TRUE(std::filesystem::exists(kept));
+    EXPECT_EQ(entries(), before + 1);
+    EXPECT_FALSE(gui::exportCsv(session, target, port())) << "it is there already";
+    std::filesystem::create_directory(folder.path() / "empty");
+    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "empty", port())) << "an empty folder is somebody's too";
+    std::filesystem::create_symlink(folder.path() / "nowhere", folder.path() / "link");
+    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "link", port()));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "nowhere"));
+}
+
 TEST_F(Recorded, ExportsEverySampleAsItWasRecorded) {
     const auto target = folder.path() / "csv";
     ASSERT_TRUE(gui::exportCsv(session, target, port()));
