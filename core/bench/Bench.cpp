@@ -316,6 +316,7 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     if (const auto requested = requestCaptures(trains, settings); !requested) return failure(requested);
     const auto wanted = static_cast<std::size_t>(trains);
     const Instant longest = toInstant(s.config.profile.encoding.intervalMax) * (trains + 1) + kCaptureGrace;
+    const auto refusalsBefore = s.loop->refusals();
     bool refused = false;
     const auto passed = s.advance(s.config.clock->now() + longest, [&] {
         refused = s.refusedByHand();
@@ -327,6 +328,8 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     if (!taken) return taken;
     if (refused) return failure(s.refusal());
     if (taken->size() < wanted) {
+        // The cause, not its consequence: a train that a limit refuses triggers nothing.
+        if (s.loop->refusals() != refusalsBefore) return failure(s.refusal());
         return fail(ErrorCode::Timeout, "the oscilloscope was triggered {} times in {:.1f} s; {} were expected",
                     taken->size(), toSeconds(longest), trains);
     }

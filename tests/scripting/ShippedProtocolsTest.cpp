@@ -102,6 +102,15 @@ TEST(Separability, IntoALoadThatDrawsTooMuchIsRefusedByTheLimits) {
     EXPECT_EQ(outcome.verdict, ScriptVerdict::None);
 }
 
+TEST(Separability, ATrainThatIsRefusedWhileTheFingertipDrivesIsNamed) {
+    RecordProperty("hazard", "H1");
+    RunBench rig(true, "sim:stimulator?load=50ohm");
+    const auto outcome = runShipped(rig, "separability", {{"repeats", "2"}, {"load", "50"}});
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::LimitExceeded) << outcome.error->message;
+    EXPECT_NE(outcome.error->message.find("mA"), std::string::npos) << outcome.error->message;
+}
+
 TEST(Separability, SameSeedSameResults) {
     const auto resultsOf = [](std::uint64_t seed) {
         RunBench rig(true, "sim:", seed);

@@ -36,6 +36,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, Q
     connect(&book_, &CalibrationBook::changed, this, showHistory);
     connect(&desk_, &BenchDesk::changed, this, &CalibrateWorkspace::showReady);
     connect(&desk_, &BenchDesk::finished, this, &CalibrateWorkspace::showReady);
+    connect(runner_, &ProtocolWorkspace::readyChanged, this, &CalibrateWorkspace::showReady);
     // A calibration is made to be kept: here the form says so from the start.
     connect(runner_, &ProtocolWorkspace::declaredAnew, this, [this] {
         runner_->set("store", "true");

@@ -137,23 +137,36 @@ void ProtocolWorkspace::judge() {
     steps_->setTroubled(kSettings, refused > 0 || !declaration_);
     steps_->setNote(kSettings, refused > 0 ? tr("%n to mend", nullptr, refused) : QString());
     asked_.reset();
-    panel_->setReady(declaration_.has_value());
+    panel_->setReady(declaration_.has_value(), obstacle_);
     previewLater_.start();
+}
+
+/// A run whose strongest command the gate refuses would end there, with nothing to show for it.
+void ProtocolWorkspace::setObstacle(const QString& why) {
+    obstacle_ = why;
+    panel_->setReady(declaration_.has_value(), obstacle_);
+    emit readyChanged();
 }
 
 void ProtocolWorkspace::preview() {
     const auto settings = form_->read();
     if (!settings) {
         worst_->show({});
+        setObstacle({});
         return worstSays_->setText(tr("Shown again when every setting is accepted."));
     }
     const auto load = declaredLoad(settings->parameters);
     const auto worst = worstCase(desk_.profile(), desk_.limits().sets, load);
     if (!worst) {
         worst_->show({});
+        setObstacle({});
         return worstSays_->setText("⚠ " + sentence(worst.error()));
     }
     worst_->show(worst->rows);
+    // Without a load of its own the protocol is judged by its script, load by load.
+    const bool drives = declaration_ && declaration_->needs.contains(Role::Stimulator);
+    const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();
+    setObstacle(judged ? tr("%1 Choose another load or profile. Nothing is put out.").arg(worst->refused) : QString());
     bool isNumber = false;
     const auto words = QString::fromStdString(load);
     const double ohms = words.section(' ', 0, 0).toDouble(&isNumber);
@@ -188,6 +201,8 @@ void ProtocolWorkspace::runAsked() {
         panel_->say(sentence(asked.error()));
         return form_->goToRefused();
     }
+    preview();  // of these settings, not of those of a moment ago
+    if (!obstacle_.isEmpty()) return;
     const auto harmless = desk_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
     asked_ = std::move(*asked);
@@ -271,7 +286,7 @@ void ProtocolWorkspace::ended(const FinishedRun& run) {
 }
 
 void ProtocolWorkspace::showButtons() {
-    panel_->setReady(declaration_.has_value());
+    panel_->setReady(declaration_.has_value(), obstacle_);
     form_->setEnabled(!running_);
     wiring_->setEnabled(!running_);
     if (chooser_ != nullptr) chooser_->setEnabled(!running_);

@@ -42,14 +42,16 @@ public:
     ProtocolWorkspace(BenchDesk& desk, const QString& protocol, QWidget* parent = nullptr);
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] bool running() const { return running_; }
-    /// Whether a protocol was read and none runs here.
-    [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_; }
+    /// Whether a protocol was read, none runs here, and no limit is in the way of its strongest command.
+    [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
     /// Sets a parameter of the form, by the name that the script has for it; one that it has not is left alone.
     void set(const std::string& parameter, const QString& text);
     /// As the Run button.
     void runAsked();
 
 signals:
+    /// The answer of ready() may be another one.
+    void readyChanged();
     /// A protocol was read, and the form shows its parameters as the script has them.
     void declaredAnew();
     /// A running protocol asks a question that must be seen here.
@@ -79,6 +81,7 @@ private:
     void goTo(int step);
     void judge();
     void preview();
+    void setObstacle(const QString& why);
     void runNow();
     void ended(const FinishedRun& run);
     void showButtons();
@@ -91,6 +94,7 @@ private:
     const QString fixed_;  ///< the one protocol, or empty
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
+    QString obstacle_;  // why it may not run: a limit that its strongest command would break
     std::optional<RunOrder> asked_;  // waits for the second step
     Plot plot_ = Plot::Trials;
     bool running_ = false;

@@ -44,6 +44,12 @@ std::optional<double> TimeLeft::seconds() const {
 RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
+    obstacle_ = new QLabel(this);
+    obstacle_->setObjectName("runObstacle");
+    obstacle_->setWordWrap(true);
+    obstacle_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    obstacle_->hide();
+    layout->addWidget(obstacle_);
     trouble_ = new QLabel(this);
     trouble_->setObjectName("runTrouble");
     trouble_->setWordWrap(true);
@@ -62,9 +68,6 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     auto* row = new QHBoxLayout;
     run_ = new QPushButton(tr("R&un"), this);
     run_->setObjectName("runButton");
-    run_->setToolTip(
-        tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is open "
-           "under Live is closed first."));
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
     setFocusProxy(run_);
     pause_ = new QPushButton(this);
@@ -124,9 +127,15 @@ QWidget* RunPanel::buildQuestion() {
     return holder;
 }
 
-void RunPanel::setReady(bool ready) {
-    ready_ = ready;
-    if (!ready) question_->hide();
+void RunPanel::setReady(bool ready, const QString& obstacle) {
+    ready_ = ready && obstacle.isEmpty();
+    if (!ready_) question_->hide();
+    obstacle_->setText(obstacle.isEmpty() ? QString() : "⚠ " + obstacle);
+    obstacle_->setVisible(!obstacle.isEmpty());
+    run_->setToolTip(!obstacle.isEmpty()
+                         ? obstacle
+                         : tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is "
+                              "open under Live is closed first."));
     showButtons();
 }
 

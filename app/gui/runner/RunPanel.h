@@ -34,8 +34,8 @@ class RunPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RunPanel(QWidget* parent = nullptr);
-    /// Whether there is something to run.
-    void setReady(bool ready);
+    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may.
+    void setReady(bool ready, const QString& obstacle = {});
     /// A sentence in the way of the run; empty for none. `line` of the script that it is about; 0 for none.
     void say(const QString& what, int line = 0);
     /// The second deliberate step before a run on hardware: confirmed() follows, or nothing.
@@ -55,6 +55,7 @@ signals:
 private:
     [[nodiscard]] QWidget* buildQuestion();
     void showButtons();
+    QLabel* obstacle_;
     QLabel* trouble_;
     QPushButton* toLine_;
     QWidget* question_;

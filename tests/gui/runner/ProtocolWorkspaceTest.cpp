@@ -69,6 +69,37 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     shot(*workspace, "report");
 }
 
+TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
+    RecordProperty("hazard", "H1");
+    open("separability");
+    ASSERT_TRUE(ready());
+    type("load", "50");
+    // At once, by the key: the table may still show the load of a moment ago.
+    QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
+    EXPECT_FALSE(workspace->running());
+    auto& run = the<QPushButton>("runButton");
+    EXPECT_TRUE(comesTrue([&] { return !run.isEnabled(); }));
+    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("allows"));
+    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("Nothing is put out."));
+    EXPECT_EQ(run.toolTip().toStdString(), says("runObstacle").mid(2).toStdString());
+    EXPECT_FALSE(workspace->ready());
+    shot(*workspace, "cannot_run");
+    type("load", "1000");
+    EXPECT_TRUE(ready());
+    EXPECT_EQ(says("runObstacle"), "");
+}
+
+TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
+    open("");
+    for (const char* name : {"encoding-comparison", "live", "load-safety", "separability", "stimulator-calibration",
+                             "transitions"}) {
+        choose(name);
+        EXPECT_TRUE(ready()) << name;
+        QTest::qWait(200);  // judged a moment after it is shown
+        EXPECT_TRUE(the<QPushButton>("runButton").isEnabled()) << name << says("runObstacle").toStdString();
+    }
+}
+
 TEST_F(Workspace, LooksRightDarkAndSmall) {
     gui::applyTheme(gui::Theme::Dark);
     open("", {760, 500});
