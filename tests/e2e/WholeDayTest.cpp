@@ -2,32 +2,18 @@
 //
 // Needs a display of its own (see in-xvfb); skipped elsewhere.
 #include <QApplication>
-#include <QFileInfo>
 #include <QLineEdit>
-#include <QProcess>
 #include <QPushButton>
-#include <QScreen>
 #include <QTabWidget>
-#include <QTest>
 #include <gtest/gtest.h>
 
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
+#include "tests/e2e/Hand.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
 namespace {
-
-/// A key as the X server sends it, to whatever has the focus there.
-void type(const QString& keys) { ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0); }
-
-void picture(const QString& name) {
-    QTest::qWait(150);
-    const auto file = QString("%1/%2%3.png")
-                          .arg(qEnvironmentVariable("TACTO_SHOTS"), name, qEnvironmentVariable("TACTO_SHOT_SUFFIX"));
-    ASSERT_TRUE(QGuiApplication::primaryScreen()->grabWindow(0).save(file));
-    EXPECT_GT(QFileInfo(file).size(), 10'000) << "a blank picture";
-}
 
 TEST(EndToEnd, DISABLED_AWholeDay) {
     RecordProperty("hazard", "H5");

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/look/Look.h"
+#include "tests/gui/OffscreenScreen.h"
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     const QTemporaryDir home;
     for (const auto* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
         qputenv(name, home.path().toUtf8());
-    if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+    tacto::test::useOffscreenScreen(home);
     QApplication application(argc, argv);
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");

@@ -171,7 +171,7 @@ void CalibrationCard::setReady(bool ready) {
 
 void CalibrationCard::colour() {
     // As a sheet: a label's own palette is lost when the theme's sheet changes.
-    const auto& ink = counts_ ? colours().good : warns_ ? colours().amber : colours().text;
+    const auto& ink = counts_ ? colours().good : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);
 }

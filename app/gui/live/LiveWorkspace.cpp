@@ -1,6 +1,5 @@
 #include "app/gui/live/LiveWorkspace.h"
 
-#include <QFileDialog>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,6 +11,7 @@
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/acquisition/Recording.h"
@@ -88,7 +88,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
         healthWords(telemetry, !history_.streams().empty(), desk_.profile().roughness.calibrated, history_.missed());
     if (health_->text() != health.text) health_->setText(health.text);
     auto colour = palette();
-    if (health.stale) colour.setColor(QPalette::WindowText, colours().amber);
+    if (health.stale) colour.setColor(QPalette::WindowText, colours().amberText);
     health_->setPalette(colour);
     command_->show(telemetry, health.stale);
     showTaxels(health.stale);
@@ -174,14 +174,12 @@ void LiveWorkspace::replayAgain() {
 }
 
 void LiveWorkspace::chooseRecording() {
-    auto* dialog = new QFileDialog(this, tr("Open a recording: its recording.json"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::ExistingFile);
-    dialog->setNameFilters({tr("Recordings (*.json)"), tr("All files (*)")});
-    connect(dialog, &QFileDialog::fileSelected, this, &LiveWorkspace::openRecording);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Open a recording: its recording.json");
+    question.filters << tr("Recordings (*.json)") << tr("All files (*)");
+    askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 
-void LiveWorkspace::editProfile() { (new ProfileEditor(desk_, this))->show(); }
+void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(desk_, this)); }
 
 }  // namespace tacto::gui

@@ -1,10 +1,10 @@
 #include "app/gui/live/ProfileEditor.h"
 
 #include <QFile>
-#include <QFileDialog>
 #include <QSaveFile>
 #include <cmath>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
 #include "core/base/Text.h"
 
@@ -89,7 +89,7 @@ void ProfileEditor::mark(const Read& now) {
         row.refusal->setText(wrong ? "⚠ " + now.refusal : QString());
         row.refusal->setVisible(wrong);
         auto amber = palette();
-        amber.setColor(QPalette::WindowText, colours().amber);
+        amber.setColor(QPalette::WindowText, colours().amberText);
         row.refusal->setPalette(amber);
     }
     for (int tab = 0; tab < kProfileTabs; ++tab) {
@@ -113,7 +113,7 @@ void ProfileEditor::enableWhatMatters() {
 void ProfileEditor::say(const QString& text, bool wrong) {
     says_->setText(wrong ? "⚠ " + text : text);
     auto colour = palette();
-    if (wrong) colour.setColor(QPalette::WindowText, colours().amber);
+    if (wrong) colour.setColor(QPalette::WindowText, colours().amberText);
     says_->setPalette(colour);
 }
 
@@ -141,21 +141,20 @@ void ProfileEditor::saveFile(const QString& path) {
 }
 
 void ProfileEditor::chooseFile() {
-    auto* dialog = new QFileDialog(this, tr("Open a profile"), QString(), tr("Profiles (*.json)"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::ExistingFile);
-    connect(dialog, &QFileDialog::fileSelected, this, &ProfileEditor::openFile);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Open a profile");
+    question.filters << tr("Profiles (*.json)");
+    askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
 void ProfileEditor::chooseTarget() {
-    auto* dialog = new QFileDialog(this, tr("Save the profile"), QString(), tr("Profiles (*.json)"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setDefaultSuffix("json");
-    dialog->selectFile(name_->text().trimmed() + ".json");
-    connect(dialog, &QFileDialog::fileSelected, this, &ProfileEditor::saveFile);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Save the profile");
+    question.wants = FileQuestion::Wants::NewFile;
+    question.filters << tr("Profiles (*.json)");
+    question.suffix = "json";
+    question.name = name_->text().trimmed() + ".json";
+    askForFile(*this, question, [this](const QString& path) { saveFile(path); });
 }
 
 }  // namespace tacto::gui

@@ -17,7 +17,6 @@ constexpr int kLook_ms = 100;
 
 ProfileEditor::ProfileEditor(BenchDesk& desk, QWidget* parent) : QDialog(parent), desk_(desk) {
     setWindowTitle(tr("Encoding profile"));
-    setAttribute(Qt::WA_DeleteOnClose);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
         explanation(tr("How touch becomes pulse trains. The encoding changes while the output is disarmed; "

@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kShare = Qt::UserRole;          // double, NaN without a limit or a value
+constexpr int kShare = Qt::UserRole;          // double; none without a limit or a value
 constexpr int kEvaluated = Qt::UserRole + 1;  // bool
 constexpr int kBroken = Qt::UserRole + 2;     // bool: a limit that refuses is not kept
 constexpr int kQuantity = 0, kValue = 1, kLimit = 2, kUsed = 3;
@@ -19,13 +19,14 @@ constexpr int kWideChars = 75;  // from this width on the bar has a column of it
 /// A thin bar of how much of a limit is used; hatched where that was not evaluated.
 void paintShare(QPainter& painter, const QRectF& frame, const QModelIndex& index, const QPalette& palette) {
     const auto& c = colours();
-    const double share = index.data(kShare).toDouble();
+    const auto used = index.data(kShare);
+    const double share = used.toDouble();
     painter.save();
     painter.setPen(QPen(palette.color(QPalette::Mid), 1));
     if (!index.data(kEvaluated).toBool()) {
         painter.setBrush(QBrush(c.quiet, Qt::BDiagPattern));
         painter.drawRect(frame);
-    } else if (!std::isnan(share)) {
+    } else if (used.isValid()) {
         painter.setBrush(palette.color(QPalette::Midlight));
         painter.drawRect(frame);
         painter.setPen(Qt::NoPen);
@@ -51,8 +52,7 @@ public:
     using QStyledItemDelegate::QStyledItemDelegate;
     void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
         const auto* table = qobject_cast<const QTableView*>(option.widget);
-        const auto bar = index.siblingAtColumn(kUsed);
-        if (table == nullptr || !table->isColumnHidden(kUsed) || !bar.data(kEvaluated).isValid())
+        if (table == nullptr || !table->isColumnHidden(kUsed) || !index.data(kEvaluated).isValid())
             return QStyledItemDelegate::paint(painter, option, index);
         auto above = option;
         const int height = std::max(4, option.rect.height() / 5);
@@ -61,7 +61,7 @@ public:
         paintShare(*painter,
                    QRectF(option.rect.left() + 3.5, option.rect.bottom() - height - 0.5, option.rect.width() - 7.0,
                           height - 1.0),
-                   bar, option.palette);
+                   index, option.palette);
     }
 };
 
@@ -146,6 +146,7 @@ void ExposureTable::showSection(int line, const QString& title) {
     auto* made = cell(line, kQuantity, title);
     made->setData(Qt::ForegroundRole, QBrush(colours().quiet));
     made->setToolTip({});
+    made->setData(kEvaluated, QVariant());
     cell(line, kUsed, {})->setData(kEvaluated, QVariant());
 }
 
@@ -162,10 +163,14 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     // Else the palette's own, which follows the theme.
     value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
-    auto* bar = cell(line, kUsed, QString());
-    bar->setData(kShare, row.evaluated && !std::isnan(row.limit) ? row.value / row.limit : std::nan(""));
-    bar->setData(kEvaluated, row.evaluated);
-    bar->setData(kBroken, broken);
+    // Both cells that may draw the bar have its data: a cell is painted again when data of its own change.
+    const auto share =
+        row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
+    for (auto* drawn : {quantity, cell(line, kUsed, QString())}) {
+        drawn->setData(kShare, share);
+        drawn->setData(kEvaluated, row.evaluated);
+        drawn->setData(kBroken, broken);
+    }
 }
 
 void ExposureTable::show(std::span<const ExposureRow> rows) {

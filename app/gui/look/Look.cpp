@@ -20,8 +20,9 @@ const Colours kLight{.base = QColor("#ffffff"),
                      .math = QColor("#b0558a"),
                      .reference = QColor("#9aa1a8"),
                      .accent = QColor("#0b62a3"),
-                     .amber = QColor("#b26a00"),
-                     .fault = QColor("#c01c28"),
+                     .amber = QColor("#e69f00"),
+                     .amberText = QColor("#7a4f00"),
+                     .fault = QColor("#c1121f"),
                      .good = QColor("#0b62a3"),
                      .watermark = QColor(0, 0, 0, 22)};
 
@@ -34,8 +35,9 @@ const Colours kDark{.base = QColor("#16191c"),
                     .math = QColor("#e09ac4"),
                     .reference = QColor("#747b82"),
                     .accent = QColor("#5db0ea"),
-                    .amber = QColor("#f0b429"),
-                    .fault = QColor("#ff5c5c"),
+                    .amber = QColor("#f0ae1d"),
+                    .amberText = QColor("#f5c558"),
+                    .fault = QColor("#ff7a7f"),
                     .good = QColor("#5db0ea"),
                     .watermark = QColor(255, 255, 255, 26)};
 
@@ -130,23 +132,24 @@ ConditionStyle conditionLook(const QString& name, int index) {
 
 StateLook stateLook(InterlockState state) {
     const auto& c = colours();
+    const bool dark = theme == Theme::Dark;
     switch (state) {
         case InterlockState::Disconnected:
-            return {QObject::tr("DISCONNECTED"), "◌", c.quiet};
+            return {QObject::tr("DISCONNECTED"), "◌", c.base, c.quiet};
         case InterlockState::Disarmed:
-            return {QObject::tr("DISARMED"), "◯", c.text};
+            return {QObject::tr("DISARMED"), "◯", c.base, c.text};
         case InterlockState::Checking:
-            return {QObject::tr("CHECKING"), "◔", c.text};
+            return {QObject::tr("CHECKING"), "◔", c.base, c.text};
         case InterlockState::Armed:
-            return {QObject::tr("ARMED"), "▲", c.amber};
+            return {QObject::tr("ARMED"), "▲", c.amber, dark ? QColor("#14171b") : QColor("#1a1f25")};
         case InterlockState::Delivering:
-            return {QObject::tr("DELIVERING"), "●", c.voltage};
+            return {QObject::tr("DELIVERING"), "●", QColor("#0072b2"), Qt::white};
         case InterlockState::Paused:
-            return {QObject::tr("PAUSED"), "‖", c.text};
+            return {QObject::tr("PAUSED"), "‖", c.base, c.text};
         case InterlockState::Faulted:
             break;
     }
-    return {QObject::tr("FAULTED"), "■", c.fault};
+    return {QObject::tr("FAULTED"), "■", dark ? QColor("#d0202b") : QColor("#c1121f"), Qt::white};
 }
 
 QString ageText(double seconds) {

@@ -39,8 +39,9 @@ struct Colours {
     QColor math;     ///< #CC79A7
     QColor reference;
     QColor accent;  ///< selection, the one button that goes on
-    QColor amber;   ///< armed; a limit from 80 %
-    QColor fault;   ///< STOP and faults and nothing else
+    QColor amber;      ///< fill of what is armed, and of a limit from 80 %
+    QColor amberText;  ///< words of warning
+    QColor fault;      ///< words and marks of faults and broken limits, and nothing else
     QColor good;    ///< a pass: blue, not green, and never without its word
     QColor watermark;
 };
@@ -49,11 +50,12 @@ struct Colours {
 /// The condition's style in the current theme ("smooth-low", ...).
 [[nodiscard]] ConditionStyle conditionLook(const QString& name, int index = 0);
 
-/// Word, shape and colour of an interlock state.
+/// Word, shape and colours of an interlock state; `ink` on `ground` has a contrast of 4.5:1 or more.
 struct StateLook {
     QString word;   ///< "DISARMED"
     QString shape;  ///< "◯"
-    QColor colour;
+    QColor ground;
+    QColor ink;
 };
 [[nodiscard]] StateLook stateLook(InterlockState state);
 

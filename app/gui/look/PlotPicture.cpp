@@ -2,12 +2,13 @@
 
 #include <QBuffer>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPdfWriter>
 #include <QSaveFile>
 #include <QSvgGenerator>
+
+#include "app/gui/look/Dialogs.h"
 
 namespace tacto::gui {
 
@@ -63,20 +64,18 @@ QByteArray pngOf(QCustomPlot& plot) {
 }
 
 void choosePath(QCustomPlot& plot, const QString& name) {
-    auto* dialog = new QFileDialog(&plot, QObject::tr("Save the plot"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({QObject::tr("Pictures (*.png *.svg *.pdf)")});
-    dialog->setDefaultSuffix("png");
-    dialog->selectFile(name + ".png");
-    QObject::connect(dialog, &QFileDialog::fileSelected, &plot, [&plot](const QString& path) {
-        const auto wrong = savePicture(plot, path);
-        if (!wrong) return;
-        auto* box = new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &plot);
-        box->setAttribute(Qt::WA_DeleteOnClose);
-        box->open();
+    FileQuestion question;
+    question.title = QObject::tr("Save the plot");
+    question.wants = FileQuestion::Wants::NewFile;
+    question.filters << QObject::tr("Pictures (*.png *.svg *.pdf)");
+    question.suffix = "png";
+    question.name = name + ".png";
+    askForFile(plot, question, [&plot](const QString& path) {
+        if (const auto wrong = savePicture(plot, path)) {
+            openDialog(
+                new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &plot));
+        }
     });
-    dialog->open();
 }
 
 }  // namespace

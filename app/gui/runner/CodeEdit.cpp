@@ -63,7 +63,7 @@ void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
         const auto box = blockBoundingGeometry(block).translated(contentOffset());
         if (box.top() > event->rect().bottom()) break;
         const int number = block.blockNumber() + 1;
-        painter.setPen(number == marked_ ? colours().amber : colours().quiet);
+        painter.setPen(number == marked_ ? colours().amberText : colours().quiet);
         const QRectF cell(0, box.top(), margin.width() - 6, fontMetrics().height());
         painter.drawText(cell, Qt::AlignRight, (number == marked_ ? "▶" : "") + QString::number(number));
     }

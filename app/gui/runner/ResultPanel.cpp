@@ -14,10 +14,10 @@ namespace tacto::gui {
 VerdictLook verdictLook(const QString& key) {
     const auto& c = colours();
     if (key == "pass") return {"✔", QObject::tr("PASS"), c.good};
-    if (key == "fail") return {"✖", QObject::tr("FAIL"), c.amber};
-    if (key == "stopped") return {"■", QObject::tr("STOPPED"), c.amber};
-    if (key == "indeterminate") return {"?", QObject::tr("INDETERMINATE"), c.amber};
-    if (key == "error") return {"✖", QObject::tr("DID NOT RUN TO ITS END"), c.amber};
+    if (key == "fail") return {"✖", QObject::tr("FAIL"), c.amberText};
+    if (key == "stopped") return {"■", QObject::tr("STOPPED"), c.amberText};
+    if (key == "indeterminate") return {"?", QObject::tr("INDETERMINATE"), c.amberText};
+    if (key == "error") return {"✖", QObject::tr("DID NOT RUN TO ITS END"), c.amberText};
     return {"–", QObject::tr("NO VERDICT"), c.text};
 }
 

@@ -1,11 +1,11 @@
 #include "app/gui/runner/WiringPanel.h"
 
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QMenu>
 #include <QRegularExpression>
 #include <QToolButton>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/ExposureTable.h"
 
 namespace tacto::gui {
@@ -100,24 +100,22 @@ QWidget* WiringPanel::buildOutput() {
     choose->setToolTip(tr("Chooses a folder."));
     choose->setFocusPolicy(Qt::StrongFocus);
     connect(choose, &QToolButton::clicked, this, [this] {
-        auto* dialog = new QFileDialog(this, tr("Folder for the run"));
-        dialog->setAttribute(Qt::WA_DeleteOnClose);
-        dialog->setFileMode(QFileDialog::Directory);
-        connect(dialog, &QFileDialog::fileSelected, out_, &QLineEdit::setText);
-        dialog->open();
+        FileQuestion question;
+        question.title = tr("Folder for the run");
+        question.wants = FileQuestion::Wants::Folder;
+        askForFile(*this, question, [this](const QString& folder) { out_->setText(folder); });
     });
     row->addWidget(choose);
     return holder;
 }
 
 void WiringPanel::addFolder(const QString& scheme, const QString& title) {
-    auto* dialog = new QFileDialog(this, title);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::Directory);
-    connect(dialog, &QFileDialog::fileSelected, this, [this, scheme](const QString& folder) {
+    FileQuestion question;
+    question.title = title;
+    question.wants = FileQuestion::Wants::Folder;
+    askForFile(*this, question, [this, scheme](const QString& folder) {
         devices_->setText(QString("%1:%2 %3").arg(scheme, folder, devices().isEmpty() ? "sim:" : devices()));
     });
-    dialog->open();
 }
 
 void WiringPanel::show(const ProtocolDeclaration& declaration) {

@@ -3,12 +3,12 @@
 #include <QClipboard>
 #include <QDragEnterEvent>
 #include <QFile>
-#include <QFileDialog>
 #include <QGuiApplication>
 #include <QMenu>
 #include <QMimeData>
 #include <QTemporaryDir>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/PlotPicture.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/ScopeExport.h"
@@ -48,16 +48,22 @@ QString ScopeWorkspace::captureGlobs() {
 }
 
 void ScopeWorkspace::askOpen() {
-    const auto path = QFileDialog::getOpenFileName(this, tr("Open a capture"), {},
-                                                   tr("Captures (%1);;All files (*)").arg(captureGlobs()));
-    if (!path.isEmpty()) openCaptureFile(path);
+    FileQuestion question;
+    question.title = tr("Open a capture");
+    question.filters << tr("Captures (%1)").arg(captureGlobs()) << tr("All files (*)");
+    askForFile(*this, question, [this](const QString& path) { openCaptureFile(path); });
 }
 
 void ScopeWorkspace::askSave(const QString& filter, const QString& ending) {
-    auto path = QFileDialog::getSaveFileName(this, tr("Save"), "scope." + ending, filter);
-    if (path.isEmpty()) return;
-    if (!path.endsWith("." + ending, Qt::CaseInsensitive)) path += "." + ending;
-    saveAs(path);
+    FileQuestion question;
+    question.title = tr("Save as %1").arg(ending.toUpper());
+    question.wants = FileQuestion::Wants::NewFile;
+    question.filters << filter;
+    question.suffix = ending;
+    question.name = "scope." + ending;
+    askForFile(*this, question, [this, ending](const QString& path) {
+        saveAs(path.endsWith("." + ending, Qt::CaseInsensitive) ? path : path + "." + ending);
+    });
 }
 
 void ScopeWorkspace::saveAs(const QString& path) {

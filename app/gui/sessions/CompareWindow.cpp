@@ -73,7 +73,6 @@ QList<QStringList> CompareWindow::differences(const ReadSession& first, const Re
 CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second,
                              QWidget* parent)
     : QDialog(parent), sessions_{std::move(first), std::move(second)} {
-    setAttribute(Qt::WA_DeleteOnClose);
     const QString names[] = {q(sessions_[0]->path.stem().string()), q(sessions_[1]->path.stem().string())};
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);

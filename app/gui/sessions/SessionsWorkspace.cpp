@@ -2,7 +2,6 @@
 
 #include <QDesktopServices>
 #include <QDragEnterEvent>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QMimeData>
@@ -11,6 +10,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
@@ -387,20 +387,23 @@ void SessionsWorkspace::makeReport() {
 void SessionsWorkspace::askExport() {
     const auto* entry = current();
     if (entry == nullptr) return;
-    auto* dialog = new QFileDialog(this, tr("Export into a new folder"), q(entry->path.parent_path().string()));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->selectFile(q(entry->path.stem().string()) + "-csv");
-    connect(dialog, &QFileDialog::fileSelected, this, &SessionsWorkspace::exportTo);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Export %1 into a new folder").arg(q(entry->path.filename().string()));
+    question.wants = FileQuestion::Wants::NewFile;
+    question.folder = q(entry->path.parent_path().string());
+    question.name = q(entry->path.stem().string()) + "-csv";
+    // This one, whatever is selected when the folder is chosen.
+    askForFile(*this, question, [this, session = entry->path](const QString& folder) { exportSession(session, folder); });
 }
 
 void SessionsWorkspace::exportTo(const QString& folder) {
-    const auto* entry = current();
-    if (entry == nullptr) return;
+    if (const auto* entry = current()) exportSession(entry->path, folder);
+}
+
+void SessionsWorkspace::exportSession(const std::filesystem::path& session, const QString& folder) {
     say(tr("Exporting…"));
     work_.start(
-        [path = entry->path, folder](const WorkPort& port) { return exportCsv(path, folder.toStdString(), port); },
+        [session, folder](const WorkPort& port) { return exportCsv(session, folder.toStdString(), port); },
         [this, folder](const Result<void>& done) {
             say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(q(done.error().message)));
         });
@@ -438,7 +441,7 @@ void SessionsWorkspace::compare() {
         },
         [this, both](const Result<void>& done) {
             if (!done) return say(q(done.error().message));
-            (new CompareWindow((*both)[0], (*both)[1], this))->show();
+            openDialog(new CompareWindow((*both)[0], (*both)[1], this));
         });
 }
 

@@ -52,6 +52,7 @@ private:
     void verify();
     void makeReport();
     void askExport();
+    void exportSession(const std::filesystem::path& session, const QString& folder);
     void replay();
     void compare();
     void showInFolder();

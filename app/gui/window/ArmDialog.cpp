@@ -29,7 +29,6 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     : QDialog(parent), desk_(desk), purpose_(purpose) {
     const bool check = purpose == Purpose::CheckImpedance;
     setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
-    setAttribute(Qt::WA_DeleteOnClose);
     const auto open = desk.open();
     readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
 

@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QHeaderView>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
@@ -13,6 +14,11 @@ namespace tacto::gui {
 namespace {
 
 QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
+
+QString sentence(QString words) {
+    if (!words.isEmpty()) words[0] = words[0].toUpper();
+    return words + ".";
+}
 
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
@@ -26,9 +32,13 @@ bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty(
 
 }  // namespace
 
-DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devices"), parent), desk_(desk) {
+DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent)
+    : QDockWidget(tr("Devices"), parent), desk_(desk), calibrations_(calibrations) {
     setObjectName("deviceDock");
-    auto* body = new QWidget(this);
+    auto* area = new QScrollArea(this);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setWidgetResizable(true);
+    auto* body = new QWidget(area);
     auto* layout = new QVBoxLayout(body);
     tree_ = new QTreeWidget(body);
     tree_->setAccessibleName(tr("Devices"));
@@ -68,7 +78,9 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
     buttons->addWidget(close_, 2, 1);
     layout->addLayout(buttons);
     layout->addStretch(1);
-    setWidget(body);
+    area->setWidget(body);
+    area->setMinimumWidth(body->minimumSizeHint().width());
+    setWidget(area);
 
     connect(open_, &QPushButton::clicked, this, &DeviceDock::openChosen);
     // Space stops the output everywhere: Return ticks.
@@ -87,6 +99,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, QWidget* parent) : QDockWidget(tr("Devic
         list();
     });
     connect(&desk_.watch(), &DeviceWatch::changed, this, &DeviceDock::list);
+    connect(&calibrations_, &CalibrationBook::changed, this, &DeviceDock::describe);
     list();
     refresh(Telemetry{});
 }
@@ -164,6 +177,8 @@ void DeviceDock::describe() {
         for (const auto& device : open->about.devices) {
             if (QString::fromStdString(device.uri) != uri) continue;
             lines << factsOf(device, *open);
+            if (const auto stimulator = calibrations_.connected(); stimulator && device.role == "stimulator")
+                lines << sentence(standingText(calibrations_.standing(*stimulator)));
             if (const auto role = roleNamed(device.role)) {
                 if (const auto report = desk_.deviceReport(*role)) lines << rowsOf(*report);
             }

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/desk/BenchDesk.h"
 
 namespace tacto::gui {
@@ -19,8 +20,7 @@ namespace tacto::gui {
 class DeviceDock final : public QDockWidget {
     Q_OBJECT
 public:
-    DeviceDock(BenchDesk& desk, QWidget* parent);
-    /// A load to check against; empty asks for the last one again.
+    DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent);
     void refresh(const Telemetry& telemetry);
 
 signals:
@@ -38,6 +38,7 @@ private:
     void nameOpen();
 
     BenchDesk& desk_;
+    const CalibrationBook& calibrations_;
     QTreeWidget* tree_;
     QLabel* facts_;
     QPushButton* open_;

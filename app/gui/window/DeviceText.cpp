@@ -52,7 +52,6 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
         lines << tr("%1 source, at most %2")
                      .arg(current ? tr("Current") : tr("Voltage"),
                           settingText(open.source->amplitudeMax, current ? "mA" : "V"));
-        lines << tr("Not calibrated: no calibration is stored for it.");
     }
     if (device.role == "sensor") {
         for (const auto& stream : open.streams) {

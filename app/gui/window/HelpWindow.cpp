@@ -105,7 +105,6 @@ void addClose(QDialog& dialog, QVBoxLayout& layout) {
 
 QDialog* makeHelpWindow(const ShippedLimits& limits, QWidget* parent) {
     auto* dialog = new QDialog(parent);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(QObject::tr("Definitions and limits"));
     auto* layout = new QVBoxLayout(dialog);
     auto* tabs = new QTabWidget(dialog);
@@ -124,7 +123,6 @@ QDialog* makeHelpWindow(const ShippedLimits& limits, QWidget* parent) {
 
 QDialog* makeShortcutSheet(QWidget* parent) {
     auto* dialog = new QDialog(parent);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(QObject::tr("Keys"));
     auto* layout = new QVBoxLayout(dialog);
     for (const auto& [topic, keys] : allKeys()) {

@@ -2,10 +2,11 @@
 
 #include <QApplication>
 #include <QCloseEvent>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScreen>
+#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
 #include <QTabWidget>
@@ -16,6 +17,7 @@
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeWorkspace.h"
@@ -37,8 +39,21 @@ namespace {
 constexpr int kFrame_ms = 33;
 constexpr int kRecentFiles = 8;
 constexpr int kStackedLines = 50;
+constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 
+enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
+
+/// The page, with scroll bars where there is less room than it needs: no page makes the window larger than the screen.
+QScrollArea* scrolling(QWidget* page, QWidget* parent) {
+    auto* area = new QScrollArea(parent);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setWidgetResizable(true);
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setMinimumSize(1, 1);
+    area->setWidget(page);
+    return area;
+}
 
 }  // namespace
 
@@ -92,7 +107,10 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(&desk_, &BenchDesk::changed, this, &MainWindow::noteChange);
     connect(&desk_, &BenchDesk::failed, this, &MainWindow::complain);
-    connect(&desk_, &BenchDesk::armed, this, [this] { line_->say(tr("Armed.")); });
+    connect(&desk_, &BenchDesk::armed, this, [this] {
+        saidArmed_ = true;
+        line_->say(tr("Armed."));
+    });
     connect(&desk_, &BenchDesk::checked, this, [this](double ohms) {
         line_->say(std::isnan(ohms) ? tr("This stimulator does not measure the impedance. Disarmed.")
                                     : tr("Impedance %1. Disarmed.").arg(quantityText(ohms, "ohm", 4)));
@@ -114,15 +132,15 @@ void MainWindow::buildPages() {
     livePage_->setDocumentMode(true);
     live_ = new LiveWorkspace(desk_, livePage_);
     scope_ = new ScopeWorkspace(desk_, livePage_);
-    livePage_->addTab(live_, tr("&Touch"));
-    livePage_->addTab(scope_, tr("&Oscilloscope"));
+    livePage_->addTab(scrolling(live_, livePage_), tr("&Touch"));
+    livePage_->addTab(scrolling(scope_, livePage_), tr("&Oscilloscope"));
     pages_->addWidget(livePage_);
     calibrate_ = new CalibrateWorkspace(desk_, calibrations_, pages_);
-    pages_->addWidget(calibrate_);
+    pages_->addWidget(scrolling(calibrate_, pages_));
     safetyCheck_ = new ProtocolWorkspace(desk_, "load-safety", pages_);
-    pages_->addWidget(safetyCheck_);
+    pages_->addWidget(scrolling(safetyCheck_, pages_));
     separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
-    pages_->addWidget(separability_);
+    pages_->addWidget(scrolling(separability_, pages_));
     pages_->addWidget(new ComingWorkspace(
         tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
         {tr("Consent, accepted levels and the ramp that approaches them"),
@@ -130,9 +148,9 @@ void MainWindow::buildPages() {
          tr("Participants by pseudonym, trials as data")},
         tr("Nothing in this version can be armed for a person."), pages_));
     sessions_ = new SessionsWorkspace(desk_, pages_);
-    pages_->addWidget(sessions_);
+    pages_->addWidget(scrolling(sessions_, pages_));
     protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
-    pages_->addWidget(protocols_);
+    pages_->addWidget(scrolling(protocols_, pages_));
     for (auto* runner : calibrate_->runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
@@ -147,7 +165,7 @@ void MainWindow::buildPages() {
     connect(sessions_, &SessionsWorkspace::recordingReady, this, [this](const QString& folder) {
         if (!live_->openRecording(folder)) return;
         showWorkspace(kLive);
-        livePage_->setCurrentWidget(live_);
+        livePage_->setCurrentIndex(kTouch);
     });
 }
 
@@ -188,7 +206,7 @@ void MainWindow::buildNavigation() {
 }
 
 void MainWindow::buildDocks() {
-    devices_ = new DeviceDock(desk_, this);
+    devices_ = new DeviceDock(desk_, calibrations_, this);
     exposure_ = new ExposureDock(this);
     measurements_ = new QDockWidget(tr("Measurements"), this);
     measurements_->setObjectName("measurementDock");
@@ -200,8 +218,7 @@ void MainWindow::buildDocks() {
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
     for (auto* protocol : runners())
         connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
-    connect(devices_, &DeviceDock::simulatedBenchRequested, this,
-            [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
+    connect(devices_, &DeviceDock::simulatedBenchRequested, this, &MainWindow::askForSimulatedBench);
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
     connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
 }
@@ -214,14 +231,15 @@ std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
 void MainWindow::tick() {
     const auto telemetry = desk_.telemetry();
     safety_->refresh(telemetry);
+    sayState(telemetry);
     sayFault(telemetry);
     devices_->refresh(telemetry);
     if (exposure_->isVisible()) exposure_->refresh(telemetry);
     line_->refresh();
-    const auto* shown = pages_->currentWidget();
-    live_->refresh(telemetry, shown == livePage_ && livePage_->currentWidget() == live_);
+    const bool live = workspace() == kLive;
+    live_->refresh(telemetry, live && livePage_->currentIndex() == kTouch);
     const bool measured = measurements_->isVisible();
-    if (measured || (shown == livePage_ && livePage_->currentWidget() == scope_)) scope_->refresh(telemetry);
+    if (measured || (live && livePage_->currentIndex() == kScope)) scope_->refresh(telemetry);
     if (measured) summary_->refresh(telemetry);
     // One of them takes what a run says: the one it was started from, told apart by themselves.
     for (auto* protocol : runners()) protocol->refresh(telemetry);
@@ -235,7 +253,7 @@ void MainWindow::showWorkspace(int index) {
 
 void MainWindow::showScope() {
     showWorkspace(kLive);
-    livePage_->setCurrentWidget(scope_);
+    livePage_->setCurrentIndex(kScope);
 }
 
 void MainWindow::noteChange() {
@@ -253,6 +271,19 @@ void MainWindow::noteChange() {
             }
         }
     }
+}
+
+/// The last message must not say "Armed." when that is over.
+void MainWindow::sayState(const Telemetry& telemetry) {
+    const auto state = telemetry.state;
+    const bool live = state == InterlockState::Checking || state == InterlockState::Armed ||
+                      state == InterlockState::Delivering || state == InterlockState::Paused;
+    if (live || !std::exchange(saidArmed_, false)) return;
+    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
+    if (state == InterlockState::Disconnected)
+        line_->say(tr("No stimulator is open. Output is off."));
+    else if (state == InterlockState::Disarmed)
+        line_->say(reason.isEmpty() ? tr("Disarmed. Output is off.") : tr("Disarmed: %1. Output is off.").arg(reason));
 }
 
 /// In the second frame: the state is there at once, its reason with the control loop's next step.
@@ -296,8 +327,12 @@ void MainWindow::checkImpedance() {
 void MainWindow::askToConfirm(ArmDialog::Purpose purpose) {
     auto* dialog = new ArmDialog(desk_, purpose, load_, this);
     connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
-    dialog->open();
+    // What it asks about is the bench that is open now: with another bench or profile the question is void.
+    connect(&desk_, &BenchDesk::changed, dialog, &QDialog::reject);
+    openDialog(dialog);
 }
+
+void MainWindow::askForSimulatedBench() { openDialog(new SimulatedBenchDialog(desk_, this)); }
 
 void MainWindow::openSimulatedBench() {
     LiveOrder order;
@@ -313,7 +348,7 @@ void MainWindow::openFile(const QString& path) {
         opened = live_->openRecording(path);
         if (opened) {
             showWorkspace(kLive);
-            livePage_->setCurrentWidget(live_);
+            livePage_->setCurrentIndex(kTouch);
         }
     } else if (file.suffix() == "tacto") {
         opened = sessions_->openSession(path);
@@ -329,23 +364,18 @@ void MainWindow::openFile(const QString& path) {
 }
 
 void MainWindow::chooseFile() {
-    auto* dialog = new QFileDialog(this, tr("Open"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::ExistingFile);
-    dialog->setNameFilters(
-        {tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeWorkspace::captureGlobs()),
-         tr("All files (*)")});
-    connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openFile);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Open");
+    question.filters << tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeWorkspace::captureGlobs())
+                     << tr("All files (*)");
+    askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
 void MainWindow::chooseRecording() {
-    auto* dialog = new QFileDialog(this, tr("Open a recording: its folder"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(QFileDialog::Directory);
-    dialog->setOption(QFileDialog::ShowDirsOnly);
-    connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openFile);
-    dialog->open();
+    FileQuestion question;
+    question.title = tr("Open a recording: its folder");
+    question.wants = FileQuestion::Wants::Folder;
+    askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
 void MainWindow::remember(const QString& path) {
@@ -361,16 +391,40 @@ void MainWindow::remember(const QString& path) {
 void MainWindow::restore() {
     QSettings settings;
     setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
-    if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1440, 900);
+    if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(kWanted);
+    stayOnScreen();
     if (!restoreState(settings.value("state").toByteArray())) {
         // Once the window is laid out: room for the exposure table's four columns.
         QTimer::singleShot(0, this, [this] {
             resizeDocks({devices_, measurements_, exposure_}, {width() / 4, width() / 4, width() / 4}, Qt::Horizontal);
-            // Three above each other where there is room, else the last two as tabs.
+            // The devices with their buttons first, then the limits.
+            resizeDocks({devices_, measurements_, exposure_}, {height() / 2, height() / 6, height() / 4}, Qt::Vertical);
+            // Three above each other where there is room, else as tabs.
             if (height() < fontMetrics().height() * kStackedLines) tabifyDockWidget(measurements_, exposure_);
         });
     }
     showWorkspace(settings.value("workspace", 0).toInt());
+}
+
+/// STOP is in the window's corner: no part of the window may lie beyond the screen, whatever it was when it was left.
+void MainWindow::stayOnScreen() {
+    if (isMaximized() || isFullScreen()) return;
+    const auto room = screen()->availableGeometry();
+    // Before the window is shown its frame is not known; the second call, then, takes it off.
+    const auto frame = frameGeometry().size() - geometry().size();
+    resize(size().boundedTo(room.size() - frame));
+    auto place = frameGeometry();
+    place.moveRight(std::min(place.right(), room.right()));
+    place.moveBottom(std::min(place.bottom(), room.bottom()));
+    place.moveLeft(std::max(place.left(), room.left()));
+    place.moveTop(std::max(place.top(), room.top()));
+    if (place.topLeft() != frameGeometry().topLeft()) move(place.topLeft());
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    if (event->spontaneous()) return;
+    QTimer::singleShot(0, this, &MainWindow::stayOnScreen);  // once the window system has put its frame around it
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -54,6 +54,7 @@ public:
     void beginTour();
 
 protected:
+    void showEvent(QShowEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
@@ -68,10 +69,12 @@ private:
     void buildHelpMenu();
     void buildTour();
     void restore();
+    void stayOnScreen();
     void tick();
     /// All that run protocols.
     [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
+    void sayState(const Telemetry& telemetry);
     void sayFault(const Telemetry& telemetry);
     void complain(const QString& what);
     void remember(const QString& path);
@@ -81,6 +84,7 @@ private:
     void checkImpedance();
     void askToConfirm(ArmDialog::Purpose purpose);
     void openSimulatedBench();
+    void askForSimulatedBench();
     void setTheme(Theme theme);
     void showScope();
     [[nodiscard]] QString declaredLoad() const;
@@ -109,6 +113,7 @@ private:
     QMenu* recent_ = nullptr;
     QTimer frame_;
     QString load_ = "1 kohm";
+    bool saidArmed_ = false;  // and nothing since that it is over
     int faultedFrames_ = 0;  // since the bench faulted
     QString faultText_;      // as the banner says it
 };

@@ -5,12 +5,12 @@
 #include <QSettings>
 
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/ExposureDock.h"
 #include "app/gui/window/HelpWindow.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/RecordingLine.h"
-#include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/Tour.h"
 #include "app/scripting/ProtocolLibrary.h"
 
@@ -44,8 +44,7 @@ void MainWindow::buildBenchMenu() {
     auto* bench = menuBar()->addMenu(tr("&Bench"));
     bench->addAction(tr("Open &simulated bench"), QKeySequence(Qt::CTRL | Qt::Key_B), this,
                      &MainWindow::openSimulatedBench);
-    bench->addAction(tr("Simulated bench with &faults…"), this,
-                     [this] { (new SimulatedBenchDialog(desk_, this))->open(); });
+    bench->addAction(tr("Simulated bench with &faults…"), this, &MainWindow::askForSimulatedBench);
     bench->addAction(tr("&Close"), &desk_, &BenchDesk::close);
     bench->addSeparator();
     bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), this, &MainWindow::askToArm);
@@ -88,8 +87,8 @@ void MainWindow::buildViewMenu() {
 void MainWindow::buildHelpMenu() {
     auto* help = menuBar()->addMenu(tr("&Help"));
     help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::Key_F1), this, [this] { explainFocus(this); });
-    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), this, [this] { makeShortcutSheet(this)->show(); });
-    help->addAction(tr("&Definitions and limits"), this, [this] { makeHelpWindow(desk_.limits(), this)->show(); });
+    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), this, [this] { openDialog(makeShortcutSheet(this)); });
+    help->addAction(tr("&Definitions and limits"), this, [this] { openDialog(makeHelpWindow(desk_.limits(), this)); });
     help->addAction(tr("&Tour"), this, &MainWindow::beginTour);
     help->addSeparator();
     help->addAction(tr("&About Tactoscope"), this, [this] {
@@ -101,8 +100,7 @@ void MainWindow::buildHelpMenu() {
                "<p>GPL-3.0-or-later</p>")
                 .arg(TACTOSCOPE_VERSION),
             QMessageBox::Close, this);
-        about->setAttribute(Qt::WA_DeleteOnClose);
-        about->open();
+        openDialog(about);
     });
 }
 

@@ -7,6 +7,7 @@
 #include <QPlainTextEdit>
 #include <QVBoxLayout>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
 
 namespace tacto::gui {
@@ -70,7 +71,6 @@ void RecordingLine::say(const QString& text, bool isError) {
 
 void RecordingLine::showLog() {
     auto* dialog = new QDialog(bar_.window());
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(tr("Messages"));
     auto* layout = new QVBoxLayout(dialog);
     auto* text = new QPlainTextEdit(log_.isEmpty() ? tr("No messages yet.") : log_.join("\n"), dialog);
@@ -80,7 +80,7 @@ void RecordingLine::showLog() {
     connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
     layout->addWidget(buttons);
     dialog->resize(text->fontMetrics().averageCharWidth() * 90, text->fontMetrics().height() * 24);
-    dialog->show();
+    openDialog(dialog);
 }
 
 }  // namespace tacto::gui

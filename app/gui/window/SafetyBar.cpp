@@ -1,10 +1,13 @@
 #include "app/gui/window/SafetyBar.h"
 
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/look/ElidedLabel.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/window/LimitBarRow.h"
+#include "app/gui/window/StateBlock.h"
+#include "app/gui/window/StopButton.h"
 #include "core/safety/TrainCheck.h"
 
 namespace tacto::gui {
@@ -12,14 +15,27 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFlashFrames = 4;
+constexpr int kGap = 16;
+constexpr const char* kFactsWidth = "calibrated 12 d ago, until";
+constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
+                                    QT_TRANSLATE_NOOP("SafetyBar", "&Reset fault")};
 
-QLabel* quietLabel(QWidget* parent) {
-    auto* label = new QLabel("–", parent);
-    auto font = label->font();
-    font.setPointSizeF(font.pointSizeF() * 0.9);
-    label->setFont(font);
-    label->setMinimumWidth(1);
-    return label;
+struct Bar {
+    const char* title;
+    std::vector<Quantity> quantities;  ///< none: the measured net charge
+};
+using Q = Quantity;
+const std::vector<Bar>& allBars() {
+    static const std::vector<Bar> bars{
+        {QT_TRANSLATE_NOOP("SafetyBar", "Peak"), {Q::CommandVoltage, Q::PeakVoltage, Q::PeakCurrent}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "5 s RMS"), {Q::RmsCurrent5s, Q::RmsVoltage5s}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "Energy"), {Q::PulseEnergy}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "Density"), {Q::PowerDensity, Q::CurrentDensity}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "Net charge"), {}},  // measured, not predicted: see netCharge()
+        {QT_TRANSLATE_NOOP("SafetyBar", "In train"), {Q::RmsCurrentTrain}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "1 s RMS"), {Q::RmsCurrent1s}},
+    };
+    return bars;
 }
 
 /// The last pulse's measured net charge against what a person may receive. On bench loads it is only shown: amber
@@ -41,72 +57,77 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
     return row;
 }
 
+/// The sentence under the state's word.
+QString reasonOf(const Telemetry& telemetry) {
+    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
+    switch (telemetry.state) {
+        case InterlockState::Disconnected:
+            return SafetyBar::tr("No stimulator is open.");
+        case InterlockState::Faulted:
+            return SafetyBar::tr("%1. Output is off.").arg(reason);
+        case InterlockState::Armed:
+            return telemetry.driving == DriveSource::Off ? SafetyBar::tr("Choose a drive to deliver.") : reason;
+        default:
+            return reason;
+    }
+}
+
 }  // namespace
 
 SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent)
-    : QFrame(parent), desk_(desk), calibrations_(calibrations) {
+    : QFrame(parent), desk_(desk), calibrations_(calibrations), block_(new StateBlock(this)) {
     setObjectName("safetyBar");
     setAccessibleName(tr("Safety bar"));
-    setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Base);
     auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(6, 6, 6, 6);
-    row->setSpacing(8);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(kGap);
+    facts_ = buildFacts();
+    QStringList titles;
+    for (const auto& bar : allBars()) titles << tr(bar.title);
+    bars_ = new LimitBarRow(titles, this);
+    buttons_ = buildButtons();
+    stop_ = new StopButton([this] { desk_.stop("operator (STOP)"); }, this);
+    stop_->setToolTip(tr("Output off, now. Esc and Pause do the same from anywhere, Space outside text fields."));
+    row->addWidget(block_);
+    row->addWidget(facts_);
+    row->addWidget(bars_, 1);
+    row->addWidget(buttons_);
+    row->addWidget(stop_);
+    refresh(Telemetry{});
+}
 
-    shape_ = new QLabel(this);
-    word_ = new QLabel(this);
-    word_->setObjectName("interlockState");
-    for (auto* label : {shape_, word_}) {
-        auto font = label->font();
-        font.setPointSizeF(font.pointSizeF() * 1.5);
-        font.setBold(true);
-        label->setFont(font);
-    }
-    shape_->setFixedWidth(shape_->fontMetrics().horizontalAdvance("●◌"));
-    shape_->setAlignment(Qt::AlignCenter);
-    word_->setMinimumWidth(word_->fontMetrics().horizontalAdvance("DISCONNECTED"));
-    reason_ = quietLabel(this);
-    auto* state = new QGridLayout;
-    state->setHorizontalSpacing(4);
-    state->setVerticalSpacing(0);
-    state->addWidget(shape_, 0, 0, 2, 1);
-    state->addWidget(word_, 0, 1);
-    state->addWidget(reason_, 1, 1);
-    row->addLayout(state);
-
-    device_ = quietLabel(this);
-    load_ = quietLabel(this);
-    calibration_ = quietLabel(this);
-    calibration_->setObjectName("calibrationAge");
+QWidget* SafetyBar::buildFacts() {
+    auto* holder = new QWidget(this);
+    auto* column = new QVBoxLayout(holder);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    load_ = new ElidedLabel(holder);
+    auto bold = load_->font();
+    bold.setBold(true);
+    load_->setFont(bold);
     load_->setToolTip(
         tr("Impedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
            "measured again before the next train."));
-    auto* facts = new QVBoxLayout;
-    facts->setSpacing(0);
-    for (auto* label : {device_, load_, calibration_}) facts->addWidget(label);
-    row->addLayout(facts);
-    row->addStretch(1);
+    device_ = new ElidedLabel(holder);
+    calibration_ = new ElidedLabel(holder);
+    calibration_->setObjectName("calibrationAge");
+    column->addStretch();
+    for (auto* label : {load_, device_, calibration_}) column->addWidget(label);
+    column->addStretch();
+    return holder;
+}
 
-    using Q = Quantity;
-    const std::pair<QString, std::vector<Quantity>> wanted[] = {
-        {tr("Peak"), {Q::CommandVoltage, Q::PeakVoltage, Q::PeakCurrent}},
-        {tr("5 s RMS"), {Q::RmsCurrent5s, Q::RmsVoltage5s}},
-        {tr("Energy"), {Q::PulseEnergy}},
-        {tr("Density"), {Q::PowerDensity, Q::CurrentDensity}},
-        {tr("Net charge"), {}},  // measured, not predicted: see netCharge()
-        {tr("In train"), {Q::RmsCurrentTrain}},
-        {tr("1 s RMS"), {Q::RmsCurrent1s}},
-    };
-    for (const auto& [title, quantities] : wanted) {
-        auto* bar = new LimitBar(title, this);
-        bars_.push_back({bar, quantities});
-        row->addWidget(bar, 2);
-    }
-
-    action_ = new QPushButton(tr("&Arm…"), this);
+QWidget* SafetyBar::buildButtons() {
+    auto* holder = new QWidget(this);
+    auto* column = new QVBoxLayout(holder);
+    column->setContentsMargins(0, 4, 0, 4);
+    column->setSpacing(4);
+    action_ = new QPushButton(tr(kActions[0]), holder);
     action_->setObjectName("armButton");
     connect(action_, &QPushButton::clicked, this, &SafetyBar::pressAction);
-    pause_ = new QPushButton(tr("&Pause"), this);
+    pause_ = new QPushButton(tr("&Pause"), holder);
     pause_->setToolTip(tr("Holds the output back and keeps the run: no train is delivered until you resume."));
     connect(pause_, &QPushButton::clicked, this, [this] {
         if (state_ == InterlockState::Paused)
@@ -114,43 +135,39 @@ SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidg
         else
             desk_.pause();
     });
-    auto* buttons = new QVBoxLayout;
-    buttons->setSpacing(4);
-    buttons->addWidget(action_);
-    buttons->addWidget(pause_);
-    row->addLayout(buttons);
-
-    stop_ = new QPushButton(tr("STOP"), this);
-    stop_->setObjectName("stopButton");
-    stop_->setAccessibleName(tr("STOP"));
-    stop_->setToolTip(tr("Output off, now. Esc and Pause do the same from anywhere, Space outside text fields."));
-    // Stops when it goes down: nobody waits for the finger to come up again.
-    connect(stop_, &QPushButton::pressed, this, [this] { desk_.stop("operator (STOP)"); });
-    auto font = stop_->font();
-    font.setPointSizeF(font.pointSizeF() * 1.7);
-    font.setBold(true);
-    stop_->setFont(font);
-    stop_->setMinimumWidth(stop_->fontMetrics().horizontalAdvance("  STOP  ") + 24);
-    stop_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
-    row->addWidget(stop_);
-    for (auto* button : {action_, pause_, stop_}) button->setAutoDefault(false);
-    colourStop();
-    refresh(Telemetry{});
+    for (auto* button : {action_, pause_}) {
+        button->setAutoDefault(false);
+        column->addWidget(button);
+    }
+    return holder;
 }
 
-void SafetyBar::colourStop() {
-    const auto& c = colours();
-    // White on the light theme's red is 6:1; black on the dark theme's lighter one 7:1.
-    const QColor ink = currentTheme() == Theme::Dark ? QColor(Qt::black) : QColor(Qt::white);
-    stop_->setStyleSheet(QString("QPushButton#stopButton { background: %1; color: %2; border: 2px solid %1; "
-                                 "border-radius: 6px; padding: 2px 10px; } "
-                                 "QPushButton#stopButton:focus { border-color: %3; }")
-                             .arg(c.fault.name(), ink.name(), c.text.name()));
+/// The buttons' words change with the state: the widest of them sets the width, so that nothing moves.
+void SafetyBar::giveRoom() {
+    const auto metrics = fontMetrics();
+    int widest = 0;
+    for (const auto* words : kActions) widest = std::max(widest, metrics.horizontalAdvance(tr(words).remove('&')));
+    buttons_->setFixedWidth(widest + 3 * kGap);
+    const int always = buttons_->width() + stop_->sizeHint().width() + 4 * kGap;
+    const int facts = metrics.horizontalAdvance(tr(kFactsWidth));
+    const int aBar = metrics.horizontalAdvance("88.8 of 188 mA/cm²");
+    block_->fit(width() - always - facts - aBar);
+    facts_->setFixedWidth(std::clamp(width() - always - block_->width() - aBar, 0, facts));
+}
+
+QSize SafetyBar::minimumSizeHint() const {
+    return {block_->smallestWidth() + buttons_->minimumWidth() + stop_->sizeHint().width() + 4 * kGap,
+            QFrame::minimumSizeHint().height()};
 }
 
 void SafetyBar::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange && stop_ != nullptr) colourStop();
+    if (event->type() == QEvent::FontChange && stop_ != nullptr) giveRoom();
     QFrame::changeEvent(event);
+}
+
+void SafetyBar::resizeEvent(QResizeEvent* event) {
+    giveRoom();
+    QFrame::resizeEvent(event);
 }
 
 void SafetyBar::refresh(const Telemetry& telemetry) {
@@ -164,22 +181,8 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     state_ = telemetry.state;
     if (telemetry.trainsDelivered > trainsSeen_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
-    const auto look = stateLook(telemetry.state);
-    const bool lit = pulse_ > 0;
+    block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
-    shape_->setText(telemetry.state == InterlockState::Delivering && !lit ? "○" : look.shape);
-    word_->setText(look.word);
-    word_->setAccessibleDescription(look.word);
-    auto colour = palette();
-    colour.setColor(QPalette::WindowText, look.colour);
-    shape_->setPalette(colour);
-    word_->setPalette(colour);
-    auto reason = QString::fromUtf8(telemetry.reason.c_str());
-    if (telemetry.state == InterlockState::Faulted) reason = tr("%1. Output is off.").arg(reason);
-    if (telemetry.state == InterlockState::Disconnected) reason = tr("no stimulator is open");
-    reason_->setToolTip(reason);
-    reason_->setText(reason_->fontMetrics().elidedText(reason.isEmpty() ? QString(" ") : reason, Qt::ElideRight,
-                                                       std::max(word_->width(), 180)));
 }
 
 void SafetyBar::showDevice(const Telemetry& telemetry) {
@@ -195,7 +198,9 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
         if (device.role == "stimulator" || (device.role == "massager" && !open->source))
             name = QString::fromStdString(device.name);
     }
-    device_->setText(open->simulated() ? tr("%1 · simulated").arg(name) : name);
+    const auto text = open->simulated() ? tr("%1 · simulated").arg(name) : name;
+    device_->setText(text);
+    device_->setToolTip(text);
     load_->setText(
         std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
@@ -212,20 +217,20 @@ void SafetyBar::showCalibration() {
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
         calibration_->setText(text);
-        calibration_->setToolTip(standing
-                                     ? standingTip(*standing)
-                                     : tr("Calibration of the stimulator. Without a valid one it is for bench loads "
-                                          "only."));
+        const auto why = standing ? standingTip(*standing)
+                                  : tr("Calibration of the stimulator. Without a valid one it is for bench loads only.");
+        calibration_->setToolTip(standing ? text + ". " + why : why);
     }
     // As a sheet: a label's own palette is lost when the theme's sheet changes.
-    const auto sheet = QString("QLabel { color: %1; }").arg((counts ? colours().text : colours().amber).name());
+    const auto sheet = QString("QLabel { color: %1; }").arg((counts ? colours().text : colours().amberText).name());
     if (calibration_->styleSheet() != sheet) calibration_->setStyleSheet(sheet);
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
-    for (const auto& shown : bars_) {
-        std::optional<ExposureRow> row = shown.quantities.empty() ? netCharge(telemetry) : std::nullopt;
-        for (const auto quantity : shown.quantities) {
+    for (std::size_t i = 0; i < allBars().size(); ++i) {
+        const auto& quantities = allBars()[i].quantities;
+        std::optional<ExposureRow> row = quantities.empty() ? netCharge(telemetry) : std::nullopt;
+        for (const auto quantity : quantities) {
             auto candidate = tightest(telemetry.exposure(), {quantity});
             if (!candidate) continue;
             const auto share = [](const ExposureRow& r) {
@@ -233,8 +238,9 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
             };
             if (!row || share(*candidate) > share(*row)) row = candidate;
         }
-        shown.bar->show(row);
+        bars_->show(i, row);
     }
+    bars_->arrange();
 }
 
 void SafetyBar::showButtons(InterlockState state) {
@@ -242,15 +248,15 @@ void SafetyBar::showButtons(InterlockState state) {
     const bool on = state == InterlockState::Armed || state == InterlockState::Delivering ||
                     state == InterlockState::Paused || state == InterlockState::Checking;
     if (state == InterlockState::Faulted) {
-        action_->setText(tr("&Reset fault"));
+        action_->setText(tr(kActions[2]));
         action_->setToolTip(
             tr("Asks the devices again; one that was unplugged is looked for. When the cause is gone the bench is "
                "disarmed, not armed."));
     } else if (on) {
-        action_->setText(tr("Dis&arm"));
+        action_->setText(tr(kActions[1]));
         action_->setToolTip(tr("Ends the output and goes back to disarmed."));
     } else {
-        action_->setText(tr("&Arm…"));
+        action_->setText(tr(kActions[0]));
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);

@@ -1,6 +1,8 @@
 // SafetyBar.h - always there, in every workspace: the interlock in word, shape and colour, what is connected, how far
 // the output is from its limits, and STOP.
 //
+// Where there is little room the state's word gets smaller first, then bars and facts go; STOP and the buttons stay.
+//
 // Thread-safety: the GUI thread.
 #pragma once
 
@@ -11,9 +13,13 @@
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/desk/BenchDesk.h"
-#include "app/gui/window/LimitBar.h"
 
 namespace tacto::gui {
+
+class ElidedLabel;
+class LimitBarRow;
+class StateBlock;
+class StopButton;
 
 class SafetyBar final : public QFrame {
     Q_OBJECT
@@ -21,15 +27,19 @@ public:
     SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent = nullptr);
     /// Thirty times a second.
     void refresh(const Telemetry& telemetry);
+    [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
     void armRequested();
 
 protected:
     void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void colourStop();
+    [[nodiscard]] QWidget* buildFacts();
+    [[nodiscard]] QWidget* buildButtons();
+    void giveRoom();
     void showState(const Telemetry& telemetry);
     void showDevice(const Telemetry& telemetry);
     void showCalibration();
@@ -39,20 +49,16 @@ private:
 
     BenchDesk& desk_;
     const CalibrationBook& calibrations_;
-    QLabel* shape_;
-    QLabel* word_;
-    QLabel* reason_;
-    QLabel* device_;
-    QLabel* load_;
-    QLabel* calibration_;
-    QPushButton* action_;  ///< Arm…, Disarm, Reset…
-    QPushButton* pause_;
-    QPushButton* stop_ = nullptr;
-    struct Shown {
-        LimitBar* bar;
-        std::vector<Quantity> quantities;  ///< none: the measured net charge
-    };
-    std::vector<Shown> bars_;
+    StateBlock* block_;
+    QWidget* facts_ = nullptr;
+    ElidedLabel* device_ = nullptr;
+    ElidedLabel* load_ = nullptr;
+    ElidedLabel* calibration_ = nullptr;
+    LimitBarRow* bars_ = nullptr;
+    QWidget* buttons_ = nullptr;
+    QPushButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
+    QPushButton* pause_ = nullptr;
+    StopButton* stop_ = nullptr;
     std::uint64_t trainsSeen_ = 0;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;

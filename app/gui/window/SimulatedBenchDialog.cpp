@@ -36,7 +36,6 @@ constexpr Fault kFaults[] = {
 
 SimulatedBenchDialog::SimulatedBenchDialog(BenchDesk& desk, QWidget* parent) : QDialog(parent), desk_(desk) {
     setWindowTitle(tr("Simulated bench"));
-    setAttribute(Qt::WA_DeleteOnClose);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("A simulated bench"), this));
     layout->addWidget(explanation(tr("Fingertip, stimulator, load and oscilloscope, all computed: for learning, and to "

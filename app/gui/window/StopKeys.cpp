@@ -14,6 +14,8 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kFirstEvery_ms = 50;
+
 bool takesText(const QWidget* widget) {
     if (const auto* line = qobject_cast<const QLineEdit*>(widget)) return !line->isReadOnly();
     if (const auto* text = qobject_cast<const QTextEdit*>(widget)) return !text->isReadOnly();
@@ -26,11 +28,19 @@ bool takesText(const QWidget* widget) {
 
 StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QObject(parent), stop_(std::move(stop)) {
     qApp->installEventFilter(this);
+    startTimer(kFirstEvery_ms);
 }
+
+/// Installing it again moves it before the others.
+void StopKeys::timerEvent(QTimerEvent*) { qApp->installEventFilter(this); }
 
 StopKeys::~StopKeys() { qApp->removeEventFilter(this); }
 
 bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Show && watched->isWidgetType()) {
+        auto* widget = static_cast<QWidget*>(watched);
+        if (widget->isWindow() && widget->isModal()) widget->setWindowModality(Qt::NonModal);
+    }
     if (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride) return false;
     return pressed(watched, *static_cast<QKeyEvent*>(event));
 }

@@ -1,7 +1,10 @@
 // StopKeys.h - Esc, Pause and Space stop the output from wherever the focus is, dialogs included; Space types where
 // text is typed, and Return presses the focused button in its stead (hazard H6).
 //
-// Installed on the application: it sees each key before any widget does.
+// Installed on the application: it sees each key before any widget does. Qt would keep the keys and clicks of a window
+// behind a modal dialog from the application as well, so StopKeys takes the modality from every window before it is
+// shown, also from those that Qt opens by itself. While something is dragged Qt puts a filter of its own before all others
+// and takes every key; StopKeys puts itself first again twenty times a second.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -22,6 +25,7 @@ public:
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
+    void timerEvent(QTimerEvent* event) override;
 
 private:
     [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);

@@ -1,4 +1,5 @@
 // The safety bar's word on calibration, in the whole window.
+#include <QTreeWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/look/Look.h"
@@ -18,7 +19,7 @@ protected:
     /// Whether something of the label is drawn in the warning colour, as it stands on the screen.
     [[nodiscard]] bool warns() {
         const auto drawn = label().grab().toImage();
-        const auto amber = gui::colours().amber;
+        const auto amber = gui::colours().amberText;
         for (int y = 0; y < drawn.height(); ++y) {
             for (int x = 0; x < drawn.width(); ++x) {
                 const auto pixel = drawn.pixelColor(x, y);
@@ -55,6 +56,22 @@ TEST_F(CalibrateWindow, AnExpiredOneWarns) {
     gui::applyTheme(gui::Theme::Dark);
     ASSERT_TRUE(comesTrue([this] { return warns(); }));
     shot(window, "calibrate_window_small_dark");
+}
+
+TEST_F(CalibrateWindow, TheDeviceDockSaysTheSameAsTheSafetyBar) {
+    RecordProperty("hazard", "H9");
+    store(calibration(0, 365));
+    open();
+    ASSERT_TRUE(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
+    auto* devices = window.findChild<QTreeWidget*>();
+    const auto facts = [this] { return window.findChild<QLabel*>("deviceFacts")->text(); };
+    bool said = false;
+    for (int i = 0; i < devices->topLevelItemCount(); ++i) {
+        devices->setCurrentItem(devices->topLevelItem(i));
+        EXPECT_FALSE(facts().contains("not calibrated", Qt::CaseInsensitive)) << facts().toStdString();
+        said = said || facts().contains("Calibrated today, until ");
+    }
+    EXPECT_TRUE(said);
 }
 
 TEST_F(CalibrateWindow, ARunTurnsTheWord) {

@@ -9,6 +9,7 @@
 #include <QTabWidget>
 #include <QTest>
 #include <QToolBar>
+#include <QToolButton>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -87,6 +88,36 @@ TEST_F(Window, EscStopsFromInsideAModalDialog) {
     field.setFocus();
     QTest::keyClick(dialog.windowHandle(), Qt::Key_Escape);
     EXPECT_EQ(state(), InterlockState::Disarmed) << "before the key event returned";
+}
+
+TEST_F(Window, TheLastMessageDoesNotSayArmedWhenThatIsOver) {
+    RecordProperty("hazard", "H9");
+    const auto says = [this](const char* words) {
+        for (const auto* button : window.statusBar()->findChildren<QToolButton*>()) {
+            if (button->toolTip().contains(words)) return true;
+        }
+        return false;
+    };
+    open();
+    arm();
+    ASSERT_TRUE(comesTrue([&] { return says("Armed."); }));
+    key(Qt::Key_Pause);
+    EXPECT_TRUE(comesTrue([&] { return says("Disarmed: ") && says("Output is off."); }));
+    EXPECT_FALSE(says("Armed."));
+    arm();
+    ASSERT_TRUE(comesTrue([&] { return says("Armed."); }));
+    window.desk().close();
+    EXPECT_TRUE(comesTrue([&] { return says("Output is off.") && !says("Armed."); }));
+}
+
+TEST_F(Window, TheQuestionToArmIsVoidWithTheBenchItWasAskedFor) {
+    RecordProperty("hazard", "H12");
+    open();
+    click(*window.findChild<QPushButton*>("armButton"));
+    QPointer<QPushButton> second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_TRUE(comesTrue([&] { return second != nullptr && second->isVisible(); }));
+    window.desk().close();
+    EXPECT_TRUE(comesTrue([&] { return second == nullptr; })) << "it would arm whatever is opened next";
 }
 
 TEST_F(Window, SpaceStopsInEveryWorkspace) {

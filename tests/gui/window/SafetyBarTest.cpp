@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/StateBlock.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
@@ -80,6 +82,83 @@ TEST_F(Bar, HasAWordAndAShapeForEveryState) {
         shapes << look.shape;
         shot(bar, "safetybar-" + look.word.toLower());
     }
+}
+
+/// Relative luminance, WCAG 2.
+double luminance(const QColor& colour) {
+    const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
+}
+double contrast(const QColor& a, const QColor& b) {
+    const auto [darker, lighter] = std::minmax(luminance(a), luminance(b));
+    return (lighter + 0.05) / (darker + 0.05);
+}
+
+/// How many pixels of the picture have just this colour.
+int pixelsOf(const QImage& picture, const QColor& colour) {
+    int found = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) found += picture.pixelColor(x, y).rgb() == colour.rgb();
+    }
+    return found;
+}
+
+TEST_F(Bar, StatesStandOutOnTheScreenInBothThemes) {
+    RecordProperty("hazard", "H12");
+    auto* block = bar.findChild<gui::StateBlock*>();
+    ASSERT_NE(block, nullptr);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
+            bar.refresh(in(InterlockState(state), "why"));
+            QCoreApplication::processEvents();
+            const auto look = gui::stateLook(InterlockState(state));
+            EXPECT_GE(contrast(look.ink, look.ground), 4.5) << look.word.toStdString();
+            const auto drawn = block->grab().toImage();
+            const int all = drawn.width() * drawn.height();
+            EXPECT_GT(pixelsOf(drawn, look.ground), all / 2) << look.word.toStdString() << " has its ground";
+            EXPECT_GT(pixelsOf(drawn, look.ink), all / 100) << look.word.toStdString() << " is written in its ink";
+        }
+        const auto stop = bar.findChild<QPushButton*>("stopButton")->grab().toImage();
+        const auto red = gui::stateLook(InterlockState::Faulted);
+        EXPECT_GT(pixelsOf(stop, red.ground), stop.width() * stop.height() / 2);
+        EXPECT_GT(pixelsOf(stop, red.ink), stop.width() * stop.height() / 100);
+        const auto& c = gui::colours();
+        for (const auto& words : {c.text, c.quiet, c.amberText, c.fault})
+            EXPECT_GE(contrast(words, c.base), 4.5) << words.name().toStdString();
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+TEST(LimitBarRow, ShowsThoseNearestToTheirLimitsWhereNotAllFit) {
+    gui::LimitBarRow bars({"a", "b", "c"}, nullptr);
+    bars.show(0, row(Quantity::RmsCurrent5s, 1, 10, "mA"));
+    bars.show(1, row(Quantity::PulseEnergy, 290, 300, "mJ"));
+    bars.resize(bars.sizeHint().width() / 2, bars.sizeHint().height());
+    static_cast<QWidget&>(bars).show();
+    bars.arrange();
+    QStringList seen;
+    for (const auto* bar : bars.findChildren<gui::LimitBar*>()) {
+        if (bar->isVisible()) seen << bar->accessibleName();
+    }
+    EXPECT_EQ(seen, QStringList("b"));
+}
+
+TEST_F(Bar, StopAndTheButtonsAreWholeOnANarrowScreen) {
+    RecordProperty("hazard", "H2");
+    bar.refresh(in(InterlockState::Faulted, "the electrode is open: a long story that has no room here"));
+    for (const int width : {1400, 960, 800, bar.minimumSizeHint().width()}) {
+        bar.resize(width, bar.sizeHint().height());
+        QCoreApplication::processEvents();
+        EXPECT_EQ(bar.width(), width);
+        for (const auto* button : bar.findChildren<QPushButton*>()) {
+            const QRect place(button->mapTo(&bar, QPoint(0, 0)), button->size());
+            EXPECT_TRUE(bar.rect().contains(place)) << button->text().toStdString() << " at " << width;
+            EXPECT_GE(button->width(), button->minimumSizeHint().width()) << button->text().toStdString();
+        }
+        shot(bar, QString("safetybar-%1").arg(width));
+    }
+    EXPECT_LE(bar.minimumSizeHint().width(), 900);
 }
 
 TEST_F(Bar, StopIsThereAndEnabledInEveryState) {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "app/gui/look/Look.h"
+#include "tests/gui/OffscreenScreen.h"
 #include "tests/gui/window/StallWatch.h"
 
 namespace tacto::perf {
@@ -83,7 +84,7 @@ int main(int argc, char** argv) {
     const QTemporaryDir home;
     for (const auto* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
         qputenv(name, home.path().toUtf8());
-    if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+    tacto::test::useOffscreenScreen(home);
     qInstallMessageHandler(tacto::perf::withoutSizeHints);
     QApplication application(argc, argv);
     QApplication::setApplicationName("tactoscope");

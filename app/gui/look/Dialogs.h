@@ -1,0 +1,34 @@
+// Dialogs.h - the one way in which the program opens a dialog or asks for a file: beside the window, never in its way.
+//
+// A modal dialog takes every click and key from the windows behind it, and with them STOP. No dialog of this program is
+// modal: the window stays usable while one is open, so whatever a dialog asks about is taken when it opens, not when it
+// is answered. StopKeys takes the modality from a dialog that Qt opens by itself.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QDialog>
+#include <QStringList>
+#include <functional>
+
+namespace tacto::gui {
+
+/// Shows `dialog` below the safety bar, inside the screen, and deletes it when it is closed. If its parent has such a
+/// dialog (class and title) open already, that one comes to the front and `dialog` is deleted.
+void openDialog(QDialog* dialog);
+
+struct FileQuestion {
+    enum class Wants { ExistingFile, Folder, NewFile };
+    QString title;
+    Wants wants = Wants::ExistingFile;
+    QStringList filters;  ///< "Profiles (*.json)"; empty: all files
+    QString folder;       ///< shown first; empty: the last one
+    QString name;         ///< suggested
+    QString suffix;       ///< added to a name without one; without a dot
+};
+
+/// Asks the operator for a file; `then` gets its path, unless the question is cancelled or `asking` is deleted first. A
+/// file that exists is replaced only after a second press, which the dialog asks for in place.
+void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then);
+
+}  // namespace tacto::gui

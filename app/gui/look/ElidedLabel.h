@@ -1,0 +1,20 @@
+// ElidedLabel.h - one line of text that ends in "…" where there is no room for all of it, and asks for no room by
+// itself. The whole text belongs into the tool tip, which the owner sets.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+
+namespace tacto::gui {
+
+class ElidedLabel final : public QLabel {
+public:
+    using QLabel::QLabel;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,44 @@
+#include "app/gui/window/LimitBarRow.h"
+
+#include <algorithm>
+
+namespace tacto::gui {
+
+namespace {
+constexpr int kGap = 16;
+}
+
+LimitBarRow::LimitBarRow(const QStringList& titles, QWidget* parent) : QWidget(parent) {
+    for (const auto& title : titles) bars_.push_back(new LimitBar(title, this));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+}
+
+QSize LimitBarRow::sizeHint() const {
+    const auto one = bars_.front()->sizeHint();
+    return {int(bars_.size()) * (one.width() + kGap) - kGap, one.height()};
+}
+
+void LimitBarRow::resizeEvent(QResizeEvent*) { arrange(); }
+
+void LimitBarRow::arrange() {
+    const auto one = bars_.front()->sizeHint();
+    const auto fit = std::min(bars_.size(), std::size_t((width() + kGap) / (one.width() + kGap)));
+    std::vector<LimitBar*> nearest = bars_;
+    // A share that is not a number (no value yet, no limit) comes last; among equals the order of the row holds.
+    std::stable_sort(nearest.begin(), nearest.end(), [](const auto* a, const auto* b) {
+        const auto rank = [](const LimitBar* bar) { return std::isnan(bar->share()) ? -1 : bar->share(); };
+        return rank(a) > rank(b);
+    });
+    nearest.resize(fit);
+    const int wide = fit > 0 ? (width() + kGap) / int(fit) - kGap : 0;
+    int left = 0;
+    for (auto* bar : bars_) {
+        const bool seen = std::find(nearest.begin(), nearest.end(), bar) != nearest.end();
+        bar->setVisible(seen);
+        if (!seen) continue;
+        bar->setGeometry(left, (height() - one.height()) / 2, wide, one.height());
+        left += wide + kGap;
+    }
+}
+
+}  // namespace tacto::gui

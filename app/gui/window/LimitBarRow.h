@@ -1,0 +1,29 @@
+// LimitBarRow.h - limit bars beside each other, as many as fit: those that are nearest to their limits.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "app/gui/window/LimitBar.h"
+
+namespace tacto::gui {
+
+class LimitBarRow final : public QWidget {
+public:
+    LimitBarRow(const QStringList& titles, QWidget* parent);
+    void show(std::size_t index, const std::optional<ExposureRow>& row) { bars_[index]->show(row); }
+    /// After the last show(): chooses which bars are seen.
+    void arrange();
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    std::vector<LimitBar*> bars_;
+};
+
+}  // namespace tacto::gui

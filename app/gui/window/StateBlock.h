@@ -1,0 +1,38 @@
+// StateBlock.h - the interlock in word, shape and colour, to be read from two metres: the left end of the safety bar.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QFrame>
+#include <QLabel>
+
+#include "app/gui/look/ElidedLabel.h"
+#include "core/safety/Interlock.h"
+
+namespace tacto::gui {
+
+class StateBlock final : public QFrame {
+public:
+    explicit StateBlock(QWidget* parent);
+    /// `reason` may be empty. `pulse`: a train has just been delivered.
+    void show(InterlockState state, const QString& reason, bool pulse);
+    /// Takes the largest text at which the longest word needs at most `width` pixels; never below smallestWidth().
+    void fit(int width);
+    /// In pixels: room for the longest word at 1.5 times the text's size.
+    [[nodiscard]] int smallestWidth() const;
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    [[nodiscard]] QFont wordFont(double scale) const;
+    [[nodiscard]] int widthAt(double scale) const;
+    void colour();
+
+    QLabel* shape_;
+    QLabel* word_;
+    ElidedLabel* reason_;
+    InterlockState state_ = InterlockState::Disconnected;
+};
+
+}  // namespace tacto::gui

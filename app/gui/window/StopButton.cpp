@@ -1,0 +1,84 @@
+#include "app/gui/window/StopButton.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWindow>
+
+#include "app/gui/look/Look.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kDisplay = 2.67;  // times the text's size: 28 pt where text has 10.5 pt
+constexpr int kPadding = 24;
+
+QFont wordFont() {
+    auto font = QApplication::font();
+    font.setPointSizeF(font.pointSizeF() * kDisplay);
+    font.setBold(true);
+    return font;
+}
+
+QFont keysFont() {
+    auto font = QApplication::font();
+    font.setPointSizeF(font.pointSizeF() * 0.86);
+    return font;
+}
+
+QString keys() { return StopButton::tr("Space · Esc · Pause"); }
+
+}  // namespace
+
+StopButton::StopButton(std::function<void()> stop, QWidget* parent)
+    : QPushButton(tr("STOP"), parent), stop_(std::move(stop)) {
+    setObjectName("stopButton");
+    setAccessibleName(tr("STOP"));
+    setAutoDefault(false);
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+    // When it goes down: the output does not wait for the finger to come up again.
+    connect(this, &QPushButton::pressed, this, [this] { stop_(); });
+    qApp->installEventFilter(this);
+}
+
+bool StopButton::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::MouseButtonPress && event->type() != QEvent::MouseButtonDblClick) return false;
+    if (QApplication::activePopupWidget() == nullptr || !watched->isWindowType() || !isVisible()) return false;
+    const auto at = static_cast<QMouseEvent*>(event)->globalPosition().toPoint();
+    if (!QRect(mapToGlobal(QPoint(0, 0)), size()).contains(at)) return false;
+    // An entry of the popup that lies above the button is meant, not the button.
+    const auto* pressed = static_cast<QWindow*>(watched);
+    if (pressed != window()->windowHandle() && pressed->geometry().contains(at)) return false;
+    stop_();
+    return false;  // the popup closes
+}
+
+QSize StopButton::sizeHint() const {
+    const QFontMetrics word(wordFont()), small(keysFont());
+    return {std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kPadding,
+            word.height() + small.height() + kPadding / 3};
+}
+
+void StopButton::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) updateGeometry();
+    QPushButton::changeEvent(event);
+}
+
+void StopButton::paintEvent(QPaintEvent*) {
+    const auto look = stateLook(InterlockState::Faulted);  // the one red of the window
+    QPainter painter(this);
+    painter.fillRect(rect(), isDown() ? look.ground.darker(130) : look.ground);
+    painter.setPen(look.ink);
+    const QFontMetrics word(wordFont()), small(keysFont());
+    const int top = (height() - word.height() - small.height()) / 2;
+    painter.setFont(wordFont());
+    painter.drawText(QRect(0, top, width(), word.height()), Qt::AlignCenter, text());
+    painter.setFont(keysFont());
+    painter.drawText(QRect(0, top + word.height(), width(), small.height()), Qt::AlignCenter, keys());
+    if (!hasFocus()) return;
+    painter.setPen(QPen(look.ink, 2));
+    painter.drawRect(rect().adjusted(4, 4, -5, -5));
+}
+
+}  // namespace tacto::gui

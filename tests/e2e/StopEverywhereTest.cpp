@@ -1,0 +1,398 @@
+// STOP, Esc and Pause stop the output behind every dialog and popup of the program, with a real mouse and keyboard.
+//
+// Needs a display of its own (see in-xvfb); skipped elsewhere.
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QDialog>
+#include <QElapsedTimer>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QToolButton>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <qcustomplot.h>
+
+#include "app/gui/window/MainWindow.h"
+#include "app/gui/window/SafetyBar.h"
+#include "tests/e2e/Hand.h"
+#include "tests/gui/Person.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
+constexpr int kOpenedBySeveral = -1;  // "Encoding profile" opens three
+
+/// How often app/gui calls the two functions that open dialogs.
+int placesThatOpenDialogs() {
+    static const QRegularExpression call("\\b(openDialog|askForFile)\\(");
+    int calls = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceDir() / "app" / "gui")) {
+        if (entry.path().extension() != ".cpp" || entry.path().stem() == "Dialogs") continue;
+        QFile file(QString::fromStdString(entry.path().string()));
+        if (!file.open(QIODevice::ReadOnly)) continue;
+        calls += int(QString::fromUtf8(file.readAll()).count(call));
+    }
+    return calls;
+}
+
+struct Opening {
+    std::string name;
+    std::function<void()> open;
+};
+
+class StopEverywhere : public testing::Test {
+protected:
+    StopEverywhere() {
+        RecordProperty("hazard", "H2");
+        EXPECT_EQ(QGuiApplication::platformName(), "xcb");
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        focus(window);
+        stop = window.findChild<gui::SafetyBar*>()->findChild<QPushButton*>("stopButton");
+        openBench();
+        openBench();  // two sessions, to be compared
+    }
+    ~StopEverywhere() override { window.close(); }
+
+    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] bool isLive() {
+        const auto now = state();
+        return now == InterlockState::Armed || now == InterlockState::Delivering;
+    }
+    void openBench() {
+        gui::LiveOrder order;
+        order.uris.push_back(*DeviceUri::parse("sim:"));
+        order.profile = window.desk().profile();
+        order.speed = 4;
+        const auto before = window.desk().open();
+        window.desk().openLive(order);
+        ASSERT_TRUE(comesTrue([&] {
+            return window.desk().activity() == gui::Activity::Live && window.desk().open() != before;
+        }));
+    }
+    void deliver() {
+        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; }));
+        ArmRequest request;
+        request.operatorConfirmed = true;
+        window.desk().arm(request);
+        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Armed; }));
+        window.desk().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Delivering; }));
+    }
+    /// What the hand does must end the output.
+    void expectStop(const std::string& what, const std::function<void()>& hand) {
+        ASSERT_TRUE(isLive()) << what << ": opening it stopped the output";
+        QElapsedTimer since;
+        since.start();
+        hand();
+        const bool stopped = comesTrue([&] { return !isLive(); }, kStopLimit_ms);
+        EXPECT_TRUE(stopped) << what << ": still delivering";
+        slowest_ms = std::max(slowest_ms, since.elapsed());
+        ++tried;
+        if (!stopped) window.desk().stop("the test");
+    }
+    [[nodiscard]] static QDialog* newest() {
+        QDialog* found = nullptr;
+        for (auto* widget : QApplication::topLevelWidgets()) {
+            auto* dialog = qobject_cast<QDialog*>(widget);
+            if (dialog != nullptr && dialog->isVisible()) found = dialog;
+        }
+        return found;
+    }
+    static void closePopups() {
+        while (auto* popup = QApplication::activePopupWidget()) popup->close();
+    }
+    void closeAll() {
+        closePopups();
+        ASSERT_TRUE(comesTrue([&] {
+            if (auto* dialog = newest()) dialog->close();
+            return newest() == nullptr;
+        }));
+        focus(window);
+    }
+
+    void trigger(const QString& menu, const QString& entry) {
+        for (auto* action : window.menuBar()->actions()) {
+            if (action->text().remove('&') != menu) continue;
+            for (auto* found : action->menu()->actions()) {
+                if (found->text().remove('&') == entry) return found->trigger();
+            }
+        }
+        ADD_FAILURE() << "no entry " << entry.toStdString();
+    }
+    void press(const QWidget& in, const QString& text) {
+        QAbstractButton* button = nullptr;
+        ASSERT_TRUE(comesTrue([&] { return (button = find<QAbstractButton>(in, text)) != nullptr; }))
+            << text.toStdString();
+        ASSERT_TRUE(comesTrue([&] { return button->isEnabled(); })) << text.toStdString();
+        button->click();
+    }
+    void page(int index, int tab = 0) {
+        window.showWorkspace(index);
+        window.findChild<QTabWidget*>("livePage")->setCurrentIndex(tab);
+    }
+    void choose(int sessions) {
+        page(5);
+        auto* table = window.findChild<QTableWidget*>("sessionsTable");
+        ASSERT_TRUE(comesTrue([&] { return table->rowCount() >= 2; }));
+        table->clearSelection();
+        table->setSelectionMode(QAbstractItemView::MultiSelection);
+        for (int row = 0; row < sessions; ++row) table->selectRow(row);
+    }
+    /// "Save as…" of the plot that is shown.
+    void savePlot() {
+        page(0, 0);
+        for (auto* plot : window.findChildren<QCustomPlot*>()) {
+            if (!plot->isVisible()) continue;
+            for (auto* action : plot->actions()) {
+                if (action->text() == "&Save as…") return action->trigger();
+            }
+        }
+        ADD_FAILURE() << "no plot can be saved";
+    }
+    void failToSave() {
+        savePlot();
+        auto* chooser = qobject_cast<QFileDialog*>(newest());
+        ASSERT_NE(chooser, nullptr);
+        emit chooser->fileSelected("/nowhere/at/all.png");
+        chooser->close();
+    }
+    void fromScope(const QString& entry) {
+        page(0, 1);
+        for (auto* menu : window.findChildren<QMenu*>()) {
+            for (auto* action : menu->actions()) {
+                if (action->text() == entry) return action->trigger();
+            }
+        }
+        ADD_FAILURE() << "no entry " << entry.toStdString();
+    }
+
+    /// Each place of the program that opens a dialog.
+    [[nodiscard]] std::vector<Opening> dialogs() {
+        const auto menu = [this](const char* name, const char* entry) {
+            return Opening{entry, [this, name, entry] { trigger(name, entry); }};
+        };
+        const auto profile = [this](const char* button) {
+            return Opening{std::string("Encoding profile: ") + button, [this, button] {
+                               page(0, 0);
+                               press(window, "Encoding profile…");
+                               press(*newest(), button);
+                           }};
+        };
+        return {
+            menu("Bench", "Simulated bench with faults…"),
+            {"Save the plot", [this] { savePlot(); }},
+            {"Arm",  // opened while there is nothing to stop
+             [this] {
+                 window.desk().disarm();
+                 window.askToArm();
+                 deliver();
+             }},
+            menu("File", "Open…"),
+            menu("File", "Open recording folder…"),
+            menu("View", "Messages"),
+            menu("Help", "Keys"),
+            menu("Help", "Definitions and limits"),
+            menu("Help", "About Tactoscope"),
+            {"Not saved", [this] { failToSave(); }},
+            {"Encoding profile",
+             [this] {
+                 page(0, 0);
+                 press(window, "Encoding profile…");
+             }},
+            profile("Open…"),
+            profile("Save…"),
+            {"Recording's file",
+             [this] {
+                 for (auto* button : window.findChildren<QPushButton*>()) {
+                     if (button->text() == "Open a &recording…") return button->click();
+                 }
+             }},
+            {"Output folder",
+             [this] {
+                 page(2);
+                 press(window, "Choose the output folder");
+             }},
+            {"Folder of a recording",
+             [this] {
+                 page(2);
+                 for (auto* action : find<QToolButton>(window, "Add a recording or captures")->menu()->actions()) {
+                     if (action->text() == "A &recording as fingertip…") return action->trigger();
+                 }
+             }},
+            {"Script",
+             [this] {
+                 page(2);
+                 press(window, "Script…");
+             }},
+            {"Export",
+             [this] {
+                 choose(1);
+                 press(window, "Export CSV…");
+             }},
+            {"Compare",
+             [this] {
+                 choose(2);
+                 press(window, "Compare two");
+             }},
+            {"Open a capture", [this] { fromScope("Open a capture…"); }},
+            {"Save a capture", [this] { fromScope("Save picture as PNG…"); }},
+        };
+    }
+
+    gui::MainWindow window{simulatedRegistry};
+    QPushButton* stop = nullptr;
+    qint64 slowest_ms = 0;
+    int tried = 0;
+};
+
+TEST_F(StopEverywhere, DISABLED_BehindEveryDialog) {
+    // After a click on the window that the dialog blocks, that window has the focus; else the dialog has it.
+    const std::pair<const char*, std::function<void()>> hands[] = {
+        {"a click on STOP", [this] { clickOn(*stop); }},
+        {"Esc in the window",
+         [this] {
+             focus(window);
+             type("Escape");
+         }},
+        {"Pause in the dialog",
+         [this] {
+             focus(*newest());
+             type("Pause");
+         }},
+    };
+    const auto openings = dialogs();
+    EXPECT_EQ(placesThatOpenDialogs(), int(openings.size()) + kOpenedBySeveral)
+        << "app/gui opens a dialog that is not in dialogs()";
+    for (const auto& opening : openings) {
+        SCOPED_TRACE(opening.name);
+        for (const auto& [how, hand] : hands) {
+            ASSERT_NO_FATAL_FAILURE(deliver());
+            ASSERT_NO_FATAL_FAILURE(opening.open());
+            ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+            if (tried == 0) picture("stop-behind-a-dialog");
+            expectStop(how, hand);
+            ASSERT_NO_FATAL_FAILURE(closeAll());
+        }
+    }
+    RecordProperty("stops", tried);
+    RecordProperty("slowest_ms", int(slowest_ms));
+}
+
+TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
+    std::vector<Opening> popups;
+    const auto tryAll = [&] {
+        for (const auto& popup : popups) {
+            SCOPED_TRACE(popup.name);
+            for (const bool byKey : {false, true}) {
+                ASSERT_NO_FATAL_FAILURE(deliver());
+                // By a timer: a tool button waits inside its press until its menu is closed.
+                bool done = false;
+                QTimer look;
+                QObject::connect(&look, &QTimer::timeout, [&] {
+                    if (QApplication::activePopupWidget() == nullptr || std::exchange(done, true)) return;
+                    if (byKey)
+                        expectStop("Esc", [] { type("Escape"); });
+                    else
+                        expectStop("a click on STOP", [this] { clickOn(*stop); });
+                    closePopups();
+                });
+                look.start(10);
+                popup.open();
+                ASSERT_TRUE(comesTrue([&] { return done && !isLive(); }));
+                ASSERT_NO_FATAL_FAILURE(closeAll());
+            }
+        }
+        popups.clear();
+    };
+    auto* bar = window.menuBar();
+    for (auto* action : bar->actions())
+        popups.push_back({"menu " + action->text().toStdString(),
+                          [bar, action] { clickAt(bar->mapToGlobal(bar->actionGeometry(action).center())); }});
+    popups.push_back({"explanation of what has the focus", [] { type("F1"); }});
+    ASSERT_NO_FATAL_FAILURE(tryAll());
+    for (int shown = 0; shown < 8; ++shown) {
+        page(std::max(0, shown - 1), shown == 0 ? 1 : 0);
+        QTest::qWait(60);
+        const auto reachable = [](const QWidget* widget) {
+            return widget->isVisible() && widget->isEnabled() &&
+                   widget->visibleRegion().contains(widget->rect().center());
+        };
+        for (auto* list : window.findChildren<QComboBox*>()) {
+            if (list->count() > 0 && reachable(list))
+                popups.push_back({fmt::format("workspace {}, list {}", shown, list->toolTip().toStdString()),
+                                  [list] { clickOn(*list); }});
+        }
+        for (auto* button : window.findChildren<QToolButton*>()) {
+            if (button->menu() != nullptr && button->menu()->actions().size() > 0 && reachable(button))
+                popups.push_back({fmt::format("workspace {}, button {}", shown, button->toolTip().toStdString()),
+                                  [button] { clickOn(*button); }});
+        }
+        for (auto* plot : window.findChildren<QCustomPlot*>()) {
+            if (reachable(plot) && plot->contextMenuPolicy() != Qt::NoContextMenu &&
+                plot->contextMenuPolicy() != Qt::DefaultContextMenu)
+                popups.push_back({fmt::format("workspace {}, plot {}", shown, plot->accessibleName().toStdString()),
+                                  [plot] { clickOn(*plot, "3"); }});
+        }
+        ASSERT_NO_FATAL_FAILURE(tryAll());
+    }
+    RecordProperty("stops", tried);
+    RecordProperty("slowest_ms", int(slowest_ms));
+}
+
+/// Qt takes every key while it drags, and for itself.
+TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
+    for (const char* key : {"Escape", "Pause"}) {
+        ASSERT_NO_FATAL_FAILURE(deliver());
+        trigger("View", "Messages");
+        ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+        auto* log = newest()->findChild<QPlainTextEdit*>();
+        ASSERT_NE(log, nullptr);
+        log->selectAll();
+        const auto from = log->viewport()->mapToGlobal(log->cursorRect(QTextCursor(log->document())).center()) +
+                          QPoint(log->fontMetrics().averageCharWidth() * 4, 0);
+        const double scale = QGuiApplication::primaryScreen()->devicePixelRatio();
+        const auto at = [&](int by) {
+            return QStringList{"mousemove", QString::number(int((from.x() + by) * scale)),
+                               QString::number(int((from.y() + by) * scale))};
+        };
+        ASSERT_EQ(QProcess::execute("xdotool", at(0) + QStringList{"mousedown", "1"}), 0);
+        QTest::qWait(50);
+        QTimer::singleShot(300, [&] { expectStop(key, [&] { type(key); }); });
+        for (const int by : {10, 20, 40}) {
+            QProcess::execute("xdotool", at(by));
+            QTest::qWait(50);
+        }
+        EXPECT_TRUE(comesTrue([&] { return !isLive(); })) << key;
+        QProcess::execute("xdotool", {"mouseup", "1"});
+        type("Escape");
+        ASSERT_NO_FATAL_FAILURE(closeAll());
+    }
+}
+
+/// A box that Qt, or a library, opens with a local event loop.
+TEST_F(StopEverywhere, DISABLED_BehindABoxThatSomebodyElseOpensModally) {
+    ASSERT_NO_FATAL_FAILURE(deliver());
+    bool stopped = false;
+    QTimer::singleShot(0, [&] {
+        ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+        expectStop("a click on STOP", [this] { clickOn(*stop); });
+        stopped = !isLive();
+        newest()->close();
+    });
+    QMessageBox::warning(&window, "Not ours", "This box was opened with exec().");
+    EXPECT_TRUE(stopped);
+}
+
+}  // namespace
+}  // namespace tacto::test

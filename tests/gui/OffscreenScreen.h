@@ -1,0 +1,23 @@
+// OffscreenScreen.h - the screen of a program that has none: full HD. Qt's own offscreen screen has 800 x 800 pixels, and
+// the window stays on its screen.
+//
+// Thread-safety: call it before QApplication is made.
+#pragma once
+
+#include <QFile>
+#include <QTemporaryDir>
+
+namespace tacto::test {
+
+/// Chooses the offscreen platform unless QT_QPA_PLATFORM names another one. `folder` must outlive the program.
+inline void useOffscreenScreen(const QTemporaryDir& folder) {
+    const auto platform = qgetenv("QT_QPA_PLATFORM");
+    if (!platform.isEmpty() && platform != "offscreen") return;
+    QFile screen(folder.filePath("screen.json"));
+    if (!screen.open(QIODevice::WriteOnly)) qFatal("cannot write %s", qPrintable(screen.fileName()));
+    screen.write(R"({"screens": [{"name": "desk", "x": 0, "y": 0, "width": 1920, "height": 1080,)"
+                 R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})");
+    qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + screen.fileName().toUtf8());
+}
+
+}  // namespace tacto::test

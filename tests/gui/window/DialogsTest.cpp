@@ -1,0 +1,134 @@
+// Dialogs open in one way, beside the window: no click and no key is kept from STOP.
+#include <QAbstractButton>
+#include <QFile>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QTest>
+#include <gmock/gmock.h>
+
+#include "app/gui/look/Dialogs.h"
+#include "app/gui/window/StopKeys.h"
+#include "tests/gui/Person.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Dialogs, AreOpenedInOneWayOnly) {
+    RecordProperty("hazard", "H2");
+    const QRegularExpression forbidden(
+        R"(\bexec\(|->open\(\)|\bsetModal\(|Window(Modal|Modality)\b|ApplicationModal|QFileDialog)"
+        R"(|QMessageBox::(question|warning|information|critical|about)\()"
+        R"(|Q(Input|Color|Font|Print|Progress)Dialog|QErrorMessage|QWizard|QDrag\b)");
+    const QRegularExpression allowed("QApplication::exec\\(|prompt_->open\\(\\)");
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceDir() / "app" / "gui")) {
+        const auto name = entry.path().filename().string();
+        if ((entry.path().extension() != ".cpp" && entry.path().extension() != ".h") || name == "Dialogs.cpp" ||
+            name == "StopKeys.cpp")
+            continue;
+        QFile file(QString::fromStdString(entry.path().string()));
+        ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+        ++files;
+        auto text = QString::fromUtf8(file.readAll());
+        const auto found = forbidden.match(text.remove(allowed));
+        EXPECT_FALSE(found.hasMatch()) << name << ": " << found.captured().toStdString() << " (use look/Dialogs.h)";
+    }
+    EXPECT_GT(files, 100);
+}
+
+class Asking : public testing::Test {
+protected:
+    Asking() {
+        window.resize(600, 400);
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+    }
+    [[nodiscard]] QFileDialog* chooser() { return window.findChild<QFileDialog*>("fileChooser"); }
+    [[nodiscard]] QString trouble() {
+        const auto* label = chooser()->findChild<QLabel*>("fileTrouble");
+        return label->isVisible() ? label->text() : QString();
+    }
+    void ask(gui::FileQuestion::Wants wants) {
+        gui::FileQuestion question;
+        question.title = "Choose";
+        question.wants = wants;
+        question.folder = QString::fromStdString(folder.path().string());
+        gui::askForFile(window, question, [this](const QString& path) { chosen << path; });
+        ASSERT_NE(chooser(), nullptr);
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(chooser()));
+    }
+    void answer(const QString& name) {
+        auto* line = chooser()->findChild<QLineEdit*>("fileNameEdit");
+        ASSERT_NE(line, nullptr);
+        line->setText(name);
+        static_cast<QDialog*>(chooser())->accept();
+    }
+    const ScratchDir folder;
+    QWidget window;
+    QStringList chosen;
+};
+
+TEST_F(Asking, DoesNotBlockTheWindow) {
+    RecordProperty("hazard", "H2");
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    EXPECT_FALSE(chooser()->isModal());
+    EXPECT_EQ(chooser()->windowHandle()->modality(), Qt::NonModal);
+}
+
+TEST_F(Asking, AFileIsReplacedOnlyAfterASecondPress) {
+    const auto old = folder.write("old.json", "{}");
+    ask(gui::FileQuestion::Wants::NewFile);
+    answer("old.json");
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("old.json exists"));
+    answer("old.json");
+    EXPECT_EQ(chosen, QStringList(QString::fromStdString(old.string())));
+}
+
+TEST_F(Asking, TheSecondPressIsForThatFileAlone) {
+    static_cast<void>(folder.write("one.json", "{}"));
+    static_cast<void>(folder.write("two.json", "{}"));
+    ask(gui::FileQuestion::Wants::NewFile);
+    answer("one.json");
+    answer("two.json");
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("two.json exists"));
+}
+
+TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    answer("missing.json");
+    EXPECT_TRUE(chosen.isEmpty());
+    EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
+}
+
+TEST_F(Asking, TwiceShowsTheQuestionThatIsOpen) {
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    auto* first = chooser();
+    ask(gui::FileQuestion::Wants::ExistingFile);
+    QTest::qWait(20);
+    EXPECT_EQ(window.findChildren<QFileDialog*>().size(), 1);
+    EXPECT_EQ(chooser(), first);
+}
+
+TEST_F(Asking, ABoxThatSomebodyElseOpensLosesItsModality) {
+    RecordProperty("hazard", "H2");
+    const gui::StopKeys keys([](const char*) {}, nullptr);
+    auto modality = Qt::ApplicationModal;
+    QTimer::singleShot(50, [&] {
+        auto* box = window.findChild<QMessageBox*>();
+        ASSERT_NE(box, nullptr);
+        modality = box->windowHandle()->modality();
+        box->close();
+    });
+    QMessageBox::warning(&window, "Not ours", "Opened with exec().");
+    EXPECT_EQ(modality, Qt::NonModal);
+}
+
+}  // namespace
+}  // namespace tacto::test
