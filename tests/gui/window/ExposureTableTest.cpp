@@ -36,7 +36,7 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
     for (const int width : {240, 1200}) {
         gui::ExposureTable table;
         table.resize(width, 300);
-        table.show();
+        table.setVisible(true);
         ASSERT_TRUE(QTest::qWaitForWindowExposed(&table));
         const std::vector<ExposureRow> before{peak(10)}, after{peak(30.7)};
         table.show(before);
