@@ -8,6 +8,7 @@
 
 #include "core/acquisition/RecordingTable.h"
 #include "core/base/Csv.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 
@@ -42,8 +43,10 @@ public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
 
     Result<Recording> read(const Json& root) const {
-        if (!root.is_object())
-            return refuse("the file holds {}; an object with \"streams\" was expected", typeOf(root));
+        if (auto known = onlyKeys(root, {"title", "source", "licence", "baseline", "contact", "streams"}, file_.string());
+            !known) {
+            return failure(known);
+        }
         Recording recording;
         recording.path = file_;
         for (auto [key, target] : {std::pair{"title", &recording.title}, std::pair{"source", &recording.source},
@@ -227,7 +230,11 @@ private:
     }
 
     Result<RecordedStream> readStream(const Json& entry, std::size_t number) const {
-        if (!entry.is_object()) return refuse("stream {} is {}; an object was expected", number, typeOf(entry));
+        if (auto known = onlyKeys(entry, {"kind", "file", "time_column", "time_unit", "columns", "unit"},
+                                  fmt::format("{}: stream {}", file_.string(), number));
+            !known) {
+            return failure(known);
+        }
         const auto kind = kindOf(entry, number);
         if (!kind) return failure(kind);
         const auto unit = unitOf(entry, number, *kind);
@@ -287,14 +294,9 @@ Result<Recording> Recording::open(const std::filesystem::path& path) {
     }
     const auto content = readTextFile(file);
     if (!content) return failure(content);
-    Json root;
-    try {
-        root = Json::parse(*content);
-    } catch (const Json::exception& problem) {
-        return fail(ErrorCode::ParseError, "{}: a JSON description of a recording was expected: {}", file.string(),
-                    problem.what());
-    }
-    return Description(file).read(root);
+    const auto root = parseJson(*content, file.string());
+    if (!root) return failure(root);
+    return Description(file).read(*root);
 }
 
 const RecordedStream* Recording::find(StreamKind kind) const noexcept {

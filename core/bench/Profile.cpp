@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 
@@ -13,7 +14,8 @@ using nlohmann::json;
 
 Result<double> positive(const json& value, std::string_view key) {
     if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>())) {
-        return fail(ErrorCode::InvalidArgument, "safety.{} is {}; a number above 0 is expected", key, value.dump());
+        return fail(ErrorCode::InvalidArgument, "safety.{} is {}; a number above 0 is expected", key,
+                    shownJson(value));
     }
     return value.get<double>();
 }
@@ -21,7 +23,7 @@ Result<double> positive(const json& value, std::string_view key) {
 Result<Ceilings> readCeilings(const json& section) {
     if (!section.is_object()) {
         return fail(ErrorCode::ParseError, "safety.ceilings is {}; {{\"quantity\": maximum}} is expected",
-                    section.dump());
+                    shownJson(section));
     }
     Ceilings ceilings;
     for (const auto& [key, value] : section.items()) {
@@ -39,7 +41,11 @@ Result<Ceilings> readCeilings(const json& section) {
 }
 
 Result<void> readSafety(const json& section, Profile& profile) {
-    if (!section.is_object()) return fail(ErrorCode::ParseError, "safety is {}; an object is expected", section.dump());
+    if (auto known =
+            onlyKeys(section, {"load_low_ohm", "load_high_ohm", "electrode_area_cm2", "ceilings"}, "safety");
+        !known) {
+        return known;
+    }
     for (const auto& [key, value] : section.items()) {
         if (key == "ceilings") {
             auto ceilings = readCeilings(value);
@@ -48,12 +54,6 @@ Result<void> readSafety(const json& section, Profile& profile) {
             continue;
         }
         if (key == "electrode_area_cm2" && value.is_null()) continue;
-        if (key != "load_low_ohm" && key != "load_high_ohm" && key != "electrode_area_cm2") {
-            return fail(ErrorCode::ParseError,
-                        "safety has the unknown key \"{}\"; known are load_low_ohm, load_high_ohm, electrode_area_cm2 "
-                        "and ceilings",
-                        key);
-        }
         const auto number = positive(value, key);
         if (!number) return failure(number);
         if (key == "load_low_ohm") profile.loadLow = Ohms(*number);
@@ -70,15 +70,21 @@ Result<void> readSafety(const json& section, Profile& profile) {
 }  // namespace
 
 Result<Profile> parseProfile(std::string_view text, std::string_view source) {
-    const auto document = json::parse(text, nullptr, false);
-    if (document.is_discarded()) return fail(ErrorCode::ParseError, "{}: this is not JSON", source);
-    if (!document.is_object()) return fail(ErrorCode::ParseError, "{}: a profile is one JSON object", source);
+    const auto read = parseJson(text, source);
+    if (!read) return failure(read);
+    const json& document = *read;
+    if (auto known = onlyKeys(document, {"name", "roughness", "encoding", "safety"}, source); !known) {
+        return failure(known);
+    }
     const auto within = [&](const auto& failed) {
         return fail(failed.error().code, "{}: {}", source, failed.error().message);
     };
     Profile profile;
     for (const auto& [key, value] : document.items()) {
-        if (key == "name" && value.is_string()) {
+        if (key == "name") {
+            if (!value.is_string()) {
+                return fail(ErrorCode::ParseError, "{}: name is {}; a text is expected", source, shownJson(value));
+            }
             profile.name = value.get<std::string>();
         } else if (key == "roughness") {
             auto roughness = roughnessSettingsFromJson(value);
@@ -89,11 +95,7 @@ Result<Profile> parseProfile(std::string_view text, std::string_view source) {
             if (!encoding) return within(encoding);
             profile.encoding = std::move(*encoding);
         } else if (key == "safety") {
-            if (const auto read = readSafety(value, profile); !read) return within(read);
-        } else {
-            return fail(ErrorCode::ParseError,
-                        "{}: unknown key \"{}\" or wrong type; a profile has name, roughness, encoding and safety",
-                        source, key);
+            if (const auto safety = readSafety(value, profile); !safety) return within(safety);
         }
     }
     return profile;

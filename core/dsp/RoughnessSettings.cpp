@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/base/JsonText.h"
+
 namespace tacto {
 
 namespace {
@@ -35,14 +37,7 @@ public:
     Section(const Json& json, std::string name) : json_(json), name_(std::move(name)) {}
 
     Result<void> only(std::initializer_list<std::string_view> keys) const {
-        if (!json_.is_object()) return fail(ErrorCode::ParseError, "{}: an object was expected", name_);
-        for (const auto& [key, value] : json_.items()) {
-            if (std::ranges::find(keys, key) != keys.end()) continue;
-            std::string known;
-            for (const auto one : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", one);
-            return fail(ErrorCode::InvalidArgument, "{}: unknown key \"{}\"; known are {}", name_, key, known);
-        }
-        return {};
+        return onlyKeys(json_, keys, name_);
     }
     Result<void> number(const char* key, double& into) const {
         if (!json_.contains(key)) return {};
@@ -80,7 +75,7 @@ public:
 private:
     tl::unexpected<Error> wrongType(const char* key, std::string_view expected) const {
         return fail(ErrorCode::ParseError, "{}: {} is {}; {} was expected", name_, key,
-                    json_[key].dump(-1, ' ', true, Json::error_handler_t::replace), expected);
+                    shownJson(json_[key]), expected);
     }
     const Json& json_;
     std::string name_;

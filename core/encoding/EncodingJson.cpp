@@ -1,10 +1,10 @@
 // The `encoding` section of a profile file, both ways.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonText.h"
 #include "core/encoding/EncodingProfile.h"
 
 namespace tacto {
@@ -120,7 +120,7 @@ private:
     }
     void refuse(const char* key, const json& value, std::string_view accepted) {
         outcome_ = fail(ErrorCode::ParseError, "encoding.{} is {}, not {}", key,
-                        value.dump(-1, ' ', false, json::error_handler_t::replace), accepted);
+                        shownJson(value), accepted);
     }
 
     const json& section_;
@@ -130,13 +130,7 @@ private:
 }  // namespace
 
 Result<EncodingProfile> encodingProfileFrom(const json& section) {
-    if (!section.is_object()) return fail(ErrorCode::ParseError, "the encoding section is not a JSON object");
-    for (const auto& [key, value] : section.items()) {
-        if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-            return fail(ErrorCode::ParseError, "encoding.{} is not a known key; known are {}", key,
-                        fmt::join(kKeys, ", "));
-        }
-    }
+    if (auto known = onlyKeys(section, kKeys, "encoding"); !known) return failure(known);
     EncodingProfile p;
     Reader read(section);
     read.number("amplitude_min_v", [&](double x) { p.amplitudeMin = Volts(x); });

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "core/base/JsonText.h"
 #include "core/safety/FixedText.h"
 
 namespace tacto {
@@ -26,19 +26,13 @@ struct Place {
 
     template <class... Args>
     tl::unexpected<Error> refuse(fmt::format_string<Args...> text, Args&&... args) const {
-        return fail(ErrorCode::ParseError, "{}: {}{}{}", file, part, part.empty() ? "" : ": ",
-                    fmt::format(text, std::forward<Args>(args)...));
+        return fail(ErrorCode::ParseError, "{}: {}", name(), fmt::format(text, std::forward<Args>(args)...));
     }
+    [[nodiscard]] std::string name() const { return fmt::format("{}{}{}", file, part.empty() ? "" : ": ", part); }
 };
 
 Result<void> onlyKeys(const Json& object, std::initializer_list<std::string_view> known, const Place& place) {
-    if (!object.is_object()) return place.refuse("a {} stands where an object is expected", object.type_name());
-    for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end()) {
-            return place.refuse("\"{}\" is not a known key; accepted are {}", key, fmt::join(known, ", "));
-        }
-    }
-    return {};
+    return tacto::onlyKeys(object, known, place.name());
 }
 
 Result<std::string> textOf(const Json& object, const char* key, bool required, const Place& place) {
@@ -179,30 +173,6 @@ Result<void> readRows(const Json& document, const char* key, std::string_view fi
     return {};
 }
 
-/// JSON lets a key stand twice and the last one win; in a limit file that is a figure that nobody sees.
-Result<Json> readJson(std::string_view text, std::string_view name) {
-    std::vector<std::set<std::string>> keys;
-    std::string twice;
-    const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.empty() &&
-            !keys.back().insert(parsed.get<std::string>()).second) {
-            twice = parsed.get<std::string>();
-        }
-        return true;
-    };
-    try {
-        Json document = Json::parse(text, watch);
-        if (!twice.empty()) return Place{name, {}}.refuse("the key \"{}\" stands twice in one object", twice);
-        return document;
-    } catch (const Json::parse_error& error) {
-        const auto upTo = text.substr(0, std::min(error.byte, text.size()));
-        return Place{name, {}}.refuse("line {} is not JSON", 1 + std::count(upTo.begin(), upTo.end(), '\n'));
-    } catch (const Json::exception&) {
-        return Place{name, {}}.refuse("a number is out of range");
-    }
-}
 }  // namespace
 
 std::string_view nameOf(JudgedAt judged) noexcept { return kJudged[static_cast<std::size_t>(judged)]; }
@@ -211,9 +181,7 @@ std::string_view nameOf(Confidence confidence) noexcept { return kConfidences[st
 
 Result<LimitSet> parseLimitSet(std::string_view json, std::string_view name) {
     const Place place{name, {}};
-    if (json.size() > kLargestFile)
-        return place.refuse("{} bytes; a limit set of at most 1 MB is accepted", json.size());
-    const auto document = readJson(json, name);
+    const auto document = parseJson(json, name, {.bytes = kLargestFile});
     if (!document) return failure(document);
     if (auto keys = onlyKeys(*document, {"id", "title", "about", "limits", "accuracy", "disclosures"}, place); !keys) {
         return failure(keys);

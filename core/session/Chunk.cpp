@@ -5,6 +5,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonText.h"
+
 namespace tacto {
 
 static_assert(std::endian::native == std::endian::little, "session files are little-endian");
@@ -33,7 +35,9 @@ std::string toJsonText(const ChunkHead& head) {
 }
 
 Result<ChunkHead> parseChunkHead(std::string_view text) {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto parsed = parseJson(text, "the description of a chunk");
+    if (!parsed) return failure(parsed);
+    const auto& json = *parsed;
     const auto isCount = [&](const char* key) { return json.contains(key) && json[key].is_number_unsigned(); };
     if (!json.is_object() || !isCount("stream") || !isCount("index") || !isCount("first") || !isCount("samples") ||
         !isCount("crc32")) {

@@ -9,7 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/JsonText.h"
+
 namespace tacto {
+
+/// Of one row of a session file: results and report items are large, and a script's values nest by themselves.
+inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
 
 [[nodiscard]] std::string textOr(const nlohmann::json& object, const char* key);
 /// NaN where there is no number: null is how NaN is written.

@@ -6,6 +6,7 @@
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
+#include "core/base/JsonText.h"
 #include "core/session/JsonFields.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionSource.h"
@@ -15,9 +16,7 @@ namespace tacto {
 namespace {
 
 Result<nlohmann::json> parsed(std::string_view text, std::int64_t seq) {
-    auto json = nlohmann::json::parse(text, nullptr, false);
-    if (json.is_discarded()) return fail(ErrorCode::ParseError, "row {} of the session is not JSON: '{}'", seq, text);
-    return json;
+    return parseJson(text, fmt::format("row {} of the session", seq), kRowLimits);
 }
 
 std::string hexOf(std::span<const std::byte> bytes) {

@@ -124,9 +124,9 @@ private:
                 problem("row {} ({} {}) was altered: its hash is wrong", entry.seq, entry.kind, entry.name);
             // Go on from what is stored, so that one altered row is one problem.
             previous = stored.value_or(hash);
-            const auto body = nlohmann::json::parse(entry.body, nullptr, false);
-            if (body.is_discarded()) problem("row {} ({}) is not JSON", entry.seq, entry.kind);
-            if (auto done = checkKind(entry, body, *chunk, *capture); !done) return done;
+            const auto body = parseJson(entry.body, fmt::format("row {} ({})", entry.seq, entry.kind), kRowLimits);
+            if (!body) problem("{}", body.error().message);
+            if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             lastKind = entry.kind;
         }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonText.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 
 namespace tacto::hid {
@@ -22,9 +23,9 @@ struct Place {
 
     template <class... Args>
     tl::unexpected<Error> refuse(fmt::format_string<Args...> text, Args&&... args) const {
-        return fail(ErrorCode::ParseError, "{}: {}{}{}", file, part, part.empty() ? "" : ": ",
-                    fmt::format(text, std::forward<Args>(args)...));
+        return fail(ErrorCode::ParseError, "{}: {}", name(), fmt::format(text, std::forward<Args>(args)...));
     }
+    [[nodiscard]] std::string name() const { return fmt::format("{}{}{}", file, part.empty() ? "" : ": ", part); }
     [[nodiscard]] Place at(std::string_view name, std::size_t index) const {
         return {file, fmt::format("{}[{}]", name, index)};
     }
@@ -32,13 +33,7 @@ struct Place {
 };
 
 Result<void> onlyKeys(const Json& object, std::initializer_list<std::string_view> known, const Place& place) {
-    if (!object.is_object()) return place.refuse("a {} stands where an object is expected", object.type_name());
-    for (const auto& [key, value] : object.items()) {
-        if (std::ranges::find(known, key) == known.end()) {
-            return place.refuse("\"{}\" is not a known key; accepted are {}", key, fmt::join(known, ", "));
-        }
-    }
-    return {};
+    return tacto::onlyKeys(object, known, place.name());
 }
 
 const Json& member(const Json& object, const char* key) {
@@ -238,11 +233,9 @@ Result<void> readUsage(const Json& json, MassagerTemplate& into, const Place& pl
 
 Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file) {
     const Place place{file, {}};
-    if (text.size() > kTemplateMost) {
-        return place.refuse("{} bytes are more than a template of at most {}", text.size(), kTemplateMost);
-    }
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) return place.refuse("this is not JSON");
+    const auto read = parseJson(text, file, {.bytes = kTemplateMost});
+    if (!read) return failure(read);
+    const Json& json = *read;
     if (auto keys = onlyKeys(
             json,
             {"title", "source", "devices", "usage", "report", "fields", "stop", "keep_alive_s", "shortest_write_s"},

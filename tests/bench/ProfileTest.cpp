@@ -82,5 +82,23 @@ TEST(ProfileReach, ACurrentSourceIsJudgedByItsComplianceAndAtTheHighestLoad) {
     EXPECT_NE(beyondReach(profile, p24, "P24").value_or("").find("20 V at most (2 mA into 10000 Ω"), std::string::npos);
 }
 
+TEST(Profile, WithAKeyThatStandsTwiceIsRefusedAndKeepsNoCeilingOfEither) {
+    RecordProperty("hazard", "H1");
+    const auto parsed = parseProfile(
+        R"({"safety": {"ceilings": {"peak_current": 20}, "electrode_area_cm2": 3, "ceilings": {}}})", "lab.json");
+    ASSERT_FALSE(parsed);
+    EXPECT_EQ(parsed.error().message, "lab.json: the key \"ceilings\" stands twice in one object");
+}
+
+TEST(Profile, ThatNestsWithoutEndIsRefusedUnderEveryKey) {
+    RecordProperty("hazard", "H10");
+    const std::string deep = std::string(400'000, '[') + std::string(400'000, ']');
+    for (const char* key : {"name", "roughness", "encoding", "safety"}) {
+        const auto parsed = parseProfile(fmt::format("{{\"{}\": {}}}", key, deep), "lab.json");
+        ASSERT_FALSE(parsed) << key;
+        EXPECT_EQ(parsed.error().message, "lab.json: it nests deeper than 32 levels") << key;
+    }
+}
+
 }  // namespace
 }  // namespace tacto

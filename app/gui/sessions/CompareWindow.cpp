@@ -7,6 +7,7 @@
 #include "app/gui/look/Look.h"
 #include "app/gui/look/PlotPicture.h"
 #include "app/report/FigureDrawing.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
@@ -38,8 +39,9 @@ void flatten(const nlohmann::json& value, const QString& at, QMap<QString, QStri
 QMap<QString, QString> facts(const ReadSession& session) {
     QMap<QString, QString> all;
     flatten(session.about.parameters, QObject::tr("parameter"), all);
-    const auto profile = nlohmann::json::parse(session.about.profileJson, nullptr, false);
-    if (!profile.is_discarded()) flatten(profile, QObject::tr("profile"), all);
+    if (const auto profile = parseJson(session.about.profileJson, "the profile")) {
+        flatten(*profile, QObject::tr("profile"), all);
+    }
     for (const auto& device : session.about.devices) all[QObject::tr("device %1").arg(q(device.role))] = q(device.uri);
     all[QObject::tr("protocol")] = q(session.about.protocol);
     all[QObject::tr("seed")] = QString::number(session.about.seed);

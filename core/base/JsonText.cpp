@@ -1,0 +1,125 @@
+#include "core/base/JsonText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tacto {
+
+namespace {
+
+using nlohmann::json;
+
+/// Builds the value as the parser reports its parts; false from any function ends the parsing.
+class Builder {
+public:
+    explicit Builder(int depth) : depth_(depth) {}
+
+    [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
+    /// Whether the problem is one of the text's form, at the byte wrongAt() (from 1).
+    [[nodiscard]] bool isSyntax() const noexcept { return isSyntax_; }
+    [[nodiscard]] std::size_t wrongAt() const noexcept { return wrongAt_; }
+    [[nodiscard]] json take() { return std::move(root_); }
+
+    bool null() { return add(nullptr); }
+    bool boolean(bool value) { return add(value); }
+    bool number_integer(json::number_integer_t value) { return add(value); }
+    bool number_unsigned(json::number_unsigned_t value) { return add(value); }
+    bool number_float(json::number_float_t value, const std::string& text) {
+        if (std::isfinite(value)) return add(value);
+        return refuse(fmt::format("the number {} is out of range", text));
+    }
+    bool string(std::string& value) { return add(std::move(value)); }
+    bool binary(json::binary_t&) { return refuse("binary data are no JSON"); }
+    bool start_object(std::size_t) { return open(json::object()); }
+    bool start_array(std::size_t) { return open(json::array()); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+    bool key(std::string& name) {
+        if (within_.back()->contains(name)) return refuse(fmt::format("the key \"{}\" stands twice in one object", name));
+        key_ = std::move(name);
+        return true;
+    }
+    bool parse_error(std::size_t position, const std::string&, const json::exception& why) {
+        constexpr int kOutOfRange = 406;  // of the library: a number that is no double
+        isSyntax_ = true;
+        wrongAt_ = position;
+        return refuse(why.id == kOutOfRange ? ": a number is out of range" : " is not JSON");
+    }
+
+private:
+    bool refuse(std::string why) {
+        problem_ = std::move(why);
+        return false;
+    }
+    template <class Value>
+    bool add(Value&& value) {
+        put(json(std::forward<Value>(value)));
+        return true;
+    }
+    json& put(json value) {
+        if (within_.empty()) return root_ = std::move(value);
+        json& parent = *within_.back();
+        if (parent.is_object()) return parent[key_] = std::move(value);
+        parent.push_back(std::move(value));
+        return parent.back();
+    }
+    bool open(json empty) {
+        if (within_.size() >= static_cast<std::size_t>(depth_)) {
+            return refuse(fmt::format("it nests deeper than {} levels", depth_));
+        }
+        within_.push_back(&put(std::move(empty)));
+        return true;
+    }
+    bool close() {
+        within_.pop_back();
+        return true;
+    }
+
+    const int depth_;
+    json root_;
+    std::vector<json*> within_;  // the innermost last; a child moves only when its parent has none open
+    std::string key_;
+    std::string problem_;
+    bool isSyntax_ = false;
+    std::size_t wrongAt_ = 0;
+};
+
+}  // namespace
+
+Result<json> parseJson(std::string_view text, std::string_view source, const JsonLimits& limits) {
+    if (text.size() > limits.bytes) {
+        return fail(ErrorCode::ParseError, "{}: {} bytes; at most {} are accepted", source, text.size(), limits.bytes);
+    }
+    // The library takes a null byte for the end, whatever follows.
+    if (text.find('\0') != std::string_view::npos) return fail(ErrorCode::ParseError, "{}: a null byte is not JSON", source);
+    Builder builder(limits.depth);
+    if (json::sax_parse(text.begin(), text.end(), &builder)) return builder.take();
+    if (!builder.isSyntax()) return fail(ErrorCode::ParseError, "{}: {}", source, builder.problem());
+    const auto upTo = text.substr(0, std::min(builder.wrongAt(), text.size()));
+    return fail(ErrorCode::ParseError, "{}: line {}{}", source, 1 + std::count(upTo.begin(), upTo.end(), '\n'),
+                builder.problem());
+}
+
+Result<void> onlyKeys(const json& value, std::span<const std::string_view> known, std::string_view where) {
+    if (!value.is_object()) {
+        return fail(ErrorCode::ParseError, "{}: {} stands where an object is expected", where, shownJson(value));
+    }
+    for (const auto& [key, member] : value.items()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        return fail(ErrorCode::ParseError, "{}: \"{}\" is not a known key; accepted are {}", where, key,
+                    fmt::join(known, ", "));
+    }
+    return {};
+}
+
+std::string shownJson(const json& value) {
+    constexpr std::size_t kMost = 60;
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (text.size() <= kMost) return text;
+    std::size_t end = kMost - 3;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole characters only
+    return text.substr(0, end) + "...";
+}
+
+}  // namespace tacto

@@ -1,0 +1,45 @@
+// JsonText.h - the one reader for JSON text that comes from outside: profiles, limit sets, templates, recordings,
+// calibrations, rows of session files.
+//
+// JSON leaves open what a key that stands twice means, how deep it may nest and how large a number may be; here all of
+// that is refused, by name (hazard H10: a key that stands twice loses a ceiling, 400 000 brackets lose the stack).
+// tests/base/JsonTextTest.cpp looks that no other parser is called in core, drivers and app.
+//
+// Thread-safety: pure functions. No exception whatever the text, memory apart.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct JsonLimits {
+    std::size_t bytes = 1'000'000;
+    int depth = 32;  ///< objects and lists within each other
+};
+
+/// `source` begins every message: the file, and the line in it where that is known.
+/// Errors: ParseError for a text that is too long, nests too deep, is not JSON or not UTF-8, goes on after its end, has
+/// a null byte, a key twice in one object, or a number beyond the range of double.
+[[nodiscard]] Result<nlohmann::json> parseJson(std::string_view text, std::string_view source,
+                                               const JsonLimits& limits = {});
+
+/// Whether `value` is an object that has no other keys than `known`. `where` begins the message: "lab.json: limits[2]".
+/// Errors: ParseError naming the first key that is not known, and those that are.
+[[nodiscard]] Result<void> onlyKeys(const nlohmann::json& value, std::span<const std::string_view> known,
+                                    std::string_view where);
+[[nodiscard]] inline Result<void> onlyKeys(const nlohmann::json& value, std::initializer_list<std::string_view> known,
+                                           std::string_view where) {
+    return onlyKeys(value, std::span(known.begin(), known.size()), where);
+}
+
+/// One line for a message, at most 60 characters, whatever the value holds.
+[[nodiscard]] std::string shownJson(const nlohmann::json& value);
+
+}  // namespace tacto

@@ -1,0 +1,49 @@
+// Any text for a profile or another JSON file is read as the library reads it, or refused with a sentence (H10): never
+// deeper than it may nest, never with a key that stood twice.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/base/JsonText.h"
+#include "core/bench/Profile.h"
+
+namespace {
+
+using nlohmann::json;
+
+int depthOf(const json& value) {
+    int deepest = 0;
+    if (!value.is_structured()) return 0;
+    for (const auto& member : value) deepest = std::max(deepest, depthOf(member));
+    return deepest + 1;
+}
+
+void require(bool held) {
+    if (!held) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const tacto::JsonLimits limits{.bytes = 30'000, .depth = 8};
+    const auto parsed = tacto::parseJson(text, "fuzz.json", limits);
+    if (parsed) {
+        require(size <= limits.bytes && depthOf(*parsed) <= limits.depth);
+        require(*parsed == json::parse(text, nullptr, false));
+        const auto again = tacto::parseJson(parsed->dump(), "fuzz.json", limits);
+        require(parsed->dump().size() > limits.bytes || (again && *again == *parsed));
+    } else {
+        require(parsed.error().code == tacto::ErrorCode::ParseError);
+        require(parsed.error().message.starts_with("fuzz.json: "));
+    }
+    const auto profile = tacto::parseProfile(text, "fuzz.json");
+    if (!profile) {
+        require(!profile.error().message.empty());
+        return 0;
+    }
+    const auto again = tacto::parseProfile(tacto::toJson(*profile).dump(-1, ' ', true, json::error_handler_t::replace),
+                                           "again.json");
+    require(again && tacto::toJson(*again) == tacto::toJson(*profile));
+    return 0;
+}
