@@ -119,7 +119,8 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
         present.push_back(fmt::format("{:04x}", waveform));
         if (!holds(controls.trigger, entry.ordinal)) continue;
         if (lasts(waveform) && lasting == nullptr) lasting = &entry;
-        if (!isFinite(waveform) || finite != nullptr || !entry.duration || !controls.repeatCount) continue;
+        if (!isFinite(waveform) || finite != nullptr || !entry.duration) continue;
+        if (!controls.repeatCount || controls.repeatCount->max < 0) continue;
         const auto milliseconds = valueOf(plain(*entry.duration), list);
         if (milliseconds <= 0 || milliseconds > kPlayMost_ms ||
             (controls.retriggerPeriod && !holds(*controls.retriggerPeriod, milliseconds)))
@@ -141,7 +142,7 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
     reports.start.assign(controls.length, 0);
     reports.start[0] = controls.report;
     reports.stop = reports.start;
-    if (lasting != nullptr && controls.cutoffTime) {
+    if (lasting != nullptr && controls.cutoffTime && controls.cutoffTime->max > 0) {
         setValue(plain(controls.trigger), lasting->ordinal, reports.start);
         reports.ends = DurationField{plain(*controls.cutoffTime), kMillisecond, 0};
     } else if (finite != nullptr) {

@@ -28,6 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!controls) return 0;
     const auto reports = hapticReports(*controls, rest.subspan(cut));
     if (!reports) return 0;
-    if (!validate(*reports) || !startBytes(*reports, 0.5) || startBytes(*reports, 1.5)) std::abort();
+    // The shortest burst; a device that ends bursts by itself may refuse a longer one.
+    if (!validate(*reports) || !startBytes(*reports, 0.5, tacto::Seconds(1e-4)) || startBytes(*reports, 1.5))
+        std::abort();
     return 0;
 }
