@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "core/base/Text.h"
+#include "core/devices/DeviceUri.h"
 #include "core/safety/TrainCheck.h"
 #include "drivers/sciencemode/ReadBack.h"
 
@@ -46,6 +47,17 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
                                                        const Clock& clock) {
     auto setup = setupFor(order, device.traits());
     std::unique_ptr<BenchPulse> made(new BenchPulse(std::move(order), std::move(setup), device, clock));
+    const auto& identity = device.identity();
+    auto record = UnitRecord::open(unitFolder(), unitOf(identity.serial, identity.uri), clock);
+    if (!record) return failure(record);
+    if (const auto left = (*record)->fault()) {
+        return fail(ErrorCode::NotArmed,
+                    "the stimulator was left in a fault by an earlier run: {}. See to its cause and reset it: run with "
+                    "--reset-fault, or Bench > Reset fault in the window",
+                    left->reason.view());
+    }
+    made->record_ = std::move(*record);
+    made->gate_.continueFrom(*made->record_);
     if (auto configured = made->gate_.configure(made->setup_); !configured) return failure(configured);
     if (auto connected = made->interlock_.connect(); !connected) return failure(connected);
     return made;

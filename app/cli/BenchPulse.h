@@ -12,6 +12,7 @@
 
 #include "core/bench/StimulatorSession.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/UnitRecord.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 
 namespace tacto::cli {
@@ -79,6 +80,7 @@ private:
     const GateSetup setup_;
     sciencemode::ScienceModeStimulator& device_;
     const Clock& clock_;
+    std::unique_ptr<UnitRecord> record_;  // Outlives those that write into it
     SafetyGate gate_;
     Interlock interlock_;
     Heartbeat heartbeat_;

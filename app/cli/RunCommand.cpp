@@ -24,6 +24,7 @@ void declare(QCommandLineParser& parser) {
     parser.addOption({"device", "A device to use; sim: fills every role that is still needed.", "URI"});
     parser.addOption({"set", "A parameter of the protocol, or an answer to one of its questions.", "KEY=VALUE"});
     parser.addOption({"seed", "Seed of everything random (1).", "N"});
+    parser.addOption({"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
     parser.addOption({"realtime", "Runs on the real clock even where a virtual one could serve."});
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
@@ -68,6 +69,7 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
     if (!seed) return tl::unexpected(usage("run: " + seed.error().message));
     order.seed = *seed;
     order.realtime = parser.isSet("realtime");
+    order.resetFault = parser.isSet("reset-fault");
     for (const auto& text : parser.values("device")) {
         const auto uri = DeviceUri::parse(text.toStdString());
         if (!uri) return tl::unexpected(usage("run: " + uri.error().message));
@@ -234,7 +236,8 @@ int run(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kRun{"run",
-                   "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--realtime] [--out DIR] [--json]",
+                   "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--realtime] [--reset-fault] "
+                   "[--out DIR] [--json]",
                    "Runs a protocol script, records it and writes its report",
                    true,
                    declare,

@@ -4,6 +4,7 @@
 
 #include "app/run/KnownCalibration.h"
 #include "core/bench/ProfileReach.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto {
 
@@ -95,11 +96,24 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.stops = order.stops;
     config.asked = order.asked;
     applyKnown(knownCalibration(config.devices), config);
+    config.units = unitFolder();
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     run->bench_ = std::move(*bench);
     if (!order.stops) run->order_.asked = run->bench_->stops().mark();
+    if (auto left = run->leaveFault(); !left) return failure(left);
     return run;
+}
+
+/// A fault that an earlier run left the stimulator in is reset when the operator asks for it, and then looked at again.
+Result<void> ProtocolRun::leaveFault() {
+    const auto seen = bench_->telemetry();
+    if (seen.state != InterlockState::Faulted) return {};
+    if (order_.resetFault) return bench_->resetFault();
+    return fail(ErrorCode::NotArmed,
+                "the stimulator is in a fault, {}. Output is off. See to its cause, then run again with --reset-fault, "
+                "or reset it in the window (Bench > Reset fault)",
+                seen.reason.view());
 }
 
 ProtocolRun::~ProtocolRun() {

@@ -23,7 +23,8 @@ struct RunOrder {
     ProtocolSettings settings;
     std::uint64_t seed = 1;
     std::vector<DeviceUri> uris;
-    bool realtime = false;  ///< the steady clock even where a virtual one could serve
+    bool realtime = false;    ///< the steady clock even where a virtual one could serve
+    bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
     Profile profile;
     ShippedLimits limits;
     std::string out;  ///< folder, as prepareRunFiles() takes it
@@ -78,6 +79,7 @@ public:
     [[nodiscard]] const RunFiles& files() const noexcept { return files_; }
 
 private:
+    [[nodiscard]] Result<void> leaveFault();
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}
     RunOrder order_;
     RunFiles files_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/bench/BenchState.h"
+#include "core/devices/DeviceUri.h"
 
 namespace tacto {
 
@@ -35,8 +36,22 @@ SourceTraits traitsOf(const DeviceSet& devices) {
     return none;
 }
 
+/// The stimulator goes on from what it delivered before, and nobody else drives it meanwhile.
+Result<void> Bench::State::takeUpRecord() {
+    const auto& stimulating = config.devices.stimulator;
+    if (!stimulating || stimulating->identity().simulated || config.units.empty()) return {};
+    const auto& identity = stimulating->identity();
+    auto opened = UnitRecord::open(config.units, unitOf(identity.serial, identity.uri), *config.clock,
+                                   config.systemTime != nullptr ? *config.systemTime : SystemTime::real());
+    if (!opened) return failure(opened);
+    record = std::move(*opened);
+    gate.continueFrom(*record);
+    return {};
+}
+
 Result<void> Bench::State::open() {
     if (const auto valid = validate(config.profile.encoding); !valid) return valid;
+    if (const auto taken = takeUpRecord(); !taken) return taken;
     if (config.devices.sensor) {
         auto made = SensorSession::create(*config.devices.sensor);
         if (!made) return failure(made);
@@ -85,6 +100,7 @@ Result<void> Bench::State::open() {
     parts.sensorReport = reportingDevice(Role::Sensor);
     loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
     if (const auto connected = interlock.connect(); !connected) return connected;
+    if (record) interlock.keepFaultsIn(*record);
     nextTick = outputDue = config.clock->now();
     noteCalibration();
     if (virtualClock == nullptr) startThreads();
@@ -343,6 +359,7 @@ bool Bench::sensorFinished() const noexcept { return state_->sensor && state_->s
 Telemetry Bench::telemetry() const {
     auto seen = state_->loop->telemetry();
     seen.state = state_->interlock.state();  // a stop shows before the loop's next step
+    if (seen.state == InterlockState::Faulted) seen.reason = FixedText<200>(state_->interlock.reason().view());
     return seen;
 }
 std::optional<DeviceReport> Bench::deviceReport(Role role) const noexcept {

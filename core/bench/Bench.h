@@ -13,6 +13,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@
 namespace tacto {
 
 class SessionWriter;
+class SystemTime;
 
 struct BenchConfig {
     DeviceSet devices;
@@ -51,6 +53,10 @@ struct BenchConfig {
     /// first order; without `stops` that is now.
     std::shared_ptr<StopCounter> stops;
     StopMark asked = {};
+    /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator goes on from there, and is held
+    /// against other processes. Empty keeps none; a simulated stimulator never has one.
+    std::filesystem::path units;
+    const SystemTime* systemTime = nullptr;  ///< of the record; null: the system's own. Outlives the bench
 };
 
 /// What the operator states when arming.
@@ -65,6 +71,8 @@ struct ArmRequest {
 
 class Bench {
 public:
+    /// Errors: of the profile and the devices; Device when another process drives the stimulator; Io when its record
+    /// cannot be kept or the session not be written.
     [[nodiscard]] static Result<std::unique_ptr<Bench>> create(BenchConfig config);
     ~Bench();  ///< outputs off, threads joined
 

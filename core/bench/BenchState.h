@@ -16,6 +16,7 @@
 #include "core/bench/ScopeSession.h"
 #include "core/safety/Heartbeat.h"
 #include "core/safety/SafetyGate.h"
+#include "core/safety/UnitRecord.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -28,6 +29,7 @@ struct Bench::State {
     VirtualClock* virtualClock = nullptr;  // null on the steady clock
     SourceTraits source;
     KnownLines applied;  // config.calibration, or nothing while it is left aside
+    std::unique_ptr<UnitRecord> record;  // of the stimulator, where one is kept; outlives those that write into it
     SafetyGate gate;
     Interlock interlock;
     Heartbeat heartbeat;
@@ -148,6 +150,7 @@ struct Bench::State {
         refusalsSeen = loop->refusals();
         return fail(ErrorCode::LimitExceeded, "{}", loop->telemetry().lastRefusal.view());
     }
+    [[nodiscard]] Result<void> takeUpRecord();
     void noteCalibration();
     Result<void> calibrationToday() const;
     [[nodiscard]] GateSetup setupFor(const Load& load) const;

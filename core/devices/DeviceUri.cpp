@@ -38,6 +38,11 @@ std::string DeviceUri::text() const {
     return out;
 }
 
+std::string unitOf(std::string_view serial, std::string_view uri) {
+    if (serial.empty()) return std::string(uri);
+    return fmt::format("{} {}", uri.substr(0, uri.find(':')), serial);
+}
+
 std::string calibratedOutput(std::string_view serial, std::string_view uri) {
     std::string output(serial);
     const auto parsed = DeviceUri::parse(uri);

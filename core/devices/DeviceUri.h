@@ -24,6 +24,10 @@ struct DeviceUri {
     [[nodiscard]] std::string text() const;
 };
 
+/// A unit by name, whichever of its outputs is used: its driver and its serial number ("sciencemode 1234"); without one
+/// the whole of `uri`.
+[[nodiscard]] std::string unitOf(std::string_view serial, std::string_view uri);
+
 /// What a calibration counts for: one output of one unit. The serial number, followed by the channel and connector
 /// that `uri` chooses ("PP-7 channel=2"). Empty without a serial number: what cannot be told apart is not
 /// calibrated.

@@ -26,7 +26,8 @@ struct BookedTrain {
 class ExposureMeter {
 public:
     static constexpr Seconds kLongestWindow{5};
-    explicit ExposureMeter(std::size_t capacity = 4096);  ///< allocates here and never again
+    static constexpr std::size_t kCapacity = 4096;
+    explicit ExposureMeter(std::size_t capacity = kCapacity);  ///< allocates here and never again
 
     /// Forgets what no window from `now` on can touch. `stretch`, 1 or more, here and below: a second of the windows
     /// lasts that many of the clock that trains are booked on.

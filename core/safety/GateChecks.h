@@ -1,7 +1,9 @@
-// GateChecks.h - internal: every check of the gate by name, so that the mutation test can take each away in turn and
-// see a test fail. In the product checks() is the constant true and this header leaves no trace.
+// GateChecks.h - internal: every check of the gate, the interlock, the heartbeat and the train's read-back by name, so
+// that the mutation test can take each away in turn and see a test fail. In the product checks() is the constant true
+// and this header leaves no trace.
 //
-// A new check in the gate gets a name here; GateMutationTest then demands a case that only it refuses.
+// A new check gets a name here; the tests do not build until it stands in their table (tests/safety/CheckNames.h), and
+// fail until there is a case that only it refuses. A refusal that asks for no check fails EveryRefusalHasItsCheck.
 #pragma once
 
 #include <array>
@@ -21,7 +23,15 @@ enum Check : int {
     BadLimitRow,
     BadCeiling,
     LoosenedCeiling,
-    BadSource,
+    SourceDrive,
+    SourceAmplitudeMax,
+    SourceAmplitudeStep,
+    SourceWidths,
+    SourcePulses,
+    SourceCompliance,
+    SourceCurrentLimit,
+    SourceNoCompliance,
+    SourceAccuracy,
     BadLoad,
     BadArea,
     BadCheckTrain,
@@ -46,7 +56,10 @@ enum Check : int {
     Uncertainty,
     PulseBeyondPeriod,
     LongWithoutDeadMan,
+    PastUnknown,
     MeterFull,
+    MeterBooking,
+    RecordBooking,
     MalformedTrain,
     SourceKind,
     AmplitudeMax,
@@ -65,18 +78,55 @@ enum Check : int {
     PersonBeyondCalibration,
     PersonLevel,
     CheckDiscomfort,
+    // Accepted levels
+    LevelOfPerson,
+    LevelMalformed,
+    LevelInVolts,
+    LevelDiscomfort,
+    LevelRamp,
+    LevelAccept,
+    DiscomfortValue,
+    // approve() of a vibration
     BurstIntensity,
     BurstDuration,
     // isCurrent()
     Epoch,
     Expiry,
+    // Interlock
+    InterlockMove,
+    ArmRequestState,
+    ArmConfirmState,
+    ArmTicket,
+    ArmState,
+    ArmLimits,
+    ArmIdentity,
+    ArmOperator,
+    ArmImpedanceMissing,
+    ArmImpedanceRange,
+    ArmImpedanceAge,
+    ResetState,
+    ResetCause,
+    // Train check
+    TrainNoStatus,
+    TrainGarbage,
+    TrainOpen,
+    TrainShort,
+    TrainNetCharge,
+    TrainStuckOn,
+    TrainStatusLate,
+    TrainReadEarly,
+    // Heartbeat
+    HeartSilent,
+    HeartNever,
+    HeartLate,
     kNamedChecks,
     // One per quantity from here: a limit set's row or a ceiling, on the request alone and with the meter
-    RequestLimit = 100,
-    RequestCeiling = 120,
-    MeterLimit = 140,
-    MeterCeiling = 160,
+    RequestLimit = 200,
+    RequestCeiling = 220,
+    MeterLimit = 240,
+    MeterCeiling = 260,
 };
+static_assert(kNamedChecks < RequestLimit && kQuantityCount <= 20);
 
 [[nodiscard]] constexpr int limitCheck(Check base, Quantity q) noexcept { return base + static_cast<int>(q); }
 

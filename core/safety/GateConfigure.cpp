@@ -51,27 +51,30 @@ Result<void> checkLimits(const GateSetup& setup) {
 }
 
 Result<void> checkSource(const SourceTraits& s) {
-    if (!checks(BadSource)) return {};
-    if (s.drive != Drive::Voltage && s.drive != Drive::Current)
+    if (checks(SourceDrive) && s.drive != Drive::Voltage && s.drive != Drive::Current)
         return invalid("the source drives neither voltage nor current");
-    if (!positive(s.amplitudeMax))
+    if (checks(SourceAmplitudeMax) && !positive(s.amplitudeMax))
         return invalid("the source's largest amplitude is {}; it must be above 0", s.amplitudeMax);
-    if (!notNegative(s.amplitudeStep))
+    if (checks(SourceAmplitudeStep) && !notNegative(s.amplitudeStep))
         return invalid("the source's amplitude step is {}; 0 or more is needed", s.amplitudeStep);
-    if (!notNegative(s.widthStep.count()) || !notNegative(s.widthMin.count()) || !positive(s.widthMax.count())) {
+    if (checks(SourceWidths) && !(notNegative(s.widthStep.count()) && notNegative(s.widthMin.count()) &&
+                                  positive(s.widthMax.count()))) {
         return invalid("the source's pulse widths are {} to {} us in steps of {} us; finite numbers are needed",
                        s.widthMin.count(), s.widthMax.count(), s.widthStep.count());
     }
-    if (s.pulsesMax < 1) return invalid("the source allows {} pulses a train; 1 or more are needed", s.pulsesMax);
-    if (!notNegative(s.compliance.value()) || !notNegative(s.currentLimit.value())) {
-        return invalid("the source states a compliance of {} V and a current limit of {} mA; finite numbers are needed",
-                       s.compliance.value(), s.currentLimit.value());
+    if (checks(SourcePulses) && s.pulsesMax < 1)
+        return invalid("the source allows {} pulses a train; 1 or more are needed", s.pulsesMax);
+    if (checks(SourceCompliance) && !notNegative(s.compliance.value())) {
+        return invalid("the source states a compliance of {} V; 0 or more is needed", s.compliance.value());
     }
-    if (s.drive == Drive::Current && !positive(s.compliance.value())) {
+    if (checks(SourceCurrentLimit) && !notNegative(s.currentLimit.value())) {
+        return invalid("the source states a current limit of {} mA; 0 or more is needed", s.currentLimit.value());
+    }
+    if (checks(SourceNoCompliance) && s.drive == Drive::Current && !positive(s.compliance.value())) {
         return invalid("the current source states no compliance; its voltage could not be judged");
     }
     for (const auto& stated : {s.accuracy.amplitude, s.accuracy.phaseWidth, s.accuracy.gap, s.accuracy.interval}) {
-        if (stated && !stated->sound()) {
+        if (checks(SourceAccuracy) && stated && !stated->sound()) {
             return invalid("the source states an accuracy of {} % and {}; 0 or more and less than 100 % are needed",
                            100 * stated->relative, stated->absolute);
         }

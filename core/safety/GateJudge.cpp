@@ -14,7 +14,7 @@ using namespace gate;
 double SafetyGate::State::carriedAt(Instant now) const noexcept {
     double left = 0;
     for (const GapState leftBy : {GapState::HoldsZero, GapState::HighImpedance}) {
-        const Residual& residual = residuals[static_cast<std::size_t>(leftBy)];
+        const ResidualVoltage& residual = residuals[static_cast<std::size_t>(leftBy)];
         if (residual.volts == 0 || now <= residual.at) {
             left = std::max(left, residual.volts);
             continue;

@@ -3,7 +3,6 @@
 // Thread-safety: as SafetyGate: one caller.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <map>
 #include <string>
@@ -15,6 +14,7 @@
 #include "core/safety/GateChecks.h"
 #include "core/safety/GateRules.h"
 #include "core/safety/SafetyGate.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto {
 
@@ -28,11 +28,8 @@ struct SafetyGate::State {
     PulseTrain lastTrain;
 
     ExposureMeter meter;
-    struct Residual {
-        double volts = 0;  // The most that may be left on the load ...
-        Instant at{0};     // ... at this moment
-    };
-    std::array<Residual, 2> residuals;  // by what the source that left it does at rest, in the order of GapState
+    ResidualVoltages residuals;
+    UnitRecord* record = nullptr;  // Of the unit; null: none is kept
 
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};

@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "core/base/Units.h"
+#include "core/safety/GateChecks.h"
 
 namespace tacto {
 
@@ -28,7 +29,8 @@ public:
     /// end(), is never late. One caller, the loop.
     bool beat(Instant now) noexcept {
         const auto last = last_.load(std::memory_order_relaxed);
-        if (last != kNever && now.count() - last > kSilence.count()) return false;
+        const bool late = last != kNever && now.count() - last > kSilence.count();
+        if (gate::checks(gate::HeartLate) && late) return false;
         last_.store(now.count(), std::memory_order_release);
         return true;
     }
@@ -38,7 +40,8 @@ public:
     void end() noexcept { last_.store(kNever, std::memory_order_release); }
     [[nodiscard]] bool alive(Instant now) const noexcept {
         const auto last = last_.load(std::memory_order_acquire);
-        return last != kNever && now.count() - last <= kSilence.count();
+        if (gate::checks(gate::HeartNever) && last == kNever) return false;
+        return !gate::checks(gate::HeartSilent) || now.count() - last <= kSilence.count();
     }
     /// How long ago the last beat was; nothing before the first and after end().
     [[nodiscard]] std::optional<Instant> silence(Instant now) const noexcept {

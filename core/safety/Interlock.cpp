@@ -1,8 +1,14 @@
 #include "core/safety/Interlock.h"
 
+#include <algorithm>
 #include <array>
 
+#include "core/safety/GateChecks.h"
+#include "core/safety/UnitRecord.h"
+
 namespace tacto {
+
+using namespace gate;
 
 namespace {
 constexpr std::array<std::string_view, 7> kStates{"disconnected", "disarmed", "checking", "armed",
@@ -25,13 +31,25 @@ FixedText<159> Interlock::reason() const noexcept {
 Result<void> Interlock::move(InterlockState from, InterlockState to, const char* what) {
     const std::lock_guard lock(mutex_);
     const InterlockState now = state_.load(std::memory_order_relaxed);
-    if (now != from) {
+    if (checks(InterlockMove) && now != from) {
         return fail(ErrorCode::NotArmed, "cannot {} while {}; the interlock must be {}", what, nameOf(now),
                     nameOf(from));
     }
     state_.store(to, std::memory_order_release);
     if (to != InterlockState::Disarmed) reason_ = {};
     return {};
+}
+
+void Interlock::keepFaultsIn(UnitRecord& record) noexcept {
+    const std::lock_guard lock(mutex_);
+    record_ = &record;
+    const auto left = record.fault();
+    if (!left) return;
+    causes_ |= left->causes;
+    state_.store(InterlockState::Faulted, std::memory_order_release);
+    std::array<char, 160> text{};
+    const auto end = fmt::format_to_n(text.data(), text.size() - 1, "left by an earlier run: {}", left->reason.view());
+    reason_ = std::string_view(text.data(), std::min(end.size, text.size() - 1));
 }
 
 Result<void> Interlock::connect() { return move(InterlockState::Disconnected, InterlockState::Disarmed, "connect"); }
@@ -42,7 +60,7 @@ Result<void> Interlock::disconnect() {
 Result<std::uint64_t> Interlock::requestArming(Instant now) {
     const std::lock_guard lock(mutex_);
     const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (current != InterlockState::Disarmed) {
+    if (checks(ArmRequestState) && current != InterlockState::Disarmed) {
         return fail(ErrorCode::NotArmed, "cannot start arming while {}; the interlock must be disarmed",
                     nameOf(current));
     }
@@ -54,13 +72,14 @@ Result<std::uint64_t> Interlock::requestArming(Instant now) {
 Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
     const std::lock_guard lock(mutex_);
     const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (current != InterlockState::Disarmed) {
+    if (checks(ArmConfirmState) && current != InterlockState::Disarmed) {
         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the interlock must be disarmed",
                     nameOf(current));
     }
     const bool valid = ticket != 0 && ticket == ticket_ && now >= requestedAt_ && now - requestedAt_ <= kConfirmWithin;
     ticket_ = 0;  // One request, one confirmation
-    if (!valid) return fail(ErrorCode::NotArmed, "arming was not requested within the last 30 s, or was stopped since");
+    if (checks(ArmTicket) && !valid)
+        return fail(ErrorCode::NotArmed, "arming was not requested within the last 30 s, or was stopped since");
     state_.store(InterlockState::Checking, std::memory_order_release);
     reason_ = {};
     return {};
@@ -69,15 +88,18 @@ Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
 Result<void> Interlock::arm(const ArmingEvidence& evidence, Instant now) {
     const std::lock_guard lock(mutex_);
     const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (current != InterlockState::Checking) {
+    if (checks(ArmState) && current != InterlockState::Checking) {
         return fail(ErrorCode::NotArmed, "cannot arm while {}; the interlock must be checking", nameOf(current));
     }
-    if (!evidence.limitsLoaded) return fail(ErrorCode::NotArmed, "cannot arm: no limit set is loaded");
-    if (!evidence.deviceIdentified) return fail(ErrorCode::NotArmed, "cannot arm: the device is not identified");
-    if (!evidence.operatorConfirmed) return fail(ErrorCode::NotArmed, "cannot arm: the operator has not confirmed it");
+    if (checks(ArmLimits) && !evidence.limitsLoaded)
+        return fail(ErrorCode::NotArmed, "cannot arm: no limit set is loaded");
+    if (checks(ArmIdentity) && !evidence.deviceIdentified)
+        return fail(ErrorCode::NotArmed, "cannot arm: the device is not identified");
+    if (checks(ArmOperator) && !evidence.operatorConfirmed)
+        return fail(ErrorCode::NotArmed, "cannot arm: the operator has not confirmed it");
     if (evidence.needsImpedance) {
         const bool declared = !evidence.readsBack && evidence.declaredLoadConfirmed;
-        if (!evidence.impedance && !declared) {
+        if (checks(ArmImpedanceMissing) && !evidence.impedance && !declared) {
             return fail(ErrorCode::NotArmed, "cannot arm: {}",
                         evidence.readsBack
                             ? "no impedance was measured"
@@ -87,13 +109,13 @@ Result<void> Interlock::arm(const ArmingEvidence& evidence, Instant now) {
             const double ohm = evidence.impedance->value();
             const double low = evidence.impedanceLow.value();
             const double high = evidence.impedanceHigh.value();
-            if (!(ohm >= low && ohm <= high)) {
+            if (checks(ArmImpedanceRange) && !(ohm >= low && ohm <= high)) {
                 return fail(ErrorCode::NotArmed,
                             "cannot arm: the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", ohm,
                             low, high);
             }
             const bool fresh = evidence.impedanceAt <= now && now - evidence.impedanceAt <= kImpedanceAge;
-            if (!fresh) {
+            if (checks(ArmImpedanceAge) && !fresh) {
                 return fail(ErrorCode::NotArmed,
                             "cannot arm: the impedance was measured {:.3g} s ago; at most 5 s is accepted",
                             toSeconds(now - evidence.impedanceAt));
@@ -138,6 +160,7 @@ void Interlock::fault(FaultCause cause, std::string_view reason) noexcept {
     ticket_ = 0;
     causes_ |= bitOf(cause);
     if (cause == FaultCause::DeviceLost) deviceLost_ = true;
+    if (record_ != nullptr) record_->keepFault(cause, reason);
     if (state_.load(std::memory_order_relaxed) == InterlockState::Faulted) return;
     state_.store(InterlockState::Faulted, std::memory_order_release);
     reason_ = FixedText<159>(reason);
@@ -156,12 +179,12 @@ bool Interlock::causePersists(FaultCause cause) const noexcept {
 Result<void> Interlock::reset() {
     const std::lock_guard lock(mutex_);
     const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (current != InterlockState::Faulted) {
+    if (checks(ResetState) && current != InterlockState::Faulted) {
         return fail(ErrorCode::NotArmed, "nothing to reset: the interlock is {}", nameOf(current));
     }
     for (int i = 0; i < kFaultCauseCount; ++i) {
         const auto cause = static_cast<FaultCause>(i);
-        if ((causes_ & bitOf(cause)) != 0) {
+        if (checks(ResetCause) && (causes_ & bitOf(cause)) != 0) {
             return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(cause),
                         reason_.view());
         }
@@ -169,6 +192,7 @@ Result<void> Interlock::reset() {
     state_.store(deviceLost_ ? InterlockState::Disconnected : InterlockState::Disarmed, std::memory_order_release);
     deviceLost_ = false;
     reason_ = {};
+    if (record_ != nullptr) record_->clearFault();
     return {};
 }
 

@@ -54,6 +54,8 @@ struct ArmingEvidence {
     bool declaredLoadConfirmed = false;  ///< stands in for a reading where the device cannot read back
 };
 
+class UnitRecord;
+
 class Interlock {
 public:
     static constexpr Instant kImpedanceAge = std::chrono::seconds(5);    ///< older readings do not count
@@ -62,6 +64,10 @@ public:
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
     /// Why it is faulted or was last disarmed; empty otherwise.
     [[nodiscard]] FixedText<159> reason() const noexcept;
+
+    /// Faults are kept in `record`, which outlives the interlock, until they are reset; one in which the unit was left
+    /// before makes it Faulted. Once, after connect().
+    void keepFaultsIn(UnitRecord& record) noexcept;
 
     /// Disconnected → Disarmed: a device is open and identified.
     [[nodiscard]] Result<void> connect();
@@ -106,6 +112,7 @@ private:
     std::uint64_t ticket_ = 0;  // Of the pending request; 0 = none
     std::uint64_t lastTicket_ = 0;
     Instant requestedAt_{0};
+    UnitRecord* record_ = nullptr;  // Of the unit; null: faults end with the program
 };
 
 }  // namespace tacto

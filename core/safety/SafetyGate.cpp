@@ -25,6 +25,11 @@ std::uint64_t firstEpoch() noexcept {
 SafetyGate::SafetyGate(const Clock& clock) : clock_(clock), epoch_(firstEpoch()), state_(std::make_unique<State>()) {}
 SafetyGate::~SafetyGate() = default;
 
+void SafetyGate::continueFrom(UnitRecord& record) noexcept {
+    state_->record = &record;
+    state_->residuals = record.replay(state_->meter);
+}
+
 Result<void> SafetyGate::configure(const GateSetup& setup) {
     latchStop();
     State& s = *state_;
@@ -57,6 +62,7 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
 
 Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
     State& s = *state_;
+    // No check: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured");
     const double ohm = magnitude.value();
     const auto refuse = [&](ErrorCode code, const std::string& message) -> Result<void> {
@@ -115,6 +121,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);  // A stop from here on voids the result
     const Instant now = clock_.now();
     State& s = *state_;
+    // No check: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
     if (auto sound = checkRequest(request.train, request.interval, s.setup->source); !sound) return failure(sound);
     if (checks(OnsetAhead) && request.onset > now + kApprovalLife) {
@@ -148,6 +155,7 @@ Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
     const Instant now = clock_.now();
     State& s = *state_;
+    // No check: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
     if (checks(OnsetAhead) && onset > now + kApprovalLife) {
         return fail(ErrorCode::InvalidArgument, "the check is planned {:.3g} s ahead; an approval lasts 0.1 s",
@@ -190,6 +198,11 @@ Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interva
                     "program failed, and at most {:.4g} s is accepted",
                     lasts.count(), kLongestWithoutDeadMan.count());
     }
+    if (checks(PastUnknown) && s.record != nullptr && now < s.record->quietUntil()) {
+        return fail(ErrorCode::LimitExceeded,
+                    "what this stimulator delivered last is not known: {}. It rests for another {:.1f} s; then try again",
+                    s.record->whyQuiet(), toSeconds(s.record->quietUntil() - now));
+    }
     request.stretch = bounds.stretch(interval);
     s.meter.forget(now, std::max(request.stretch, kMostStretch));
     if (checks(MeterFull) && !s.meter.canBook()) {
@@ -213,9 +226,11 @@ Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interva
 
     const Instant expires = now + kApprovalLife;
     const Instant ended = expires + toInstant(train.duration());
-    s.meter.book({now, ended, request.hz(), request.overRange, request.at500});
+    const BookedTrain booked{now, ended, request.hz(), request.overRange, request.at500};
+    if (checks(MeterBooking)) s.meter.book(booked);
     auto& residual = s.residuals[static_cast<std::size_t>(source.gap)];
     residual = {std::max(request.carried_V, request.overRange.residual_V), std::max(residual.at, ended)};
+    if (s.record != nullptr && checks(RecordBooking)) s.record->book(booked, s.residuals);
     s.lastTrain = train;
     return ApprovedTrain(train, interval, epoch, expires);
 }
@@ -233,16 +248,16 @@ Result<ApprovedBurst> SafetyGate::approve(const VibrationBurst& burst) {
 }
 
 Result<void> SafetyGate::accept(const PulseTrain& train) {
-    if (!state_->setup || !state_->person())
+    if (!state_->setup || (checks(LevelOfPerson) && !state_->person()))
         return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
-    if (auto sound = validate(train); !sound) return sound;
+    if (auto sound = validate(train); checks(LevelMalformed) && !sound) return sound;
     return state_->levels->accept(state_->bounds->acceptedAs(train));
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
-    if (!state_->setup || !state_->person())
+    if (!state_->setup || (checks(LevelOfPerson) && !state_->person()))
         return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only");
-    if (!(std::isfinite(level.value()) && level.value() >= 0)) {
+    if (checks(DiscomfortValue) && !(std::isfinite(level.value()) && level.value() >= 0)) {
         return fail(ErrorCode::InvalidArgument, "a discomfort level of {} mA is not a finite current of 0 or more",
                     level.value());
     }

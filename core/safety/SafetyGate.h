@@ -25,6 +25,8 @@
 
 namespace tacto {
 
+class UnitRecord;
+
 /// Proof that a PulseTrain passed the gate. Move-only: one approval, one delivery.
 class ApprovedTrain {
 public:
@@ -85,6 +87,10 @@ public:
     explicit SafetyGate(const Clock& clock);
     ~SafetyGate();
 
+    /// Begins with what the unit has delivered in the last seconds, and writes each train down in `record` before its
+    /// approval is handed out. Before the first configure(); `record` outlives the gate.
+    void continueFrom(UnitRecord& record) noexcept;
+
     /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory. After an error
     /// nothing is approved until a configure() succeeds. Errors: InvalidArgument naming what is missing or impossible
     /// (no limit set, a loosened ceiling, monophasic or a voltage source for a person, no consent, no electrode area
@@ -102,7 +108,8 @@ public:
     /// Checks `request` against every limit, worst case over the permitted load range, at its interval, plus
     /// the exposure already booked in the last 5 s.
     /// Errors: InvalidArgument if a value is negative, not finite or not on the device's grid; NotArmed before
-    /// configure(); LimitExceeded naming the first limit broken, its value and its source. Never clamps.
+    /// configure(); LimitExceeded naming the first limit broken, its value and its source, or while the unit rests
+    /// because its past is not known. Never clamps.
     [[nodiscard]] Result<ApprovedTrain> approve(const TrainRequest& request);
 
     /// One impedance check pulse, at the device's smallest check amplitude. Same checks as approve().

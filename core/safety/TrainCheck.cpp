@@ -3,7 +3,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/safety/GateChecks.h"
+
 namespace tacto {
+
+using namespace gate;
 
 namespace {
 FixedText<159> percentText(double imbalance, double uncertainty) noexcept {
@@ -71,34 +75,34 @@ TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& s
     };
     const bool late = now - trainEnd > kStatusDeadline;
     if (!status) {
-        return late ? found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train")
+        return late && checks(TrainNoStatus) ? found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train")
                     : judgement;
     }
-    if (!sane(status->imbalance) || !sane(status->imbalanceUncertainty)) {
+    if (checks(TrainGarbage) && !(sane(status->imbalance) && sane(status->imbalanceUncertainty))) {
         return found(TrainFinding::Garbage,
                      "the stimulator reads back a charge imbalance that is no number or negative");
     }
     judgement.balance = chargeBalance(status->imbalance, status->imbalanceUncertainty);
-    if (status->electrode == ElectrodeReading::Open) {
+    if (checks(TrainOpen) && status->electrode == ElectrodeReading::Open) {
         return found(TrainFinding::Open, "the electrode is open: it lifted, or its lead is off");
     }
-    if (status->electrode == ElectrodeReading::Short) {
+    if (checks(TrainShort) && status->electrode == ElectrodeReading::Short) {
         return found(TrainFinding::Short, "the electrodes are shorted");
     }
-    if (mode == OutputMode::Person && status->imbalance) {
+    if (checks(TrainNetCharge) && mode == OutputMode::Person && status->imbalance) {
         // Without a stated uncertainty nothing excuses the reading.
         const double uncertainty = status->imbalanceUncertainty.value_or(0);
         if (!(*status->imbalance - uncertainty <= kNetChargeLimit)) {
             return found(TrainFinding::NetCharge, percentText(*status->imbalance, uncertainty));
         }
     }
-    if (late && status->delivering) {
+    if (checks(TrainStuckOn) && late && status->delivering) {
         return found(TrainFinding::StuckOn, "the stimulator still delivers 50 ms after its train should have ended");
     }
-    if (status->at - trainEnd > kStatusDeadline) {
+    if (checks(TrainStatusLate) && status->at - trainEnd > kStatusDeadline) {
         return found(TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train");
     }
-    if (status->delivering || status->at < trainEnd) {
+    if (checks(TrainReadEarly) && (status->delivering || status->at < trainEnd)) {
         // Read too early: wait for a newer one, but not for ever.
         if (!late) return judgement;
         return found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train");

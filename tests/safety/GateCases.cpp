@@ -1,10 +1,12 @@
 #include "tests/safety/GateCases.h"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "core/safety/GateChecks.h"
 #include "core/safety/TrainExposure.h"
+#include "core/safety/UnitRecord.h"
 #include "tests/safety/GateFixtures.h"
 
 namespace tacto::test {
@@ -43,15 +45,21 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         "has a row");
     add(BadCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakCurrent, kNaN}}; }), "ceiling is");
     add(LoosenedCeiling, bench([](auto& s) { s.ceilings = {{Quantity::PeakVoltage, 1.1e6}}; }), "only tighten");
-    add(BadSource, bench([](auto& s) { s.source.amplitudeMax = kNaN; }), "largest amplitude");
-    add(BadSource, bench([](auto& s) { s.source.drive = Drive::HighImpedance; }), "neither voltage nor current");
-    add(BadSource, bench([](auto& s) {
+    add(SourceAmplitudeMax, bench([](auto& s) { s.source.amplitudeMax = kNaN; }), "largest amplitude");
+    add(SourceAmplitudeStep, bench([](auto& s) { s.source.amplitudeStep = -0.1; }), "amplitude step");
+    for (Micros SourceTraits::*width : {&SourceTraits::widthStep, &SourceTraits::widthMin, &SourceTraits::widthMax})
+        add(SourceWidths, bench([width](auto& s) { s.source.*width = Micros(kNaN); }), "pulse widths are");
+    add(SourcePulses, bench([](auto& s) { s.source.pulsesMax = 0; }), "0 pulses a train");
+    add(SourceCompliance, bench([](auto& s) { s.source.compliance = Volts(-1); }), "compliance of -1 V");
+    add(SourceCurrentLimit, bench([](auto& s) { s.source.currentLimit = Milliamps(kNaN); }), "current limit of nan");
+    add(SourceDrive, bench([](auto& s) { s.source.drive = Drive::HighImpedance; }), "neither voltage nor current");
+    add(SourceNoCompliance, bench([](auto& s) {
             s.source = currentSource();
             s.source.compliance = Volts(0);
         }),
         "no compliance");
     for (const Spread wrong : {Spread{1, 0}, Spread{-0.1, 0}, Spread{kNaN, 0}, Spread{0, -1}, Spread{0, kNaN}}) {
-        add(BadSource, bench([wrong](auto& s) { s.source.accuracy.gap = wrong; }), "states an accuracy");
+        add(SourceAccuracy, bench([wrong](auto& s) { s.source.accuracy.gap = wrong; }), "states an accuracy");
         add(BadCalibration, bench([wrong](auto& s) {
                 s.calibration = StimulatorCalibration{CalibrationLine{1, 0, 10, 40, wrong}};
             }),
@@ -306,6 +314,51 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.source.accuracy.phaseWidth = Spread{0, 5e-6};
         return fine && refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "longer than its period");
     });
+    // 40 V into 100 ohm: four trains fill 5 s.
+    const auto fills = [](SafetyGate& gate, VirtualClock& clock) {
+        GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
+        setup.limits = shippedLimits();
+        if (!gate.configure(setup)) return false;
+        for (int k = 0; k < 4; ++k) {
+            if (!gate.approve({volts(40), Seconds(10), clock.now()})) return false;
+        }
+        return true;
+    };
+    const auto full = [](SafetyGate& gate, VirtualClock& clock) {
+        return refuses(gate.approve({volts(40), Seconds(10), clock.now()}), ErrorCode::LimitExceeded, "4 trains before");
+    };
+    add(MeterBooking, "what was approved before counts", [=] {
+        Rig rig;
+        return fills(rig.gate, rig.clock) && full(rig.gate, rig.clock);
+    });
+    const auto recorded = [](const ScratchDir& folder, const Clock& clock) {
+        return UnitRecord::open(folder.path(), "a unit", clock).value();
+    };
+    add(RecordBooking, "what a run before approved counts", [=] {
+        ScratchDir folder;
+        {
+            Rig first;
+            const auto record = recorded(folder, first.clock);
+            first.gate.continueFrom(*record);
+            if (!fills(first.gate, first.clock)) return false;
+        }
+        Rig second;
+        const auto record = recorded(folder, second.clock);
+        second.gate.continueFrom(*record);
+        GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
+        setup.limits = shippedLimits();
+        return second.gate.configure(setup).has_value() && full(second.gate, second.clock);
+    });
+    add(PastUnknown, "a unit whose record is damaged", [=] {
+        ScratchDir folder;
+        Rig rig(benchSetup());
+        (void)recorded(folder, rig.clock);
+        std::filesystem::resize_file(std::filesystem::directory_iterator(folder.path())->path(), 10);
+        const auto record = recorded(folder, rig.clock);
+        const bool fine = rig.ask(volts(1)).has_value();
+        rig.gate.continueFrom(*record);
+        return fine && refuses(rig.ask(volts(1)), ErrorCode::LimitExceeded, "is not known");
+    });
     add(MeterFull, "more trains than the meter holds", [] {
         Rig rig(benchSetup());
         int approved = 0;
@@ -456,6 +509,7 @@ std::vector<GateCase> gateCases() {
     addRequestCases(cases);
     addStateCases(cases);
     addLimitCases(cases);
+    addInterlockCases(cases);
     return cases;
 }
 

@@ -1,4 +1,5 @@
-// GateCases.h - one directed case per check of the gate: something that this check alone refuses.
+// GateCases.h - one directed case per check of the gate, the interlock, the heartbeat and the train's read-back:
+// something that this check alone refuses.
 //
 // The product's gate must hold every case; with a check taken away (GateMutationTest) its case must fail.
 #pragma once
@@ -14,6 +15,9 @@ struct GateCase {
     std::string name;
     std::function<bool()> holds;  ///< true when the gate refused as it must, and permitted what it may
 };
+
+/// Of the interlock, the heartbeat, accepted levels and what a train reads back: InterlockCases.cpp.
+void addInterlockCases(std::vector<GateCase>& cases);
 
 /// Every check of GateChecks.h, at least once.
 [[nodiscard]] std::vector<GateCase> gateCases();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/safety/SafetyGate.h"
+#include "core/safety/UnitRecord.h"
 #include "tests/safety/SequenceReferee.h"
 #include "tests/support/Support.h"
 
@@ -16,10 +17,41 @@ const std::vector<LimitSet>& shippedLimits() {
     return sets;
 }
 
+/// The computer's time, which goes on with the clock.
+struct ComputerTime final : SystemTime {
+    explicit ComputerTime(const Clock& ofTest) : clock(ofTest) {}
+    [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock.now(); }
+    [[nodiscard]] std::string boot() const override { return "boot"; }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return {}; }
+    const Clock& clock;
+};
+
+/// A stimulator with its record, and the program that drives it until the next one does.
+class Unit {
+public:
+    explicit Unit(const Clock& clock) : clock_(clock), time_(clock) { reopen(); }
+    /// The program ends and another begins.
+    void reopen() {
+        gate_.reset();
+        record_.reset();
+        record_ = UnitRecord::open(folder_.path(), "a unit", clock_, time_).value();
+        gate_ = std::make_unique<SafetyGate>(clock_);
+        gate_->continueFrom(*record_);
+    }
+    [[nodiscard]] SafetyGate& gate() const noexcept { return *gate_; }
+
+private:
+    ScratchDir folder_;
+    const Clock& clock_;
+    ComputerTime time_;
+    std::unique_ptr<UnitRecord> record_;
+    std::unique_ptr<SafetyGate> gate_;
+};
+
 class Sequence : SequenceReferee {
 public:
-    Sequence(SafetyGate& gate, VirtualClock& clock, Dice& dice, SequenceCount& total)
-        : SequenceReferee(clock, dice, total), gate_(gate) {}
+    Sequence(Unit& unit, VirtualClock& clock, Dice& dice, SequenceCount& total)
+        : SequenceReferee(clock, dice, total), unit_(unit) {}
 
     void run() {
         clock_.advanceTo(clock_.now() + std::chrono::seconds(7));
@@ -36,10 +68,12 @@ public:
     }
 
 private:
+    [[nodiscard]] SafetyGate& gate() const noexcept { return unit_.gate(); }
+
     /// Nothing approved so far may come out any more.
     void voidPending(const char* after) {
         for (const Pending& p : pending_) {
-            if (gate_.isCurrent(p.approval)) violation(fmt::format("an approval is current after {}", after));
+            if (gate().isCurrent(p.approval)) violation(fmt::format("an approval is current after {}", after));
         }
         if (dice_.chance(0.5)) pending_.clear();
     }
@@ -63,6 +97,7 @@ private:
         setup.source = source_;
         setup.limits = shippedLimits();
 
+        halving_ = 0;
         const bool capacitive = !allowed.person && theme_ != Near::Rms500 && dice_.chance(0.4);
         const double ohm = theme_ == Near::Rms500 ? dice_.decade(4000, 20'000) : dice_.decade(60, 20'000);
         Body nominal{ohm, 0, 0};
@@ -70,11 +105,16 @@ private:
         if (capacitive) {
             nominal = {dice_.decade(80, 2000), dice_.decade(1000, 50'000), dice_.decade(5e-9, 2e-6)};
             load = Load::skin(Ohms(nominal.rs), Ohms(nominal.rp), Nanofarads(nominal.c * 1e9));
+            // R_p that falls with intensity. What |Z| such a load has for a current, the referee does not know.
+            if (!current && dice_.chance(0.25)) halving_ = dice_.decade(5, 100);
         }
+        load.halvingVoltage = Volts(halving_);
         setup.load = LoadRange::declared(load);
         nominal_ = nominal;
-        // The truth lies in the range, often at an end of it.
+        // The truth lies in the range, often at an end of it; a bench's may drift within it and lose contact.
         scale_ = dice_.chance(0.4) ? 0.8 : dice_.chance(0.5) ? 1.2 : dice_.between(0.8, 1.2);
+        drifts_ = !allowed.person && dice_.chance(0.2) ? 0.05 : 0;
+        loses_ = !capacitive && dice_.chance(0.1) ? 0.3 : 0;
 
         if (theme_ == Near::Power || allowed.person || (theme_ == Near::Count && dice_.chance(0.6))) {
             allowed.area = theme_ == Near::Power ? dice_.decade(0.001, 0.1) : dice_.decade(0.01, 10);
@@ -103,7 +143,7 @@ private:
             allowed.low = 500;
             allowed.high = 10'000;
             setup.person = person;
-            accepted_ = 0;
+            accepted_ = seriesLast_ = 0;
             seriesOf_.reset();
         }
         known_ = {};
@@ -135,7 +175,7 @@ private:
         calibrated_ = setup.calibrated;
         const bool sound = !dice_.chance(0.03);
         if (!sound) spoil(setup);
-        const auto done = gate_.configure(setup);
+        const auto done = gate().configure(setup);
         voidPending("configure()");
         configured_ = done.has_value();
         if (!sound && configured_) violation("a spoilt setup was accepted");
@@ -189,7 +229,7 @@ private:
         const double truth = nominal_.rs * scale_;
         const double reading = dice_.chance(0.1) ? (dice_.chance(0.5) ? kNaN : -5) : truth * dice_.between(0.8, 1.4);
         const bool good = reading >= allowed_.low && reading <= allowed_.high;
-        const auto done = gate_.updateImpedance(Ohms(reading), clock_.now());
+        const auto done = gate().updateImpedance(Ohms(reading), clock_.now());
         note(fmt::format("{:.6f} impedance {}: {}", now(), reading, done ? "ok" : "refused"));
         if (done.has_value() != good) violation("an impedance reading was judged wrongly");
         measuredAt_ = good ? now() : -100;
@@ -206,13 +246,73 @@ private:
         declared.fit(nominal_);
         real.fit(nominal_.times(scale_));
         const double reading = real.magnitude(last_) * dice_.between(0.95, 1.05);
-        const auto done = gate_.updateImpedance(Ohms(reading), clock_.now());
+        const auto done = gate().updateImpedance(Ohms(reading), clock_.now());
         note(fmt::format("{:.6f} load read as {}: {}", now(), reading, done ? "ok" : "refused"));
         if (done) readAs_ = reading / declared.magnitude(last_);
         if (!done) voidPending("a bad reading of the load");
     }
 
+    /// One small pulse, as arming and an old reading ask for it.
+    void check() {
+        // A person's |Z| is in the range by then, or the check is what finds that it is not.
+        if (allowed_.person && measuredAt_ < 0) return;
+        auto approved = gate().approveCheck(clock_.now());
+        note(fmt::format("{:.6f} check: {}", now(), approved ? "ok" : approved.error().message));
+        if (!approved) return;
+        if (!configured_) violation("a check was approved without a configuration");
+        last_ = approved->train();
+        pending_.push_back({std::move(*approved), now(), kCheckInterval.count(), readAs_, true});
+        if (dice_.chance(0.9)) deliverPending();
+    }
+
+    /// A massager's vibration: judged by its numbers alone, void after a stop as everything else.
+    void burst() {
+        const VibrationBurst wanted{dice_.chance(0.1) ? kNaN : dice_.between(-0.2, 1.2),
+                                    Seconds(dice_.chance(0.1) ? kInf : dice_.between(-0.2, 1.2))};
+        const bool sound = wanted.intensity >= 0 && wanted.intensity <= 1 && wanted.duration.count() > 0 &&
+                           wanted.duration.count() <= 1;
+        const auto approved = gate().approve(wanted);
+        if (approved.has_value() != sound) violation("a vibration was judged wrongly");
+        if (!approved) return;
+        if (!gate().isCurrent(*approved)) violation("a vibration is void at once");
+        if (!dice_.chance(0.3)) return;
+        gate().latchStop();
+        if (gate().isCurrent(*approved)) violation("a vibration is current after a stop");
+        voidPending("a stop");
+    }
+
+    /// The program ends, perhaps with approvals in the device's hands, and another takes the unit over.
+    void reopen() {
+        const auto before = std::move(pending_);
+        pending_.clear();
+        unit_.reopen();
+        ascending_ = false;
+        note(fmt::format("{:.6f} opened again", now()));
+        for (const Pending& p : before) {
+            if (gate().isCurrent(p.approval)) violation("an approval is current in another program");
+        }
+        configure();
+    }
+
+    void ascend() {
+        if (dice_.chance(0.7)) {
+            gate().beginAscending();
+            ascending_ = true;
+            seriesLast_ = 0;
+            note("ascending");
+            voidPending("beginAscending()");
+        } else {
+            gate().endAscending();
+            ascending_ = false;
+            note("no longer ascending");
+        }
+    }
+
     void command() {
+        if (dice_.chance(0.05)) return check();
+        if (dice_.chance(0.02)) return burst();
+        if (dice_.chance(0.004)) return reopen();
+        if (allowed_.person && configured_ && dice_.chance(0.06)) return ascend();
         const double which = dice_.unit();
         if (which < 0.62) {
             approve();
@@ -221,7 +321,7 @@ private:
         } else if (which < 0.80) {
             wait(dice_.chance(0.7) ? dice_.decade(1e-4, 0.3) : dice_.between(0, 6));
         } else if (which < 0.83) {
-            gate_.latchStop();
+            gate().latchStop();
             note("stop");
             voidPending("a stop");
         } else if (which < 0.86) {
@@ -235,7 +335,7 @@ private:
                 measure();
             } else {
                 const double level = dice_.between(0, allowed_.discomfort * 1.2);
-                if (gate_.reportDiscomfort(Milliamps(level * 1e3))) {
+                if (gate().reportDiscomfort(Milliamps(level * 1e3))) {
                     allowed_.discomfort = std::min(allowed_.discomfort, level);
                     accepted_ = std::min(accepted_, allowed_.discomfort);
                     note(fmt::format("discomfort at {} A", level));
@@ -275,7 +375,7 @@ private:
     }
 
     bool ask(const PulseTrain& train, double interval) {
-        auto approved = gate_.approve({train, Seconds(interval), clock_.now()});
+        auto approved = gate().approve({train, Seconds(interval), clock_.now()});
         note(fmt::format("{:.6f} approve {} {} us gap {} shape {} pol {} n {} rate {} T {}: {}", now(),
                          siValue(train.amplitude), train.phaseWidth.count(), train.interPhaseGap.count(),
                          static_cast<int>(train.shape), static_cast<int>(train.polarity), train.pulses,
@@ -286,8 +386,20 @@ private:
         }
         if (!configured_) violation("approved without a configuration");
         last_ = approved->train();
-        pending_.push_back({std::move(*approved), now(), interval, readAs_});
+        pending_.push_back({std::move(*approved), now(), interval, readAs_, false});
         return true;
+    }
+
+    /// What the load is while `train` is delivered. R_p falls by the most that one pulse puts across it from rest.
+    [[nodiscard]] Body bodyUnder(PulseTrain train) const {
+        Body body = nominal_.times(scale_);
+        if (halving_ == 0) return body;
+        IndependentBody probe;
+        probe.fit(body);
+        train.pulses = 1;
+        probe.deliver(train, {source_.gap == GapState::HighImpedance}, 0);
+        body.rp /= 1 + std::sqrt(2 * probe.mostStored() / body.c) / halving_;
+        return body;
     }
 
     /// The device thread: asks the gate, then delivers.
@@ -297,9 +409,12 @@ private:
         pending_.pop_front();
         // A device still busy with its last train waits for its end.
         if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
-        if (!gate_.isCurrent(next.approval)) return;
+        if (!gate().isCurrent(next.approval)) return;
         if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
+        if (dice_.chance(loses_)) return note("no contact");
+        if (drifts_ > 0) scale_ = std::clamp(scale_ + dice_.between(-drifts_, drifts_), 0.8, 1.2);
         const PulseTrain train = device_.outOf(next.approval.train());
+        if (drifts_ > 0 || halving_ > 0) body_.fit(bodyUnder(train));
         const double start = now() * pace_;
         ++total_.trains;
         ++delivered_;
@@ -310,11 +425,13 @@ private:
         busyUntil_ = now() + train.duration().count() / pace_;
         note(fmt::format("{:.6f} delivered, peak {} A", start, facts.peakI));
         const double readSince = std::exchange(readAs_, next.readAs);
-        referee(train, facts, next.interval * pace_, next.approval.train(), known_.outOf(next.approval.train()));
+        referee(train, facts, next.interval * pace_, next.approval.train(), known_.outOf(next.approval.train()),
+                next.isCheck);
         readAs_ = readSince;
-        if (allowed_.person && dice_.chance(0.7) && gate_.accept(next.approval.train())) {
+        if (allowed_.person && dice_.chance(0.7) && gate().accept(next.approval.train())) {
             if (!sameKind(train)) accepted_ = 0;
             seriesOf_ = train;
+            seriesLast_ = siValue(known_.outOf(next.approval.train()).amplitude);
             accepted_ = std::max(accepted_, siValue(known_.outOf(next.approval.train()).amplitude));
         }
     }
@@ -369,7 +486,7 @@ private:
                 train.shape = static_cast<PulseShape>(17);
                 break;
         }
-        const auto approved = gate_.approve({train, Seconds(interval), clock_.now()});
+        const auto approved = gate().approve({train, Seconds(interval), clock_.now()});
         if (approved) violation("garbage was approved");
     }
 
@@ -378,9 +495,13 @@ private:
         double granted;
         double interval;
         double readAs;  // the load, when it was approved: by that |Z| it was a command
+        bool isCheck;
     };
 
-    SafetyGate& gate_;
+    Unit& unit_;
+    double drifts_ = 0;  // How far the load moves from train to train, of itself
+    double loses_ = 0;   // How often a train finds no contact
+    double halving_ = 0;  // V at which the load's R_p has fallen to half; 0: it does not
     double pace_ = 1;   // Of true time to the computer's
     double scale_ = 1;  // Where in the permitted range the truth lies
     bool configured_ = false;
@@ -393,10 +514,10 @@ private:
 
 void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total) {
     VirtualClock clock;
-    SafetyGate gate(clock);
+    Unit unit(clock);
     Dice dice(seed);
     for (std::uint64_t k = 0; k < count && total.violation.empty(); ++k) {
-        Sequence(gate, clock, dice, total).run();
+        Sequence(unit, clock, dice, total).run();
         if (!total.violation.empty())
             total.violation = fmt::format("seed {}, sequence {}: {}", seed, k, total.violation);
     }

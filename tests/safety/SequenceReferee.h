@@ -209,7 +209,7 @@ protected:
 
     /// `train` came out of what was `told`; `expected` should have, by all that is known of the device.
     void referee(const PulseTrain& train, const PulseFacts& facts, double interval, const PulseTrain& told,
-                 const PulseTrain& expected) {
+                 const PulseTrain& expected, bool isCheck) {
         const double amplitude = siValue(expected.amplitude);
         const bool current = source_.drive == Drive::Current;
         const PulseTrain& command = calibrated_ ? expected : told;
@@ -233,8 +233,10 @@ protected:
         if (!allowed_.person) return;
         if (train.shape == PulseShape::Monophasic || !current)
             violation("a person had a monophasic pulse or a voltage");
-        if (!(now() - measuredAt_ <= 5.1)) violation("a person was stimulated on an old or wrong impedance");
-        const double ceiling = std::min(allowed_.discomfort, (sameKind(train) ? accepted_ : 0) + allowed_.step);
+        if (!isCheck && !(now() - measuredAt_ <= 5.1)) violation("a person was stimulated on an old or wrong impedance");
+        const double accepted = !sameKind(train) ? 0 : ascending_ ? seriesLast_ : accepted_;
+        const double ceiling =
+            isCheck ? allowed_.discomfort : std::min(allowed_.discomfort, accepted + allowed_.step);
         hold(Near::Level, amplitude, ceiling, false, "a person's level in A");
     }
 
@@ -254,7 +256,9 @@ protected:
     double readAs_ = 1;       // |Z| of a bench load as told to the gate, to that which was declared
     double measured_ = 1000;  // A person's |Z| as told to the gate, Ω
     double measuredAt_ = -100;
-    double accepted_ = 0;  // A
+    double accepted_ = 0;    // A
+    double seriesLast_ = 0;  // A, of this ascending series
+    bool ascending_ = false;
     std::optional<PulseTrain> seriesOf_;
     std::string trace_;
 };

@@ -9,6 +9,7 @@
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/bench/ArmingText.h"
 #include "core/bench/ProfileReach.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto::gui {
 
@@ -401,6 +402,7 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
     config.stops = stops_;
     config.asked = asked;
     applyKnown(knownCalibration(config.devices), config);
+    config.units = unitFolder();
     auto bench = Bench::create(std::move(config));
     if (!bench) return give_up(bench.error());
     live->bench = std::move(*bench);

@@ -1,0 +1,103 @@
+// UnitRecord.h - what a unit delivered in the last seconds and the fault that it was left in, in a file: exposure and
+// faults belong to the unit and outlive the program (H1, H2).
+//
+// One file of fixed size per unit, mapped into memory: the control loop writes into it without a system call, and what
+// it wrote is there for the next process however this one ends. A train is written before its approval is handed out.
+// Each part carries a checksum. A record that does not check, one from a future that is not ours, and one from another
+// start of the computer of which the wall time cannot say that it is long ago, are not believed: the unit then rests
+// until whatever it delivered is out of every window (quietUntil()).
+//
+// The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units keep
+// none: they are born with their bench, at rest.
+//
+// Thread-safety: book() has one caller, the gate's; keepFault() and clearFault() have one caller at a time, the
+// interlock under its lock; the rest is constant after open().
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "core/base/Clock.h"
+#include "core/base/Result.h"
+#include "core/base/SystemTime.h"
+#include "core/safety/ExposureMeter.h"
+#include "core/safety/Interlock.h"
+
+namespace tacto {
+
+/// The most that may be left on the load, and until when it was put there.
+struct ResidualVoltage {
+    double volts = 0;
+    Instant at{0};
+};
+/// By what the source that left it does at rest, in the order of GapState.
+using ResidualVoltages = std::array<ResidualVoltage, 2>;
+
+struct UnitFault {
+    std::uint32_t causes = 0;  ///< a bit per FaultCause
+    std::chrono::sys_seconds at{};
+    FixedText<159> reason;
+};
+
+class UnitRecord {
+public:
+    /// How many trains it holds: as many as the meter.
+    static constexpr std::size_t kTrains = ExposureMeter::kCapacity;
+    /// How long a unit rests whose past is not known: the longest window after a train of 2 s that may have begun when
+    /// the process before ended.
+    static constexpr Instant kRest = std::chrono::seconds(8);
+    /// A record from another start of the computer is long ago when the wall clock says at least this.
+    static constexpr std::chrono::seconds kLongAgo{60};
+
+    /// Opens the record of `unit` ("sciencemode 1234") in `folder`, or makes it, and locks it. `clock` and `time` outlive
+    /// the record. Errors: Device when another process drives this unit, naming it; Io.
+    [[nodiscard]] static Result<std::unique_ptr<UnitRecord>> open(const std::filesystem::path& folder,
+                                                                  std::string_view unit, const Clock& clock,
+                                                                  const SystemTime& time = SystemTime::real());
+    ~UnitRecord();
+    UnitRecord(const UnitRecord&) = delete;
+    UnitRecord& operator=(const UnitRecord&) = delete;
+
+    /// Until then, on the clock, nothing is approved, because what the unit delivered before is not known. In the past
+    /// where it is known.
+    [[nodiscard]] Instant quietUntil() const noexcept { return quietUntil_; }
+    /// Why: one sentence; empty where the past is known.
+    [[nodiscard]] std::string_view whyQuiet() const noexcept { return why_; }
+
+    /// Books the trains of earlier processes that a window could still touch, with their times on the clock (before it
+    /// was made, they are negative). Returns what was left on the load.
+    [[nodiscard]] ResidualVoltages replay(ExposureMeter& meter) const noexcept;
+
+    /// Writes a train down. Does not block, allocate or fail.
+    void book(const BookedTrain& train, const ResidualVoltages& left) noexcept;
+
+    /// The fault in which the unit was left, until it is cleared.
+    [[nodiscard]] std::optional<UnitFault> fault() const noexcept;
+    void keepFault(FaultCause cause, std::string_view reason) noexcept;
+    void clearFault() noexcept;
+
+private:
+    struct Map;
+    UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time);
+    void takeOver();
+    void rest(std::string_view why);
+    [[nodiscard]] Instant onClock(Instant sinceBoot) const noexcept;
+
+    const int file_;
+    Map& map_;
+    const Clock& clock_;
+    const SystemTime& time_;
+    std::string_view why_;
+    Instant quietUntil_;
+    std::uint64_t next_ = 1;  // Sequence number of the next train
+};
+
+/// $XDG_DATA_HOME/tactoscope/units, or ~/.local/share/tactoscope/units.
+[[nodiscard]] std::filesystem::path unitFolder();
+
+}  // namespace tacto

@@ -1,0 +1,132 @@
+// A bench on a real unit goes on from what the unit delivered and from the fault that it was left in.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/SystemTime.h"
+#include "core/bench/Bench.h"
+#include "tests/bench/FakeStimulator.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A stimulator that does not say that it is simulated.
+class Unit final : public Stimulator {
+public:
+    explicit Unit(const Clock& clock) : fake(clock) {}
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return unit_; }
+    [[nodiscard]] const SourceTraits& traits() const noexcept override { return fake.traits(); }
+    [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override { return fake.deliver(std::move(train)); }
+    [[nodiscard]] Result<StimulatorStatus> status() override { return fake.status(); }
+    [[nodiscard]] Result<void> keepAlive() override { return fake.keepAlive(); }
+    void forceOff() noexcept override { fake.forceOff(); }
+
+    FakeStimulator fake;
+
+private:
+    DeviceIdentity unit_{"fake:", Role::Stimulator, "A unit", "F7", "1", false};
+};
+
+/// The bench's clock and the computer's, moved together.
+struct ComputerTime final : SystemTime {
+    explicit ComputerTime(const Clock& clock) : clock_(clock) {}
+    [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock_.now(); }
+    [[nodiscard]] std::string boot() const override { return "boot"; }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return {}; }
+    const Clock& clock_;
+};
+
+class UnitBench : public testing::Test {
+protected:
+    void open(double ohm = 1000) {
+        bench_.reset();
+        auto unit = std::make_unique<Unit>(*clock_);
+        unit->fake.impedance = Ohms(ohm);
+        unit_ = &unit->fake;
+        BenchConfig config;
+        config.devices.stimulator = std::move(unit);
+        config.clock = clock_;
+        config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
+        config.units = folder_.path();
+        config.systemTime = &time_;
+        auto made = Bench::create(std::move(config));
+        ASSERT_TRUE(made) << made.error().message;
+        bench_ = std::move(*made);
+    }
+    [[nodiscard]] Result<void> arm(const char* load = "1 kohm") {
+        return bench_->arm({.load = load, .operatorConfirmed = true});
+    }
+
+    ScratchDir folder_;
+    std::shared_ptr<VirtualClock> clock_ = std::make_shared<VirtualClock>();
+    ComputerTime time_{*clock_};
+    FakeStimulator* unit_ = nullptr;
+    std::unique_ptr<Bench> bench_;
+};
+
+}  // namespace
+
+TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
+    RecordProperty("hazard", "H3");
+    open();
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    unit_->electrode = ElectrodeState::Open;
+    ASSERT_FALSE(bench_->wait(Seconds(1)));
+
+    open();  // The program was started again
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
+    const auto refused = arm();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("left by an earlier run: the electrode is open"));
+    unit_->statusFails = true;
+    EXPECT_FALSE(bench_->resetFault()) << "the unit is looked at again";
+    unit_->statusFails = false;
+    const auto reset = bench_->resetFault();
+    ASSERT_TRUE(reset) << reset.error().message;
+    EXPECT_TRUE(arm());
+
+    open();
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed) << "a fault that was reset is over";
+}
+
+TEST_F(UnitBench, ARunBeginsWithWhatTheRunsBeforeItDelivered) {
+    RecordProperty("hazard", "H1");
+    // 40 V every 0.5 s into 250 ohm, four runs of 2 s each: one alone makes 4.3 mA RMS over 5 s at the worst.
+    for (int k = 0; k < 4; ++k) {
+        open(250);
+        ASSERT_TRUE(arm("250 ohm"));
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(bench_->wait(Seconds(2)));
+        const auto seen = bench_->telemetry();
+        const auto rows = seen.exposure();
+        const auto rms = std::find_if(rows.begin(), rows.end(), [](const ExposureRow& row) {
+            return row.quantity == Quantity::RmsCurrent5s && row.set.view() == "paper";
+        });
+        ASSERT_NE(rms, rows.end());
+        EXPECT_TRUE(rms->within) << rms->value;
+        if (k == 0) {
+            EXPECT_LT(rms->value, 4.5);
+        } else if (k == 3) {
+            EXPECT_GT(rms->value, 5.5) << "all that the unit had, not this run's part";
+        }
+    }
+}
+
+TEST_F(UnitBench, ASecondBenchOnTheSameUnitIsRefused) {
+    RecordProperty("hazard", "H1");
+    open();
+    BenchConfig config;
+    config.devices.stimulator = std::make_unique<Unit>(*clock_);
+    config.clock = clock_;
+    config.units = folder_.path();
+    config.systemTime = &time_;
+    const auto second = Bench::create(std::move(config));
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, HasSubstr("fake F7 is driven by"));
+}
+
+}  // namespace tacto::test

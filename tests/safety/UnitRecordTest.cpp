@@ -1,0 +1,325 @@
+#include <cmath>
+#include <csignal>
+#include <deque>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/safety/UnitRecord.h"
+#include "tests/safety/GateFixtures.h"
+#include "tests/support/Allocations.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kUnit = "sciencemode 1234";
+
+/// The computer's time, as the test moves it.
+struct FakeTime final : SystemTime {
+    [[nodiscard]] Instant sinceBoot() const noexcept override { return now; }
+    [[nodiscard]] std::string boot() const override { return id; }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return walls; }
+    Instant now = std::chrono::hours(1);
+    std::string id = "boot-1";
+    std::chrono::sys_seconds walls{std::chrono::seconds(1'800'000'000)};
+};
+
+/// 40 V into 100 ohm: 1e-4 A²s a train at the low end of the load range, so that 5 s hold four.
+GateSetup strongSetup() {
+    GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
+    setup.limits = shippedLimits();
+    return setup;
+}
+
+class UnitRecordFile : public testing::Test {
+protected:
+    /// A program that drives the unit: its own clock and gate.
+    struct Run {
+        Run(const UnitRecordFile& test, const GateSetup& setup) : time(test.time_) {
+            auto opened = UnitRecord::open(test.folder_.path(), kUnit, clock, test.time_);
+            if (!opened) {
+                ADD_FAILURE() << opened.error().message;
+                return;
+            }
+            record = std::move(*opened);
+            gate.continueFrom(*record);
+            EXPECT_TRUE(gate.configure(setup));
+        }
+        Result<ApprovedTrain> ask() { return gate.approve({volts(40), Seconds(10), clock.now()}); }
+        void pass(double seconds) {
+            clock.advanceTo(clock.now() + toInstant(seconds));
+            time.now += toInstant(seconds);
+        }
+        FakeTime& time;
+        VirtualClock clock;
+        std::unique_ptr<UnitRecord> record;
+        SafetyGate gate{clock};
+    };
+    std::unique_ptr<Run> run() { return std::make_unique<Run>(*this, strongSetup()); }
+    /// How many of the strong trains are approved at once.
+    static int approvedAtOnce(Run& running) {
+        int approved = 0;
+        while (approved < 100 && running.ask()) ++approved;
+        return approved;
+    }
+    [[nodiscard]] std::filesystem::path file() const {
+        return std::filesystem::directory_iterator(folder_.path())->path();
+    }
+    void spoil(std::size_t at, char byte = 0x5a) const {
+        std::fstream out(file(), std::ios::in | std::ios::out | std::ios::binary);
+        out.seekp(static_cast<std::streamoff>(at));
+        out.put(byte);
+    }
+
+    ScratchDir folder_;
+    mutable FakeTime time_;
+};
+
+}  // namespace
+
+TEST_F(UnitRecordFile, FourRunsInARowKeepTheLimitTogether) {
+    RecordProperty("hazard", "H1");
+    std::deque<Instant> delivered;
+    for (int k = 0; k < 12; ++k) {
+        const auto one = run();
+        for (int asked = 0; asked < 10; ++asked) {
+            if (one->ask()) delivered.push_back(time_.now);
+            one->pass(0.05);
+        }
+        time_.now += toInstant(0.3);  // until the next program runs
+    }
+    double worst_mA = 0;
+    for (const Instant first : delivered) {
+        double squares = 0;
+        for (const Instant at : delivered)
+            squares += at >= first && at - first < std::chrono::seconds(5) ? 0.5 * 0.5 * 0.4e-3 : 0;  // 40 V into 80 ohm
+        worst_mA = std::max(worst_mA, 1e3 * std::sqrt(squares / 5));
+    }
+    EXPECT_LT(worst_mA, 10);
+    EXPECT_GE(delivered.size(), 5U) << "and the limit was met more than once";
+}
+
+TEST_F(UnitRecordFile, ABenchThatIsOpenedAgainStartsFromWhatWasDelivered) {
+    RecordProperty("hazard", "H1");
+    auto first = run();
+    EXPECT_EQ(approvedAtOnce(*first), 4);
+    first.reset();
+    auto second = run();
+    const auto refused = second->ask();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("with the 4 trains before it"));
+    second->pass(5.2);
+    EXPECT_EQ(approvedAtOnce(*second), 4);
+    // Another unit has had nothing.
+    VirtualClock clock;
+    auto other = UnitRecord::open(folder_.path(), "sciencemode 1235", clock, time_);
+    ASSERT_TRUE(other) << other.error().message;
+    ExposureMeter meter;
+    (void)(*other)->replay(meter);
+    EXPECT_EQ(meter.size(), 0U);
+}
+
+TEST_F(UnitRecordFile, AComputerThatSleptKnowsWhenItDelivered) {
+    RecordProperty("hazard", "H1");
+    auto first = run();
+    time_.now += std::chrono::hours(2);  // the program's clock stands still meanwhile
+    EXPECT_EQ(approvedAtOnce(*first), 4);
+    first.reset();
+    EXPECT_EQ(approvedAtOnce(*run()), 0) << "two hours of sleep do not make a train of just now an old one";
+}
+
+TEST_F(UnitRecordFile, WhatIsLeftOnTheLoadIsFoundByTheNextRun) {
+    RecordProperty("hazard", "H1");
+    GateSetup floating = benchSetup(Load::skin(Ohms(300), Ohms(100'000), Nanofarads(2000)));
+    floating.source.gap = GapState::HighImpedance;
+    PulseTrain train = volts(40);
+    train.shape = PulseShape::Monophasic;
+    {
+        Run one(*this, floating);
+        ASSERT_TRUE(one.gate.approve({train, Seconds(10), one.clock.now()}));
+    }
+    floating.limits = {limitsOf({rowFor(Quantity::PeakCurrent, 180)})};
+    train.polarity = Polarity::Negative;
+    Run two(*this, floating);
+    EXPECT_FALSE(two.gate.approve({train, Seconds(10), two.clock.now()}));
+    two.pass(3);
+    EXPECT_TRUE(two.gate.approve({train, Seconds(10), two.clock.now()}));
+}
+
+TEST_F(UnitRecordFile, OneUnitIsDrivenByOneProgram) {
+    RecordProperty("hazard", "H1");
+    auto first = run();
+    VirtualClock clock;
+    const auto second = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::Device);
+    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
+    EXPECT_THAT(second.error().message, HasSubstr(kUnit));
+    first.reset();
+    EXPECT_TRUE(UnitRecord::open(folder_.path(), kUnit, clock, time_));
+}
+
+TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
+    RecordProperty("hazard", "H1");
+    const auto child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        SteadyClock clock;
+        auto record = UnitRecord::open(folder_.path(), kUnit, clock);
+        SafetyGate gate(clock);
+        if (record) gate.continueFrom(**record);
+        if (!record || !gate.configure(strongSetup())) ::_exit(1);
+        for (int k = 0; k < 4; ++k) {
+            if (!gate.approve({volts(40), Seconds(10), clock.now()})) ::_exit(2);
+        }
+        ::raise(SIGKILL);  // before any of them was delivered
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
+    SteadyClock clock;
+    auto record = UnitRecord::open(folder_.path(), kUnit, clock);
+    ASSERT_TRUE(record) << "the lock of a dead process is gone: " << record.error().message;
+    EXPECT_TRUE((*record)->whyQuiet().empty()) << (*record)->whyQuiet();
+    SafetyGate gate(clock);
+    gate.continueFrom(**record);
+    ASSERT_TRUE(gate.configure(strongSetup()));
+    const auto refused = gate.approve({volts(40), Seconds(10), clock.now()});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("with the 4 trains before it"));
+}
+
+TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
+    RecordProperty("hazard", "H1");
+    const auto expectRest = [&](const char* why, double atLeast_s = 7.9) {
+        auto unsure = run();
+        ASSERT_TRUE(unsure->record);
+        EXPECT_THAT(std::string(unsure->record->whyQuiet()), HasSubstr(why));
+        const auto refused = unsure->ask();
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::LimitExceeded);
+        EXPECT_THAT(refused.error().message, HasSubstr("is not known"));
+        EXPECT_FALSE(unsure->gate.approveCheck(unsure->clock.now())) << "not even a check";
+        unsure->pass(atLeast_s);
+        EXPECT_FALSE(unsure->ask());
+        unsure->pass(0.2);
+        EXPECT_TRUE(unsure->ask());
+    };
+    const auto soundOne = [&] {
+        time_.now += std::chrono::seconds(20);
+        auto made = run();
+        EXPECT_TRUE(made->ask());
+        return std::filesystem::file_size(file());
+    };
+    const auto size = soundOne();
+    spoil(size / 2);  // in a slot that was never written
+    expectRest("torn");
+    soundOne();
+    spoil(16);
+    expectRest("damaged");
+    soundOne();
+    std::filesystem::resize_file(file(), size / 2);
+    expectRest("damaged");
+    soundOne();
+    time_.now -= std::chrono::minutes(10);
+    expectRest("not come");
+    // Ended and begun again while it rests: the rest goes on.
+    soundOne();
+    spoil(16);
+    (void)run();
+    time_.now += std::chrono::seconds(3);
+    expectRest("did not know it either", 4.8);
+}
+
+TEST_F(UnitRecordFile, AnotherStartOfTheComputerIsLongAgoOnlyWhenTheWallClockSaysSo) {
+    RecordProperty("hazard", "H1");
+    const auto restsAfter = [&](std::string id, int wall_s) {
+        time_.id = "boot-1";
+        time_.now = std::chrono::hours(1);
+        std::filesystem::remove_all(folder_.path());
+        EXPECT_TRUE(run()->ask());
+        time_.id = std::move(id);
+        time_.now = std::chrono::seconds(15);
+        time_.walls += std::chrono::seconds(wall_s);
+        return !run()->ask().has_value();
+    };
+    EXPECT_FALSE(restsAfter("boot-2", 61));
+    EXPECT_TRUE(restsAfter("boot-2", 59));
+    EXPECT_TRUE(restsAfter("boot-2", -3600)) << "a wall clock that was set back";
+    EXPECT_TRUE(restsAfter("", 1)) << "nobody knows which start of the computer this is";
+    EXPECT_FALSE(restsAfter("", 61));
+}
+
+TEST_F(UnitRecordFile, HoldsAsManyTrainsAsTheMeterAndTheNewest) {
+    auto busy = run();
+    BookedTrain train;
+    train.overRange.in5s.currentSquared_A2s = 1;
+    for (std::size_t k = 0; k < UnitRecord::kTrains + 10; ++k) {
+        train.earliest = train.latest = busy->clock.now();
+        train.hz = static_cast<double>(k);
+        busy->record->book(train, {});
+    }
+    busy.reset();
+    VirtualClock clock;
+    auto record = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+    ASSERT_TRUE(record) << record.error().message;
+    ExposureMeter meter;
+    (void)(*record)->replay(meter);
+    EXPECT_EQ(meter.size(), UnitRecord::kTrains);
+    const auto sums = meter.couldShare(Seconds(5), clock.now());
+    EXPECT_DOUBLE_EQ(sums.overRange.currentSquared_A2s, static_cast<double>(UnitRecord::kTrains));
+    EXPECT_DOUBLE_EQ(sums.lowestHz, 10) << "the oldest were overwritten";
+}
+
+TEST_F(UnitRecordFile, BookingDoesNotAllocate) {
+    if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
+    auto running = run();
+    const auto before = allocationsOfThisThread();
+    ASSERT_TRUE(running->ask());
+    running->record->keepFault(FaultCause::OpenElectrode, "the electrode is open");
+    running->record->clearFault();
+    EXPECT_EQ(allocationsOfThisThread(), before);
+}
+
+TEST_F(UnitRecordFile, AFaultStaysWithTheUnitUntilItIsReset) {
+    RecordProperty("hazard", "H3");
+    {
+        auto one = run();
+        Interlock interlock;
+        ASSERT_TRUE(interlock.connect());
+        interlock.keepFaultsIn(*one->record);
+        EXPECT_EQ(interlock.state(), InterlockState::Disarmed);
+        interlock.fault(FaultCause::OpenElectrode, "the electrode is open: it lifted, or its lead is off");
+        interlock.fault(FaultCause::DeviceLost, "and then it was unplugged");
+    }
+    {
+        auto two = run();
+        Interlock interlock;
+        ASSERT_TRUE(interlock.connect());
+        interlock.keepFaultsIn(*two->record);
+        EXPECT_EQ(interlock.state(), InterlockState::Faulted);
+        EXPECT_THAT(std::string(interlock.reason().view()),
+                    HasSubstr("left by an earlier run: the electrode is open"));
+        EXPECT_TRUE(interlock.causePersists(FaultCause::OpenElectrode));
+        EXPECT_TRUE(interlock.causePersists(FaultCause::DeviceLost));
+        EXPECT_FALSE(interlock.reset()) << "its causes are looked at again first";
+        interlock.causeGone(FaultCause::OpenElectrode);
+        interlock.causeGone(FaultCause::DeviceLost);
+        ASSERT_TRUE(interlock.reset());
+        EXPECT_EQ(interlock.state(), InterlockState::Disarmed) << "the unit was opened: it is not lost";
+    }
+    EXPECT_FALSE(run()->record->fault());
+    // A record that cannot tell does not say that all is well.
+    run()->record->keepFault(FaultCause::NetCharge, "net charge");
+    std::filesystem::resize_file(file(), 400);
+    const auto unsure = run();
+    const auto fault = unsure->record->fault();
+    ASSERT_TRUE(fault);
+    EXPECT_THAT(std::string(fault->reason.view()), HasSubstr("is not known"));
+}
+
+}  // namespace tacto::test
