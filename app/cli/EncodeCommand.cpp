@@ -56,6 +56,7 @@ int run(const QCommandLineParser& parser) {
     const auto profile = profileOption(parser);
     if (!profile) return couldNotRun(profile.error());
     const auto limits = shippedLimits();
+    if (limits && !addedLimitsText(*limits).empty()) say(stderr, "{}\n", addedLimitsText(*limits));
     if (!limits) return couldNotRun(limits.error());
 
     const double P = pressureIndex(*pressure_pa, profile->roughness);

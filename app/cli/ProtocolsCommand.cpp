@@ -38,7 +38,12 @@ int run(const QCommandLineParser& parser) {
     }
     auto all = nlohmann::json::array();
     bool broken = false;
-    for (const auto& source : ProtocolLibrary().list()) {
+    const ProtocolLibrary library;
+    for (const auto& refused : library.refused()) {
+        say(stderr, "tactoscope-cli: left out: {}\n", refused.why);
+        broken = true;
+    }
+    for (const auto& source : library.list()) {
         const auto declaration = readDeclaration(source);
         if (!declaration) {
             say(stderr, "tactoscope-cli: {} is left out: {}\n", source.name, lines(declaration.error().message));
@@ -46,13 +51,14 @@ int run(const QCommandLineParser& parser) {
             continue;
         }
         all.push_back(toJson(*declaration));
+        all.back()["from"] = originOf(source);
     }
     if (parser.isSet("json")) {
         printJson(all);
         return broken ? kCouldNotRun : kDone;
     }
     for (const auto& protocol : all) {
-        say("{}: {}\n", textOf(protocol, "name"), textOf(protocol, "title"));
+        say("{}: {} ({})\n", textOf(protocol, "name"), textOf(protocol, "title"), textOf(protocol, "from"));
         for (const auto& parameter : protocol["parameters"]) {
             const auto range = rangeOf(parameter);
             const auto unit = textOf(parameter, "unit");

@@ -93,6 +93,7 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
     auto limits = shippedLimits();
     if (!limits) return tl::unexpected(couldNotRun(limits.error()));
     order.limits = std::move(*limits);
+    if (const auto added = addedLimitsText(order.limits); !added.empty()) say(stderr, "{}\n", added);
     order.out = parser.value("out").toStdString();
     return order;
 }
@@ -199,6 +200,8 @@ int run(const QCommandLineParser& parser) {
     order->stops = stops;
     order->asked = asked;
     const auto protocol = order->script.name;
+    const auto origin = originOf(order->script);
+    if (!order->script.shipped) say(stderr, "The script is {}.\n", origin);
     const auto seed = order->seed;
     const auto answers = order->settings.answers;
     auto registry = allDrivers()();
@@ -214,6 +217,7 @@ int run(const QCommandLineParser& parser) {
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();
     const json value{{"protocol", protocol},
+                     {"script_from", origin},
                      {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
                      {"simulated", result.simulated},
                      {"seed", seed},

@@ -67,6 +67,7 @@ tl::expected<PulseOrder, int> orderFrom(const QCommandLineParser& parser) {
     auto profile = shippedProfile();
     if (!profile) return tl::unexpected(couldNotRun(profile.error()));
     auto limits = shippedLimits();
+    if (limits && !addedLimitsText(*limits).empty()) say(stderr, "{}\n", addedLimitsText(*limits));
     if (!limits) return tl::unexpected(couldNotRun(limits.error()));
     return PulseOrder{*train, *load, std::move(limits->sets), std::move(profile->ceilings), profile->electrodeArea};
 }

@@ -2,11 +2,13 @@
 #include <QApplication>
 #include <QCoreApplication>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 
 #include "app/cli/Command.h"
+#include "app/scripting/ScriptRun.h"
 
 namespace tacto::cli {
 
@@ -66,7 +68,10 @@ int runCommand(const Command& command, int argc, char** argv) {
         return kDone;
     }
     try {
-        return command.run(parser);
+        const int code = command.run(parser);
+        if (ScriptRun::abandonedRunning() == 0) return code;
+        std::fflush(nullptr);
+        std::_Exit(code);  // a script that does not end would run on among what is taken down
     } catch (const std::exception& surprise) {
         // Of a library: nothing of ours throws. Devices were switched off when their bench was unwound.
         say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());

@@ -77,6 +77,11 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     const auto hash = [&](const QString& name, const std::string& value) {
         if (!value.empty()) model.identity.push_back({name, text(value), true});
     };
+    if (!about.protocolFrom.empty()) model.identity.push_back({"Script from", text(about.protocolFrom)});
+    for (const auto& set : about.limitSets) {
+        if (set.from.empty()) continue;
+        model.identity.push_back({"Limits beside the built-in ones", text(set.id + " (" + set.from + ")")});
+    }
     hash("Script " + model.protocol, about.protocolSha256);
     hash("Encoding profile", about.profileSha256);
     for (const auto& set : about.limitSets) hash("Limits " + text(set.id), set.sha256);

@@ -27,7 +27,7 @@ KnownCalibration knownCalibration(const DeviceSet& devices) {
     const auto output = calibratedOutput(device.serial, device.uri);
     const std::string_view unit = devices.stimulator->traits().drive == Drive::Current ? "mA" : "V";
     KnownCalibration known;
-    const auto* last = store->latest(output, unit);
+    const auto* last = store->proven(output, unit, device.simulated);
     if (last != nullptr) known.calibration = linesOf(*last);
     const CalibrationDate today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
     const auto found = store->valid(output, unit, today, device.simulated);

@@ -33,6 +33,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, cons
     if (protocol != nullptr) {
         about.protocol = protocol->script.name;
         about.protocolSha256 = protocol->script.sha256;
+        about.protocolFrom = originOf(protocol->script);
         about.parameters = protocol->settings.parameters;
         about.seed = protocol->seed;
     }
@@ -45,7 +46,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, cons
     about.simulated = about.simulated || (protocol != nullptr && devices.identities().empty());
     about.profileJson = toJson(profile).dump();
     for (std::size_t i = 0; i < limits.sets.size(); ++i)
-        about.limitSets.push_back({limits.sets[i].id, limits.sha256[i]});
+        about.limitSets.push_back({limits.sets[i].id, limits.sha256[i], limits.from[i]});
     about.mode = nameOf(OutputMode::BenchLoad);
     about.wallStart = wallTimeUtc();
     return about;
@@ -124,6 +125,7 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     if (!warning_.empty() && hooks.onLog) hooks.onLog(warning_);
     hooks.script = order_.script;
     hooks.parameters = order_.settings.parameters;
+    hooks.operatorGave = order_.settings.given;
     hooks.seed = order_.seed;
     hooks.bench = bench_.get();
     hooks.asked = order_.asked;

@@ -1,4 +1,6 @@
-// Shipped.h - the profile and the limit sets that come with the program.
+// Shipped.h - the profile and the limit sets that come with the program, built into it: no file and no environment
+// variable replaces them (hazard H1). A limit set in the folder limits/ of the resources that is none of them is in
+// force as well, so it can only tighten, and is named wherever limits are.
 //
 // Thread-safety: reads files; any thread.
 #pragma once
@@ -10,14 +12,19 @@
 
 namespace tacto {
 
-/// Errors: as loadProfile(), and when the resources folder is missing.
+/// Errors: as parseProfile(); none in a program whose tests pass.
 [[nodiscard]] Result<Profile> shippedProfile();
 
 struct ShippedLimits {
     std::vector<LimitSet> sets;
     std::vector<std::string> sha256;  ///< of each set's file, in the same order
+    std::vector<std::string> from;    ///< where its file lies; empty for one that is built in; in the same order
 };
-/// Errors: as parseLimitSet(), and when the resources folder or every set in it is missing.
+/// Errors: as parseLimitSet(); ParseError for a file in the resources' limits/ that would take the place of a built-in
+/// set, or that allows more than a built-in row of the same quantity.
 [[nodiscard]] Result<ShippedLimits> shippedLimits();
+
+/// "Limit sets in force beside the built-in ones: lab-x (/lab/limits/lab-x.json)."; empty where there is none.
+[[nodiscard]] std::string addedLimitsText(const ShippedLimits& limits);
 
 }  // namespace tacto

@@ -9,6 +9,7 @@
 #include "core/bench/TrainPlanner.h"
 #include "core/encoding/Encoder.h"
 #include "core/safety/TrainExposure.h"
+#include "core/session/SessionWriter.h"
 
 namespace tacto {
 
@@ -173,12 +174,38 @@ Result<Json> attempt(ScriptSession& session, const Json& list) {
         {"refused", !waited && !delivered}, {"delivered", delivered}, {"reason", waited ? "" : waited.error().message}};
 }
 
+/// A script may take a smaller electrode than the operator's profile states; a larger one would move the floor of the
+/// density limits (hazard H1). Where the profile states none, the operator must have given the same number.
 Result<Json> setElectrodeArea(ScriptSession& session, const Json& list) {
-    auto area = Arguments("bench.setElectrodeArea", list).number(0, "area", {1e-3, 1e3});
+    const auto area = Arguments("bench.setElectrodeArea", list).number(0, "area", {1e-3, 1e3});
     if (!area) return failure(area);
+    const auto& stated = session.chosenProfile().electrodeArea;
+    if (stated && !(*area <= stated->value())) {
+        return fail(ErrorCode::InvalidArgument,
+                    "bench.setElectrodeArea: {:g} cm² is larger than the {:g} cm² of the profile; at most that is "
+                    "accepted, or another profile",
+                    *area, stated->value());
+    }
+    if (!stated && session.operatorsNumber("area") != *area) {
+        return fail(ErrorCode::InvalidArgument,
+                    "bench.setElectrodeArea: the profile states no electrode area and the operator did not give {:g} "
+                    "cm²; --set area={:g}, or electrode_area_cm2 in the profile, is expected",
+                    *area, *area);
+    }
     auto profile = session.bench().profile();
     profile.electrodeArea = SquareCentimetres(*area);
     if (auto set = session.bench().setProfile(profile); !set) return failure(set);
+    if (session.writer() == nullptr) return Json();
+    const auto said = stated ? fmt::format("Electrode area: {:g} cm² for this run; the profile states {:g} cm².", *area,
+                                           stated->value())
+                             : fmt::format("Electrode area: {:g} cm², declared by the operator.", *area);
+    auto written = session.writer()->event(
+        session.now(), "electrode area",
+        {{"area_cm2", *area}, {"declared_by", stated ? "the protocol" : "the operator"}, {"text", said}});
+    if (!written) return failure(written);
+    if (auto shown = session.writer()->reportItem(session.now(), {{"kind", "text"}, {"text", said}}); !shown) {
+        return failure(shown);
+    }
     return Json();
 }
 
@@ -228,10 +255,12 @@ std::vector<HostFunction> benchLoadFunctions() {
         {"bench",
          "setElectrodeArea",
          HostKind::Function,
-         {{"area", "number", "cm2", "of the smallest electrode"}},
-         "Sets the area that densities are judged with, for this run.",
+         {{"area", "number", "cm2",
+           "of the smallest electrode: at most the profile's; where the profile states none, what the operator gave as "
+           "the parameter area"}},
+         "Sets the area that densities are judged with, for this run. The session and its report say so.",
          "",
-         "Throws while armed.",
+         "Throws while armed; for an area that is larger than the profile's, or that only the script states.",
          setElectrodeArea},
         {"bench",
          "electrodeArea",

@@ -1,11 +1,11 @@
 // Calibrating a stimulator: what to command, one reading from the captures, and the line through all of them.
 #include <cmath>
+#include <optional>
 
 #include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
 #include "core/analysis/CalibrationJson.h"
 #include "core/analysis/ResultJson.h"
-#include "core/encoding/Rounding.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto {
@@ -45,15 +45,12 @@ Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double 
             {"full_scale", known(channel.high * scale)}};
 }
 
-/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was told.
-Json commandOf(Bench& bench) {
-    const Telemetry now = bench.telemetry();
-    const PulseTrain& train = bench.profile().encoding.train;
-    const auto step = bench.devices().stimulator->traits().widthStep.count();
-    return {{"amplitude", numberOrNull(now.trainAmplitude)},
-            {"interval_s", numberOrNull(now.interval_s)},
-            {"width_s", towardZero(train.phaseWidth.count(), step) / 1e6},
-            {"gap_s", towardZero(train.interPhaseGap.count(), step) / 1e6}};
+/// What was asked of the stimulator when the capture was taken.
+Json commandJson(const CapturedCommand& command) {
+    return {{"amplitude", numberOrNull(command.amplitude)},
+            {"interval_s", numberOrNull(command.interval_s)},
+            {"width_s", numberOrNull(command.width_s)},
+            {"gap_s", numberOrNull(command.gap_s)}};
 }
 
 /// The load as V/I, with the limits that both channels state (half-width, relative; the worst case of their sum).
@@ -75,6 +72,8 @@ Result<Json> pulse(ScriptSession& session, const Json& list) {
     if (!given) return failure(given);
     if (given->captures.empty()) return arguments.wrong("captures", arguments.at(0), "at least one capture");
     const auto& captures = given->captures;
+    const auto commands = session.commandsOf(given->ids);
+    if (!commands) return failure(commands);
     const auto& stimulator = session.bench().devices().stimulator;
     if (!stimulator) return fail(ErrorCode::Unsupported, "measure.pulse: no stimulator is connected");
     const auto options = optionsFor(session.bench().profile().encoding.train);
@@ -95,14 +94,125 @@ Result<Json> pulse(ScriptSession& session, const Json& list) {
                 {"gap_s", numberOrNull(read.gap_s.mean)},
                 {"trains", read.trains.size()},
                 {"warnings", read.warnings},
-                {"commanded", commandOf(session.bench())},
+                {"commanded", commandJson(commands->back())},
                 {"instrument", instrumentOf(captures.front(), *channel, scale)},
                 {"captures", given->ids}};
     if (current) {
         addLoad(out, captures.front(), meanOfTrains(*voltage, &TrainMeasurement::amplitude),
                 meanOfTrains(*current, &TrainMeasurement::amplitude));
     }
+    OwnReading own;
+    for (const auto& id : given->ids) own.captures.push_back(id.get<std::int64_t>());
+    own.commands = *commands;
+    for (const char* key : {"amplitude", "interval_s", "width_s", "gap_s"}) own.read[key] = out[key];
+    own.unit = drivesCurrent ? "mA" : "V";
+    own.gainTolerance = channel->gainTolerance;
+    own.offsetTolerance = channel->offsetTolerance * scale;
+    own.resolution = channel->lsb * scale;
+    own.samplingStep_s = 1 / captures.front().rate_hz;
+    out["reading"] = session.own().add(std::move(own));
     return out;
+}
+
+/// The numbers of the run's own readings that `rows` name; nothing where one of them names none.
+std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
+    std::vector<std::int64_t> numbers;
+    for (const auto& row : rows) {
+        const Json number = row.is_object() ? row.value("reading", Json()) : Json();
+        if (!number.is_number_integer()) return std::nullopt;
+        numbers.push_back(number.get<std::int64_t>());
+    }
+    return numbers;
+}
+
+/// A quartz of unknown make: what a time base is taken to be off by where the operator did not state it. (choice)
+constexpr double kTimeBaseTolerance = 100e-6;
+/// Levels of a kept calibration are told apart at least this well, relative to the largest.
+constexpr double kWidestLevel = 0.05;
+
+/// A calibration of the run's own readings: commands, readings and what the instrument states come from the program,
+/// whatever the rows say beside. `errors` grow to what the instrument states, and never shrink.
+class OwnSeries {
+public:
+    OwnSeries(ScriptSession& session, const OwnQuantity& quantity, std::vector<std::int64_t> numbers,
+              std::vector<const OwnReading*> readings)
+        : session_(session), quantity_(quantity), readings_(std::move(readings)) {
+        made_.quantity = quantity.name;
+        made_.readings = std::move(numbers);
+        for (const auto* reading : readings_) {
+            for (const auto& command : reading->commands) {
+                made_.simulated = made_.simulated || command.simulated;
+                made_.calibrationApplied = made_.calibrationApplied || command.calibrationApplied;
+            }
+        }
+    }
+
+    /// Errors: InvalidArgument for a reading whose captures were commanded differently, or whose command is not known.
+    [[nodiscard]] Result<void> fill(std::vector<CalibrationReading>& rows) const {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto& commands = readings_[i]->commands;
+            const double commanded = commands.back().*quantity_.commanded;
+            for (const auto& command : commands) {
+                if (std::abs(command.*quantity_.commanded - commanded) <= 1e-9 * std::abs(commanded)) continue;
+                return fail(ErrorCode::InvalidArgument,
+                            "analysis.calibration: reading {} has captures of different commands of {}; one command is "
+                            "expected",
+                            made_.readings[i], quantity_.name);
+            }
+            const Json& measured = readings_[i]->read[quantity_.key];
+            rows[i].commanded = commanded;
+            rows[i].measured = measured.is_number() ? measured.get<double>() : std::nan("");
+        }
+        return {};
+    }
+
+    void widen(InstrumentErrors& errors) {
+        const bool amplitude = quantity_.name == "amplitude";
+        double stated = 0;
+        const auto said = session_.operatorsNumber(amplitude ? "scope_gain_pct" : "timebase_ppm");
+        if (said && *said > 0) {
+            stated = *said * (amplitude ? 1e-2 : 1e-6);
+            made_.statedBy = "the operator";
+        } else if (amplitude) {
+            for (const auto* reading : readings_) stated = std::max(stated, reading->gainTolerance);
+            const auto silent = [](const OwnReading* reading) { return !(reading->gainTolerance > 0); };
+            if (std::any_of(readings_.begin(), readings_.end(), silent)) stated = 0;
+            if (stated > 0) made_.statedBy = "the instrument";
+        } else {
+            stated = kTimeBaseTolerance;
+        }
+        if (stated > 0) made_.gainTolerance = stated;
+        errors.gainTolerance = std::max(errors.gainTolerance, stated);
+        for (const auto* reading : readings_) {
+            if (amplitude) {
+                errors.offsetTolerance = std::max(errors.offsetTolerance, reading->offsetTolerance);
+                errors.resolution = std::max(errors.resolution, reading->resolution);
+            } else {
+                errors.samplingStep = std::max(errors.samplingStep, reading->samplingStep_s);
+            }
+        }
+        errors.unit = amplitude ? readings_.front()->unit : "s";
+    }
+
+    [[nodiscard]] std::int64_t keep(const Json& found) {
+        made_.found = found;
+        return session_.own().add(std::move(made_));
+    }
+
+private:
+    ScriptSession& session_;
+    const OwnQuantity& quantity_;
+    std::vector<const OwnReading*> readings_;
+    OwnCalibration made_;
+};
+
+Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& rows, const std::string& quantity) {
+    auto numbers = ownNumbers(rows);
+    const auto* known = ownQuantity(quantity);
+    if (!numbers || known == nullptr || rows.empty()) return std::optional<OwnSeries>();
+    auto readings = session.own().readings(*numbers);
+    if (!readings) return fail(ErrorCode::InvalidArgument, "analysis.calibration: {}", readings.error().message);
+    return std::optional<OwnSeries>(std::in_place, session, *known, std::move(*numbers), std::move(*readings));
 }
 
 Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments, const Json& rows) {
@@ -160,6 +270,15 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
         if (!value) return failure(value);
         *target = *value;
     }
+    auto own = ownSeries(session, **rows, *quantity);
+    if (!own) return failure(own);
+    if (*own) {
+        if (fit.sameLevel > kWidestLevel) {
+            return arguments.wrong("same_level", fit.sameLevel, fmt::format("at most {}", kWidestLevel));
+        }
+        if (auto filled = (*own)->fill(*readings); !filled) return failure(filled);
+        (*own)->widen(errors);
+    }
     fit.resolution = std::max(errors.resolution, errors.samplingStep);
     auto found = fitCalibration(*readings, fit);
     if (!found) return failure(found);
@@ -170,8 +289,9 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
     constexpr double kIec_pct = 20;  // IEC 60601-2-10: output within ± 20 % of what is set
     Json out = toJson(*judged);
     out["quantity"] = *quantity;
-    out["unit"] = *unit;
+    out["unit"] = errors.unit;
     out["verdict_iec"] = nameOf(verdictAt(*judged, kIec_pct));
+    out["calibration"] = *own ? Json((*own)->keep(out)) : Json();
     return out;
 }
 
@@ -217,14 +337,17 @@ std::vector<HostFunction> calibrationFunctions() {
          "{ unit, amplitude, interval_s, width_s, gap_s, trains, warnings, commanded: { amplitude, interval_s, "
          "width_s, "
          "gap_s }, instrument: { gain_tolerance, offset_tolerance, resolution, sampling_step_s, full_scale }, "
-         "load_ohm, load_limit, captures }: amplitude in unit, V or mA by the stimulator's source; what could not be "
+         "load_ohm, load_limit, captures, reading }: reading is its number in this run, for analysis.calibration(); "
+         "amplitude in unit, V or mA by the stimulator's source; what could not be "
          "measured or is not stated is null; load_limit is the relative half-width that both channels state.",
          "Throws for captures that are held no longer, or without the channel that is read.",
          pulse},
         {"analysis",
          "calibration",
          HostKind::Function,
-         {{"readings", "list", "", "objects with commanded, measured and direction (up, down)"},
+         {{"readings", "list", "",
+           "objects with commanded, measured and direction (up, down); where each has a reading, the number from "
+           "measure.pulse(), the program's own record of that reading counts in place of the two values"},
           {"options.quantity", "text", "", "what was calibrated; amplitude where left out", true},
           {"options.unit", "text", "", "of the readings", true},
           {"options.tolerance_pct", "number", "%", "of the command at each level; 2 where left out", true},
@@ -236,9 +359,11 @@ std::vector<HostFunction> calibrationFunctions() {
            true},
           {"options.sampling_step", "number", "s", "of the record, for widths and intervals", true},
           {"options.same_level", "number", "", "commands this close, relative to the largest, are one level", true}},
-         "Fits measured against commanded, works out the uncertainty and judges each level with a guard band.",
+         "Fits measured against commanded, works out the uncertainty and judges each level with a guard band. Of own "
+         "readings the uncertainty holds at least what the oscilloscope states.",
          "{ gain, offset, residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, expanded_uncertainty, verdict, "
-         "verdict_iec (± 20 %), reasons, levels, readings with outlier, budget: { rows }, ... }.",
+         "verdict_iec (± 20 %), reasons, levels, readings with outlier, budget: { rows }, calibration, ... }; "
+         "calibration is its number for record.calibration(), null where a reading is not the program's own.",
          "Throws for fewer than two levels, or where nothing was repeated.",
          calibration},
         {"plot",

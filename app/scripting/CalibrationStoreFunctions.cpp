@@ -90,10 +90,28 @@ double largestResidual(const Json& levels) {
     return largest;
 }
 
-/// The line of one quantity, from what analysis.calibration() found.
-Result<StoredLine> lineFound(const Arguments& arguments, const Json& found, std::string_view quantity) {
+/// The run's own calibration of one quantity that `found` refers to: of what the script says, the number counts alone.
+Result<const OwnCalibration*> ownOf(ScriptSession& session, const Json& found, std::string_view quantity) {
     const Json one = found.value(std::string(quantity), Json());
-    if (!one.is_object() || one.value("quantity", "") != quantity || one.value("complete", Json()) != Json(true)) {
+    const auto* own = session.own().calibration(one.is_object() ? one.value("calibration", Json()) : one);
+    if (own == nullptr || own->quantity != quantity) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: {} was not computed from readings that this run took itself; what "
+                    "analysis.calibration() made of the readings of measure.pulse() is expected",
+                    quantity);
+    }
+    if (own->calibrationApplied) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: readings of {} were taken with the stored calibration applied; "
+                    "bench.useCalibration(false) before the first is expected",
+                    quantity);
+    }
+    return own;
+}
+
+/// The line of one quantity, from what the program itself found.
+Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::string_view quantity) {
+    if (one.value("complete", Json()) != Json(true)) {
         return arguments.wrong(quantity, one,
                                fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
     }
@@ -121,39 +139,75 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     const Json& found = **given;
     auto options = arguments.options(1, {"valid_days", "scope_due"});
     if (!options) return failure(options);
-    auto days = arguments.number(*options, "valid_days", 365, {1, 3660, true});
+    auto days = arguments.number(*options, "valid_days", 365, {1, kLongestValidity.count(), true});
     if (!days) return failure(days);
     auto due = dueDate(arguments, *options);
     if (!due) return failure(due);
     auto stimulator = connected(session, "record.calibration");
     if (!stimulator) return failure(stimulator);
+    auto* writer = session.writer();
+    if (writer == nullptr) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: this run is not recorded; a session that holds the readings is expected");
+    }
     StoredCalibration made;
-    const auto amplitude = lineFound(arguments, found, "amplitude");
+    const auto amplitude = ownOf(session, found, "amplitude");
     if (!amplitude) return failure(amplitude);
-    made.amplitude = *amplitude;
+    std::vector<const OwnCalibration*> all{*amplitude};
+    const auto line = lineFound(arguments, (*amplitude)->found, "amplitude");
+    if (!line) return failure(line);
+    made.amplitude = *line;
     for (const auto& time : kStoredTimes) {
-        const auto line = lineFound(arguments, found, time.key);
-        if (!line) return failure(line);
-        made.*time.line = *line;
+        const auto own = ownOf(session, found, time.key);
+        if (!own) return failure(own);
+        all.push_back(*own);
+        const auto one = lineFound(arguments, (*own)->found, time.key);
+        if (!one) return failure(one);
+        made.*time.line = *one;
     }
     const auto& device = (*stimulator)->identity();
     made.serial = calibratedOutput(device.serial, device.uri);
     made.device = device.name;
-    made.unit = found.at("amplitude").value("unit", "");
+    made.unit = (*amplitude)->found.value("unit", "");
     if (made.unit != unitOf(**stimulator)) return arguments.wrong("unit", made.unit, unitOf(**stimulator));
-    if (const auto* writer = session.writer()) made.session = writer->path().filename().string();
     made.made = today();
     made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(static_cast<int>(*days));
     for (const auto& each : session.bench().devices().identities()) {
         made.simulated = made.simulated || each.simulated;
-        if (each.role == Role::Oscilloscope) made.instruments.push_back({each.name, each.serial, *due});
+        if (each.role != Role::Oscilloscope) continue;
+        if (each.uri.starts_with("capture:")) {
+            return fail(ErrorCode::InvalidArgument,
+                        "record.calibration: the readings were taken from files; an oscilloscope on the stimulator is "
+                        "expected");
+        }
+        if (!(*amplitude)->gainTolerance) {
+            return fail(ErrorCode::InvalidArgument,
+                        "record.calibration: the oscilloscope {} does not state its gain tolerance, so nothing is kept; "
+                        "--set scope_gain_pct=..., from its data sheet, is expected",
+                        each.name);
+        }
+        made.instruments.push_back(
+            {each.name, each.serial, *due, (*amplitude)->gainTolerance, (*amplitude)->statedBy});
     }
+    Json evidence = Json::object();
+    for (const auto* own : all) {
+        made.simulated = made.simulated || own->simulated;
+        made.readings += own->readings.size();
+        evidence[own->quantity] = own->found;
+    }
+    // The readings are in the session, on disk, before a calibration refers to them.
+    if (auto kept = writer->measurement(session.now(), "calibration to keep", evidence); !kept) return failure(kept);
+    if (auto flushed = writer->flush(); !flushed) return failure(flushed);
+    made.session = writer->path().filename().string();
+    made.sessionHead = writer->chainHead();
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);
     const auto* before = store->latest(made.serial, made.unit);
     const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
     if (auto added = store->add(made); !added) return failure(added);
-    return Json{{"serial", made.serial}, {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes}};
+    return Json{{"serial", made.serial},           {"valid_until", dateText(made.validUntil)},
+                {"supersedes", supersedes},        {"readings", made.readings},
+                {"session_head", made.sessionHead}, {"simulated", made.simulated}};
 }
 
 }  // namespace
@@ -182,14 +236,16 @@ std::vector<HostFunction> calibrationStoreFunctions() {
          "calibration",
          HostKind::Function,
          {{"found", "object", "",
-           "{ amplitude, interval, width, gap }: complete calibrations of each, from analysis.calibration()"},
-          {"options.valid_days", "number", "d", "how long it holds, 1 to 3660; 365 where left out", true},
+           "{ amplitude, interval, width, gap }: complete calibrations of each, from analysis.calibration(); the "
+           "program keeps its own record of them, not what the objects say"},
+          {"options.valid_days", "number", "d", "how long it holds, 1 to 366; 365 where left out", true},
           {"options.scope_due", "text", "", "day on which the oscilloscope's own calibration is due", true}},
          "Keeps a calibration for the stimulator's serial. An older one stays in the store and is superseded.",
-         "{ serial, valid_until, supersedes }: the date of the one before, or null.",
-         "Throws for an incomplete calibration, a stimulator without a serial, an overdue oscilloscope, or a store "
-         "that "
-         "cannot be written.",
+         "{ serial, valid_until, supersedes, readings, session_head, simulated }: supersedes is the date of the one "
+         "before, or null.",
+         "Throws for a calibration that is incomplete or does not rest on readings of this run, a run that is not "
+         "recorded, a stimulator without a serial, an oscilloscope that is overdue or does not state its accuracy, or "
+         "a store that cannot be written.",
          keep},
     };
 }

@@ -3,12 +3,16 @@
 #include <mutex>
 
 #include "app/scripting/Arming.h"
+#include "app/scripting/MemoryGuard.h"
 #include "app/scripting/ProtocolDeclaration.h"
 #include "app/scripting/ScriptThread.h"
 
 namespace tacto {
 
 namespace {
+
+/// For what only declares something.
+constexpr std::size_t kMostMemory = std::size_t{512} << 20;
 
 /// Takes protocol() and refuses everything else: a declaration has no bench.
 class DeclarationPort final : public HostPort {
@@ -66,7 +70,24 @@ Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source, std::c
         const std::lock_guard lock(raw->mutex_);
         raw->error_ = std::move(error);
     });
-    if (thread.wait(limit) == ScriptThread::End::Running) {
+    bool tooLarge = false;
+    auto end = ScriptThread::End::Running;
+    {
+        const MemoryGuard memory(
+            [&] {
+                tooLarge = true;
+                thread.interrupt();
+            },
+            kMostMemory);
+        end = thread.wait(limit);
+    }
+    if (tooLarge) {
+        if (end == ScriptThread::End::Running) end = thread.wait();
+        const bool abandoned = end == ScriptThread::End::Abandoned;
+        return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) took more than {} MiB of memory{}", file,
+                    kMostMemory >> 20, abandoned ? ", and did not end when told to" : "");
+    }
+    if (end == ScriptThread::End::Running) {
         thread.interrupt();
         const bool abandoned = thread.wait() == ScriptThread::End::Abandoned;
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end within {} ms{}", file,

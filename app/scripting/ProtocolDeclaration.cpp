@@ -215,6 +215,11 @@ bool answers(const std::string& question, const std::string& key) {
 
 }  // namespace
 
+std::string originOf(const ProtocolSource& source) {
+    if (source.shipped) return "shipped with the program";
+    return source.path.empty() ? "a text that lies in no file" : source.path.string();
+}
+
 std::string_view nameOf(ParameterType type) noexcept {
     switch (type) {
         case ParameterType::Number:
@@ -292,6 +297,8 @@ Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
             auto value = parseSetting(*parameter, text);
             if (!value) return failure(value);
             out.parameters[key] = *value;
+            // Which of a script's choices is taken says nothing in the operator's own words.
+            if (parameter->type != ParameterType::Choice) out.given.insert(key);
             continue;
         }
         const bool asked = declaration.hasOtherQuestions ||

@@ -29,8 +29,11 @@ struct ProtocolSource {
     std::filesystem::path path;  ///< may be empty for a text that lies in no file
     std::string text;
     std::string sha256;    ///< of the text's bytes; filled in by the library
-    bool shipped = false;  ///< comes with the program
+    bool shipped = false;  ///< comes with the program: its bytes are those that the program was built with
 };
+
+/// Where a script comes from, for people: "shipped with the program", or its path.
+[[nodiscard]] std::string originOf(const ProtocolSource& source);
 
 enum class ParameterType { Number, Integer, Choice, Text, Boolean };
 [[nodiscard]] std::string_view nameOf(ParameterType type) noexcept;  // "number", "integer", "choice", "text", "boolean"
@@ -61,6 +64,8 @@ struct ProtocolDeclaration {
 struct ProtocolSettings {
     nlohmann::json parameters = nlohmann::json::object();  ///< every declared parameter, typed
     std::map<std::string, std::string> answers;            ///< for `operator`, by question name
+    /// The parameters (choices apart) that are the operator's word and not the script's default.
+    std::set<std::string> given;
 };
 
 /// Runs the script's top level and reads what it declares.

@@ -10,6 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "app/scripting/ShippedResources.h"
+
 #ifndef TACTOSCOPE_INSTALLED_RESOURCES
 #define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"
 #endif
@@ -32,7 +34,19 @@ fs::path executableFolder() {
     return failed ? fs::path() : self.parent_path();
 }
 
-Result<ProtocolSource> readScript(const fs::path& path, bool shipped) {
+/// What the shipped protocol of that name was built with; null for another name.
+const ShippedProtocol* digestOfShipped(std::string_view name) {
+    const auto all = shippedProtocols();
+    const auto at = std::ranges::find(all, name, &ShippedProtocol::name);
+    return at == all.end() ? nullptr : &*at;
+}
+
+std::string nameIsTaken(const fs::path& path) {
+    return fmt::format("{}: {} is the name of a protocol that comes with the program; another file name is expected",
+                       path.string(), path.stem().string());
+}
+
+Result<ProtocolSource> readScript(const fs::path& path) {
     std::error_code failed;
     const auto size = fs::file_size(path, failed);
     if (failed) return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), failed.message());
@@ -48,9 +62,10 @@ Result<ProtocolSource> readScript(const fs::path& path, bool shipped) {
     source.name = path.stem().string();
     source.path = path;
     source.text = content.str();
-    source.shipped = shipped;
     const QByteArray bytes = QByteArray::fromStdString(source.text);
     source.sha256 = QCryptographicHash::hash(bytes, QCryptographicHash::Sha256).toHex().toStdString();
+    const auto* built = digestOfShipped(source.name);
+    source.shipped = built != nullptr && built->sha256 == source.sha256;
     QStringDecoder utf8(QStringDecoder::Utf8, QStringDecoder::Flag::Stateless);
     const QString text = utf8(bytes);
     if (utf8.hasError() || text.contains(QChar::Null)) {
@@ -130,30 +145,54 @@ ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {
 ProtocolLibrary::ProtocolLibrary(fs::path shipped, fs::path user)
     : shipped_(std::move(shipped)), user_(std::move(user)) {}
 
-std::vector<ProtocolSource> ProtocolLibrary::list() const {
-    std::map<std::string, std::pair<fs::path, bool>> all;
-    for (auto& [name, path] : scriptsIn(shipped_)) all[name] = {path, true};
-    for (auto& [name, path] : scriptsIn(user_)) all[name] = {path, false};
-    std::vector<ProtocolSource> out;
-    for (const auto& [name, at] : all) {
-        if (auto source = readScript(at.first, at.second)) out.push_back(std::move(*source));
+struct ProtocolLibrary::Listing {
+    std::vector<ProtocolSource> sources;  // by name
+    std::vector<RefusedScript> refused;
+};
+
+ProtocolLibrary::Listing ProtocolLibrary::listing() const {
+    Listing all;
+    const auto take = [&](const fs::path& path) {
+        if (auto source = readScript(path))
+            all.sources.push_back(std::move(*source));
+        else
+            all.refused.push_back({path, source.error().message});
+    };
+    const auto shipped = scriptsIn(shipped_);
+    for (const auto& [name, path] : shipped) take(path);
+    for (const auto& [name, path] : scriptsIn(user_)) {
+        if (shipped.contains(name) || digestOfShipped(name) != nullptr)
+            all.refused.push_back({path, nameIsTaken(path)});
+        else
+            take(path);
     }
-    return out;
+    std::ranges::sort(all.sources, {}, &ProtocolSource::name);
+    return all;
 }
+
+std::vector<ProtocolSource> ProtocolLibrary::list() const { return listing().sources; }
+std::vector<RefusedScript> ProtocolLibrary::refused() const { return listing().refused; }
 
 Result<ProtocolSource> ProtocolLibrary::find(std::string_view nameOrPath) const {
     const std::string wanted(nameOrPath);
-    if (wanted.ends_with(".js") || wanted.find('/') != std::string::npos) {
-        std::error_code failed;
-        if (!fs::is_regular_file(wanted, failed)) return fail(ErrorCode::NotFound, "there is no script {}", wanted);
-        return readScript(fs::absolute(wanted, failed).lexically_normal(), false);
-    }
     const auto shipped = scriptsIn(shipped_), user = scriptsIn(user_);
-    if (const auto at = user.find(wanted); at != user.end()) return readScript(at->second, false);
-    if (const auto at = shipped.find(wanted); at != shipped.end()) return readScript(at->second, true);
+    std::error_code failed;
+    if (wanted.ends_with(".js") || wanted.find('/') != std::string::npos) {
+        if (!fs::is_regular_file(wanted, failed)) return fail(ErrorCode::NotFound, "there is no script {}", wanted);
+        auto source = readScript(fs::absolute(wanted, failed).lexically_normal());
+        if (!source || source->shipped) return source;
+        const auto taken = shipped.find(source->name);
+        const bool own = taken != shipped.end() && fs::equivalent(taken->second, wanted, failed);
+        if (own || (taken == shipped.end() && digestOfShipped(source->name) == nullptr)) return source;
+        return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(wanted));
+    }
+    if (const auto at = shipped.find(wanted); at != shipped.end()) return readScript(at->second);
+    if (const auto at = user.find(wanted); at != user.end()) {
+        if (digestOfShipped(wanted) == nullptr) return readScript(at->second);
+        return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(at->second));
+    }
     std::set<std::string> known;
-    for (const auto& [name, path] : shipped) known.insert(name);
-    for (const auto& [name, path] : user) known.insert(name);
+    for (const auto& source : list()) known.insert(source.name);
     return fail(ErrorCode::NotFound, "there is no protocol {}; there are {}", wanted,
                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
 }

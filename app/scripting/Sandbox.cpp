@@ -2,6 +2,7 @@
 
 #include <QRegularExpression>
 #include <QUrl>
+#include <new>
 
 #include "app/scripting/HostBridge.h"
 #include "app/scripting/JsValue.h"
@@ -9,6 +10,10 @@
 namespace tacto {
 
 namespace {
+
+/// What the engine compiles at run time cannot be unwound: std::bad_alloc from within it would abort the program, where
+/// interpreted code lets evaluate() catch it. Set before any engine exists.
+[[maybe_unused]] const bool kInterpreted = qputenv("QV4_FORCE_INTERPRETER", "1");
 
 const QString kHostFile = QStringLiteral("tactoscope:host");
 const QString kStartFile = QStringLiteral("tactoscope:start");
@@ -89,12 +94,16 @@ struct Sandbox::Engine {
     const ProtocolSource source;
     const std::string file;  // as errors name it
     std::unique_ptr<HostBridge> bridge;
+    bool ranOutOfMemory = false;
 };
 
 Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
     : engine_(std::make_unique<Engine>(port, source)), runLine_(findRunLine(source.text)) {}
 
-Sandbox::~Sandbox() = default;
+Sandbox::~Sandbox() {
+    // Its insides were left in the middle of what they did: never touched again.
+    if (engine_->ranOutOfMemory) static_cast<void>(engine_.release());
+}
 
 void Sandbox::Engine::removeForeignGlobals() {
     static const QSet<QString> kKept = {"Object",
@@ -215,7 +224,13 @@ void Sandbox::interrupt() noexcept { engine_->js.setInterrupted(true); }
 
 std::optional<ScriptError> Sandbox::Engine::evaluate(const QString& code, const QString& from, QJSValue* result) {
     QStringList trace;
-    const QJSValue value = js.evaluate(code, from, 1, &trace);
+    QJSValue value;
+    try {
+        value = js.evaluate(code, from, 1, &trace);
+    } catch (const std::bad_alloc&) {
+        ranOutOfMemory = true;
+        return ScriptError{ErrorCode::Stopped, "the script asked for more memory than there is; output is off", file, 0};
+    }
     if (result != nullptr) *result = value;
     if (js.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file, 0};
     if (trace.isEmpty() && !value.isError()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "app/scripting/MemoryGuard.h"
 #include "app/scripting/ScriptSession.h"
 #include "app/scripting/ScriptThread.h"
 #include "core/session/SessionWriter.h"
@@ -56,9 +57,11 @@ struct ScriptRun::State final : HostPort {
     std::string stoppedBy;  // guarded by control
 
     std::unique_ptr<ScriptThread> thread;  // set once, before stop() can be called
+    std::unique_ptr<MemoryGuard> memory;   // ends before the thread does
     std::optional<ScriptOutcome> outcome;  // wait()'s caller only
 
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
+    void stop(const char* by) noexcept;
     void execute(Sandbox& sandbox);
     void writeAbout();
     void conclude(ScriptThread::End end);
@@ -91,6 +94,19 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
     } catch (const std::exception& surprise) {  // of a library, as JSON or memory: the script gets it as an Error
         return fail(ErrorCode::InvalidArgument, "{}.{}: {}", function.object, function.name, surprise.what());
     }
+}
+
+void ScriptRun::State::stop(const char* by) noexcept {
+    {
+        const std::lock_guard lock(control);
+        if (over) return;
+        request.bench->stop(by);  // the output first
+        if (!stopping) stoppedBy = by;
+        stopping = true;
+    }
+    woken.notify_all();
+    if (request.operatorDesk != nullptr) request.operatorDesk->cancel();
+    thread->interrupt();
 }
 
 void ScriptRun::State::execute(Sandbox& sandbox) {
@@ -142,6 +158,7 @@ std::string ScriptRun::State::stopText(int at) {
 }
 
 void ScriptRun::State::conclude(ScriptThread::End end) {
+    memory.reset();
     {
         const std::lock_guard lock(control);
         over = true;  // from here on stop() leaves the bench alone
@@ -228,6 +245,9 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     State* raw = state.get();  // the thread keeps the port, which is the state, alive
     state->thread = std::make_unique<ScriptThread>(state, state->request.script,
                                                    [raw](Sandbox& sandbox) { raw->execute(sandbox); });
+    state->memory =
+        std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
+                                      state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
     return std::unique_ptr<ScriptRun>(new ScriptRun(std::move(state)));
 }
 
@@ -238,16 +258,7 @@ ScriptRun::~ScriptRun() {
 }
 
 void ScriptRun::stop(const char* by) noexcept {
-    {
-        const std::lock_guard lock(state_->control);
-        if (state_->over) return;
-        state_->request.bench->stop(by);  // the output first
-        if (!state_->stopping) state_->stoppedBy = by;
-        state_->stopping = true;
-    }
-    state_->woken.notify_all();
-    if (state_->request.operatorDesk != nullptr) state_->request.operatorDesk->cancel();
-    state_->thread->interrupt();
+    state_->stop(by);
 }
 
 void ScriptRun::pause() noexcept {

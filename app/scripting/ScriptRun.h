@@ -18,6 +18,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct ScriptProgress {
 struct RunRequest {
     ProtocolSource script;
     nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
+    std::set<std::string> operatorGave;  ///< names of the parameters that the operator set on purpose
+    /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.
+    std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
     Bench* bench = nullptr;               ///< not owned; used by nobody else until the run is over, stop() apart
     StopMark asked = {};                  ///< of the bench's stops(): when the operator asked for the run

@@ -2,18 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/scripting/Arguments.h"
+#include "core/base/Text.h"
+#include "core/encoding/Rounding.h"
 #include "core/measure/CaptureFile.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
+
+ScriptSession::ScriptSession(const RunRequest& request)
+    : request_(request), random_(request.seed, "protocol script") {
+    if (request.bench != nullptr) chosen_ = request.bench->profile();
+}
 
 Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
     if (request_.operatorDesk == nullptr) {
         return fail(ErrorCode::NotFound, "nobody can answer \"{}\"; give --set {}=...", question.text, question.name);
     }
     auto answer = request_.operatorDesk->ask(question);
+    // The keys of a choice are the script's words; what was entered is the operator's.
+    if (question.kind == OperatorQuestion::Kind::Enter && answer && answer->is_string()) {
+        answered_.insert(answer->get<std::string>());
+    }
     if (request_.session != nullptr) {
         const nlohmann::json details = {{"name", question.name},
                                         {"question", question.text},
@@ -46,30 +58,86 @@ nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
                            {"trigger_s", capture.trigger_s},
                            {"rate_hz", capture.rate_hz},
                            {"samples", capture.samples()}});
-        captures_.push_back({nextCapture_++, std::move(capture), {}});
+        const auto command = commandOf(capture);
+        captures_.push_back({nextCapture_++, std::move(capture), command, {}});
         if (captures_.size() > kHeldCaptures) captures_.pop_front();
     }
     return handles;
 }
 
-Result<std::vector<const Capture*>> ScriptSession::held(const nlohmann::json& handles) const {
-    std::vector<const Capture*> found;
-    for (const auto& handle : handles) {
-        const auto id = handle.is_object() ? handle.value("capture", nlohmann::json()) : handle;
-        if (!id.is_number_integer()) {
-            return fail(ErrorCode::InvalidArgument, "{} is no capture; pass what bench.capture() returned",
-                        shown(handle));
-        }
-        const auto same = [&](const Held& held) { return held.id == id.get<std::int64_t>(); };
-        const auto at = std::find_if(captures_.begin(), captures_.end(), same);
-        if (at == captures_.end()) {
-            return fail(ErrorCode::InvalidArgument,
-                        "capture {} is held no longer; measure captures before {} more are taken", shown(id),
-                        kHeldCaptures);
-        }
-        found.push_back(&at->capture);
+/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was told.
+CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    const auto& bench = *request_.bench;
+    const Telemetry now = bench.telemetry();
+    const PulseTrain& train = bench.profile().encoding.train;
+    const auto& stimulator = request_.bench->devices().stimulator;
+    const auto onGrid = [&](Micros time) {
+        return stimulator ? towardZero(time.count(), stimulator->traits().widthStep.count()) / 1e6 : kUnknown;
+    };
+    return {.amplitude = std::isfinite(capture.told) ? capture.told : now.trainAmplitude,
+            .interval_s = now.interval_s,
+            .width_s = onGrid(train.phaseWidth),
+            .gap_s = onGrid(train.interPhaseGap),
+            .calibrationApplied = bench.calibration().has_value(),
+            .simulated = capture.simulated};
+}
+
+Result<const ScriptSession::Held*> ScriptSession::find(const nlohmann::json& handle) const {
+    const auto id = handle.is_object() ? handle.value("capture", nlohmann::json()) : handle;
+    if (!id.is_number_integer()) {
+        return fail(ErrorCode::InvalidArgument, "{} is no capture; pass what bench.capture() returned", shown(handle));
     }
-    return found;
+    const auto same = [&](const Held& held) { return held.id == id.get<std::int64_t>(); };
+    const auto at = std::find_if(captures_.begin(), captures_.end(), same);
+    if (at != captures_.end()) return &*at;
+    return fail(ErrorCode::InvalidArgument, "capture {} is held no longer; measure captures before {} more are taken",
+                shown(id), kHeldCaptures);
+}
+
+Result<std::vector<const Capture*>> ScriptSession::held(const nlohmann::json& handles) const {
+    std::vector<const Capture*> captures;
+    for (const auto& handle : handles) {
+        const auto found = find(handle);
+        if (!found) return failure(found);
+        captures.push_back(&(*found)->capture);
+    }
+    return captures;
+}
+
+Result<std::vector<CapturedCommand>> ScriptSession::commandsOf(const nlohmann::json& handles) const {
+    std::vector<CapturedCommand> commands;
+    for (const auto& handle : handles) {
+        const auto found = find(handle);
+        if (!found) return failure(found);
+        commands.push_back((*found)->command);
+    }
+    return commands;
+}
+
+bool ScriptSession::isOperatorsText(const std::string& text) const {
+    const auto holds = [&](const std::string& given) {
+        if (trimmed(given) == text) return true;
+        const auto apart = [](char c) { return c == ';' || c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+        for (auto at = given.find(text); at != std::string::npos && !text.empty(); at = given.find(text, at + 1)) {
+            const auto end = at + text.size();
+            if ((at == 0 || apart(given[at - 1])) && (end == given.size() || apart(given[end]))) return true;
+        }
+        return false;
+    };
+    if (std::any_of(answered_.begin(), answered_.end(), holds)) return true;
+    return std::any_of(request_.operatorGave.begin(), request_.operatorGave.end(), [&](const std::string& name) {
+        const auto given = request_.parameters.find(name);
+        return given != request_.parameters.end() && given->is_string() && holds(given->get<std::string>());
+    });
+}
+
+std::optional<double> ScriptSession::operatorsNumber(const std::string& name) const {
+    const auto given = request_.parameters.find(name);
+    if (!request_.operatorGave.contains(name) || given == request_.parameters.end() || !given->is_number()) {
+        return std::nullopt;
+    }
+    return given->get<double>();
 }
 
 Result<int> ScriptSession::addTrial(const std::string& condition, const nlohmann::json& measured) {

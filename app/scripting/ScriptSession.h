@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "app/scripting/Operator.h"
+#include "app/scripting/OwnReadings.h"
 #include "app/scripting/ScriptRun.h"
 #include "core/base/Random.h"
 #include "core/bench/Bench.h"
@@ -29,7 +30,7 @@ public:
     static constexpr std::size_t kHeldCaptures = 64;
 
     /// `request` outlives the session; its bench is not null, or no host function is ever called.
-    explicit ScriptSession(const RunRequest& request) : request_(request), random_(request.seed, "protocol script") {}
+    explicit ScriptSession(const RunRequest& request);
 
     [[nodiscard]] Bench& bench() noexcept { return *request_.bench; }
     [[nodiscard]] SessionWriter* writer() noexcept { return request_.session; }
@@ -50,6 +51,18 @@ public:
     [[nodiscard]] nlohmann::json hold(std::vector<Capture> captures);
     /// The captures behind a list of handles. Errors: InvalidArgument for what is no handle or is held no longer.
     [[nodiscard]] Result<std::vector<const Capture*>> held(const nlohmann::json& handles) const;
+    /// What was commanded when each of them was taken. Errors: as held().
+    [[nodiscard]] Result<std::vector<CapturedCommand>> commandsOf(const nlohmann::json& handles) const;
+
+    /// What the program itself read and computed in this run.
+    [[nodiscard]] OwnReadings& own() noexcept { return own_; }
+    /// The number that the operator gave the parameter `name` on purpose; nothing where it is the script's default.
+    [[nodiscard]] std::optional<double> operatorsNumber(const std::string& name) const;
+    /// Whether the operator gave this text: as a parameter, as what was entered for a question, or as one of the words
+    /// of these (between blanks or semicolons).
+    [[nodiscard]] bool isOperatorsText(const std::string& text) const;
+    /// The profile as the operator chose it, before the script changed anything for its run.
+    [[nodiscard]] const Profile& chosenProfile() const noexcept { return chosen_; }
 
     /// Records a trial with the captures it was measured on. Errors: of the session file, of the capture folder.
     [[nodiscard]] Result<int> addTrial(const std::string& condition, const nlohmann::json& measured);
@@ -85,17 +98,23 @@ private:
     struct Held {
         std::int64_t id;
         Capture capture;
+        CapturedCommand command;
         std::optional<std::int64_t> row;
     };
+    [[nodiscard]] Result<const Held*> find(const nlohmann::json& handle) const;
+    [[nodiscard]] CapturedCommand commandOf(const Capture& capture) const;
     [[nodiscard]] Result<void> store(Held& held, int trial);
 
     const RunRequest& request_;
     Random random_;
     std::set<std::string> confirmed_;
+    Profile chosen_;
+    std::set<std::string> answered_;  // texts that the operator gave as answers
     std::deque<Held> captures_;
     std::int64_t nextCapture_ = 1;
     std::vector<nlohmann::json> trials_;
     std::vector<Exemplar> exemplars_;
+    OwnReadings own_;
     std::uint64_t expectedFaults_ = 0;
     nlohmann::json partial_, partialTables_;
     std::map<std::string, ExposureRow> exposure_;

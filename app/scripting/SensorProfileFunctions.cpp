@@ -17,10 +17,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-Result<Json> profilometer(ScriptSession&, const Json& list) {
+Result<Json> profilometer(ScriptSession& session, const Json& list) {
     const Arguments arguments("bench.profilometer", list);
     auto path = arguments.text(0, "path");
     if (!path) return failure(path);
+    // The same answer whether there is such a file or not: a script cannot look around (hazard H10).
+    if (!session.isOperatorsText(*path)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "bench.profilometer: the operator did not choose {}; a path that the operator gave as a parameter "
+                    "or entered is expected",
+                    shown(*path));
+    }
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(*path, error)) {
+        return fail(ErrorCode::InvalidArgument, "bench.profilometer: {} is no file that can be read", shown(*path));
+    }
     auto found = readProfilometer(*path);
     if (!found) return failure(found);
     return Json{{"ra_um", numberOrNull(found->ra_um)},
@@ -80,11 +91,16 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     const auto& identity = sensor->identity();
     const auto today = dateText(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
 
-    Profile profile = session.bench().profile();
+    Profile inForce = session.bench().profile();
+    inForce.roughness = *roughness;
+    // What is kept is the operator's profile with other scales: encoding, area, loads and ceilings are not a script's to
+    // write (hazard H1).
+    Profile profile = session.chosenProfile();
     profile.roughness = *roughness;
     profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, today,
                                identity.simulated ? " (simulated)" : "");
-    if (auto replaced = session.bench().setProfile(profile); !replaced) return failure(replaced);
+    inForce.name = profile.name;
+    if (auto replaced = session.bench().setProfile(inForce); !replaced) return failure(replaced);
     Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
     const Json store = options->value("store", Json(false));
     if (!store.is_boolean()) return arguments.wrong("store", store, "true or false");
@@ -103,10 +119,11 @@ std::vector<HostFunction> sensorProfileFunctions() {
         {"bench",
          "profilometer",
          HostKind::Function,
-         {{"path", "text", "", "of a CSV that a profilometer exported"}},
+         {{"path", "text", "", "of a CSV that a profilometer exported: a parameter that the operator gave, or entered"}},
          "Finds Ra and Rz in it, by name and unit.",
          "{ ra_um, rz_um, ra_values, rz_values }: means over that many values; rz_um is null where it is not stated.",
-         "Throws with the line and the reason where no Ra with a unit is found.",
+         "Throws for a path that the operator did not give; with the line and the reason where no Ra with a unit is "
+         "found.",
          profilometer},
         {"record",
          "sensorProfile",
@@ -114,8 +131,9 @@ std::vector<HostFunction> sensorProfileFunctions() {
          {{"found", "object", "", "accepted, from analysis.sensorCalibration()"},
           {"options.store", "boolean", "", "keep it as a file, in the folder profiles beside the calibrations", true},
           {"options.contact_area_cm2", "number", "cm2", "0.01 to 100; the profile's where left out", true}},
-         "The bench's profile with the scales, surfaces and rest that were found; in force for the rest of the run. A "
-         "file is never overwritten: a later one gets a number.",
+         "The profile that the operator chose, with the scales, surfaces and rest that were found; these are in force "
+         "for the rest of the run. What the script changed besides is not kept. A file is never overwritten: a later "
+         "one gets a number.",
          "{ name, file, profile }: file is null where it was not stored; what --profile takes.",
          "Throws for a refused calibration, while armed with another encoding, or where the file cannot be written.",
          keep},

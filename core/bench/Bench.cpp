@@ -14,16 +14,17 @@ namespace {
 constexpr Instant kCaptureGrace = std::chrono::seconds(1);
 
 /// What the stimulator was told for the train that begins at the trigger; NaN where none does.
-double toldFor(const Capture& capture, const Telemetry& now) {
+ToldTrain toldFor(const Capture& capture, const Telemetry& now) {
     constexpr double kNear_s = 0.05;
-    double nearest_s = kNear_s, amplitude = NAN;
+    double nearest_s = kNear_s;
+    ToldTrain told;
     for (const auto& train : now.told) {
         const double off_s = std::abs(capture.trigger_s - toSeconds(train.onset));
         if (std::isnan(train.amplitude) || !(off_s < nearest_s)) continue;
         nearest_s = off_s;
-        amplitude = train.amplitude;
+        told = train;
     }
-    return amplitude;
+    return told;
 }
 
 }  // namespace
@@ -92,8 +93,15 @@ Result<void> Bench::State::open() {
     }
     if (config.devices.oscilloscope) {
         scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope, [this](Capture& capture) {
-            capture.told = toldFor(capture, loop->telemetry());
-            if (!stimulator || source.readsBack) return;
+            const auto told = toldFor(capture, loop->telemetry());
+            capture.told = told.amplitude;
+            if (!stimulator) return;
+            if (auto seen = amplitudeSeenIn(capture, source.drive); seen && !std::isnan(told.expected)) {
+                seen->expected = told.expected;
+                seen->onset = told.onset;
+                loop->noteAmplitude(*seen);
+            }
+            if (source.readsBack) return;
             if (const auto seen = loadSeenIn(capture)) loop->noteLoad(*seen);
         });
     }

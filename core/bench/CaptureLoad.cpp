@@ -68,4 +68,21 @@ std::optional<SeenLoad> loadSeenIn(const Capture& capture) {
     return SeenLoad{*least, true, at};
 }
 
+std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive) {
+    if (capture.untriggered || !std::isfinite(capture.trigger_s)) return std::nullopt;
+    const auto channels = loadChannels(capture);
+    if (!channels) return std::nullopt;
+    const bool current = drive == Drive::Current;
+    const auto index = current ? channels->second : channels->first;
+    const double amplitude = measureChannel(capture, index).amplitude.mean;
+    if (!std::isfinite(amplitude)) return std::nullopt;
+    const auto& channel = capture.channels[index];
+    const double scale = current ? 1e3 : 1;
+    SeenAmplitude seen;
+    seen.amplitude = scale * amplitude;
+    seen.uncertainty = scale * (channel.gainTolerance * amplitude + channel.offsetTolerance + channel.lsb);
+    seen.onset = toInstant(Seconds(capture.trigger_s));
+    return seen;
+}
+
 }  // namespace tacto

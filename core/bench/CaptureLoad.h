@@ -1,5 +1,5 @@
-// CaptureLoad.h - what one capture tells of the load that its pulses met, and whether they are what was commanded: for a
-// stimulator that cannot read it back.
+// CaptureLoad.h - what one capture tells of its pulses: of the load that they met, for a stimulator that cannot read it
+// back, of their amplitude, and whether they are what was commanded.
 //
 // Thread-safety: pure function.
 #pragma once
@@ -19,6 +19,20 @@ struct SeenLoad {
     bool atLeast = false;  ///< the voltage drove no current that the channel could show: |Z| is this or more
     Instant at{0};         ///< of the trigger
 };
+
+/// How large a train came out, beside how large it should have been; V or mA by the stimulator's drive.
+struct SeenAmplitude {
+    const char* by = "the oscilloscope shows";  ///< begins the sentence of a fault
+    double amplitude = 0;
+    double expected = 0;
+    double uncertainty = 0;  ///< of `amplitude`, half-width, as its instrument states it
+    Instant onset{0};
+};
+
+/// Of the voltage, or of the current, in a capture that was triggered on a train. `expected` is left to the caller.
+/// Nothing for a record without a trigger, without exactly one channel in V and one in A, or without a pulse that was
+/// measured.
+[[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive);
 
 /// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
 [[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);

@@ -68,6 +68,14 @@ void ControlLoop::noteLoad(const SeenLoad& seen) {
     inboxFull_.store(true, std::memory_order_release);
 }
 
+void ControlLoop::noteAmplitude(const SeenAmplitude& seen) {
+    const std::scoped_lock lock(inboxMutex_);
+    // Of several in one step the one that is furthest off.
+    const auto off = [](const SeenAmplitude& one) { return std::abs(one.amplitude / one.expected - 1); };
+    if (!inbox_.amplitude || off(seen) > off(*inbox_.amplitude)) inbox_.amplitude = seen;
+    inboxFull_.store(true, std::memory_order_release);
+}
+
 /// Before anything else: what was approved before a silence must not be written after it, whichever thread wakes first.
 void ControlLoop::beat(Instant now) noexcept {
     const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
@@ -152,6 +160,7 @@ void ControlLoop::takeCommands(Instant now) noexcept {
     }
     if (taken.confirmed && arming_) confirmed_ = std::move(taken.confirmed);
     if (taken.load) judgeLoad(*taken.load, now);
+    if (taken.amplitude) judgeAmplitude(*taken.amplitude, now);
 }
 
 void ControlLoop::noteState(Instant now) noexcept {
@@ -396,7 +405,9 @@ void ControlLoop::sendTrain(Instant now) noexcept {
                                   {"rounded_by", planned->rounding.amplitude}});
     }
     const auto& amplitude = planned->rounding.train.amplitude;
-    shown_.told[told_++ % shown_.told.size()] = {planned->onset, siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1)};
+    shown_.told[told_++ % shown_.told.size()] = {planned->onset, siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1),
+                                                 planned->expected};
+    expected_ = planned->expected;
     post(std::move(planned->approved), planned->onset, false);
 }
 

@@ -87,6 +87,8 @@ public:
     /// What a capture showed of the load while trains are delivered. Judged where the stimulator cannot read it back:
     /// a load outside its range, and an open one, end delivery. From another thread.
     void noteLoad(const SeenLoad& seen);
+    /// How large a train came out, from a capture. Any thread; judged at the next step.
+    void noteAmplitude(const SeenAmplitude& seen);
 
     /// One turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one before
     /// (the process was stopped, the machine stood still) finds a fault and switches off before anything else; one after
@@ -115,6 +117,7 @@ private:
         std::unique_ptr<TrainPlanner> planner;
         std::optional<SeenLoad> load;
         std::optional<Result<Ohms>> confirmed;
+        std::optional<SeenAmplitude> amplitude;
     };
     void beat(Instant now) noexcept;
     void wakeFromSilence(Instant now) noexcept;
@@ -136,6 +139,8 @@ private:
     void judgeBurst(const TrainReport& report) noexcept;
     void judgeImpedance(const TrainReport& report) noexcept;
     void judgeLoad(const SeenLoad& seen, Instant now) noexcept;
+    /// True when what came out is not what was commanded: it is a fault.
+    bool judgeAmplitude(const SeenAmplitude& seen, Instant now) noexcept;
     void updateImpedance(Ohms measured, Instant at) noexcept;
     void recordOutcome(const TrainReport& report, const char* name) noexcept;
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
@@ -177,6 +182,7 @@ private:
     Instant asleepSeen_{0};     // of the clock, when it was looked at last after a silence
     StopMark order_;            // for which the output was armed, or is being armed
     std::size_t told_ = 0;      // trains, for the ring of shown_
+    double expected_ = NAN;     // amplitude of the train that was posted last, V or mA, as it should come out
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

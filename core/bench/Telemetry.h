@@ -22,6 +22,7 @@ enum class DriveSource { Off, Manual, Sensor };
 struct ToldTrain {
     Instant onset{0};
     double amplitude = NAN;  ///< V or mA by its drive
+    double expected = NAN;   ///< the same, as it should come out: the command, to the device's step
 };
 
 /// Trivially copyable; NaN means absent.

@@ -1,6 +1,7 @@
 #include "core/bench/TrainPlanner.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tacto {
 
@@ -12,6 +13,32 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
             .widthMax = source.widthMax,
             .pulsesMax = source.pulsesMax};
 }
+
+namespace {
+
+/// What the stimulator is told stays this near to the command, whatever a calibration says.
+constexpr double kMostCorrection = 0.2;
+
+double levelOf(const PulseTrain& train) noexcept {
+    return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
+}
+
+Result<void> staysNear(std::string_view what, double told, double command) {
+    if (std::abs(told - command) <= kMostCorrection * command) return {};
+    return fail(ErrorCode::LimitExceeded,
+                "the calibration would have the stimulator told {:.4g} for {} {:.4g}; at most 20 % beside it is "
+                "accepted: the stimulator is out of order, or the calibration is not its own",
+                told, what, command);
+}
+
+Result<void> staysNear(const PulseTrain& told, const PulseTrain& command) {
+    if (auto near = staysNear("the amplitude", levelOf(told), levelOf(command)); !near) return near;
+    if (auto near = staysNear("the phase width", told.phaseWidth.count(), command.phaseWidth.count()); !near)
+        return near;
+    return staysNear("the gap", told.interPhaseGap.count(), command.interPhaseGap.count());
+}
+
+}  // namespace
 
 TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                            const KnownLines& calibration)
@@ -63,13 +90,19 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (!held) return failure(held);
     const auto train = trainFor(source_.drive, encoder_.profile(), *held, impedance);
     if (!train) return failure(train);
-    const auto rounded = roundToDevice(toldFor(*train, calibration_), gridOf(source_));
+    const PulseTrain told = toldFor(*train, calibration_);
+    if (auto near = staysNear(told, *train); !near) return failure(near);
+    const Seconds interval = toldFor(command.interval, calibration_);
+    if (auto near = staysNear("the interval", interval.count(), command.interval.count()); !near) return failure(near);
+    const auto rounded = roundToDevice(told, gridOf(source_));
     if (!rounded) return failure(rounded);
-    auto approved = gate_.approve(TrainRequest{rounded->train, toldFor(command.interval, calibration_), onset});
+    auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
     if (!approved) return failure(approved);
     last_ = command;
     lastOnset_ = onset;
-    return PlannedTrain{std::move(*approved), onset, command, *held, *rounded};
+    const double level = levelOf(rounded->train);
+    return PlannedTrain{std::move(*approved), onset,    command,
+                        *held,                *rounded, calibration_ ? calibration_->amplitude.delivered(level) : level};
 }
 
 }  // namespace tacto

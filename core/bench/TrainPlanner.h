@@ -20,6 +20,7 @@ struct PlannedTrain {
     Command command;        ///< what was asked for, in volts
     Volts held;             ///< what it became on this impedance
     RoundedTrain rounding;  ///< and how far the device's step took it from that
+    double expected;        ///< amplitude that should come out, V or mA: the command, to the device's step
 };
 
 struct PlannedBurst {
@@ -52,7 +53,8 @@ public:
 
     /// Has the due train judged, for an onset at max(due, now). Whether it is approved or refused, the next one is an
     /// interval later. Errors: as heldAmplitude(),
-    /// trainFor(), roundToDevice() and SafetyGate::approve().
+    /// trainFor(), roundToDevice() and SafetyGate::approve(); LimitExceeded where the calibration would have the
+    /// stimulator told more than 20 % beside the command (hazard H1: the calibration may be wrong).
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
     /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().

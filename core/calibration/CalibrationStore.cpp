@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/base/Csv.h"
+#include "core/base/JsonText.h"
 #include "core/calibration/StoredCalibrationJson.h"
 #include "core/session/Digest.h"
 
@@ -106,7 +107,9 @@ Result<void> CalibrationStore::read(std::string_view text) {
             return fail(ErrorCode::ParseError, "{}:{}: {}; an unchanged line of this program was expected",
                         file_.string(), line, why);
         };
-        json body = json::parse(text.substr(0, end), nullptr, false);
+        auto parsed = parseJson(text.substr(0, end), "the line");
+        if (!parsed) return wrong("this is no calibration: " + parsed.error().message);
+        json& body = *parsed;
         if (!body.is_object() || !body.contains("sha256") || !body.contains("previous")) {
             return wrong("this is no calibration");
         }
@@ -127,6 +130,7 @@ Result<void> CalibrationStore::read(std::string_view text) {
 
 Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
     if (auto sane = check(calibration); !sane) return sane;
+    if (auto known = checkProvenance(calibration); !known) return known;
     for (const auto& time : kStoredTimes) {
         if (calibration.*time.line) continue;
         return fail(ErrorCode::InvalidArgument, "calibration of {}: no {}; all four quantities were expected",
@@ -164,6 +168,15 @@ const StoredCalibration* CalibrationStore::latest(std::string_view serial, std::
     return nullptr;
 }
 
+const StoredCalibration* CalibrationStore::proven(std::string_view serial, std::string_view unit,
+                                                  bool simulated) const {
+    for (auto at = all_.rbegin(); at != all_.rend(); ++at) {
+        if (at->serial != serial || at->unit != unit || (at->simulated && !simulated)) continue;
+        if (checkProvenance(*at)) return &*at;
+    }
+    return nullptr;
+}
+
 Result<StoredCalibration> CalibrationStore::valid(std::string_view serial, std::string_view unit, CalibrationDate day,
                                                   bool simulated) const {
     const auto* found = latest(serial, unit);
@@ -176,6 +189,9 @@ Result<StoredCalibration> CalibrationStore::valid(std::string_view serial, std::
                     "stimulator {} was calibrated on a simulated bench only, on {}; one on the "
                     "real bench is expected",
                     serial, dateText(found->made));
+    }
+    if (const auto known = checkProvenance(*found); !known) {
+        return fail(ErrorCode::NotFound, "{}", known.error().message);
     }
     for (const auto& time : kStoredTimes) {
         if (found->*time.line) continue;

@@ -4,8 +4,9 @@
 // changed, taken out or put in is found when the file is read. A newer calibration of the same serial supersedes the
 // older one, which stays. The last line may be cut short by a crash while it was written: it is left out, and said so.
 //
-// A calibration counts for one serial and one kind of source, until a date. What is missing, expired or damaged is
-// *not calibrated*, never "assumed good" (hazards H1 and H9).
+// A calibration counts for one serial and one kind of source, until a date at most a year later, and only with its
+// provenance: the session that holds its readings, and the stated accuracy of the instrument that took them. What is
+// missing, expired, damaged or without provenance is *not calibrated*, never "assumed good" (hazards H1 and H9).
 //
 // Thread-safety: none; one owner. add() locks the file against other processes.
 #pragma once
@@ -34,7 +35,9 @@ using CalibrationDate = std::chrono::year_month_day;
 struct CalibrationInstrument {
     std::string name;
     std::string serial;
-    std::optional<CalibrationDate> due;  ///< of its own calibration; nothing: nobody stated it
+    std::optional<CalibrationDate> due;  ///< of its own calibration; nothing: it was not stated
+    std::optional<double> gainTolerance{};  ///< of the amplitude it read: half-width, relative; nothing: not stated
+    std::string statedBy{};                 ///< "the instrument" or "the operator"; empty where it was not stated
 };
 
 /// What one quantity comes out as, and how surely that is known.
@@ -54,6 +57,8 @@ struct StoredCalibration {
     CalibrationDate validUntil{};  ///< the last day on which it counts
     bool simulated = false;        ///< of a simulated device, or measured by one
     std::string session;           ///< file name of the session that holds the readings
+    std::string sessionHead;       ///< head of its hash chain when this was kept: 64 hexadecimal digits
+    std::size_t readings = 0;      ///< in that session, that the lines were computed from
     std::vector<CalibrationInstrument> instruments;
 };
 
@@ -70,20 +75,29 @@ inline constexpr std::array<StoredTime, 3> kStoredTimes{{{"interval", "interval"
 /// that is more.
 [[nodiscard]] StimulatorCalibration linesOf(const StoredCalibration& stored);
 
+inline constexpr std::chrono::days kLongestValidity{366};
+/// Whether the program itself computed it from readings that a session holds. Errors: InvalidArgument for one without
+/// session, readings or an instrument whose accuracy is stated, or one that claims to hold longer than
+/// kLongestValidity.
+[[nodiscard]] Result<void> checkProvenance(const StoredCalibration& calibration);
+
 class CalibrationStore {
 public:
     /// Reads the file; one that is not there is empty. Errors: Io; ParseError naming the line that does not check.
     [[nodiscard]] static Result<CalibrationStore> open(std::filesystem::path file);
 
-    /// Appends and syncs. Errors: InvalidArgument for a calibration without serial, unit, one of the four lines or
-    /// valid numbers and dates, or an instrument that was overdue on the day it was used; Io; ParseError when the file
-    /// was damaged meanwhile.
+    /// Appends and syncs. Errors: InvalidArgument for a calibration without serial, unit, one of the four lines,
+    /// provenance or valid numbers and dates, or an instrument that was overdue on the day it was used; Io; ParseError
+    /// when the file was damaged meanwhile.
     [[nodiscard]] Result<void> add(const StoredCalibration& calibration);
 
     /// The newest of that serial and unit, whatever its date.
     [[nodiscard]] const StoredCalibration* latest(std::string_view serial, std::string_view unit) const;
+    /// The newest whose provenance is known, whatever its date: what the limits are judged by. One of a simulated bench
+    /// serves a simulated device only.
+    [[nodiscard]] const StoredCalibration* proven(std::string_view serial, std::string_view unit, bool simulated) const;
     /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired when, without
-    /// its times, or made on a simulated bench while the device is none.
+    /// its times or its provenance, or made on a simulated bench while the device is none.
     [[nodiscard]] Result<StoredCalibration> valid(std::string_view serial, std::string_view unit, CalibrationDate day,
                                                   bool simulated) const;
 

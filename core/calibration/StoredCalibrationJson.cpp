@@ -1,5 +1,6 @@
 #include "core/calibration/StoredCalibrationJson.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -67,7 +68,35 @@ StoredLine lineFrom(const json& in) {
     return line;
 }
 
+bool isDigest(std::string_view text) {
+    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 }  // namespace
+
+Result<void> checkProvenance(const StoredCalibration& c) {
+    if (c.session.empty() || !isDigest(c.sessionHead) || c.readings == 0) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the calibration of stimulator {} of {} does not say from which readings it was computed, so it is "
+                    "not applied; a new calibration is expected",
+                    c.serial, dateText(c.made));
+    }
+    const auto stated = [](const CalibrationInstrument& one) { return one.gainTolerance.value_or(0) > 0; };
+    if (std::none_of(c.instruments.begin(), c.instruments.end(), stated)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the calibration of stimulator {} of {} rests on no instrument whose accuracy is stated, so it is "
+                    "not applied; a new calibration is expected",
+                    c.serial, dateText(c.made));
+    }
+    const auto held = std::chrono::sys_days(c.validUntil) - std::chrono::sys_days(c.made);
+    if (held > kLongestValidity) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the calibration of stimulator {} of {} claims to hold for {} days, so it is not applied; at most "
+                    "{} are accepted",
+                    c.serial, dateText(c.made), held.count(), kLongestValidity.count());
+    }
+    return {};
+}
 
 Result<void> check(const StoredCalibration& c) {
     if (c.serial.empty()) {
@@ -100,7 +129,9 @@ json toJson(const StoredCalibration& c) {
     for (const auto& instrument : c.instruments) {
         instruments.push_back({{"name", instrument.name},
                                {"serial", instrument.serial},
-                               {"due", instrument.due ? json(dateText(*instrument.due)) : json()}});
+                               {"due", instrument.due ? json(dateText(*instrument.due)) : json()},
+                               {"gain_tolerance", instrument.gainTolerance ? json(*instrument.gainTolerance) : json()},
+                               {"stated_by", instrument.statedBy}});
     }
     json out = toJson(c.amplitude);  // at the top: files were written so before times were kept
     out.update({{"serial", c.serial},
@@ -110,6 +141,8 @@ json toJson(const StoredCalibration& c) {
                 {"valid_until", dateText(c.validUntil)},
                 {"simulated", c.simulated},
                 {"session", c.session},
+                {"session_head", c.sessionHead},
+                {"readings", c.readings},
                 {"instruments", instruments}});
     for (const auto& time : kStoredTimes) {
         if (c.*time.line) out[std::string(time.key)] = toJson(*(c.*time.line));
@@ -132,6 +165,9 @@ Result<StoredCalibration> storedCalibrationFrom(const json& in) {
         }
         c.simulated = in.at("simulated").get<bool>();
         c.session = in.at("session").get<std::string>();
+        // Lines of older versions have neither: they are read, and not applied.
+        c.sessionHead = in.value("session_head", "");
+        c.readings = in.value("readings", std::size_t{0});
         const auto made = date(in.at("made")), until = date(in.at("valid_until"));
         if (!made || !until) return fail(ErrorCode::ParseError, "made or valid_until is no date such as 2026-11-21");
         c.made = *made;
@@ -142,6 +178,9 @@ Result<StoredCalibration> storedCalibrationFrom(const json& in) {
             if (!instrument.due && !entry.at("due").is_null()) {
                 return fail(ErrorCode::ParseError, "an instrument's due is no date such as 2026-11-21");
             }
+            const json tolerance = entry.value("gain_tolerance", json());
+            if (!tolerance.is_null()) instrument.gainTolerance = tolerance.get<double>();
+            instrument.statedBy = entry.value("stated_by", "");
             c.instruments.push_back(std::move(instrument));
         }
     } catch (const json::exception& wrong) {

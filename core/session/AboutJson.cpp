@@ -15,10 +15,13 @@ nlohmann::json toJson(const SessionAbout& about) {
                            {"simulated", device.simulated}});
     }
     auto limits = nlohmann::json::array();
-    for (const auto& set : about.limitSets) limits.push_back({{"id", set.id}, {"sha256", set.sha256}});
+    for (const auto& set : about.limitSets) {
+        limits.push_back({{"id", set.id}, {"sha256", set.sha256}, {"from", set.from}});
+    }
     return {{"program_version", about.programVersion},
             {"protocol", about.protocol},
             {"protocol_sha256", about.protocolSha256},
+            {"protocol_from", about.protocolFrom},
             {"parameters", about.parameters},
             {"seed", about.seed},
             {"devices", std::move(devices)},
@@ -37,6 +40,7 @@ SessionAbout aboutFrom(const nlohmann::json& json) {
     about.programVersion = textOr(json, "program_version");
     about.protocol = textOr(json, "protocol");
     about.protocolSha256 = textOr(json, "protocol_sha256");
+    about.protocolFrom = textOr(json, "protocol_from");
     about.parameters = valueOr(json, "parameters");
     about.seed = countOr(json, "seed");
     for (const auto& each : valueOr(json, "devices")) {
@@ -46,7 +50,7 @@ SessionAbout aboutFrom(const nlohmann::json& json) {
     about.profileJson = textOr(json, "profile");
     about.profileSha256 = textOr(json, "profile_sha256");
     for (const auto& each : valueOr(json, "limit_sets")) {
-        about.limitSets.push_back({textOr(each, "id"), textOr(each, "sha256")});
+        about.limitSets.push_back({textOr(each, "id"), textOr(each, "sha256"), textOr(each, "from")});
     }
     about.simulated = flagOr(json, "simulated");
     about.mode = textOr(json, "mode");
@@ -60,6 +64,8 @@ SessionAbout aboutFrom(const nlohmann::json& json) {
 nlohmann::json reproducible(const SessionAbout& about) {
     auto json = toJson(about);
     for (const char* key : {"program_version", "wall_start", "wall_start_at_s"}) json.erase(key);
+    json.erase("protocol_from");  // a path
+    for (auto& set : json["limit_sets"]) set.erase("from");
     for (auto& device : json["devices"]) {
         device.erase("uri");  // a recording's is a path
         device.erase("firmware");

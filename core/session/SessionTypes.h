@@ -25,6 +25,7 @@ struct SessionDevice {
 struct SessionLimitSet {
     std::string id;      ///< "paper", "iec-60601-2-10", ...
     std::string sha256;  ///< of the limit file's bytes
+    std::string from{};  ///< where the file lay; empty for a set that is built into the program
     bool operator==(const SessionLimitSet&) const = default;
 };
 
@@ -33,6 +34,7 @@ struct SessionAbout {
     std::string programVersion;
     std::string protocol;        ///< name, e.g. "separability"; empty for a session without a script
     std::string protocolSha256;  ///< of the script's bytes
+    std::string protocolFrom;    ///< where the script came from: "shipped with the program", or its path
     nlohmann::json parameters = nlohmann::json::object();
     std::uint64_t seed = 0;
     std::vector<SessionDevice> devices;

@@ -14,7 +14,7 @@ protocol({
       value: "full",
     },
     store: { label: "Keep the result for this stimulator", type: "boolean", value: false },
-    valid_days: { label: "It holds for", unit: "d", type: "integer", min: 1, max: 3660, value: 365 },
+    valid_days: { label: "It holds for", unit: "d", type: "integer", min: 1, max: 366, value: 365 },
     scope_due: { label: "Oscilloscope's own calibration is due (2027-03-01)", type: "text", value: "" },
     quantities: {
       label: "Calibrate",
@@ -156,6 +156,7 @@ function calibrate(p, quantity, results) {
     const reading = read(p, quantity === "interval" ? 2 : 1);
     const key = KEYS[quantity];
     readings.push({
+      reading: reading.reading,
       commanded: reading.commanded[key],
       measured: reading[key],
       direction: step.direction,

@@ -182,6 +182,50 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
     EXPECT_TRUE(arm());
 }
 
+TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhatWasTold) {
+    RecordProperty("hazard", "H1");
+    // It says the stimulator is weak; it is strong. 47.05 V are told for 40, and 49.4 come out.
+    calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
+    open({"sim:stimulator?gain=1.05"});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_NE(waited.error().message.find("the stimulator reads back 49."), std::string::npos)
+        << waited.error().message;
+    EXPECT_EQ(state(), InterlockState::Faulted);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 1U);
+}
+
+TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheCommandDeliversNothing) {
+    RecordProperty("hazard", "H1");
+    calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // 49.4 V for 40
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    const auto waited = bench_->wait(Seconds(3));
+    ASSERT_FALSE(waited);
+    EXPECT_NE(waited.error().message.find("told 49.38 for the amplitude 40"), std::string::npos)
+        << waited.error().message;
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+}
+
+TEST_F(CalibratedBenchTest, ACaptureThatShowsAnotherAmplitudeThanTheCommandFaults) {
+    RecordProperty("hazard", "H1");
+    for (const auto& [gain, off] : {std::pair{"1.3", "51."}, std::pair{"0.7", "2"}}) {
+        open({fmt::format("sim:oscilloscope?gain={}&noise=0", gain)});
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ScopeSettings settings;
+        settings.voltageRange = Volts(80);
+        static_cast<void>(bench_->capture(1, settings));
+        static_cast<void>(bench_->wait(Seconds(0.1)));
+        EXPECT_EQ(state(), InterlockState::Faulted) << gain;
+        const std::string reason(bench_->telemetry().reason.view());
+        EXPECT_NE(reason.find(fmt::format("the oscilloscope shows {}", off)), std::string::npos) << reason;
+    }
+}
+
 TEST_F(CalibratedBenchTest, AnImpossibleCalibrationArmsNothing) {
     RecordProperty("hazard", "H9");
     calibration_ = StimulatorCalibration{{0.1, 0, 10, 40}};

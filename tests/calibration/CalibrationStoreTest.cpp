@@ -26,7 +26,9 @@ StoredCalibration sample(const std::string& serial, double gain = 1.02) {
     c.made = on("2026-11-21");
     c.validUntil = on("2027-11-20");
     c.session = "run.tacto";
-    c.instruments = {{"DS2072A", "DS2D1", on("2027-03-01")}, {"shunt", "R7", std::nullopt}};
+    c.sessionHead = std::string(64, 'a');
+    c.readings = 440;
+    c.instruments = {{"DS2072A", "DS2D1", on("2027-03-01"), 0.03, "the instrument"}, {"shunt", "R7", std::nullopt}};
     return c;
 }
 
@@ -181,6 +183,59 @@ TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     // A whole one supersedes it.
     ASSERT_TRUE(old.add(sample("A1")));
     EXPECT_TRUE(store().valid("A1", "V", on("2026-12-01"), false));
+}
+
+TEST_F(CalibrationStoreFile, OneWithoutItsProvenanceIsReadAndNotApplied) {
+    RecordProperty("hazard", "H1");
+    const auto forged = [&](auto change) {
+        std::filesystem::remove(path);
+        auto kept = store();
+        EXPECT_TRUE(kept.add(sample("A1", 0.9)));
+        auto line = nlohmann::json::parse(textOf(path));
+        change(line["calibration"]);
+        line.erase("sha256");
+        line["sha256"] = sha256Hex(line.dump());
+        write(path, line.dump() + '\n');
+        const auto opened = store();
+        EXPECT_NE(opened.latest("A1", "V"), nullptr);
+        const auto valid = opened.valid("A1", "V", on("2026-12-01"), false);
+        EXPECT_EQ(opened.proven("A1", "V", true) != nullptr, valid.has_value()) << "nor are the limits judged by it";
+        return valid ? std::string("applied") : valid.error().message;
+    };
+    EXPECT_EQ(forged([](auto&) {}), "applied");
+    EXPECT_THAT(forged([](auto& c) { c.erase("session_head"); }), HasSubstr("from which readings"));
+    EXPECT_THAT(forged([](auto& c) { c["session_head"] = "42"; }), HasSubstr("from which readings"));
+    EXPECT_THAT(forged([](auto& c) { c["readings"] = 0; }), HasSubstr("from which readings"));
+    EXPECT_THAT(forged([](auto& c) { c["session"] = ""; }), HasSubstr("from which readings"));
+    EXPECT_THAT(forged([](auto& c) { c["instruments"][0]["gain_tolerance"] = nullptr; }),
+                HasSubstr("no instrument whose accuracy is stated"));
+    EXPECT_THAT(forged([](auto& c) { c["valid_until"] = "2036-11-18"; }), HasSubstr("hold for 3650 days"));
+}
+
+TEST_F(CalibrationStoreFile, IsAddedWithItsProvenanceOnlyAndForAYear) {
+    RecordProperty("hazard", "H1");
+    auto kept = store();
+    auto nameless = sample("A1");
+    nameless.sessionHead.clear();
+    EXPECT_FALSE(kept.add(nameless));
+    auto silent = sample("A1");
+    silent.instruments[0].gainTolerance.reset();
+    EXPECT_FALSE(kept.add(silent));
+    auto eternal = sample("A1");
+    eternal.validUntil = on("2027-11-23");
+    EXPECT_FALSE(kept.add(eternal));
+    EXPECT_TRUE(store().all().empty());
+}
+
+TEST_F(CalibrationStoreFile, TheLimitsOfARealOutputAreNotJudgedByOneOfASimulatedBench) {
+    RecordProperty("hazard", "H1");
+    auto kept = store();
+    auto twin = sample("A1", 0.9);
+    ASSERT_TRUE(kept.add(sample("A1", 1.02)));
+    twin.simulated = true;
+    ASSERT_TRUE(kept.add(twin));
+    EXPECT_DOUBLE_EQ(kept.proven("A1", "V", false)->amplitude.gain, 1.02);
+    EXPECT_DOUBLE_EQ(kept.proven("A1", "V", true)->amplitude.gain, 0.9);
 }
 
 TEST_F(CalibrationStoreFile, RefusesWhatIsNoCalibration) {

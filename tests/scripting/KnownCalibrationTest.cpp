@@ -44,6 +44,10 @@ protected:
         c.made = today + std::chrono::days(made);
         c.validUntil = today + std::chrono::days(until);
         c.simulated = true;
+        c.session = "run.tacto";
+        c.sessionHead = std::string(64, '0');
+        c.readings = 440;
+        c.instruments = {{"simulated oscilloscope", "", std::nullopt, 0.01, "the instrument"}};
         auto store = CalibrationStore::open(calibrationFile());
         ASSERT_TRUE(store) << store.error().message;
         const auto added = store->add(c);
@@ -80,7 +84,7 @@ TEST_F(Known, AValidOneHoldsOnItsLastDayToo) {
 
 TEST_F(Known, AnExpiredOneIsKnownAndDoesNotHold) {
     RecordProperty("hazard", "H1");
-    keep(1.19, -400, -1);
+    keep(1.19, -300, -1);
     const auto known = knownCalibration(devices_);
     ASSERT_TRUE(known.calibration) << "the gate judges by it";
     EXPECT_FALSE(known.holds);

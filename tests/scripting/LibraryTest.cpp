@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 #include "app/scripting/ProtocolLibrary.h"
@@ -11,7 +12,7 @@ class Library : public ::testing::Test {
 protected:
     Library() {
         folder_.write("shipped/separability.js", "// shipped");
-        folder_.write("shipped/live.js", "// live");
+        std::filesystem::copy_file(test::sourceDir() / "resources/protocols/live.js", folder_.path() / "shipped/live.js");
         folder_.write("user/separability.js", "// ours");
         folder_.write("user/touch.js", "// touch");
         folder_.write("user/notes.txt", "no script");
@@ -26,13 +27,28 @@ TEST_F(Library, ListsShippedAndOwnScriptsOnce) {
     EXPECT_EQ(names, (std::vector<std::string>{"live", "separability", "touch"}));
 }
 
-TEST_F(Library, FindsByNameTheLabsOwnFirst) {
-    const auto own = library_.find("separability").value();
-    EXPECT_EQ(own.text, "// ours");
-    EXPECT_FALSE(own.shipped);
-    EXPECT_EQ(own.path, folder_.path() / "user/separability.js");
+TEST_F(Library, TheNameOfAShippedScriptIsNotTakenByAnother) {
+    RecordProperty("hazard", "H10");
+    const auto found = library_.find("separability").value();
+    EXPECT_EQ(found.text, "// shipped");
+    EXPECT_FALSE(found.shipped) << "not the bytes that the program was built with";
+    EXPECT_EQ(originOf(found), (folder_.path() / "shipped/separability.js").string());
     EXPECT_TRUE(library_.find("live").value().shipped);
+    EXPECT_EQ(originOf(library_.find("live").value()), "shipped with the program");
     EXPECT_EQ(library_.find("live").value().sha256.size(), 64U);
+
+    const auto ours = (folder_.path() / "user/separability.js").string();
+    const auto refused = library_.refused();
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_EQ(refused[0].path, ours);
+    EXPECT_EQ(refused[0].why,
+              ours + ": separability is the name of a protocol that comes with the program; another file name is "
+                     "expected");
+    EXPECT_EQ(library_.find(ours).error().message, refused[0].why) << "by its path as well";
+    // Nor by one that the program's folder happens not to hold.
+    folder_.write("user/transitions.js", "// ours");
+    EXPECT_EQ(library_.find("transitions").error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(library_.refused().size(), 2U);
 }
 
 TEST_F(Library, FindsByPath) {
@@ -50,6 +66,7 @@ TEST_F(Library, RefusesWhatIsNoText) {
     folder_.write("user/bad.js", std::string("a\xFF\xFE", 3));
     folder_.write("user/large.js", std::string(1'000'001, ' '));
     EXPECT_EQ(library_.find("bad").error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(library_.refused().size(), 3U) << "and the one whose name is taken";
     EXPECT_EQ(library_.find("large").error().code, ErrorCode::InvalidArgument);
 }
 

@@ -45,7 +45,9 @@ public:
         const ProtocolLibrary library(sourceDir() / "resources" / "protocols", {});
         RunRequest out;
         out.script = library.find("load-safety").value();
-        out.parameters = applySettings(readDeclaration(out.script).value(), settings).value().parameters;
+        auto applied = applySettings(readDeclaration(out.script).value(), settings).value();
+        out.parameters = std::move(applied.parameters);
+        out.operatorGave = std::move(applied.given);
         out.bench = bench_.get();
         out.asked = bench_->stops().mark();
         out.session = writer_.get();

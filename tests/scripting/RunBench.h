@@ -30,7 +30,7 @@ public:
     explicit RunBench(bool virtualTime = true, std::string device = "sim:", std::uint64_t seed = 1,
                       bool recorded = false,
                       std::set<Role> needed = {Role::Sensor, Role::Stimulator, Role::Oscilloscope},
-                      bool looksReal = false) {
+                      bool looksReal = false, const KnownLines& calibration = {}) {
         if (virtualTime) {
             clock_ = std::make_shared<VirtualClock>();
         } else {
@@ -45,6 +45,7 @@ public:
         config.devices = registry.open(uris, needed, OpenContext{*clock_, seed, "1 kohm"}).value();
         if (looksReal) technician_ = lookReal(config.devices);
         config.clock = clock_;
+        config.calibration = calibration;
         config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
         if (recorded) {
             SessionAbout about;
@@ -72,9 +73,10 @@ public:
     /// A shipped protocol, with what --set would give.
     [[nodiscard]] RunRequest shipped(const std::string& protocol, const std::map<std::string, std::string>& settings) {
         auto source = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find(protocol).value();
-        auto parameters = applySettings(readDeclaration(source).value(), settings).value().parameters;
+        auto applied = applySettings(readDeclaration(source).value(), settings).value();
         auto out = request(std::move(source));
-        out.parameters = std::move(parameters);
+        out.parameters = std::move(applied.parameters);
+        out.operatorGave = std::move(applied.given);
         return out;
     }
     [[nodiscard]] ScriptOutcome run(std::string script) { return runProtocol(request(std::move(script))).value(); }

@@ -16,7 +16,7 @@ constexpr const char* kName = "stimulator-calibration";
 const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
 
 ScriptOutcome calibrate(const std::string& device, const Settings& settings, std::uint64_t seed = 1) {
-    RunBench rig(true, device, seed, false, kNeeded);
+    RunBench rig(true, device, seed, true, kNeeded);
     auto outcome = runProtocol(rig.shipped(kName, settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;

@@ -124,7 +124,14 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
 Result<ProtocolSettings> ParameterForm::read() {
     std::map<std::string, std::string> settings;
     for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
-    return applySettings(declaration_, settings);
+    auto applied = applySettings(declaration_, settings);
+    if (!applied) return applied;
+    // A default that was left as it is stays the script's word.
+    for (const auto& field : fields_) {
+        if (applied->parameters[field.parameter.name] == field.parameter.value)
+            applied->given.erase(field.parameter.name);
+    }
+    return applied;
 }
 
 QString ParameterForm::text(const std::string& name) const {

@@ -41,10 +41,17 @@ void ProtocolWorkspace::fillChooser(const QString& select) {
     if (chooser_ == nullptr) return choose(fixed_);
     const QSignalBlocker quiet(chooser_);
     chooser_->clear();
-    for (const auto& source : ProtocolLibrary().list()) {
+    const ProtocolLibrary library;
+    for (const auto& source : library.list()) {
         chooser_->addItem(source.shipped ? QString::fromStdString(source.name)
                                          : tr("%1 (the lab's own)").arg(QString::fromStdString(source.name)),
                           QString::fromStdString(source.name));
+        chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(originOf(source)), Qt::ToolTipRole);
+    }
+    for (const auto& refused : library.refused()) {
+        const auto path = QString::fromStdString(refused.path.string());
+        chooser_->addItem(tr("%1 (refused)").arg(path), path);
+        chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(refused.why), Qt::ToolTipRole);
     }
     if (chooser_->count() == 0) return panel_->say(tr("No protocol was found. Write one: New…"));
     chooser_->setCurrentIndex(std::max(0, chooser_->findData(select)));

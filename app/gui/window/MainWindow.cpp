@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
@@ -98,6 +99,11 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     layout->addWidget(pages_, 1);
     setCentralWidget(centre);
     line_ = new RecordingLine(desk_, *statusBar());
+    if (const auto added = addedLimitsText(desk_.limits()); !added.empty()) {
+        auto* limits = new QLabel(QString::fromStdString(added), this);
+        limits->setObjectName("added-limits");
+        statusBar()->addPermanentWidget(limits);
+    }
 
     buildPages();
     buildNavigation();

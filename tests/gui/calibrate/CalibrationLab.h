@@ -41,7 +41,11 @@ inline StoredCalibration calibration(int madeDaysAgo, int validForDays) {
     c.made = daysFromNow(-madeDaysAgo);
     c.validUntil = daysFromNow(validForDays - madeDaysAgo);
     c.simulated = true;
-    c.instruments = {{"oscilloscope X", "O-7", daysFromNow(validForDays - madeDaysAgo)}};
+    c.session = "run.tacto";
+    c.sessionHead = std::string(64, '0');
+    c.readings = 440;
+    c.instruments = {
+        {"oscilloscope X", "O-7", daysFromNow(validForDays - madeDaysAgo), 0.01, "the instrument"}};
     return c;
 }
 

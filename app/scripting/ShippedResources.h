@@ -1,0 +1,29 @@
+// ShippedResources.h - what the program was built with, from resources/: the limit sets, the default profile, and what
+// the shipped protocols must read like. No file and no environment variable replaces it (hazard H1: the floor cannot be
+// moved).
+//
+// Thread-safety: constant.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace tacto {
+
+struct ShippedLimitText {
+    std::string_view file;  ///< "paper.json"
+    std::string_view text;
+};
+/// In the order of their names.
+[[nodiscard]] std::span<const ShippedLimitText> shippedLimitTexts() noexcept;
+
+/// resources/encodings/default.json.
+[[nodiscard]] std::string_view shippedProfileText() noexcept;
+
+struct ShippedProtocol {
+    std::string_view name;    ///< "separability"
+    std::string_view sha256;  ///< of the script's bytes, in hexadecimal digits
+};
+[[nodiscard]] std::span<const ShippedProtocol> shippedProtocols() noexcept;
+
+}  // namespace tacto

@@ -1,0 +1,197 @@
+// Scripts that want a calibration kept which the program did not measure: nothing of it reaches the store.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/calibration/CalibrationStore.h"
+#include "core/session/SessionReader.h"
+#include "tests/scripting/RunBench.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
+
+/// Levels and repeats enough for a complete calibration that passes.
+constexpr const char* kInventedReadings = R"(
+function invented(from, to) {
+  const rows = [];
+  for (let repeat = 1; repeat <= 5; ++repeat) {
+    for (const direction of ["up", "down"]) {
+      for (let k = 0; k < 11; ++k) {
+        const commanded = from + (to - from) * k / 10;
+        rows.push({ commanded, measured: commanded * 0.81 + 1e-7 * repeat * commanded, direction });
+      }
+    }
+  }
+  return rows;
+}
+const RANGES = { amplitude: [10, 40], interval: [0.5, 2], width: [1e-4, 4e-4], gap: [1e-4, 4e-4] };
+)";
+
+class ForgedCalibration : public testing::Test {
+protected:
+    ForgedCalibration() { ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1); }
+    ~ForgedCalibration() override { ::unsetenv("XDG_DATA_HOME"); }
+    ForgedCalibration(const ForgedCalibration&) = delete;
+    ForgedCalibration& operator=(const ForgedCalibration&) = delete;
+
+    /// What the run ended with.
+    [[nodiscard]] std::string run(const std::string& body, const std::string& device = "sim:") {
+        RunBench rig(true, device, 1, true, kNeeded);
+        const auto outcome = runProtocol(rig.request(withRun(body) + kInventedReadings)).value();
+        EXPECT_TRUE(rig.outputOff());
+        return outcome.error ? outcome.error->message : "";
+    }
+    /// The shipped protocol, with `from` replaced by `to` in its text.
+    [[nodiscard]] ScriptOutcome altered(const std::string& from, const std::string& to,
+                                        std::map<std::string, std::string> settings,
+                                        const std::string& device = "sim:", bool looksReal = false,
+                                        const KnownLines& calibration = {}) {
+        RunBench rig(true, device, 1, true, kNeeded, looksReal, calibration);
+        settings["store"] = "true";
+        auto request = rig.shipped("stimulator-calibration", settings);
+        auto& text = request.script.text;
+        const auto at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+        auto outcome = runProtocol(std::move(request)).value();
+        rig.closeBench();
+        EXPECT_TRUE(rig.writer().close());
+        session_ = rig.writer().chainHead();
+        return outcome;
+    }
+    [[nodiscard]] static std::vector<StoredCalibration> kept() {
+        return CalibrationStore::open(calibrationFile()).value().all();
+    }
+
+    ScratchDir folder_;
+    std::string session_;
+};
+
+TEST_F(ForgedCalibration, OneThatIsWrittenDownIsNotKept) {
+    RecordProperty("hazard", "H1");
+    EXPECT_THAT(run(R"(
+  const levels = [{ commanded: 10, expanded_uncertainty: 0.01 }, { commanded: 40, expanded_uncertainty: 0.01 }];
+  const one = quantity => ({ quantity, complete: true, verdict_iec: "pass", gain: 0.81, offset: 0, unit: "V", levels });
+  const found = { amplitude: one("amplitude"), interval: one("interval"), width: one("width"), gap: one("gap") };
+  record.calibration(found, { valid_days: 366 });)"),
+                HasSubstr("amplitude was not computed from readings that this run took itself"));
+    EXPECT_TRUE(kept().empty());
+}
+
+TEST_F(ForgedCalibration, OneOfInventedReadingsIsNotKept) {
+    RecordProperty("hazard", "H1");
+    EXPECT_THAT(run(R"(
+  const found = {};
+  for (const quantity in RANGES) {
+    found[quantity] = analysis.calibration(invented(RANGES[quantity][0], RANGES[quantity][1]),
+                                           { quantity, unit: quantity === "amplitude" ? "V" : "s" });
+    if (!found[quantity].complete || found[quantity].verdict_iec !== "pass") throw new Error("the test is wrong");
+  }
+  record.calibration(found);)"),
+                HasSubstr("amplitude was not computed from readings that this run took itself"));
+    EXPECT_TRUE(kept().empty());
+}
+
+TEST_F(ForgedCalibration, NumbersOfReadingsThatDoNotExistAreRefused) {
+    RecordProperty("hazard", "H1");
+    EXPECT_THAT(run(R"(analysis.calibration(invented(10, 40).map((row, i) => Object.assign(row, { reading: i + 1 })));)"),
+                HasSubstr("there is no reading 1 in this run"));
+}
+
+TEST_F(ForgedCalibration, AReadingCountsOnce) {
+    RecordProperty("hazard", "H1");
+    const std::string takeOne = R"(
+  bench.arm({ load: 1000 });
+  bench.drive("manual", { roughness: 1, pressure: 1 });
+  const captures = bench.capture({ rate_hz: 2e6 });
+  const a = measure.pulse(captures), b = measure.pulse(captures);
+  const row = r => ({ reading: r.reading, commanded: 1, measured: 1, direction: "up" });)";
+    EXPECT_THAT(run(takeOne + "analysis.calibration([row(a), row(a)]);"), HasSubstr("a reading counts once"));
+    EXPECT_THAT(run(takeOne + "analysis.calibration([row(a), row(b)]);"), HasSubstr("shares a capture"));
+}
+
+TEST_F(ForgedCalibration, WhatAScriptSaysBesideAReadingDoesNotCount) {
+    RecordProperty("hazard", "H1");
+    const auto lied = altered("      measured: reading[key],", "      measured: 0.83 * reading[key],", {});
+    ASSERT_FALSE(lied.error) << lied.error->message;
+    const auto all = kept();
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_NEAR(all[0].amplitude.gain, 1, 0.001);
+    EXPECT_NEAR(all[0].interval->gain, 1, 0.001);
+    EXPECT_TRUE(all[0].simulated);
+    EXPECT_EQ(all[0].readings, 440U);
+    EXPECT_EQ(all[0].session, "run.tacto");
+    EXPECT_EQ(all[0].sessionHead.size(), 64U);
+    EXPECT_NE(all[0].sessionHead, session_) << "of the moment at which it was kept";
+    ASSERT_EQ(all[0].instruments.size(), 1U);
+    EXPECT_NEAR(all[0].instruments[0].gainTolerance.value_or(0), 0.005, 1e-9);
+    EXPECT_EQ(all[0].instruments[0].statedBy, "the instrument");
+}
+
+TEST_F(ForgedCalibration, TheCommandIsThatOfTheCaptureWhateverCameAfter) {
+    RecordProperty("hazard", "H1");
+    // Measured after the output was told less: the reading still belongs to the train that it shows.
+    const auto outcome = [&] {
+        RunBench rig(true, "sim:", 1, true, kNeeded);
+        return rig.run(withRun(R"(
+  bench.arm({ load: 1000 });
+  bench.drive("manual", { roughness: 1, pressure: 1 });
+  const captures = bench.capture({ rate_hz: 2e6 });
+  bench.drive("manual", { roughness: 0.5, pressure: 1 });
+  bench.wait(2);
+  bench.disarm();
+  bench.setEncoding({ phase_width_us: 150 });
+  return verdict({ verdict: null, reading: measure.pulse(captures) });)"));
+    }();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& commanded = outcome.results["reading"]["commanded"];
+    EXPECT_NEAR(commanded["amplitude"].get<double>(), 40, 1e-9);
+    EXPECT_NEAR(commanded["width_s"].get<double>(), 200e-6, 1e-12);
+}
+
+TEST_F(ForgedCalibration, AnAccuracyThatOnlyTheScriptStatesDoesNotCount) {
+    RecordProperty("hazard", "H1");
+    const std::string silent = "sim:oscilloscope?gaintolerance=0";
+    const std::string from = "function run(p) {", vouching = "function run(p) { p.scope_gain_pct = 0.5;";
+    const auto vouched = altered(from, vouching, {}, silent);
+    ASSERT_TRUE(vouched.error);
+    EXPECT_THAT(vouched.error->message, HasSubstr("does not state its gain tolerance"));
+    EXPECT_THAT(vouched.error->message, HasSubstr("--set scope_gain_pct=..."));
+    EXPECT_TRUE(kept().empty());
+    // The operator's word does.
+    const auto stated = altered(from, vouching, {{"scope_gain_pct", "1"}}, silent);
+    ASSERT_FALSE(stated.error) << stated.error->message;
+    ASSERT_EQ(kept().size(), 1U);
+    EXPECT_EQ(kept()[0].instruments[0].statedBy, "the operator");
+    EXPECT_NEAR(kept()[0].instruments[0].gainTolerance.value_or(0), 0.01, 1e-9) << "as the operator said it";
+}
+
+TEST_F(ForgedCalibration, AStimulatorThatLooksRealIsNotCalibratedByASimulatedOscilloscope) {
+    RecordProperty("hazard", "H1");
+    const auto outcome = altered("protocol({", "protocol({", {}, "sim:", true);
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    ASSERT_EQ(kept().size(), 1U);
+    EXPECT_TRUE(kept()[0].simulated);
+    const auto store = CalibrationStore::open(calibrationFile()).value();
+    EXPECT_EQ(store.proven(kept()[0].serial, "V", false), nullptr);
+    EXPECT_FALSE(store.valid(kept()[0].serial, "V", kept()[0].made, false));
+}
+
+TEST_F(ForgedCalibration, ReadingsThatWereTakenWithACalibrationAppliedAreNotKept) {
+    RecordProperty("hazard", "H1");
+    const StimulatorCalibration applied{{0.9, 0, 10, 40},
+                                        CalibrationLine{1, 0, 0.5, 2},
+                                        CalibrationLine{1, 0, 100e-6, 400e-6},
+                                        CalibrationLine{1, 0, 100e-6, 400e-6}};
+    const auto outcome = altered("bench.useCalibration(false);", "", {}, "sim:stimulator?gain=0.9", false, applied);
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THAT(outcome.error->message, HasSubstr("were taken with the stored calibration applied"));
+    EXPECT_TRUE(kept().empty());
+}
+
+}  // namespace
+}  // namespace tacto::test
