@@ -5,6 +5,7 @@
 #include "app/cli/MeasureLoad.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
+#include "core/measure/CaptureOrigin.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 
@@ -108,11 +109,16 @@ int run(const QCommandLineParser& parser) {
             channels.push_back(toJson(m));
             addTrust(channels.back(), m);
         }
-        printJson(
-            {{"format", reading->formatId}, {"channels", channels}, {"load", loadJson(load)}, {"warnings", warnings}});
+        const auto simulated = statedSimulated(*path);
+        printJson({{"format", reading->formatId},
+                   {"channels", channels},
+                   {"load", loadJson(load)},
+                   {"simulated", simulated ? nlohmann::json(*simulated) : nlohmann::json()},
+                   {"warnings", warnings}});
         return kDone;
     }
     say("{}\n", reading->formatName);
+    if (statedSimulated(*path).value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     for (const auto& m : found.channels) {
         say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
                    m.measuredPulses);

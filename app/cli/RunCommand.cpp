@@ -13,6 +13,7 @@
 #include "app/run/ProtocolRun.h"
 #include "app/scripting/Arming.h"
 #include "app/scripting/ProtocolLibrary.h"
+#include "core/session/Origin.h"
 
 namespace tacto::cli {
 
@@ -163,7 +164,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     else if (outcome.results.is_object())
         printResults(outcome.results);
     say("\n");
-    if (value["simulated"].get<bool>()) say("  SIMULATED: no number here was measured on hardware.\n");
+    for (const auto& mark : value["marks"]) say("  {}\n", mark.get<std::string>());
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",
@@ -220,6 +221,8 @@ int run(const QCommandLineParser& parser) {
                      {"script_from", origin},
                      {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
                      {"simulated", result.simulated},
+                     {"marks", result.marks},
+                     {"devices", devicesJson(result.devices)},
                      {"seed", seed},
                      {"session", result.session.string()},
                      {"report", writeReports(running.files())},

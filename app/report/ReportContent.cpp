@@ -1,5 +1,7 @@
 #include "app/report/ReportContent.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <set>
 
 #include "app/report/FigureDrawing.h"
@@ -7,6 +9,36 @@
 
 namespace tacto {
 namespace {
+
+QString originOf(const ReportDevice& device) {
+    return !device.origin.isEmpty() ? device.origin : device.simulated ? "simulated" : "real";
+}
+
+/// Whether a device of one of these roles was simulated; true where there is none and the session is, as in a
+/// prediction.
+bool isSimulated(const ReportModel& model, std::initializer_list<const char*> roles) {
+    bool any = false, found = false;
+    for (const auto& device : model.devices) {
+        if (std::find(roles.begin(), roles.end(), device.role) == roles.end()) continue;
+        found = true;
+        any = any || device.simulated;
+    }
+    return found ? any : model.simulated;
+}
+
+/// A mark belongs to a figure: what an oscilloscope saw of a stimulator's output is measured, whatever felt the
+/// texture (hazard H9).
+bool isSimulated(const ReportModel& model, const Figure& figure) {
+    if (std::holds_alternative<TimelineFigure>(figure.content)) return model.simulated;
+    if (std::holds_alternative<ExposureFigure>(figure.content)) return isSimulated(model, {"stimulator", "massager"});
+    return isSimulated(model, {"stimulator", "oscilloscope", "massager"});
+}
+
+/// Of all devices, those that are simulated.
+bool isAllSimulated(const ReportModel& model) {
+    return model.simulated && std::all_of(model.devices.begin(), model.devices.end(),
+                                          [](const ReportDevice& device) { return device.simulated; });
+}
 
 VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
@@ -34,7 +66,7 @@ VerdictBlock verdictOf(const ReportModel& model) {
             break;
     }
     if (block.reasons.isEmpty()) block.reasons << "The session gives no reason.";
-    if (model.simulated) block.word += " – simulated";
+    if (model.simulated) block.word += isAllSimulated(model) ? " – simulated" : " – simulated in part";
     if (!model.damage.isEmpty()) {
         block.word += " – session damaged";
         block.reasons.prepend(unproven ? "This session said that it passed. It is not what was recorded, so nothing "
@@ -64,11 +96,11 @@ QString subtitleOf(const ReportModel& model) {
 TableBlock devicesTable(const ReportModel& model) {
     TableBlock table;
     table.caption = "Devices";
-    table.columns = {{"Role"}, {"Device"}, {"Address"}, {"Serial"}, {"Firmware"}, {"Real or simulated"}};
+    table.columns = {{"Role"}, {"Device"}, {"Address"}, {"Serial"}, {"Firmware"}, {"Origin"}};
     const auto orDash = [](const QString& text) { return text.isEmpty() ? QString("–") : text; };
     for (const auto& device : model.devices) {
         table.rows.push_back({orDash(device.role), orDash(device.name), orDash(device.uri), orDash(device.serial),
-                              orDash(device.firmware), device.simulated ? "simulated" : "real"});
+                              orDash(device.firmware), originOf(device)});
     }
     return table;
 }
@@ -163,14 +195,14 @@ TableBlock eventsTable(const ReportModel& model, const QString& caption) {
 class Captions {
 public:
     explicit Captions(bool simulated) : simulated_(simulated) {}
-    QString figure(const QString& text) { return numbered("Figure", ++figures_, text); }
-    QString table(const QString& text) { return numbered("Table", ++tables_, text); }
+    QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
+    QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }
     HeadingBlock heading(const QString& text) { return {QString("%1  %2").arg(++headings_).arg(text)}; }
 
 private:
-    [[nodiscard]] QString numbered(const char* kind, int number, const QString& text) const {
+    [[nodiscard]] QString numbered(const char* kind, int number, const QString& text, bool simulated) const {
         QString caption = QString("%1 %2. %3").arg(QLatin1String(kind)).arg(number).arg(text);
-        if (simulated_) caption += " (simulated)";
+        if (simulated) caption += " (simulated)";
         return caption;
     }
     bool simulated_;
@@ -189,6 +221,8 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
     if (model.simulated && model.devices.empty()) {
         blocks.emplace_back(
             ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
+    } else if (!model.marks.isEmpty()) {
+        blocks.emplace_back(ParagraphBlock{model.marks.join('\n')});
     } else if (model.simulated) {
         blocks.emplace_back(ParagraphBlock{
             "At least one device of this session was simulated. Its numbers say what the software does, not what "
@@ -219,8 +253,8 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
     blocks.emplace_back(captions.heading("Results"));
     for (const auto& item : model.items) {
         if (const auto* figure = std::get_if<ReportFigure>(&item)) {
-            blocks.emplace_back(FigureBlock{captions.figure(figure->caption), figureLegend(figure->figure),
-                                            drawFigure(figure->figure, model.simulated)});
+            blocks.emplace_back(FigureBlock{captions.figure(figure->caption, isSimulated(model, figure->figure)), figureLegend(figure->figure),
+                                            drawFigure(figure->figure, isSimulated(model, figure->figure))});
         } else if (const auto* table = std::get_if<ReportTable>(&item)) {
             if (table->rows.isEmpty()) {
                 blocks.emplace_back(ParagraphBlock{captions.table(table->caption) + ": there are no rows.", true});
@@ -242,11 +276,11 @@ ReportContent contentOf(const ReportModel& model) {
     content.documentTitle = title.isEmpty() ? "Session" : title;
     content.damaged = !model.damage.isEmpty();
     content.header = QString(content.damaged ? "DAMAGED: this session is not what was recorded  ·  " : "") +
-                     "Tactoscope  ·  " + content.documentTitle + (model.simulated ? "  ·  simulated" : "");
+                     "Tactoscope  ·  " + content.documentTitle + (isAllSimulated(model) ? "  ·  simulated" : model.simulated ? "  ·  simulated in part" : "");
     content.footer = "Session " + (model.session.isEmpty() ? QString("–") : model.session) + "  ·  chain head " +
                      (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
 
-    Captions captions(model.simulated);
+    Captions captions(isAllSimulated(model));
     auto& blocks = content.blocks;
     blocks.emplace_back(TitleBlock{content.documentTitle, subtitleOf(model)});
     blocks.emplace_back(verdictOf(model));
@@ -265,8 +299,8 @@ ReportContent contentOf(const ReportModel& model) {
             "Not evaluated: this session holds no exposure. Nothing here says that it was within limits."});
     } else {
         const Figure figure{ExposureFigure{model.exposure}, {}};
-        blocks.emplace_back(FigureBlock{captions.figure("Worst exposure of the session against each limit"),
-                                        figureLegend(figure), drawFigure(figure, model.simulated)});
+        blocks.emplace_back(FigureBlock{captions.figure("Worst exposure of the session against each limit", isSimulated(model, figure)),
+                                        figureLegend(figure), drawFigure(figure, isSimulated(model, figure))});
         blocks.emplace_back(exposureTable(model, captions.table("Exposure")));
     }
     blocks.emplace_back(captions.heading("Events"));

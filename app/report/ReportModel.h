@@ -25,6 +25,7 @@ struct ReportDevice {
     QString serial;
     QString firmware;
     bool simulated = false;
+    QString origin;  ///< "real", "simulated", "replayed, origin not stated", ...
 };
 
 /// A thing used and what identifies it: {"separability.js", "sha256", "9f86d0…"}; {"Seed", "", "42"}.
@@ -71,6 +72,7 @@ struct ReportModel {
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< why that verdict; one sentence each
     bool simulated = false;  ///< any device of the session was simulated
+    QStringList marks;       ///< what is simulated, replayed and real, a sentence each
     QString chainHead;       ///< hex; empty only when there is none yet
     QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
     std::vector<ReportDevice> devices;

@@ -7,6 +7,7 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
+#include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 
@@ -50,7 +51,7 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     QString command = "tactoscope-cli run " + shellWord(model.protocol);
     for (const auto& device : about.devices) {
         model.devices.push_back({text(device.role), text(device.name), text(device.uri), text(device.serial),
-                                 text(device.firmware), device.simulated});
+                                 text(device.firmware), device.simulated, text(originOf(device))});
         model.simulated = model.simulated || device.simulated;
         const QString option = " --device " + shellWord(text(device.uri));
         if (!command.contains(option)) command += option;
@@ -176,7 +177,7 @@ ReportVerdict verdictNamed(const std::string& name) {
 
 bool isQuiet(const std::string& kind) {
     static const std::vector<std::string> quiet{
-        "arming",  "settings", "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
+        "arming",  "settings", "arming",  "settings", "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
         "start",   "finished", "closed", "close",   "end",         "delivering", "state",    "interlock", "rounding",
         "rounded", "progress", "paused", "resumed", "calibration", "drive",      "profile",  "capture"};
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
@@ -242,6 +243,9 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     for (const auto& problem : verified->problems) model.damage << text(problem);
     fillAbout(*reader, sessionFile, model);
 
+    const auto delivered = deliveredIn(*reader);
+    if (!delivered) return failure(delivered);
+    for (const auto& mark : originMarks(reader->about(), *delivered)) model.marks << text(mark);
     const auto items = reader->reportItems();
     if (!items) return failure(items);
     ItemReader itemReader(*reader, model);

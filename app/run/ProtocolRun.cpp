@@ -1,10 +1,14 @@
 #include "app/run/ProtocolRun.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/run/KnownCalibration.h"
 #include "core/bench/ProfileReach.h"
+#include "core/devices/ReplayedDevice.h"
 #include "core/safety/UnitRecord.h"
+#include "core/session/Origin.h"
+#include "core/session/SessionReader.h"
 
 namespace tacto {
 
@@ -16,6 +20,28 @@ bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
     const auto code = outcome.error->code;
     return code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
+}
+
+}  // namespace
+
+namespace {
+
+std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
+    const Device* all[] = {devices.sensor.get(), devices.stimulator.get(), devices.oscilloscope.get(),
+                           devices.massager.get()};
+    for (const auto* device : all) {
+        const auto* replayed = dynamic_cast<const ReplayedDevice*>(device);
+        if (replayed == nullptr || !(device->identity() == identity)) continue;
+        switch (replayed->statedOrigin()) {
+            case StatedOrigin::Measured:
+                return origin::kReplayedMeasured;
+            case StatedOrigin::Simulated:
+                return origin::kReplayedSimulated;
+            case StatedOrigin::NotStated:
+                return origin::kReplayedUnknown;
+        }
+    }
+    return identity.simulated ? origin::kSimulated : origin::kHardware;
 }
 
 }  // namespace
@@ -39,7 +65,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, cons
     }
     for (const auto& device : devices.identities()) {
         about.devices.push_back({device.uri, std::string(nameOf(device.role)), device.name, device.serial,
-                                 device.firmware, device.simulated});
+                                 device.firmware, device.simulated, originOf(devices, device)});
         about.simulated = about.simulated || device.simulated;
     }
     // Without a device nothing is measured: what such a protocol says is predicted.
@@ -98,6 +124,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.asked = order.asked;
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolder();
+    run->calibrated_ = config.calibration && config.calibrationHolds;
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     run->bench_ = std::move(*bench);
@@ -167,6 +194,14 @@ RunResult ProtocolRun::finish() {
         static_cast<void>(new std::shared_ptr<Clock>(clock_));
     }
     session_.reset();
+    result.devices = about_.devices;
+    Delivered delivered;
+    if (const auto reader = SessionReader::open(files_.session)) {
+        if (const auto counted = deliveredIn(*reader)) delivered = *counted;
+    }
+    result.marks = originMarks(about_, delivered);
+    const bool stimulates = std::ranges::any_of(about_.devices, [](const auto& d) { return d.role == "stimulator"; });
+    if (stimulates && !calibrated_) result.marks.emplace_back("The stimulator is not calibrated.");
     return result;
 }
 

@@ -45,7 +45,9 @@ struct RunOrder {
 struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;  ///< a fault, a refused train, an operator's stop
-    bool simulated = false;
+    bool simulated = false;                ///< any device, or a prediction; `marks` say which
+    std::vector<std::string> marks;        ///< sentences: what is simulated, replayed and real; no calibration
+    std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;  ///< beside the outcome: closing the session
     /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
@@ -85,6 +87,7 @@ private:
     RunFiles files_;
     SessionAbout about_;
     std::string warning_;  // of what is known before the script runs; empty: none
+    bool calibrated_ = false;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<SessionWriter> session_;
     std::unique_ptr<Bench> bench_;

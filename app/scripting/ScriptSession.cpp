@@ -8,6 +8,7 @@
 #include "core/base/Text.h"
 #include "core/encoding/Rounding.h"
 #include "core/measure/CaptureFile.h"
+#include "core/measure/CaptureOrigin.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -171,6 +172,7 @@ Result<void> ScriptSession::store(Held& held, int trial) {
         held.row = *row;
     }
     if (request_.captureFolder.empty()) return {};
+    if (auto stated = stateCaptureOrigin(request_.captureFolder, held.capture.simulated); !stated) return stated;
     return writeCapture(request_.captureFolder / fmt::format("trial-{:04}-{:05}.csv", trial, held.id), held.capture);
 }
 

@@ -55,6 +55,11 @@ public:
             if (!root[key].is_string()) return refuse("\"{}\" is {}; a text was expected", key, typeOf(root[key]));
             *target = root[key].get<std::string>();
         }
+        if (root.contains("simulated")) {
+            if (!root["simulated"].is_boolean())
+                return refuse("\"simulated\" is {}; true or false was expected", typeOf(root["simulated"]));
+            recording.simulated = root["simulated"].get<bool>();
+        }
         if (recording.title.empty()) recording.title = file_.stem().string();
         if (const auto done = readDeclared(root, recording.declared); !done) return failure(done);
         if (!root.contains("streams") || !root["streams"].is_array() || root["streams"].empty()) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Recording {
     std::string title;
     std::string source;
     std::string licence;
+    std::optional<bool> simulated;  ///< "simulated": as the file says; nothing: its origin is unknown
     std::filesystem::path path;  ///< the JSON file
     DeclaredIntervals declared;
     std::vector<RecordedStream> streams;  ///< at most one of each kind

@@ -1,6 +1,7 @@
 #include "core/bench/Bench.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
@@ -120,18 +121,41 @@ void Bench::State::noteCalibration() {
     const StimulatorCalibration told = applied.value_or(StimulatorCalibration{});
     const auto interval = told.interval.value_or(CalibrationLine{}),
                width = told.phaseWidth.value_or(CalibrationLine{}), gap = told.gap.value_or(CalibrationLine{});
-    recorder->event(config.clock->now(), "calibration",
-                    {{"gain", told.amplitude.gain},
-                     {"offset", told.amplitude.offset},
-                     {"interval_gain", interval.gain},
-                     {"interval_offset_s", interval.offset},
-                     {"width_gain", width.gain},
-                     {"width_offset_s", width.offset},
-                     {"gap_gain", gap.gain},
-                     {"gap_offset_s", gap.offset}},
-                    config.calibration && config.calibrationHolds && !applied
-                        ? "left aside: the stimulator is told the commands as they are"
-                        : std::string_view(config.calibrationText));
+    const std::string text = config.calibration && config.calibrationHolds && !applied
+                                 ? "left aside: the stimulator is told the commands as they are"
+                                 : config.calibrationText;
+    // Past the recorder, whose only caller is the control loop.
+    static_cast<void>(config.session->event(config.clock->now(), "calibration",
+                                            {{"gain", told.amplitude.gain},
+                                             {"offset", told.amplitude.offset},
+                                             {"interval_gain", interval.gain},
+                                             {"interval_offset_s", interval.offset},
+                                             {"width_gain", width.gain},
+                                             {"width_offset_s", width.offset},
+                                             {"gap_gain", gap.gain},
+                                             {"gap_offset_s", gap.offset},
+                                             {"text", text}}));
+}
+
+/// What the gate and the encoder are told anew is an event: by the file alone it must be known what a train was made of
+/// and judged by.
+Result<void> Bench::State::noteProfile(const Profile& next) const {
+    if (config.session == nullptr) return {};
+    const auto before = toJson(config.profile), after = toJson(next);
+    auto changed = nlohmann::json::array();
+    for (const auto& [section, value] : after.items()) {
+        if (before.value(section, nlohmann::json()) == value) continue;
+        if (!value.is_object()) changed.push_back(section);
+        for (const auto& [key, part] : value.items()) {
+            if (value.is_object() && before.at(section).value(key, nlohmann::json()) != part)
+                changed.push_back(section + "." + key);
+        }
+    }
+    if (changed.empty()) return {};
+    const auto noted =
+        config.session->event(config.clock->now(), "settings", {{"changed", changed}, {"profile", after}});
+    if (!noted) return failure(noted);
+    return {};
 }
 
 void Bench::State::startThreads() {
@@ -266,6 +290,7 @@ Result<void> Bench::setProfile(const Profile& profile) {
     }
     auto finger = s.makeFinger(profile);
     if (!finger) return failure(finger);
+    if (const auto noted = s.noteProfile(profile); !noted) return noted;
     s.config.profile = profile;
     if (*finger) s.loop->replaceFinger(std::move(*finger));
     if (!armed) s.loop->replacePlanner(s.makePlanner(profile));

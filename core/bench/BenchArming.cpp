@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/chrono.h>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
@@ -69,6 +70,27 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     if (scope && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
     evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
     return command;
+}
+
+/// Load range, area, limits and calibration that every train of this arming is judged by.
+Result<void> Bench::State::noteArming(const ArmRequest& request, const GateSetup& setup) const {
+    if (config.session == nullptr) return {};
+    auto limits = nlohmann::json::array();
+    for (const auto& set : setup.limits) limits.push_back(set.id);
+    const auto area = setup.electrodeArea;
+    const auto noted = config.session->event(
+        config.clock->now(), "arming",
+        {{"load", request.load},
+         {"load_least", setup.load.min.text()},
+         {"load_most", setup.load.max.text()},
+         {"electrode_area_cm2", area ? nlohmann::json(area->value()) : nlohmann::json()},
+         {"limits", limits},
+         {"ceilings", toJson(config.profile).at("safety").at("ceilings")},
+         {"calibrated", setup.calibrated},
+         {"mode", nameOf(setup.mode)},
+         {"confirmed", request.confirmed}});
+    if (!noted) return failure(noted);
+    return {};
 }
 
 std::string Bench::State::armingText(const Load& load) const {
@@ -161,6 +183,11 @@ Result<void> Bench::arm(const ArmRequest& request) {
         }
     }
     if (const auto confirmed = s.interlock.confirmArming(*ticket, s.config.clock->now()); !confirmed) return confirmed;
+    if (const auto noted = s.noteArming(request, command.setup); !noted) {
+        cancelCaptures();
+        disarm();
+        return noted;
+    }
     s.loop->arm(command);
     const Seconds within = looks ? kConfirmedWithin : kArmWithin;
     std::optional<Result<void>> outcome;

@@ -152,6 +152,8 @@ struct Bench::State {
     }
     [[nodiscard]] Result<void> takeUpRecord();
     void noteCalibration();
+    [[nodiscard]] Result<void> noteProfile(const Profile& next) const;
+    [[nodiscard]] Result<void> noteArming(const ArmRequest& request, const GateSetup& setup) const;
     Result<void> calibrationToday() const;
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
     [[nodiscard]] const Device* outputDevice() const noexcept {

@@ -142,7 +142,8 @@ private:
     /// True when what came out is not what was commanded: it is a fault.
     bool judgeAmplitude(const SeenAmplitude& seen, Instant now) noexcept;
     void updateImpedance(Ohms measured, Instant at) noexcept;
-    void recordOutcome(const TrainReport& report, const char* name) noexcept;
+    void recordTrain(const TrainReport& report, const char* name) noexcept;
+    void recordBurst(const TrainReport& report, const char* name) noexcept;
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
     [[nodiscard]] bool stopped() const noexcept;
     void endArmingForStop() noexcept;

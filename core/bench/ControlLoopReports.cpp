@@ -1,4 +1,5 @@
 // What the devices report of each train, and what becomes of it.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,6 +48,20 @@ ElectrodeReading readingOf(ElectrodeState state) noexcept {
     return ElectrodeReading::NotMeasured;
 }
 
+/// In words, of literals: the loop does not allocate.
+std::string_view shapeText(const PulseTrain& train) noexcept {
+    const bool positive = train.polarity == Polarity::Positive;
+    switch (train.shape) {
+        case PulseShape::SymmetricBiphasic:
+            return positive ? "symmetric biphasic, positive phase first" : "symmetric biphasic, negative phase first";
+        case PulseShape::AsymmetricBiphasic:
+            return positive ? "asymmetric biphasic, positive phase first" : "asymmetric biphasic, negative phase first";
+        case PulseShape::Monophasic:
+            return positive ? "monophasic, positive" : "monophasic, negative";
+    }
+    return {};
+}
+
 std::optional<double> present(double value) noexcept { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 TrainReadBack readBackOf(const TrainReport& report) noexcept {
@@ -74,15 +89,33 @@ void ControlLoop::judgeReports() noexcept {
     }
 }
 
-void ControlLoop::recordOutcome(const TrainReport& report, const char* name) noexcept {
+/// One row for each train: what the stimulator was told, by which approval, and what it read back.
+void ControlLoop::recordTrain(const TrainReport& report, const char* name) noexcept {
     if (parts_.recorder == nullptr) return;
+    const auto& train = report.train;
     parts_.recorder->command(report.onset, name,
                              {{"is_check", report.isCheck ? 1.0 : 0.0},
-                              {"amplitude", report.amplitude},
+                              {isCurrent(train.amplitude) ? "amplitude_ma" : "amplitude_v", report.amplitude},
                               {"measured", report.measured},
+                              {"pulses", static_cast<double>(train.pulses)},
+                              {"rate_hz", train.rate.value()},
+                              {"width_s", Seconds(train.phaseWidth).count()},
+                              {"gap_s", Seconds(train.interPhaseGap).count()},
+                              {"recharge_ratio", train.shape == PulseShape::AsymmetricBiphasic ? train.rechargeRatio
+                                                                                                : NAN},
                               {"interval_s", report.interval_s},
+                              {"approved_until_s", toSeconds(report.approvedUntil)},
                               {"impedance_ohm", report.impedance_ohm},
                               {"imbalance", report.imbalance}},
+                             report.error.empty() ? shapeText(train) : report.error.view());
+}
+
+void ControlLoop::recordBurst(const TrainReport& report, const char* name) noexcept {
+    if (parts_.recorder == nullptr) return;
+    parts_.recorder->command(report.onset, name,
+                             {{"intensity", report.amplitude},
+                              {"duration_s", toSeconds(std::max(Instant(0), report.end - report.onset))},
+                              {"interval_s", report.interval_s}},
                              report.error.view());
 }
 
@@ -94,14 +127,14 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
         return;
     }
     if (report.outcome == TrainOutcome::Voided) {
-        recordOutcome(report, "voided");
+        recordTrain(report, "voided");
         if (arming_ && report.isCheck) {
             parts_.interlock.disarm("the impedance check was voided");
             finishArming(fail(ErrorCode::Stopped, "arming ended: the impedance check was voided by a stop"));
         }
         return;
     }
-    recordOutcome(report, report.outcome == TrainOutcome::Failed ? "failed"
+    recordTrain(report, report.outcome == TrainOutcome::Failed ? "failed"
                           : report.isCheck                       ? "impedance check"
                                                                  : "delivered");
     if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
@@ -145,7 +178,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
         return;
     }
     const bool delivered = report.outcome == TrainOutcome::Delivered;
-    recordOutcome(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
+    recordBurst(report, delivered ? "delivered" : report.outcome == TrainOutcome::Failed ? "failed" : "voided");
     if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
     if (!delivered) return;
     ++shown_.trainsDelivered;

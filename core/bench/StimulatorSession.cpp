@@ -81,6 +81,8 @@ void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
     made.onset = now;
     made.amplitude = std::visit([](auto a) { return a.value(); }, pending.train.train().amplitude);
     made.interval_s = pending.train.interval().count();
+    made.train = pending.train.train();
+    made.approvedUntil = pending.train.expires();
     const auto offsBefore = offs_.load(std::memory_order_acquire);
     if (!gate_.isCurrent(pending.train) || !heartbeat_.alive(clock_.elapsed())) {
         report(made);

@@ -25,7 +25,9 @@ struct TrainReport {
     bool stillDelivering = false;  ///< what the device said when its status was read
     double amplitude = 0;          ///< V or mA, as delivered
     double measured = NAN;         ///< the same, as the device read it back; NaN where it does not
-    double interval_s = 0;
+    double interval_s = 0;         ///< that it was approved for
+    PulseTrain train{};            ///< all that the stimulator was told, as approved; of no meaning for a massager
+    Instant approvedUntil{0};      ///< when the approval would have expired
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     double impedance_ohm = NAN;
     double imbalance = NAN;

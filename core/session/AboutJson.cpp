@@ -12,7 +12,8 @@ nlohmann::json toJson(const SessionAbout& about) {
                            {"name", device.name},
                            {"serial", device.serial},
                            {"firmware", device.firmware},
-                           {"simulated", device.simulated}});
+                           {"simulated", device.simulated},
+                           {"origin", device.origin}});
     }
     auto limits = nlohmann::json::array();
     for (const auto& set : about.limitSets) {
@@ -45,7 +46,8 @@ SessionAbout aboutFrom(const nlohmann::json& json) {
     about.seed = countOr(json, "seed");
     for (const auto& each : valueOr(json, "devices")) {
         about.devices.push_back({textOr(each, "uri"), textOr(each, "role"), textOr(each, "name"),
-                                 textOr(each, "serial"), textOr(each, "firmware"), flagOr(each, "simulated")});
+                                 textOr(each, "serial"), textOr(each, "firmware"), flagOr(each, "simulated"),
+                                 textOr(each, "origin")});
     }
     about.profileJson = textOr(json, "profile");
     about.profileSha256 = textOr(json, "profile_sha256");

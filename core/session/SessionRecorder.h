@@ -33,7 +33,7 @@ struct RecordField {
 
 class SessionRecorder {
 public:
-    static constexpr std::size_t kMaxFields = 12;   ///< more are an error in debug and left out in release
+    static constexpr std::size_t kMaxFields = 16;   ///< more are an error in debug and left out in release
     static constexpr std::size_t kMaxText = 200;    ///< bytes; longer text is cut at a character
     static constexpr std::size_t kMaxColumns = 63;  ///< of a stream recorded here
 

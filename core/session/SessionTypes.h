@@ -19,6 +19,7 @@ struct SessionDevice {
     std::string serial;
     std::string firmware;
     bool simulated = false;
+    std::string origin{};  ///< one of core/session/Origin.h; empty in sessions from before it was said
     bool operator==(const SessionDevice&) const = default;
 };
 

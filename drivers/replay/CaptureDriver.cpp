@@ -5,6 +5,8 @@
 #include <limits>
 #include <system_error>
 
+#include "core/devices/ReplayedDevice.h"
+#include "core/measure/CaptureOrigin.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {
@@ -20,12 +22,13 @@ bool within(double value, double low, double high) { return value >= low && valu
 /// Gives the captures of a folder one after the other. Arming makes the next file begin now; those after it keep
 /// their distance in time, so that intervals stay what they were and no file is waited for longer than it took.
 /// Settings are judged like an instrument's, but a file stays what it was recorded as.
-class ReplayedCaptures final : public Oscilloscope {
+class ReplayedCaptures final : public Oscilloscope, public ReplayedDevice {
 public:
-    ReplayedCaptures(std::vector<Capture> captures, DeviceIdentity identity, const Clock& clock)
-        : captures_(std::move(captures)), identity_(std::move(identity)), clock_(clock) {}
+    ReplayedCaptures(std::vector<Capture> captures, DeviceIdentity identity, StatedOrigin origin, const Clock& clock)
+        : captures_(std::move(captures)), identity_(std::move(identity)), origin_(origin), clock_(clock) {}
 
     const DeviceIdentity& identity() const noexcept override { return identity_; }
+    StatedOrigin statedOrigin() const noexcept override { return origin_; }
     const ScopeTraits& traits() const noexcept override { return kTraits; }
 
     Result<void> configure(const ScopeSettings& s) override {
@@ -82,6 +85,7 @@ private:
 
     std::vector<Capture> captures_;  ///< those before next_ were given away
     const DeviceIdentity identity_;
+    const StatedOrigin origin_;
     const Clock& clock_;
     double shift_s_ = 0;  ///< from a file's own time to the session's
     ScopeSettings settings_;
@@ -124,17 +128,23 @@ public:
             return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files {} were expected", uri.text(),
                         uri.path, fmt::join(formats_->suffixes(), ", "));
         }
+        const auto simulated = statedSimulated(files.front());
         std::vector<Capture> captures;
         for (const auto& file : files) {
             auto reading = formats_->read(file);
             if (!reading) return failure(reading);
             reading->capture.warnings = std::move(reading->warnings);
+            reading->capture.simulated = simulated.value_or(false);
             captures.push_back(std::move(reading->capture));
         }
         DeviceIdentity identity{
             uri.text(), Role::Oscilloscope, fmt::format("{} captures from {}", captures.size(), uri.path), "", "",
-            false};
-        into.oscilloscope = std::make_unique<ReplayedCaptures>(std::move(captures), std::move(identity), context.clock);
+            simulated.value_or(false)};
+        const auto origin = !simulated   ? StatedOrigin::NotStated
+                            : *simulated ? StatedOrigin::Simulated
+                                         : StatedOrigin::Measured;
+        into.oscilloscope =
+            std::make_unique<ReplayedCaptures>(std::move(captures), std::move(identity), origin, context.clock);
         return {};
     }
 

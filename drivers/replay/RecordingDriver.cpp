@@ -4,6 +4,7 @@
 
 #include "core/acquisition/Recording.h"
 #include "core/base/Text.h"
+#include "core/devices/ReplayedDevice.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kSlowest = 0.01;
 constexpr double kFastest = 100;
 
-class ReplayedRecording final : public TactileSensor {
+class ReplayedRecording final : public TactileSensor, public ReplayedDevice {
 public:
     ReplayedRecording(Recording recording, DeviceIdentity identity, double speed, const Clock& clock)
         : recording_(std::move(recording)),
@@ -28,6 +29,10 @@ public:
     }
 
     const DeviceIdentity& identity() const noexcept override { return identity_; }
+    StatedOrigin statedOrigin() const noexcept override {
+        if (!recording_.simulated) return StatedOrigin::NotStated;
+        return *recording_.simulated ? StatedOrigin::Simulated : StatedOrigin::Measured;
+    }
     std::span<const StreamInfo> streams() const noexcept override { return infos_; }
 
     Result<void> read(std::span<SampleBlock> blocks) override {
@@ -108,7 +113,8 @@ public:
         }
         auto recording = Recording::open(uri.path);
         if (!recording) return failure(recording);
-        DeviceIdentity identity{uri.text(), Role::Sensor, "recording: " + recording->title, "", "", false};
+        DeviceIdentity identity{uri.text(), Role::Sensor, "recording: " + recording->title, "", "",
+                                recording->simulated.value_or(false)};
         into.sensor =
             std::make_unique<ReplayedRecording>(std::move(*recording), std::move(identity), speed, context.clock);
         return {};

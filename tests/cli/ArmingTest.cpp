@@ -1,6 +1,7 @@
 // run on hardware: the built program against a stimulator behind a pseudo-terminal that does not say it is emulated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "drivers/sciencemode/EmulatedPty.h"
 #include "tests/cli/TerminalCli.h"
@@ -72,6 +73,29 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
         EXPECT_EQ(cli.wait(), code) << cli.screen();
     }
     EXPECT_EQ(putOut(), 1U);
+}
+
+TEST_F(RunOnHardware, IsNotCalledSimulatedForASimulatedFinger) {
+    RecordProperty("hazard", "H9");
+    const auto script = desk_.protocol("feels.js", R"js(protocol({ title: "Feels", needs: ["sensor", "stimulator"] });
+function run(p) { bench.arm({ load: 1000 }); bench.drive("manual", { roughness: 0.5, pressure: 1 }); bench.wait(1.2);
+  bench.disarm(); return verdict({ verdict: "pass" }); })js");
+    const Words first{"run", script, "--device", "sciencemode:?tty=" + pty_->path(), "--device", "sim:", "--out", "out"};
+    auto second = first;
+    second.insert(second.end(), {"--set", "confirm-arming=" + wanted(desk_.run(first).err)});
+    const auto ran = desk_.run(second);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("SIMULATED: the fingertip sensor."));
+    EXPECT_THAT(ran.out, HasSubstr("Real: stimulator ScienceMode stimulator P240000123, which delivered "));
+    EXPECT_THAT(ran.out, testing::Not(HasSubstr("no number here was measured")));
+    second.emplace_back("--json");
+    const auto json = nlohmann::json::parse(desk_.run(second).out);
+    for (const auto& device : json["devices"]) {
+        EXPECT_EQ(device["simulated"], device["role"] == "sensor") << device;
+        if (device["role"] == "stimulator") EXPECT_EQ(device["serial"], "P240000123");
+    }
+    EXPECT_EQ(json["devices"].size(), 2U);
+    EXPECT_GE(json["marks"].size(), 2U);
 }
 
 TEST_F(RunOnHardware, OneAnswerIsNotSilentlyReplacedByAnother) {

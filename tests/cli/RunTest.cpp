@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const Words kRunKeys{"protocol", "verdict", "simulated", "seed", "session", "report", "results"};
+const Words kRunKeys{"protocol", "verdict", "simulated", "marks", "devices", "seed", "session", "report", "results"};
 
 Words separability(const std::string& out, const std::string& repeats, const std::string& seed = "1") {
     return {"run", "separability", "--device", "sim:",  "--set", "repeats=" + repeats, "--out",
@@ -51,6 +51,9 @@ TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
     const auto captures = desk.named("out/captures", ".csv");
     ASSERT_EQ(captures.size(), 200U);
     EXPECT_TRUE(contentOf(captures[0]).starts_with("time_s,voltage_v,current_a\n"));
+    EXPECT_EQ(jsonOf(desk.run({"measure", captures[0], "--json"}))["simulated"], true) << "the twin's capture";
+    const auto alone = desk.write("alone.csv", contentOf(captures[0]));
+    EXPECT_TRUE(jsonOf(desk.run({"measure", alone, "--json"}))["simulated"].is_null()) << "it says nothing of itself";
     for (const std::size_t trial : {0U, 1U, 50U, 99U}) {
         const auto& made = results["trials"][trial];
         EXPECT_NEAR(firstTime(captures[2 * trial + 1]) - firstTime(captures[2 * trial]),

@@ -152,7 +152,7 @@ void ResultPanel::show(const FinishedRun& run) {
             "The script did not end when it was told to and was given up: it cannot reach the bench any more. "
             "Output is off. Restart the program when you can.");
     }
-    if (run.result.simulated) why << tr("SIMULATED: no number here was measured on hardware.");
+    for (const auto& mark : run.result.marks) why << QString::fromStdString(mark);
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
     why_->setText(why.join("\n"));
     empty_->hide();

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/measure/CaptureFile.h"
+#include "core/measure/CaptureOrigin.h"
+#include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
@@ -178,6 +180,7 @@ Result<void> exportCsv(const fs::path& session, const fs::path& folder, const Wo
         if (!capture) return failure(capture);
         const auto name = fmt::format("trial-{:04}-{:05}.csv", info.trial.value_or(0), info.seq);
         if (auto written = writeCapture(draft.path() / "captures" / name, *capture); !written) return written;
+        if (auto stated = stateCaptureOrigin(draft.path() / "captures", capture->simulated); !stated) return stated;
         port.progress(++done, total);
     }
     return draft.keep();
@@ -207,11 +210,16 @@ Result<void> exportRecording(const fs::path& session, const fs::path& folder, co
     }
     if (described.empty())
         return fail(ErrorCode::NotFound, "{} holds no sensor stream to replay", session.filename().string());
-    const Json recording{
+    Json recording{
         {"title", session.stem().string()},
         {"source", fmt::format("session {}, chain head {}", session.filename().string(), reader->chainHead())},
         {"licence", "the lab's own"},
         {"streams", described}};
+    for (const auto& device : reader->about().devices) {
+        const auto from = originOf(device);
+        if (device.role == "sensor" && from != origin::kReplayedUnknown)
+            recording["simulated"] = from == origin::kSimulated || from == origin::kReplayedSimulated;
+    }
     TextFile file(draft.path() / "recording.json");
     file.write("{}\n", recording.dump(2));
     if (auto closed = file.close(); !closed) return closed;

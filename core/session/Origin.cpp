@@ -1,0 +1,107 @@
+#include "core/session/Origin.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "core/session/JsonFields.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto {
+
+namespace {
+
+std::string nounOf(const SessionDevice& device) { return device.role == "sensor" ? "fingertip sensor" : device.role; }
+
+std::string named(const SessionDevice& device) {
+    auto text = nounOf(device);
+    if (!device.name.empty()) text += " " + device.name;
+    if (!device.serial.empty()) text += " " + device.serial;
+    return text;
+}
+
+std::string deliveredText(const Delivered& delivered) {
+    auto text = fmt::format(", which delivered {} {}", delivered.trains, delivered.trains == 1 ? "train" : "trains");
+    if (delivered.trains > 0 && !delivered.unit.empty())
+        text += fmt::format(" of up to {:.3g} {}", delivered.most, delivered.unit);
+    if (delivered.checks > 0)
+        text += fmt::format(" and {} impedance {}", delivered.checks, delivered.checks == 1 ? "check" : "checks");
+    return text;
+}
+
+bool isOutput(const SessionDevice& device) { return device.role == "stimulator" || device.role == "massager"; }
+
+}  // namespace
+
+std::string originOf(const SessionDevice& device) {
+    if (!device.origin.empty()) return device.origin;
+    if (device.simulated) return origin::kSimulated;
+    const bool isReplayed = device.uri.starts_with("recording:") || device.uri.starts_with("capture:");
+    return isReplayed ? origin::kReplayedUnknown : origin::kHardware;
+}
+
+Result<Delivered> deliveredIn(const SessionReader& session) {
+    const auto commands = session.commands();
+    if (!commands) return failure(commands);
+    Delivered delivered;
+    for (const auto& row : *commands) {
+        if (row.name == "impedance check") ++delivered.checks;
+        if (row.name != "delivered") continue;
+        ++delivered.trains;
+        for (const auto& [key, unit] : {std::pair("amplitude_ma", "mA"), std::pair("amplitude_v", "V")}) {
+            const auto amplitude = row.body.find(key);
+            if (amplitude == row.body.end() || !amplitude->is_number()) continue;
+            delivered.unit = unit;
+            delivered.most = std::max(delivered.most, amplitude->get<double>());
+        }
+    }
+    return delivered;
+}
+
+std::vector<std::string> originMarks(const SessionAbout& about, const Delivered& delivered) {
+    std::vector<std::string> simulated, real, marks;
+    std::vector<const SessionDevice*> replayed;
+    for (const auto& device : about.devices) {
+        const auto from = originOf(device);
+        if (from == origin::kSimulated)
+            simulated.push_back("the " + nounOf(device));
+        else if (from == origin::kHardware)
+            real.push_back(named(device) + (isOutput(device) ? deliveredText(delivered) : ""));
+        else
+            replayed.push_back(&device);
+    }
+    const bool allSimulated = std::ranges::all_of(about.devices, [](const SessionDevice& device) {
+        const auto from = originOf(device);
+        return from == origin::kSimulated || from == origin::kReplayedSimulated;
+    });
+    if (allSimulated) {
+        if (about.simulated || !about.devices.empty())
+            marks.emplace_back("SIMULATED: no number here was measured on hardware.");
+        return marks;
+    }
+    if (simulated.empty() && replayed.empty()) return marks;
+    if (!simulated.empty()) marks.push_back(fmt::format("SIMULATED: {}.", fmt::join(simulated, ", ")));
+    if (!real.empty()) marks.push_back(fmt::format("Real: {}.", fmt::join(real, "; ")));
+    for (const auto* device : replayed) {
+        const auto from = originOf(*device);
+        const char* what = from == origin::kReplayedMeasured    ? "which says that it was measured"
+                           : from == origin::kReplayedSimulated ? "which was simulated"
+                                                                : "which does not say whether it was measured";
+        marks.push_back(fmt::format("Replayed: the {} from {}, {}.", nounOf(*device), device->uri, what));
+    }
+    return marks;
+}
+
+nlohmann::json devicesJson(const std::vector<SessionDevice>& all) {
+    auto devices = nlohmann::json::array();
+    for (const auto& device : all) {
+        const auto from = originOf(device);
+        devices.push_back({{"role", device.role},
+                           {"name", device.name},
+                           {"serial", device.serial},
+                           {"simulated", from == origin::kReplayedUnknown ? nlohmann::json() : nlohmann::json(device.simulated)},
+                           {"origin", from}});
+    }
+    return devices;
+}
+
+}  // namespace tacto

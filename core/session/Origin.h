@@ -1,0 +1,48 @@
+// Origin.h - where the figures of a session come from: marks for each device, in sentences, so that nothing simulated
+// or of unknown origin is taken for measured, and nothing that was delivered for simulated (hazard H9).
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/session/SessionTypes.h"
+
+namespace tacto {
+
+class SessionReader;
+
+/// The values of SessionDevice::origin.
+namespace origin {
+inline constexpr const char* kHardware = "real";
+inline constexpr const char* kSimulated = "simulated";
+inline constexpr const char* kReplayedMeasured = "replayed, measured";
+inline constexpr const char* kReplayedSimulated = "replayed, simulated";
+inline constexpr const char* kReplayedUnknown = "replayed, origin not stated";
+}  // namespace origin
+
+/// As the session says, or, of one from before it was said: by its mark and its address.
+[[nodiscard]] std::string originOf(const SessionDevice& device);
+
+/// What was put out in a session.
+struct Delivered {
+    std::uint64_t trains = 0;  ///< or vibrations; impedance checks apart
+    std::uint64_t checks = 0;
+    double most = 0;   ///< largest amplitude, in `unit`
+    std::string unit;  ///< "V", "mA"; empty for a massager and for a session that does not say
+};
+/// Counted from the session's commands. Errors: as SessionReader::commands().
+[[nodiscard]] Result<Delivered> deliveredIn(const SessionReader& session);
+
+/// One sentence each. A session all of whose devices are simulated, or that has none and predicts, is "SIMULATED: ...";
+/// one of several kinds names each device under its own; one of hardware alone needs none.
+[[nodiscard]] std::vector<std::string> originMarks(const SessionAbout& about, const Delivered& delivered);
+
+/// The JSON of `run --json`, by the key "devices".
+[[nodiscard]] nlohmann::json devicesJson(const std::vector<SessionDevice>& all);
+
+}  // namespace tacto
