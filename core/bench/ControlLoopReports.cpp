@@ -263,7 +263,7 @@ void ControlLoop::armOnImpedance(const ArmingEvidence& given, Instant at) noexce
         return finishArming(permitted);
     }
     impedance_ = evidence.impedance;
-    armedAt_ = report.statusAt;
+    armedAt_ = at;
     planner_->armedOn(impedance_);
     impedanceAt_ = at;
     finishArming({});
