@@ -92,7 +92,7 @@ function run(p) { bench.arm({ load: 1000 }); bench.drive("manual", { roughness: 
     const auto json = nlohmann::json::parse(desk_.run(second).out);
     for (const auto& device : json["devices"]) {
         EXPECT_EQ(device["simulated"], device["role"] == "sensor") << device;
-        if (device["role"] == "stimulator") EXPECT_EQ(device["serial"], "P240000123");
+        EXPECT_EQ(device["serial"] == "P240000123", device["role"] == "stimulator") << device;
     }
     EXPECT_EQ(json["devices"].size(), 2U);
     EXPECT_GE(json["marks"].size(), 2U);
