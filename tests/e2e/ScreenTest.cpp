@@ -1,5 +1,5 @@
-// The window fits the screen that it is opened on, and STOP and the safety bar are on it: at the first start, and when it
-// was left on a larger screen.
+// The window fits the screen that it is opened on, and STOP and the safety bar are on it: at the first start, and when
+// it was left on a larger screen.
 //
 // Needs a display of its own (see in-xvfb); skipped elsewhere.
 #include <QApplication>

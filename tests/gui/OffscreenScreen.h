@@ -1,5 +1,5 @@
-// OffscreenScreen.h - the screen of a program that has none: full HD. Qt's own offscreen screen has 800 x 800 pixels, and
-// the window stays on its screen.
+// OffscreenScreen.h - the screen of a program that has none: full HD. Qt's own offscreen screen has 800 x 800 pixels,
+// and the window stays on its screen.
 //
 // Thread-safety: call it before QApplication is made.
 #pragma once

@@ -393,7 +393,8 @@ void SessionsWorkspace::askExport() {
     question.folder = q(entry->path.parent_path().string());
     question.name = q(entry->path.stem().string()) + "-csv";
     // This one, whatever is selected when the folder is chosen.
-    askForFile(*this, question, [this, session = entry->path](const QString& folder) { exportSession(session, folder); });
+    const auto session = entry->path;
+    askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
 }
 
 void SessionsWorkspace::exportTo(const QString& folder) {

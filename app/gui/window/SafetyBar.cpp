@@ -217,9 +217,9 @@ void SafetyBar::showCalibration() {
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
         calibration_->setText(text);
-        const auto why = standing ? standingTip(*standing)
-                                  : tr("Calibration of the stimulator. Without a valid one it is for bench loads only.");
-        calibration_->setToolTip(standing ? text + ". " + why : why);
+        calibration_->setToolTip(
+            standing ? text + ". " + standingTip(*standing)
+                     : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     }
     // As a sheet: a label's own palette is lost when the theme's sheet changes.
     const auto sheet = QString("QLabel { color: %1; }").arg((counts ? colours().text : colours().amberText).name());
