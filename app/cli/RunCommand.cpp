@@ -202,13 +202,14 @@ int run(const QCommandLineParser& parser) {
     order->asked = asked;
     const auto protocol = order->script.name;
     const auto origin = originOf(order->script);
-    if (!order->script.shipped) say(stderr, "The script is {}.\n", origin);
+    const bool shipped = order->script.shipped;
     const auto seed = order->seed;
     const auto answers = order->settings.answers;
     auto registry = allDrivers()();
     auto prepared = ProtocolRun::prepare(std::move(*order), registry);
     if (!prepared) return failWith(prepared.error());
     auto& running = **prepared;
+    if (!shipped) say(stderr, "The script is {}.\n", origin);
 
     const auto result = runScript(running, answers, interrupts);
     const auto& outcome = result.outcome;

@@ -43,10 +43,9 @@ public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
 
     Result<Recording> read(const Json& root) const {
-        if (auto known = onlyKeys(root, {"title", "source", "licence", "baseline", "contact", "streams"}, file_.string());
-            !known) {
-            return failure(known);
-        }
+        // Whoever recorded it may note more than is read here; nothing in a description loosens anything.
+        if (!root.is_object())
+            return refuse("the file holds {}; an object with \"streams\" was expected", typeOf(root));
         Recording recording;
         recording.path = file_;
         for (auto [key, target] : {std::pair{"title", &recording.title}, std::pair{"source", &recording.source},
@@ -235,11 +234,7 @@ private:
     }
 
     Result<RecordedStream> readStream(const Json& entry, std::size_t number) const {
-        if (auto known = onlyKeys(entry, {"kind", "file", "time_column", "time_unit", "columns", "unit"},
-                                  fmt::format("{}: stream {}", file_.string(), number));
-            !known) {
-            return failure(known);
-        }
+        if (!entry.is_object()) return refuse("stream {} is {}; an object was expected", number, typeOf(entry));
         const auto kind = kindOf(entry, number);
         if (!kind) return failure(kind);
         const auto unit = unitOf(entry, number, *kind);

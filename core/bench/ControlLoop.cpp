@@ -203,7 +203,7 @@ void ControlLoop::beginCheck(Instant now) noexcept {
         return finishArming(failure(check));
     }
     if (!mayPost(true)) return endArmingForStop();
-    post(std::move(*check), now, true);
+    postCheck(std::move(*check), now);
 }
 
 /// On the operator's word alone, and for a massager: nothing measures the load.
@@ -389,7 +389,7 @@ void ControlLoop::sendTrain(Instant now) noexcept {
         auto check = parts_.gate.approveCheck(now);
         if (!check) return trip(FaultCause::LimitBroken, check.error().message, now);
         if (!mayPost(true)) return;
-        return post(std::move(*check), now, true);
+        return postCheck(std::move(*check), now);
     }
     auto planned = planner_->plan(now, impedance_);
     if (!planned) return refused(now, planned.error().message);
@@ -404,11 +404,8 @@ void ControlLoop::sendTrain(Instant now) noexcept {
                                   {"amplitude", siValue(planned->rounding.train.amplitude)},
                                   {"rounded_by", planned->rounding.amplitude}});
     }
-    const auto& amplitude = planned->rounding.train.amplitude;
-    shown_.told[told_++ % shown_.told.size()] = {planned->onset, siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1),
-                                                 planned->expected};
     expected_ = planned->expected;
-    post(std::move(planned->approved), planned->onset, false);
+    post(std::move(planned->approved), planned->onset, planned->expected);
 }
 
 void ControlLoop::sendBurst(Instant now) noexcept {
@@ -438,8 +435,12 @@ bool ControlLoop::beginDelivery() noexcept {
     return mayPost(false);
 }
 
-void ControlLoop::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
-    parts_.stimulator->post(std::move(train), onset, isCheck);
+void ControlLoop::post(ApprovedTrain&& train, Instant onset, std::optional<double> expected) noexcept {
+    const auto& amplitude = train.train().amplitude;
+    const double told = siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1);
+    // Check pulses too: a capture of one belongs to no train that was delivered shortly before.
+    shown_.told[told_++ % shown_.told.size()] = {onset, told, expected.value_or(told)};
+    parts_.stimulator->post(std::move(train), onset, !expected);
     exposureAt_ = Instant(0);
 }
 

@@ -140,6 +140,7 @@ private:
     void judgeImpedance(const TrainReport& report) noexcept;
     void judgeLoad(const SeenLoad& seen, Instant now) noexcept;
     /// True when what came out is not what was commanded: it is a fault.
+    bool judgeReadBack(const TrainReport& report) noexcept;
     bool judgeAmplitude(const SeenAmplitude& seen, Instant now) noexcept;
     void updateImpedance(Ohms measured, Instant at) noexcept;
     void recordTrain(const TrainReport& report, const char* name) noexcept;
@@ -153,7 +154,9 @@ private:
     void sendTrain(Instant now) noexcept;
     void sendBurst(Instant now) noexcept;
     [[nodiscard]] bool beginDelivery() noexcept;
-    void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
+    /// `expected` is the amplitude that should come out, in V or mA: of a check pulse what it is told.
+    void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected) noexcept;
+    void postCheck(ApprovedTrain&& check, Instant onset) noexcept { post(std::move(check), onset, std::nullopt); }
     void refused(Instant now, std::string_view why) noexcept;
     void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;
     void publish(Instant now) noexcept;

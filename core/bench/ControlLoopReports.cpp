@@ -72,13 +72,6 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
             .imbalanceUncertainty = present(report.imbalanceUncertainty)};
 }
 
-/// Why, when the read-back is more above the command than is permitted.
-std::optional<std::string> aboveCommand(const TrainReport& report) {
-    if (!(report.measured > (1 + kMostDeviation) * report.amplitude)) return std::nullopt;  // NaN: it is not read back
-    return fmt::format("the stimulator delivered {:.3g} where {:.3g} was commanded", report.measured,
-                       report.amplitude);
-}
-
 }  // namespace
 
 void ControlLoop::judgeReports() noexcept {
@@ -148,19 +141,25 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     shown_.imbalanceUncertainty = report.imbalanceUncertainty;
     const auto judgement = judgeTrain(parts_.mode, readBackOf(report), report.end, now);
     if (judgement.stops()) return trip(causeOf(judgement.finding), judgement.reason.view(), now);
-    if (!std::isnan(report.measured)) {
-        // What was told proves nothing: a calibration may have made it so. The command must come out, read back in the
-        // device's own steps.
-        const double expected = report.isCheck ? report.amplitude : expected_;
-        const double step = parts_.stimulator->device().traits().amplitudeStep;
-        if (judgeAmplitude({"the stimulator reads back", report.measured, expected, step, report.onset}, now)) return;
-    }
+    if (judgeReadBack(report)) return;
     if (parts_.stimulator->device().traits().readsBack && mayPost(report.isCheck)) judgeImpedance(report);
+}
+
+/// What was told proves nothing: a calibration may have made it so. The command must come out, read back in the device's
+/// own steps.
+bool ControlLoop::judgeReadBack(const TrainReport& report) noexcept {
+    if (std::isnan(report.measured)) return false;  // it is not read back
+    const double expected = report.isCheck ? report.amplitude : expected_;
+    const double step = parts_.stimulator->device().traits().amplitudeStep;
+    return judgeAmplitude({"the stimulator reads back", report.measured, expected, step, report.onset},
+                          report.statusAt);
 }
 
 bool ControlLoop::judgeAmplitude(const SeenAmplitude& seen, Instant now) noexcept {
     const double off = seen.amplitude - seen.expected;
-    if (std::abs(off) <= kMostDeviation * seen.expected + seen.uncertainty) return false;
+    const auto& stated = parts_.stimulator->device().traits().accuracy.amplitude;
+    const double uncertainty = seen.uncertainty + (stated ? stated->absolute : 0);
+    if (std::abs(off) <= kMostDeviation * seen.expected + uncertainty) return false;
     if (seen.onset < armedAt_ || parts_.interlock.state() == InterlockState::Faulted) return false;
     const auto* unit = parts_.stimulator->device().traits().drive == Drive::Current ? "mA" : "V";
     trip(off < 0 ? FaultCause::DeviceFault : FaultCause::LimitBroken,
@@ -223,10 +222,7 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
         return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", judgement.reason.view()));
     }
     // A fault of before may have been reset, and its cause still be there: nothing is armed on it.
-    if (const auto above = aboveCommand(report); above) {
-        parts_.interlock.disarm("the stimulator delivered more than was commanded");
-        return finishArming(fail(ErrorCode::NotArmed, "not armed: {}", *above));
-    }
+    if (judgeReadBack(report)) return;
     if (arming_->confirmByCapture) {
         checkRead_ = true;  // the rest is for armOnCapture()
         return;

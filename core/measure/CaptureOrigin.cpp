@@ -3,6 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonText.h"
+
 namespace tacto {
 
 namespace {
@@ -15,12 +17,10 @@ std::optional<bool> readOrigin(const std::filesystem::path& folder) {
     std::string text(kMostBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    // Deeper or longer than what is written here is not it.
-    if (text.empty() || text.size() > kMostBytes || text.find('[') != std::string::npos) return std::nullopt;
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) return std::nullopt;
-    const auto said = json.find("simulated");
-    return said != json.end() && said->is_boolean() ? std::optional(said->get<bool>()) : std::nullopt;
+    const auto json = parseJson(text, kFile, {.bytes = kMostBytes, .depth = 1});
+    if (!json || !json->is_object()) return std::nullopt;
+    const auto said = json->find("simulated");
+    return said != json->end() && said->is_boolean() ? std::optional(said->get<bool>()) : std::nullopt;
 }
 
 }  // namespace

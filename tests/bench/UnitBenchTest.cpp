@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/SystemTime.h"
+#include "core/bench/ArmingText.h"
 #include "core/bench/Bench.h"
+#include "core/electrode/Load.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/Support.h"
 
@@ -56,7 +58,9 @@ protected:
         bench_ = std::move(*made);
     }
     [[nodiscard]] Result<void> arm(const char* load = "1 kohm") {
-        return bench_->arm({.load = load, .operatorConfirmed = true});
+        const auto shown = armingText(bench_->devices().stimulator->identity(), &unit_->traits(), bench_->profile(),
+                                      OutputMode::BenchLoad, parseLoad(load).value());
+        return bench_->arm({.load = load, .operatorConfirmed = true, .confirmed = shown});
     }
 
     ScratchDir folder_;

@@ -18,20 +18,6 @@ namespace tacto::test {
 
 namespace {
 
-/// Without a display and without the tester's own settings.
-Words environmentFor(const std::filesystem::path& home) {
-    Words kept;
-    for (char** entry = environ; *entry != nullptr; ++entry) {
-        const std::string_view text(*entry);
-        const auto is = [&](std::string_view name) { return text.starts_with(name); };
-        if (is("DISPLAY=") || is("WAYLAND_DISPLAY=") || is("QT_") || is("XDG_") || is("HOME=")) continue;
-        kept.emplace_back(text);
-    }
-    kept.push_back("HOME=" + home.string());
-    kept.push_back("XDG_DATA_HOME=" + (home / "data").string());
-    return kept;
-}
-
 std::vector<char*> pointersTo(Words& words) {
     std::vector<char*> pointers;
     for (auto& word : words) pointers.push_back(word.data());
@@ -76,13 +62,26 @@ std::string contentOf(const std::filesystem::path& file) {
     return content.str();
 }
 
+Words Desk::environment() const {
+    Words kept;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view text(*entry);
+        const auto is = [&](std::string_view name) { return text.starts_with(name); };
+        if (is("DISPLAY=") || is("WAYLAND_DISPLAY=") || is("QT_") || is("XDG_") || is("HOME=")) continue;
+        kept.emplace_back(text);
+    }
+    kept.push_back("HOME=" + home_.path().string());
+    kept.push_back("XDG_DATA_HOME=" + (home_.path() / "data").string());
+    return kept;
+}
+
 Desk::Started::Started(const Desk& desk, const Words& words)
     : out_(desk.streams_.path() / (std::to_string(desk.count_) + ".out")),
       err_(desk.streams_.path() / (std::to_string(desk.count_) + ".err")) {
     ++desk.count_;
     Words command{TACTO_CLI};
     command.insert(command.end(), words.begin(), words.end());
-    auto environment = environmentFor(desk.home_.path());
+    auto environment = desk.environment();
     pid_ = spawn(command, environment, desk.path().string(), out_.string(), err_.string());
     ended_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
     if (ended_ < 0) throw std::runtime_error("pidfd_open failed");

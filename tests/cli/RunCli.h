@@ -49,6 +49,8 @@ public:
     [[nodiscard]] Started start(const Words& words) const { return {*this, words}; }
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
+    /// What the program is started with: no display, none of the tester's own settings, and a home of the desk's.
+    [[nodiscard]] Words environment() const;
     /// A path below the folder, as text.
     [[nodiscard]] std::string at(std::string_view name) const { return (path() / name).string(); }
     std::string write(std::string_view name, std::string_view content) const;

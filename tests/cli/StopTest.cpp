@@ -99,6 +99,8 @@ TEST_F(UserScript, AnEndlessLoopIsStoppedWithinAFewSeconds) {
     const auto path = script("  for (;;) { }");
     auto run = desk.start(words());
     ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    const auto begun = Clock::now();
+    ASSERT_TRUE(run.waitUntil([&] { return secondsSince(begun) > 1; }));  // the script has begun too
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(20));

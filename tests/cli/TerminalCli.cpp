@@ -11,8 +11,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace tacto::test {
 
 namespace {
@@ -48,7 +46,11 @@ TerminalCli::TerminalCli(const Desk& desk, const Words& words, unsigned short co
     std::vector<char*> pointers;
     for (auto& word : command) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    const int failed = posix_spawn(&pid_, TACTO_CLI, &actions, &attributes, pointers.data(), environ);
+    Words environment = desk.environment();
+    std::vector<char*> settings;
+    for (auto& setting : environment) settings.push_back(setting.data());
+    settings.push_back(nullptr);
+    const int failed = posix_spawn(&pid_, TACTO_CLI, &actions, &attributes, pointers.data(), settings.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw std::runtime_error("tactoscope-cli cannot be started");

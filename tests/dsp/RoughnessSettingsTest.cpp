@@ -67,7 +67,7 @@ TEST(RoughnessSettings, RefuseValuesThatMeanNothing) {
     EXPECT_THAT(complaintAbout({{"pressure_min_pa", 5e4}}), HasSubstr("pressure_max_pa"));
     EXPECT_THAT(complaintAbout({{"calibrated", 1}}), HasSubstr("true or false"));
     EXPECT_THAT(complaintAbout({{"rest", {{"unit", "count"}}}}), HasSubstr("rest.mean_square"));
-    EXPECT_THAT(complaintAbout(3), HasSubstr("an object was expected"));
+    EXPECT_THAT(complaintAbout(3), HasSubstr("3 stands where an object is expected"));
     EXPECT_THAT(complaintAbout({{"references", {{"h", {{"smooth", 0.3}, {"rough", 0.3}}}}}}),
                 HasSubstr("two different readings"));
     EXPECT_THAT(complaintAbout({{"references", {{"v_static", {{"smooth", 0}, {"rough", 0.3}}}}}}),

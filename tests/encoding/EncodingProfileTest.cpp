@@ -65,7 +65,7 @@ TEST(EncodingProfile, ReadsEveryKey) {
 
 TEST(EncodingProfile, RefusesAnUnknownKeyByName) {
     EXPECT_THAT(refusal(R"({"amplitude_max": 40})"), AllOf(HasSubstr("amplitude_max"), HasSubstr("amplitude_max_v")));
-    EXPECT_THAT(refusal(R"([1])"), HasSubstr("not a JSON object"));
+    EXPECT_THAT(refusal(R"([1])"), HasSubstr("[1] stands where an object is expected"));
 }
 
 TEST(EncodingProfile, RefusesWrongTypesNamingKeyValueAndWhatIsAccepted) {

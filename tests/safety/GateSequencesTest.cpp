@@ -5,19 +5,19 @@
 #include <set>
 
 #include "tests/safety/GateSequences.h"
+#include "tests/support/Campaign.h"
 
 namespace tacto::test {
 
 namespace {
-/// The full million runs in release; a debug build runs a tenth, sanitizers a hundredth. TACTO_CAMPAIGN=1 runs ten
-/// million, and TACTOSCOPE_H1_SEQUENCES overrides.
+/// The full million runs in release, ten in a campaign; a debug build runs a tenth, sanitizers a hundredth.
+/// TACTOSCOPE_H1_SEQUENCES overrides.
 std::uint64_t wantedSequences() {
     if (const char* text = std::getenv("TACTOSCOPE_H1_SEQUENCES")) return std::strtoull(text, nullptr, 10);
-    if (const char* campaign = std::getenv("TACTO_CAMPAIGN"); campaign != nullptr && *campaign == '1') return 10'000'000;
 #if defined(TACTOSCOPE_SANITIZED)
     return 10'000;
 #elif defined(__OPTIMIZE__)
-    return 1'000'000;
+    return static_cast<std::uint64_t>(campaignTrials(1'000'000, 10'000'000));
 #else
     return 100'000;
 #endif

@@ -72,6 +72,9 @@ TEST_F(Arming, SeveralLoadsAreConfirmedBySeveralTexts) {
 }
 
 TEST_F(Arming, AnotherElectrodeAreaIsAnotherText) {
+    auto profile = rig_.bench().profile();
+    profile.electrodeArea = SquareCentimetres(4);
+    ASSERT_TRUE(rig_.bench().setProfile(profile));
     const auto outcome =
         run("bench.setElectrodeArea(3); bench.arm({ load: 1000 });", {{"confirm-arming", kInto1k}});
     ASSERT_TRUE(outcome.error);

@@ -38,8 +38,9 @@ protected:
         close(ends[1]);
         ASSERT_EQ(spawned, 0);
         char first = 0;
-        EXPECT_EQ(read(ends[0], &first, 1), 1) << "the host ended without delivering";
+        const auto came = read(ends[0], &first, 1);
         close(ends[0]);
+        ASSERT_EQ(came, 1) << "the host ended without delivering";
     }
     void TearDown() override {
         if (host_ <= 0) return;

@@ -68,7 +68,7 @@ ApprovedTrain ScienceModeBench::approved(double milliamps, int pulses, double ra
 }
 
 ApprovedTrain ScienceModeBench::approved(const PulseTrain& train, Seconds interval) {
-    return approve(*gate_, clock, train, std::max(interval, train.duration()));
+    return approve(*gate_, clock, train, std::max(interval, 1.1 * train.duration()));
 }
 
 Result<void> ScienceModeBench::deliver(const PulseTrain& train) {
