@@ -66,7 +66,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWi
     auto* recording = new QPushButton(tr("Re&cording…"), body);
     recording->setToolTip(tr("Replays a recorded fingertip into the simulated stimulator."));
     check_ = new QPushButton(tr("&Impedance"), body);
-    check_->setObjectName("checkButton");
+    check_->setObjectName("impedanceButton");
     check_->setToolTip(tr("One small pulse into the declared load, then disarmed again."));
     close_ = new QPushButton(tr("C&lose"), body);
     close_->setToolTip(tr("Output off; the session file is finished and closed."));

@@ -83,6 +83,7 @@ SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidg
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(kGap);
+    row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() says how narrow it may be
     facts_ = buildFacts();
     QStringList titles;
     for (const auto& bar : allBars()) titles << tr(bar.title);

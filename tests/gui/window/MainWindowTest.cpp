@@ -43,7 +43,7 @@ TEST_F(Window, ArmingTakesTwoSteps) {
 TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
     RecordProperty("hazard", "H12");
     open();
-    auto* first = window.findChild<QPushButton*>("checkButton");
+    auto* first = window.findChild<QPushButton*>("impedanceButton");
     ASSERT_NE(first, nullptr);
     click(*first);
     auto* second = window.findChild<QPushButton*>("checkImpedance");
@@ -57,7 +57,7 @@ TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
     ASSERT_TRUE(comesTrue([this] {
         const auto widgets = window.statusBar()->findChildren<QWidget*>();
         return std::any_of(widgets.begin(), widgets.end(),
-                           [](const QWidget* widget) { return widget->toolTip().contains("kΩ. Disarmed."); });
+                           [](const QWidget* widget) { return widget->toolTip().contains("Ω. Disarmed."); });
     }));
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
