@@ -146,11 +146,11 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
 }
 
 /// What was told proves nothing: a calibration may have made it so. The command must come out, read back in the device's
-/// own steps.
+/// own steps; a check pulse is so small that a step would excuse anything.
 bool ControlLoop::judgeReadBack(const TrainReport& report) noexcept {
     if (std::isnan(report.measured)) return false;  // it is not read back
     const double expected = report.isCheck ? report.amplitude : expected_;
-    const double step = parts_.stimulator->device().traits().amplitudeStep;
+    const double step = report.isCheck ? 0 : parts_.stimulator->device().traits().amplitudeStep;
     return judgeAmplitude({"the stimulator reads back", report.measured, expected, step, report.onset},
                           report.statusAt);
 }

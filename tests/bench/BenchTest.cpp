@@ -186,7 +186,7 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     const auto armed = arm();
     ASSERT_FALSE(armed);
     EXPECT_NE(armed.error().message.find("where"), std::string::npos) << armed.error().message;
-    EXPECT_EQ(state(), InterlockState::Disarmed);
+    EXPECT_EQ(state(), InterlockState::Faulted);
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     bench_->idle(Seconds(3));
     EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);

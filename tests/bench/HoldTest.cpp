@@ -130,16 +130,19 @@ TEST_F(SeenLoadTest, IsLookedAtBySmallPulseBeforeAnythingIsArmed) {
     struct Case {
         const char* uri;
         const char* why;
+        InterlockState after;
     };
-    for (const auto& [uri, why] : {Case{"sim:stimulator?readback=no&load=300ohm", "the declared load is 1 kohm"},
-                                   Case{"sim:stimulator?readback=no&load=open", "electrode is open"},
-                                   Case{"sim:stimulator?readback=no&gain=1.3", "delivered 1.3 where 1"},
-                                   Case{"sim:stimulator?readback=no&gain=0.7", "1 V was commanded"}}) {
+    constexpr auto kDisarmed = InterlockState::Disarmed, kFaulted = InterlockState::Faulted;
+    for (const auto& [uri, why, after] :
+         {Case{"sim:stimulator?readback=no&load=300ohm", "the declared load is 1 kohm", kDisarmed},
+          Case{"sim:stimulator?readback=no&load=open", "electrode is open", kDisarmed},
+          Case{"sim:stimulator?readback=no&gain=1.3", "1.3 V where 1 V was commanded", kFaulted},
+          Case{"sim:stimulator?readback=no&gain=0.7", " V where 1 V was commanded", kFaulted}}) {
         open({uri});
         const auto armed = arm();
         ASSERT_FALSE(armed) << uri;
         EXPECT_NE(armed.error().message.find(why), std::string::npos) << armed.error().message;
-        EXPECT_EQ(state(), InterlockState::Disarmed);
+        EXPECT_EQ(state(), after) << uri;
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
         bench_->idle(Seconds(3));
         EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << uri;
