@@ -42,12 +42,12 @@ int calibration(const std::string& file, bool asJson) {
     say("\n  {:>12} {:>5} {:>14} {:>12} {:>12}\n", "commanded", "n", "mean", "residual", "down - up");
     for (const auto& level : found->levels) {
         const double turned = level.meanDown - level.meanUp;
-        say("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean,
-                   level.residual, std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned));
+        say("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean, level.residual,
+            std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned));
     }
     const auto percent = [](double value) { return std::isnan(value) ? "not known" : fmt::format("{:.4g} %", value); };
     say("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
-               found->weighted ? ", weighted fit" : "");
+        found->weighted ? ", weighted fit" : "");
     say("  offset            {:.5g} ± {:.2g}\n", found->offset, found->offsetStandardError);
     say("  in % of the largest command, {:.6g}:\n", found->fullScale);
     say("  largest residual  {}\n", percent(found->residualMax_pct));

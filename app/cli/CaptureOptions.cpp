@@ -38,8 +38,7 @@ public:
         if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kQuiet) return;
         percent_ = percent;
         const auto filled = static_cast<std::size_t>(30 * fraction);
-        say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'),
-                   percent);
+        say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'), percent);
         std::fflush(stderr);
     }
 

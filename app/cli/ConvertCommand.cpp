@@ -45,9 +45,8 @@ int run(const QCommandLineParser& parser) {
         return kDone;
     }
     say("{}: {} of {} at {} from {} written\n", out,
-               capture.channels.size() == 1 ? "a channel" : fmt::format("{} channels", capture.channels.size()),
-               fmt::format("{} samples", capture.samples()), formatQuantity(capture.rate_hz, "S/s", 4),
-               reading->formatName);
+        capture.channels.size() == 1 ? "a channel" : fmt::format("{} channels", capture.channels.size()),
+        fmt::format("{} samples", capture.samples()), formatQuantity(capture.rate_hz, "S/s", 4), reading->formatName);
     for (const auto& warning : reading->warnings) say(stderr, "{}\n", warning);
     return kDone;
 }

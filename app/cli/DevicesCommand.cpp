@@ -20,7 +20,7 @@ void declare(QCommandLineParser& parser) {
 
 void print(const DeviceIdentity& device, const char* mark) {
     say("{}{:<28} {:<13} {}{}\n", mark, device.uri, nameOf(device.role), device.name,
-               device.simulated ? "  (simulated)" : "");
+        device.simulated ? "  (simulated)" : "");
     if (!device.obstacle.empty()) say("    {}\n", device.obstacle);
 }
 

@@ -86,8 +86,8 @@ int run(const QCommandLineParser& parser) {
                    {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
     } else {
         say("amplitude  {}  ({} into {})\ninterval   {}\n", formatQuantity(command->amplitude.value(), "V", 4),
-                   formatQuantity(amplitude_ma * 1e-3, "A", 4), load->text(),
-                   formatQuantity(command->interval.count(), "s", 4));
+            formatQuantity(amplitude_ma * 1e-3, "A", 4), load->text(),
+            formatQuantity(command->interval.count(), "s", 4));
         if (approved)
             say("approved   yes, from 80 to 120 % of the declared load\n");
         else

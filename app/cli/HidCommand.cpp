@@ -51,7 +51,7 @@ void print(const hid::MassagerTemplate& described, const hid::VibrationReports& 
     say("stop         {}\n", hid::hexOf(reports.stop));
     for (const auto& field : reports.fields) {
         say("byte {}, bit {}, {} bits: {} = {} ({} to {})\n", field.bit / 8, field.bit % 8, field.bits,
-                   hid::nameOf(field.role), hid::valueOf(field, bytes), field.min, field.max);
+            hid::nameOf(field.role), hid::valueOf(field, bytes), field.min, field.max);
     }
 }
 

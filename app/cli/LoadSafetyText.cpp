@@ -4,7 +4,6 @@
 #include <string>
 
 #include "app/cli/Say.h"
-
 #include "app/cli/Verdicts.h"
 
 namespace tacto::cli {
@@ -28,15 +27,14 @@ std::string number(const json& object, const char* key) {
 }
 
 void printLoads(const json& loads) {
-    say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V",
-               "peak mA", "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
+    say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V", "peak mA",
+        "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0);
         say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", text(load, "name"),
-                   number(load, "measured_ohm"), number(load, "peak_v"), number(load, "peak_ma"),
-                   number(load, "rms_5s_ma"), number(load, "charge_uc"), number(load, "net_charge_uc"),
-                   number(load, "energy_mj"), text(load, "verdict"),
-                   refused > 0 ? fmt::format(" ({} refused as expected)", refused) : std::string());
+            number(load, "measured_ohm"), number(load, "peak_v"), number(load, "peak_ma"), number(load, "rms_5s_ma"),
+            number(load, "charge_uc"), number(load, "net_charge_uc"), number(load, "energy_mj"), text(load, "verdict"),
+            refused > 0 ? fmt::format(" ({} refused as expected)", refused) : std::string());
     }
 }
 
@@ -45,11 +43,11 @@ void printDisclosed(const json& outputs) {
     say("\n  to disclose\n");
     for (const auto& output : outputs) {
         const auto bound = output.find("plus_minus_pct");
-        say("  {:<40} {:<9} {:>8} {:<7} {}\n", text(output, "output"), text(output, "load"),
-                   number(output, "value"), text(output, "unit"),
-                   output.contains("reason") && !text(output, "reason").empty() ? text(output, "reason")
-                   : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
-                                                                 : std::string());
+        say("  {:<40} {:<9} {:>8} {:<7} {}\n", text(output, "output"), text(output, "load"), number(output, "value"),
+            text(output, "unit"),
+            output.contains("reason") && !text(output, "reason").empty() ? text(output, "reason")
+            : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
+                                                          : std::string());
     }
 }
 
@@ -65,7 +63,7 @@ void printRows(const json& rows, const char* heading) {
         if (!said) say("\n  {}\n", heading);
         said = true;
         say("  {:<20} {:<27} {:<34} {} {}\n", text(row, "verdict"), text(row, "load"), text(row, "title"),
-                   number(row, "value"), text(row, "unit"));
+            number(row, "value"), text(row, "unit"));
     }
     say("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
 }

@@ -20,7 +20,7 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
 void printFigure(const char* name, const Statistics& s, const char* unit) {
     if (s.n == 0) return;
     say("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
-               formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
+        formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ void printTrust(const ChannelMeasurement& m) {
     if (m.measuredPulses == 0) return;
     const auto& u = m.uncertainty;
     say("  uncertainty (k = {:.0f}): amplitude {}, width {}, interval {}", kCoverage,
-               formatQuantity(kCoverage * u.amplitude, m.unit, 2), formatQuantity(kCoverage * u.width_s, "s", 2),
-               formatQuantity(kCoverage * u.interval_s, "s", 2));
+        formatQuantity(kCoverage * u.amplitude, m.unit, 2), formatQuantity(kCoverage * u.width_s, "s", 2),
+        formatQuantity(kCoverage * u.interval_s, "s", 2));
     if (m.gap_s.n > 0) say(", gap {}", formatQuantity(kCoverage * u.gap_s, "s", 2));
     if (m.imbalance.n > 0) say(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
     say("\n");
@@ -83,8 +83,8 @@ nlohmann::json loadJson(const std::optional<LoadMeasurement>& load) {
 
 void printLoad(const LoadMeasurement& load) {
     if (load.measuredPulses == 0) return;
-    say("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current,
-               load.measuredPulses, kCoverage, formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2));
+    say("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current, load.measuredPulses,
+        kCoverage, formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2));
     printFigure("load", load.load_ohm, "ohm");
     printFigure("impedance", load.impedance_ohm, "ohm");
     printFigure("charge", load.charge_c, "C");

@@ -63,9 +63,9 @@ int run(const QCommandLineParser& parser) {
             const auto range = rangeOf(parameter);
             const auto unit = textOf(parameter, "unit");
             say("    --set {:<28} {}{}\n",
-                       fmt::format("{}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
-                                   unit.empty() ? "" : "   ", unit),
-                       textOf(parameter, "label"), range.empty() ? "" : " (" + range + ")");
+                fmt::format("{}={}{}{}", textOf(parameter, "name"), textOf(parameter, "value"),
+                            unit.empty() ? "" : "   ", unit),
+                textOf(parameter, "label"), range.empty() ? "" : " (" + range + ")");
         }
     }
     return broken ? kCouldNotRun : kDone;

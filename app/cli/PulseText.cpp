@@ -129,9 +129,9 @@ void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIde
         say("{}\n", lines(draw(plot, plotColumns())));
     }
     say("  stimulator  {}\n  pulse       {}{}\n", device.serial, describe(order.order().pulse),
-               outcome.pulse ? "" : ": not sent");
+        outcome.pulse ? "" : ": not sent");
     say("  |Z|         {} at the end of the leading phase\n",
-               finding.impedance ? ohms(*finding.impedance) : "not measured");
+        finding.impedance ? ohms(*finding.impedance) : "not measured");
     say("  declared    {}: {} to {} is accepted\n", ohms(range.nominal), ohms(range.low), ohms(range.high));
     if (!file.empty()) say("  file        {}\n", file);
     if (device.simulated) say("  SIMULATED: no number here was measured on hardware.\n");

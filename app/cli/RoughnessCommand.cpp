@@ -66,8 +66,8 @@ int run(const QCommandLineParser& parser) {
                    {"P", toJson(summary.P)}});
         return kDone;
     }
-    say("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames,
-               summary.contactFrames, summary.rate_hz);
+    say("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames, summary.contactFrames,
+        summary.rate_hz);
     say("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
     printRow("h", summary.h);
     printRow("v", summary.v);
@@ -79,8 +79,7 @@ int run(const QCommandLineParser& parser) {
         for (std::size_t i = 0; i < summary.flags.size(); ++i) say("{}{}", i ? ", " : "", summary.flags[i]);
         say("\n");
     }
-    say(
-        "\nR is repeatable and specific to a material; that it ranks felt roughness rests on the reference "
+    say("\nR is repeatable and specific to a material; that it ranks felt roughness rests on the reference "
         "surfaces.\n");
     return kDone;
 }

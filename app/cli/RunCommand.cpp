@@ -25,7 +25,8 @@ void declare(QCommandLineParser& parser) {
     parser.addOption({"device", "A device to use; sim: fills every role that is still needed.", "URI"});
     parser.addOption({"set", "A parameter of the protocol, or an answer to one of its questions.", "KEY=VALUE"});
     parser.addOption({"seed", "Seed of everything random (1).", "N"});
-    parser.addOption({"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
+    parser.addOption(
+        {"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
     parser.addOption({"realtime", "Runs on the real clock even where a virtual one could serve."});
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
@@ -113,7 +114,7 @@ public:
         const double left = part > 0 ? std::chrono::duration<double>(now - begun_).count() * (1 - part) / part : 0;
         const auto filled = static_cast<std::size_t>(part * 30);
         say(stderr, "\r\033[K{} [{}{}] {}/{}, {:.0f} s left", progress.label, std::string(filled, '#'),
-                   std::string(30 - filled, '.'), progress.done, progress.total, left);
+            std::string(30 - filled, '.'), progress.done, progress.total, left);
         std::fflush(stderr);
         drawn_ = true;
     }

@@ -44,7 +44,7 @@ int identifyIt(const QCommandLineParser& parser) {
     }
     say("identity   {}{}\n", who.id, seen->simulated() ? "  (simulated)" : "");
     say("firmware   {}\nprotocol   ScienceMode {}\nplugged in {}\n", who.firmware.text(), who.protocol.text(),
-               seen->place);
+        seen->place);
     return kDone;
 }
 
@@ -98,8 +98,7 @@ int statusOf(const QCommandLineParser& parser) {
                    {"high_voltage", highVoltageText(status.highVoltage)}});
         return kDone;
     }
-    say("stimulator    {} at {}{}\n", seen->identification.id, seen->place,
-               seen->simulated() ? "  (simulated)" : "");
+    say("stimulator    {} at {}{}\n", seen->identification.id, seen->place, seen->simulated() ? "  (simulated)" : "");
     say("stimulation   {}\nhigh voltage  {}\n", words.sentence, highVoltageText(status.highVoltage));
     return kDone;
 }

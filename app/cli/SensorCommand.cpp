@@ -94,13 +94,13 @@ std::string calibrationText(const sensorboard::StreamCalibration& calibration) {
 void printText(const SensorBoard& board, const Listened& heard) {
     const auto& who = board.identity();
     say("sensor board  {} {}{}\nfirmware      {}\n", who.name, who.serial, who.simulated ? "  (simulated)" : "",
-               who.firmware);
+        who.firmware);
     for (std::size_t i = 0; i < board.streams().size(); ++i) {
         const auto& info = board.streams()[i];
         const auto& set = board.configuration(i);
         say("{:<13} {} × {} in {}, {:g} Hz (measured: {:.2f} Hz); {}\n", tacto::nameOf(info.kind), info.channels,
-                   nameOf(set.format), symbolOf(info.unit), info.rate_hz, heard.health[i].rate_hz,
-                   calibrationText(board.calibrations()[i]));
+            nameOf(set.format), symbolOf(info.unit), info.rate_hz, heard.health[i].rate_hz,
+            calibrationText(board.calibrations()[i]));
     }
     const auto& report = heard.report;
     const auto losses = sensorboard::lossesOf(report);

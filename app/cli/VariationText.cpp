@@ -3,7 +3,6 @@
 #include <string>
 
 #include "app/cli/Say.h"
-
 #include "app/cli/Verdicts.h"
 
 namespace tacto::cli {
@@ -33,22 +32,22 @@ std::string range(const json& object, const char* key, const char* middle = "val
 
 void printAim(const char* aim, const json& alone, const json& pooled) {
     say("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
-               number(pooled, "total"), number(pooled, "per_participant"));
+        number(pooled, "total"), number(pooled, "per_participant"));
 }
 
 }  // namespace
 
 void printVariation(const json& results) {
     say("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
-               results.value("participants", 0), results.value("complete", 0), results.value("refused", 0),
-               results.value("not_felt", 0));
+        results.value("participants", 0), results.value("complete", 0), results.value("refused", 0),
+        results.value("not_felt", 0));
     say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
     for (const auto& pair : results.value("separability", json::array())) {
         say("  {:<28} {:>26} {:>26} {:>26}\n", text(pair, "a") + " / " + text(pair, "b"), range(pair, "jnd"),
-                   range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
+            range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
     }
     say("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
-               range(results, "information_bits", "median"));
+        range(results, "information_bits", "median"));
     const json needed = results.value("trials_needed", json());
     if (!needed.is_object()) return;
     say("\n  trials, so that with {} % probability\n", number(needed, "assurance", 100));

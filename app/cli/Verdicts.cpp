@@ -25,8 +25,7 @@ double at(const nlohmann::json& object, const char* key) {
 void printResults(const nlohmann::json& results) {
     say("\n");
     for (const auto& [key, value] : results.items()) {
-        if (key != "verdict")
-            say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+        if (key != "verdict") say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     }
 }
 
@@ -37,17 +36,16 @@ void printVerdict(std::string_view verdict, const std::vector<std::string>& reas
 
 void printCalibration(const nlohmann::json& results) {
     const auto reference = results.value("reference", nlohmann::json::object());
-    say("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"),
-               at(reference, "measured_ohm"));
+    say("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"), at(reference, "measured_ohm"));
     say("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
-               "repeatability %", "hysteresis %", "U at the largest", "verdict");
+        "repeatability %", "hysteresis %", "U at the largest", "verdict");
     for (const char* name : {"amplitude", "interval", "width", "gap"}) {
         const auto found = results.value(name, nlohmann::json::object());
         if (!found.contains("gain")) continue;
         say("  {:<12} {:>10.6f} {:>12.3g} {:>12.4f} {:>14.4f} {:>12.4f} {:>15.3g} {:<2}   {}\n", name,
-                   at(found, "gain"), at(found, "offset"), at(found, "residual_max_pct_fs"),
-                   at(found, "repeatability_pct_fs"), at(found, "hysteresis_pct_fs"), at(found, "expanded_uncertainty"),
-                   found.value("unit", ""), found.value("verdict", ""));
+            at(found, "gain"), at(found, "offset"), at(found, "residual_max_pct_fs"), at(found, "repeatability_pct_fs"),
+            at(found, "hysteresis_pct_fs"), at(found, "expanded_uncertainty"), found.value("unit", ""),
+            found.value("verdict", ""));
     }
 }
 
@@ -57,16 +55,16 @@ void printSeparability(const nlohmann::json& results) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
         say("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
-                   at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
+            at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
     }
     say("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
     for (const auto& p : results.value("pairs", nlohmann::json::array())) {
         say("  {:<28} {:>12.1f} {:>15.1f} {:>14.1f}\n", p.value("a", "") + " / " + p.value("b", ""),
-                   at(p, "mahalanobis"), at(p, "amplitude_jnd"), at(p, "interval_jnd"));
+            at(p, "mahalanobis"), at(p, "amplitude_jnd"), at(p, "interval_jnd"));
     }
     const auto accuracy = results.value("accuracy", nlohmann::json::object());
-    say("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"),
-               100 * at(accuracy, "low"), 100 * at(accuracy, "high"));
+    say("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"), 100 * at(accuracy, "low"),
+        100 * at(accuracy, "high"));
 }
 
 }  // namespace tacto::cli

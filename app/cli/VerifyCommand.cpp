@@ -38,7 +38,7 @@ int run(const QCommandLineParser& parser) {
         for (const auto& note : report->notes) say("  {}\n", note);
         for (const auto& problem : report->problems) say("  {}\n", problem);
         say("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
-                   report->captures, report->samples, report->head);
+            report->captures, report->samples, report->head);
     }
     return report->status == SessionStatus::Intact ? kDone : kVerdictFailed;
 }

@@ -19,15 +19,15 @@ constexpr const char* kNotice =
 
 void printHelp(std::FILE* to) {
     say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
-               TACTOSCOPE_VERSION);
+        TACTOSCOPE_VERSION);
     for (const auto& command : commands()) {
         say(to, "  tactoscope-cli {} {}\n        {}\n", command.name, command.arguments, command.summary);
     }
     say(to,
-               "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
-               "4 stopped by safety or by the operator, 5 indeterminate. --json prints one JSON value on stdout.\n"
-               "{}\n",
-               kNotice);
+        "\nExit codes: 0 done and passed, 1 a verdict failed, 2 usage, 3 could not run (device, file),\n"
+        "4 stopped by safety or by the operator, 5 indeterminate. --json prints one JSON value on stdout.\n"
+        "{}\n",
+        kNotice);
 }
 
 /// Qt's own warnings are for developers; its fatal errors are for everybody.

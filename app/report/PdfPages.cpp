@@ -37,8 +37,7 @@ double layOut(double width, const QString& text, const QFont& font, Qt::Alignmen
 
 }  // namespace
 
-PdfPages::PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total,
-                   bool alarming)
+PdfPages::PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total, bool alarming)
     : header_(std::move(header)), footer_(std::move(footer)), total_(total), alarming_(alarming) {
     if (device == nullptr) return;
     writer_ = std::make_unique<QPdfWriter>(device);

@@ -19,8 +19,7 @@ public:
 
     /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is
     /// a warning, set so that nobody overlooks it.
-    PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total,
-             bool alarming = false);
+    PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total, bool alarming = false);
     /// The painter of the current page, its origin at the text's top left; null when only counting.
     [[nodiscard]] QCPPainter* painter() noexcept { return painter_ ? painter_.get() : nullptr; }
 

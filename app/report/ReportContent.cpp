@@ -253,7 +253,8 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
     blocks.emplace_back(captions.heading("Results"));
     for (const auto& item : model.items) {
         if (const auto* figure = std::get_if<ReportFigure>(&item)) {
-            blocks.emplace_back(FigureBlock{captions.figure(figure->caption, isSimulated(model, figure->figure)), figureLegend(figure->figure),
+            blocks.emplace_back(FigureBlock{captions.figure(figure->caption, isSimulated(model, figure->figure)),
+                                            figureLegend(figure->figure),
                                             drawFigure(figure->figure, isSimulated(model, figure->figure))});
         } else if (const auto* table = std::get_if<ReportTable>(&item)) {
             if (table->rows.isEmpty()) {
@@ -276,7 +277,10 @@ ReportContent contentOf(const ReportModel& model) {
     content.documentTitle = title.isEmpty() ? "Session" : title;
     content.damaged = !model.damage.isEmpty();
     content.header = QString(content.damaged ? "DAMAGED: this session is not what was recorded  ·  " : "") +
-                     "Tactoscope  ·  " + content.documentTitle + (isAllSimulated(model) ? "  ·  simulated" : model.simulated ? "  ·  simulated in part" : "");
+                     "Tactoscope  ·  " + content.documentTitle +
+                     (isAllSimulated(model) ? "  ·  simulated"
+                      : model.simulated     ? "  ·  simulated in part"
+                                            : "");
     content.footer = "Session " + (model.session.isEmpty() ? QString("–") : model.session) + "  ·  chain head " +
                      (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
 
@@ -286,9 +290,10 @@ ReportContent contentOf(const ReportModel& model) {
     blocks.emplace_back(verdictOf(model));
     if (content.damaged) {
         blocks.emplace_back(captions.heading("DAMAGED"));
-        blocks.emplace_back(ParagraphBlock{"“tactoscope-cli verify” finds that this session was altered or is "
-                                           "incomplete. Do not rely on what follows. It finds:\n" +
-                                           model.damage.join('\n')});
+        blocks.emplace_back(
+            ParagraphBlock{"“tactoscope-cli verify” finds that this session was altered or is "
+                           "incomplete. Do not rely on what follows. It finds:\n" +
+                           model.damage.join('\n')});
     }
     addUsed(model, captions, blocks);
     addItems(model, captions, blocks);
@@ -299,8 +304,9 @@ ReportContent contentOf(const ReportModel& model) {
             "Not evaluated: this session holds no exposure. Nothing here says that it was within limits."});
     } else {
         const Figure figure{ExposureFigure{model.exposure}, {}};
-        blocks.emplace_back(FigureBlock{captions.figure("Worst exposure of the session against each limit", isSimulated(model, figure)),
-                                        figureLegend(figure), drawFigure(figure, isSimulated(model, figure))});
+        blocks.emplace_back(
+            FigureBlock{captions.figure("Worst exposure of the session against each limit", isSimulated(model, figure)),
+                        figureLegend(figure), drawFigure(figure, isSimulated(model, figure))});
         blocks.emplace_back(exposureTable(model, captions.table("Exposure")));
     }
     blocks.emplace_back(captions.heading("Events"));

@@ -177,9 +177,10 @@ ReportVerdict verdictNamed(const std::string& name) {
 
 bool isQuiet(const std::string& kind) {
     static const std::vector<std::string> quiet{
-        "arming",  "settings", "arming",  "settings", "open",    "opened",   "armed",  "arm",     "disarmed",    "disarm",     "checking", "check",     "started",
-        "start",   "finished", "closed", "close",   "end",         "delivering", "state",    "interlock", "rounding",
-        "rounded", "progress", "paused", "resumed", "calibration", "drive",      "profile",  "capture"};
+        "arming",   "settings", "arming",      "settings", "open",      "opened",   "armed",    "arm",
+        "disarmed", "disarm",   "checking",    "check",    "started",   "start",    "finished", "closed",
+        "close",    "end",      "delivering",  "state",    "interlock", "rounding", "rounded",  "progress",
+        "paused",   "resumed",  "calibration", "drive",    "profile",   "capture"};
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
 }
 

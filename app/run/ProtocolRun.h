@@ -44,9 +44,9 @@ struct RunOrder {
 /// What came of a run, also when it failed.
 struct RunResult {
     ScriptOutcome outcome;
-    bool stoppedBySafety = false;  ///< a fault, a refused train, an operator's stop
-    bool simulated = false;                ///< any device, or a prediction; `marks` say which
-    std::vector<std::string> marks;        ///< sentences: what is simulated, replayed and real; no calibration
+    bool stoppedBySafety = false;    ///< a fault, a refused train, an operator's stop
+    bool simulated = false;          ///< any device, or a prediction; `marks` say which
+    std::vector<std::string> marks;  ///< sentences: what is simulated, replayed and real; no calibration
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;  ///< beside the outcome: closing the session

@@ -19,7 +19,7 @@ Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& lo
     question.name = kConfirmArming;
     question.confirms = bench.armingText(*parsed);
     question.text = "Arm " + question.confirms + "?";
-    question.word = bench.mode() == OutputMode::Person   ? "person"
+    question.word = bench.mode() == OutputMode::Person      ? "person"
                     : bench.devices().stimulator != nullptr ? "bench load"
                                                             : "massager";
     if (!session.hasConfirmed(question.confirms)) {

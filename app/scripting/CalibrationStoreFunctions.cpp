@@ -181,13 +181,13 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
                         "expected");
         }
         if (!(*amplitude)->gainTolerance) {
-            return fail(ErrorCode::InvalidArgument,
-                        "record.calibration: the oscilloscope {} does not state its gain tolerance, so nothing is kept; "
-                        "--set scope_gain_pct=..., from its data sheet, is expected",
-                        each.name);
+            return fail(
+                ErrorCode::InvalidArgument,
+                "record.calibration: the oscilloscope {} does not state its gain tolerance, so nothing is kept; "
+                "--set scope_gain_pct=..., from its data sheet, is expected",
+                each.name);
         }
-        made.instruments.push_back(
-            {each.name, each.serial, *due, (*amplitude)->gainTolerance, (*amplitude)->statedBy});
+        made.instruments.push_back({each.name, each.serial, *due, (*amplitude)->gainTolerance, (*amplitude)->statedBy});
     }
     Json evidence = Json::object();
     for (const auto* own : all) {
@@ -205,9 +205,8 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     const auto* before = store->latest(made.serial, made.unit);
     const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
     if (auto added = store->add(made); !added) return failure(added);
-    return Json{{"serial", made.serial},           {"valid_until", dateText(made.validUntil)},
-                {"supersedes", supersedes},        {"readings", made.readings},
-                {"session_head", made.sessionHead}, {"simulated", made.simulated}};
+    return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
+                {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
 }
 
 }  // namespace

@@ -16,9 +16,9 @@
 
 namespace tacto {
 
-/// The program's resources folder (protocols/, examples/, limit sets beside the built-in ones ...): $TACTOSCOPE_RESOURCES; else `resources` beside
-/// or above the executable (a build inside the source tree); else the installed share folder.
-/// Errors: NotFound naming what was tried.
+/// The program's resources folder (protocols/, examples/, limit sets beside the built-in ones ...):
+/// $TACTOSCOPE_RESOURCES; else `resources` beside or above the executable (a build inside the source tree); else the
+/// installed share folder. Errors: NotFound naming what was tried.
 [[nodiscard]] Result<std::filesystem::path> resourcesFolder();
 
 /// The file of a shipped drawing ("wiring"). Errors: InvalidArgument naming those there are.

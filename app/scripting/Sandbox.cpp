@@ -229,7 +229,8 @@ std::optional<ScriptError> Sandbox::Engine::evaluate(const QString& code, const 
         value = js.evaluate(code, from, 1, &trace);
     } catch (const std::bad_alloc&) {
         ranOutOfMemory = true;
-        return ScriptError{ErrorCode::Stopped, "the script asked for more memory than there is; output is off", file, 0};
+        return ScriptError{ErrorCode::Stopped, "the script asked for more memory than there is; output is off", file,
+                           0};
     }
     if (result != nullptr) *result = value;
     if (js.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file, 0};

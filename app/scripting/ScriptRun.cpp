@@ -245,9 +245,8 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     State* raw = state.get();  // the thread keeps the port, which is the state, alive
     state->thread = std::make_unique<ScriptThread>(state, state->request.script,
                                                    [raw](Sandbox& sandbox) { raw->execute(sandbox); });
-    state->memory =
-        std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
-                                      state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
+    state->memory = std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
+                                                  state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
     return std::unique_ptr<ScriptRun>(new ScriptRun(std::move(state)));
 }
 
@@ -257,9 +256,7 @@ ScriptRun::~ScriptRun() {
     state_->thread.reset();
 }
 
-void ScriptRun::stop(const char* by) noexcept {
-    state_->stop(by);
-}
+void ScriptRun::stop(const char* by) noexcept { state_->stop(by); }
 
 void ScriptRun::pause() noexcept {
     const std::lock_guard lock(state_->control);

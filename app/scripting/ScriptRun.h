@@ -43,7 +43,7 @@ struct ScriptProgress {
 struct RunRequest {
     ProtocolSource script;
     nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
-    std::set<std::string> operatorGave;  ///< names of the parameters that the operator set on purpose
+    std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set on purpose
     /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;

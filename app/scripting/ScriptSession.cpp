@@ -13,8 +13,7 @@
 
 namespace tacto {
 
-ScriptSession::ScriptSession(const RunRequest& request)
-    : request_(request), random_(request.seed, "protocol script") {
+ScriptSession::ScriptSession(const RunRequest& request) : request_(request), random_(request.seed, "protocol script") {
     if (request.bench != nullptr) chosen_ = request.bench->profile();
 }
 

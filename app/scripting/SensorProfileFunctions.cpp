@@ -93,8 +93,8 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
 
     Profile inForce = session.bench().profile();
     inForce.roughness = *roughness;
-    // What is kept is the operator's profile with other scales: encoding, area, loads and ceilings are not a script's to
-    // write (hazard H1).
+    // What is kept is the operator's profile with other scales: encoding, area, loads and ceilings are not a script's
+    // to write (hazard H1).
     Profile profile = session.chosenProfile();
     profile.roughness = *roughness;
     profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, today,
@@ -119,7 +119,8 @@ std::vector<HostFunction> sensorProfileFunctions() {
         {"bench",
          "profilometer",
          HostKind::Function,
-         {{"path", "text", "", "of a CSV that a profilometer exported: a parameter that the operator gave, or entered"}},
+         {{"path", "text", "",
+           "of a CSV that a profilometer exported: a parameter that the operator gave, or entered"}},
          "Finds Ra and Rz in it, by name and unit.",
          "{ ra_um, rz_um, ra_values, rz_values }: means over that many values; rz_um is null where it is not stated.",
          "Throws for a path that the operator did not give; with the line and the reason where no Ra with a unit is "

@@ -14,8 +14,8 @@ Instant read(clockid_t clock) noexcept {
     return std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec);
 }
 
-/// CLOCK_BOOTTIME counts on while the computer sleeps, CLOCK_MONOTONIC (the steady clock) does not. The two are not read
-/// in one instruction: a reading that a pause came between is taken again, or the pause would pass for sleep.
+/// CLOCK_BOOTTIME counts on while the computer sleeps, CLOCK_MONOTONIC (the steady clock) does not. The two are not
+/// read in one instruction: a reading that a pause came between is taken again, or the pause would pass for sleep.
 Instant asleepSinceBoot() noexcept {
     constexpr Instant kTogether = std::chrono::milliseconds(1);
     constexpr int kAttempts = 100;

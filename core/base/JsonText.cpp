@@ -36,7 +36,8 @@ public:
     bool end_object() { return close(); }
     bool end_array() { return close(); }
     bool key(std::string& name) {
-        if (within_.back()->contains(name)) return refuse(fmt::format("the key \"{}\" stands twice in one object", name));
+        if (within_.back()->contains(name))
+            return refuse(fmt::format("the key \"{}\" stands twice in one object", name));
         key_ = std::move(name);
         return true;
     }
@@ -92,7 +93,8 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
         return fail(ErrorCode::ParseError, "{}: {} bytes; at most {} are accepted", source, text.size(), limits.bytes);
     }
     // The library takes a null byte for the end, whatever follows.
-    if (text.find('\0') != std::string_view::npos) return fail(ErrorCode::ParseError, "{}: a null byte is not JSON", source);
+    if (text.find('\0') != std::string_view::npos)
+        return fail(ErrorCode::ParseError, "{}: a null byte is not JSON", source);
     Builder builder(limits.depth);
     if (json::sax_parse(text.begin(), text.end(), &builder)) return builder.take();
     if (!builder.isSyntax()) return fail(ErrorCode::ParseError, "{}: {}", source, builder.problem());

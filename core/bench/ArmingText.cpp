@@ -38,14 +38,15 @@ std::string mostOf(const SourceTraits& source, const EncodingProfile& encoding, 
     double volts = encoding.amplitudeMax.value();
     const double low = effectiveImpedance(range.min, leading).value();
     const double high = effectiveImpedance(range.max, leading).value();
-    // An encoding that holds charge or energy follows the impedance up, at most to twice what it was: see heldAmplitude().
+    // An encoding that holds charge or energy follows the impedance up, at most to twice what it was: see
+    // heldAmplitude().
     if (encoding.hold != Hold::Voltage && std::isfinite(high / low)) volts *= std::min(2.0, high / low);
     double most_mA = 1e3 * volts / low;
     if (source.drive == Drive::Current) {
         most_mA = low > 0 ? std::min(most_mA, source.amplitudeMax) : source.amplitudeMax;
     } else {
-        const auto most = worstExposure(voltageTrain(encoding, Volts(volts)), encoding.intervalMin, range, source,
-                                        std::nan(""));
+        const auto most =
+            worstExposure(voltageTrain(encoding, Volts(volts)), encoding.intervalMin, range, source, std::nan(""));
         most_mA = most.at(Quantity::PeakCurrent);
     }
     return std::isfinite(most_mA) ? fmt::format("up to {:.3g} V and {:.3g} mA", volts, most_mA)

@@ -8,8 +8,8 @@
 // Every call that starts output is done for an order of the operator, which begin() names by the moment at which it was
 // given. A stop ends that order for good; only an order from after the stop runs.
 //
-// Thread-safety: stop(), pause(), resume(), stops(), telemetry() and deviceReport() from any thread; everything else has
-// one caller (a script's thread, or the program).
+// Thread-safety: stop(), pause(), resume(), stops(), telemetry() and deviceReport() from any thread; everything else
+// has one caller (a script's thread, or the program).
 #pragma once
 
 #include <chrono>
@@ -49,8 +49,8 @@ struct BenchConfig {
     /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
     std::optional<std::chrono::sys_days> calibratedUntil;
     std::chrono::sys_days (*today)() = nullptr;  ///< UTC; null asks the system
-    /// Whose stops end the orders of this bench; null: its own. `asked` is when the operator asked for the bench, and its
-    /// first order; without `stops` that is now.
+    /// Whose stops end the orders of this bench; null: its own. `asked` is when the operator asked for the bench, and
+    /// its first order; without `stops` that is now.
     std::shared_ptr<StopCounter> stops;
     StopMark asked = {};
     /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator goes on from there, and is held
@@ -82,10 +82,9 @@ public:
     /// What stop() raises.
     [[nodiscard]] StopCounter& stops() noexcept;
 
-    /// Disarmed → Checking (one small pulse) → Armed. Where the stimulator does not read back and an oscilloscope is open,
-    /// that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for captures.
-    /// Errors: NotArmed with what is missing; LimitExceeded; Device;
-    /// Stopped.
+    /// Disarmed → Checking (one small pulse) → Armed. Where the stimulator does not read back and an oscilloscope is
+    /// open, that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for
+    /// captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
     /// The same check of the load, after which the bench is disarmed, whatever came of it. Nothing but the check pulse
     /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().

@@ -78,17 +78,17 @@ Result<void> Bench::State::noteArming(const ArmRequest& request, const GateSetup
     auto limits = nlohmann::json::array();
     for (const auto& set : setup.limits) limits.push_back(set.id);
     const auto area = setup.electrodeArea;
-    const auto noted = config.session->event(
-        config.clock->now(), "arming",
-        {{"load", request.load},
-         {"load_least", setup.load.min.text()},
-         {"load_most", setup.load.max.text()},
-         {"electrode_area_cm2", area ? nlohmann::json(area->value()) : nlohmann::json()},
-         {"limits", limits},
-         {"ceilings", toJson(config.profile).at("safety").at("ceilings")},
-         {"calibrated", setup.calibrated},
-         {"mode", nameOf(setup.mode)},
-         {"confirmed", request.confirmed}});
+    const auto noted =
+        config.session->event(config.clock->now(), "arming",
+                              {{"load", request.load},
+                               {"load_least", setup.load.min.text()},
+                               {"load_most", setup.load.max.text()},
+                               {"electrode_area_cm2", area ? nlohmann::json(area->value()) : nlohmann::json()},
+                               {"limits", limits},
+                               {"ceilings", toJson(config.profile).at("safety").at("ceilings")},
+                               {"calibrated", setup.calibrated},
+                               {"mode", nameOf(setup.mode)},
+                               {"confirmed", request.confirmed}});
     if (!noted) return failure(noted);
     return {};
 }

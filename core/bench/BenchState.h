@@ -28,7 +28,7 @@ struct Bench::State {
     BenchConfig config;
     VirtualClock* virtualClock = nullptr;  // null on the steady clock
     SourceTraits source;
-    KnownLines applied;  // config.calibration, or nothing while it is left aside
+    KnownLines applied;                  // config.calibration, or nothing while it is left aside
     std::unique_ptr<UnitRecord> record;  // of the stimulator, where one is kept; outlives those that write into it
     SafetyGate gate;
     Interlock interlock;
@@ -90,9 +90,7 @@ struct Bench::State {
     }
 
     /// A stop has come since the operator gave the order that is carried out now.
-    [[nodiscard]] bool stopped() const noexcept {
-        return stops->movedSince(order.load(std::memory_order_acquire));
-    }
+    [[nodiscard]] bool stopped() const noexcept { return stops->movedSince(order.load(std::memory_order_acquire)); }
     [[nodiscard]] const ReportingDevice* reportingDevice(Role role) const noexcept {
         const auto& devices = config.devices;
         const Device* device = role == Role::Sensor         ? static_cast<const Device*>(devices.sensor.get())

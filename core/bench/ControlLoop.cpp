@@ -13,7 +13,7 @@ namespace {
 
 constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
 constexpr Instant kReportLook = std::chrono::milliseconds(100);
-constexpr Instant kSlept = std::chrono::seconds(1);  // shorter is a silence as any other
+constexpr Instant kSlept = std::chrono::seconds(1);         // shorter is a silence as any other
 constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
 
 }  // namespace

@@ -91,8 +91,8 @@ public:
     void noteAmplitude(const SeenAmplitude& seen);
 
     /// One turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one before
-    /// (the process was stopped, the machine stood still) finds a fault and switches off before anything else; one after
-    /// the computer slept for more than a second disarms, and counts as a stop.
+    /// (the process was stopped, the machine stood still) finds a fault and switches off before anything else; one
+    /// after the computer slept for more than a second disarms, and counts as a stop.
     void step(Instant now) noexcept;
     /// Records a change of the interlock that came from outside, for a bench that will not step again.
     void noteState(Instant now) noexcept;
@@ -101,9 +101,7 @@ public:
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
     /// For how long the computer slept before the last stop that a sleep was; 0 = never. Any thread.
-    [[nodiscard]] Instant sleptBeforeStop() const noexcept {
-        return Instant(slept_.load(std::memory_order_acquire));
-    }
+    [[nodiscard]] Instant sleptBeforeStop() const noexcept { return Instant(slept_.load(std::memory_order_acquire)); }
     /// What comes from now on is another order, which no sleep has stopped.
     void forgetSleep() noexcept { slept_.store(0, std::memory_order_release); }
     /// Faults so far. Any thread.
@@ -180,13 +178,13 @@ private:
 
     // The loop's own:
     std::optional<ArmCommand> arming_;
-    bool checkPosted_ = false;  // of arming_
-    bool checkRead_ = false;    // of arming_: the device has reported, the capture has not come
+    bool checkPosted_ = false;               // of arming_
+    bool checkRead_ = false;                 // of arming_: the device has reported, the capture has not come
     std::optional<Result<Ohms>> confirmed_;  // of arming_: what the capture showed
-    Instant asleepSeen_{0};     // of the clock, when it was looked at last after a silence
-    StopMark order_;            // for which the output was armed, or is being armed
-    std::size_t told_ = 0;      // trains, for the ring of shown_
-    double expected_ = NAN;     // amplitude of the train that was posted last, V or mA, as it should come out
+    Instant asleepSeen_{0};                  // of the clock, when it was looked at last after a silence
+    StopMark order_;                         // for which the output was armed, or is being armed
+    std::size_t told_ = 0;                   // trains, for the ring of shown_
+    double expected_ = NAN;  // amplitude of the train that was posted last, V or mA, as it should come out
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

@@ -86,21 +86,21 @@ void ControlLoop::judgeReports() noexcept {
 void ControlLoop::recordTrain(const TrainReport& report, const char* name) noexcept {
     if (parts_.recorder == nullptr) return;
     const auto& train = report.train;
-    parts_.recorder->command(report.onset, name,
-                             {{"is_check", report.isCheck ? 1.0 : 0.0},
-                              {isCurrent(train.amplitude) ? "amplitude_ma" : "amplitude_v", report.amplitude},
-                              {"measured", report.measured},
-                              {"pulses", static_cast<double>(train.pulses)},
-                              {"rate_hz", train.rate.value()},
-                              {"width_s", Seconds(train.phaseWidth).count()},
-                              {"gap_s", Seconds(train.interPhaseGap).count()},
-                              {"recharge_ratio", train.shape == PulseShape::AsymmetricBiphasic ? train.rechargeRatio
-                                                                                                : NAN},
-                              {"interval_s", report.interval_s},
-                              {"approved_until_s", toSeconds(report.approvedUntil)},
-                              {"impedance_ohm", report.impedance_ohm},
-                              {"imbalance", report.imbalance}},
-                             report.error.empty() ? shapeText(train) : report.error.view());
+    parts_.recorder->command(
+        report.onset, name,
+        {{"is_check", report.isCheck ? 1.0 : 0.0},
+         {isCurrent(train.amplitude) ? "amplitude_ma" : "amplitude_v", report.amplitude},
+         {"measured", report.measured},
+         {"pulses", static_cast<double>(train.pulses)},
+         {"rate_hz", train.rate.value()},
+         {"width_s", Seconds(train.phaseWidth).count()},
+         {"gap_s", Seconds(train.interPhaseGap).count()},
+         {"recharge_ratio", train.shape == PulseShape::AsymmetricBiphasic ? train.rechargeRatio : NAN},
+         {"interval_s", report.interval_s},
+         {"approved_until_s", toSeconds(report.approvedUntil)},
+         {"impedance_ohm", report.impedance_ohm},
+         {"imbalance", report.imbalance}},
+        report.error.empty() ? shapeText(train) : report.error.view());
 }
 
 void ControlLoop::recordBurst(const TrainReport& report, const char* name) noexcept {
@@ -128,8 +128,8 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
         return;
     }
     recordTrain(report, report.outcome == TrainOutcome::Failed ? "failed"
-                          : report.isCheck                       ? "impedance check"
-                                                                 : "delivered");
+                        : report.isCheck                       ? "impedance check"
+                                                               : "delivered");
     if (report.outcome == TrainOutcome::Failed) return trip(FaultCause::DeviceFault, report.error.view(), now);
     if (report.isCheck && arming_) return judgeCheck(report);
 
@@ -145,8 +145,8 @@ void ControlLoop::judge(const TrainReport& report) noexcept {
     if (parts_.stimulator->device().traits().readsBack && mayPost(report.isCheck)) judgeImpedance(report);
 }
 
-/// What was told proves nothing: a calibration may have made it so. The command must come out, read back in the device's
-/// own steps; a check pulse is so small that a step would excuse anything.
+/// What was told proves nothing: a calibration may have made it so. The command must come out, read back in the
+/// device's own steps; a check pulse is so small that a step would excuse anything.
 bool ControlLoop::judgeReadBack(const TrainReport& report) noexcept {
     if (std::isnan(report.measured)) return false;  // it is not read back
     const double expected = report.isCheck ? report.amplitude : expected_;

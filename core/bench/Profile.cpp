@@ -14,8 +14,7 @@ using nlohmann::json;
 
 Result<double> positive(const json& value, std::string_view key) {
     if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>())) {
-        return fail(ErrorCode::InvalidArgument, "safety.{} is {}; a number above 0 is expected", key,
-                    shownJson(value));
+        return fail(ErrorCode::InvalidArgument, "safety.{} is {}; a number above 0 is expected", key, shownJson(value));
     }
     return value.get<double>();
 }
@@ -41,8 +40,7 @@ Result<Ceilings> readCeilings(const json& section) {
 }
 
 Result<void> readSafety(const json& section, Profile& profile) {
-    if (auto known =
-            onlyKeys(section, {"load_low_ohm", "load_high_ohm", "electrode_area_cm2", "ceilings"}, "safety");
+    if (auto known = onlyKeys(section, {"load_low_ohm", "load_high_ohm", "electrode_area_cm2", "ceilings"}, "safety");
         !known) {
         return known;
     }

@@ -101,8 +101,12 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     last_ = command;
     lastOnset_ = onset;
     const double level = levelOf(rounded->train);
-    return PlannedTrain{std::move(*approved), onset,    command,
-                        *held,                *rounded, calibration_ ? calibration_->amplitude.delivered(level) : level};
+    return PlannedTrain{std::move(*approved),
+                        onset,
+                        command,
+                        *held,
+                        *rounded,
+                        calibration_ ? calibration_->amplitude.delivered(level) : level};
 }
 
 }  // namespace tacto

@@ -35,7 +35,7 @@ using CalibrationDate = std::chrono::year_month_day;
 struct CalibrationInstrument {
     std::string name;
     std::string serial;
-    std::optional<CalibrationDate> due;  ///< of its own calibration; nothing: it was not stated
+    std::optional<CalibrationDate> due;     ///< of its own calibration; nothing: it was not stated
     std::optional<double> gainTolerance{};  ///< of the amplitude it read: half-width, relative; nothing: not stated
     std::string statedBy{};                 ///< "the instrument" or "the operator"; empty where it was not stated
 };

@@ -40,9 +40,8 @@ Result<void> checkLine(const StoredLine& line, const std::string& serial, std::s
                     serial, quantity, line.uncertainty_pct);
     }
     if (line.residual && !(*line.residual >= 0 && std::isfinite(*line.residual))) {
-        return fail(ErrorCode::InvalidArgument,
-                    "calibration of {}: largest residual of {} {}; 0 or more was expected", serial, quantity,
-                    *line.residual);
+        return fail(ErrorCode::InvalidArgument, "calibration of {}: largest residual of {} {}; 0 or more was expected",
+                    serial, quantity, *line.residual);
     }
     return {};
 }

@@ -18,8 +18,8 @@ enum class ElectrodeState { NotMeasured, Ok, Open, Short };
 struct StimulatorStatus {
     Instant at{0};            ///< when the device was read
     bool delivering = false;  ///< a train is in progress
-    /// When that train ends, where the driver knows better than from its onset: pulses that the host sends one by one may
-    /// slip.
+    /// When that train ends, where the driver knows better than from its onset: pulses that the host sends one by one
+    /// may slip.
     std::optional<Instant> trainEnd = {};
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     std::optional<double> amplitude;  ///< V or mA by drive: the leading phase's end, as the device measured it

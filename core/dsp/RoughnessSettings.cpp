@@ -36,9 +36,7 @@ class Section {
 public:
     Section(const Json& json, std::string name) : json_(json), name_(std::move(name)) {}
 
-    Result<void> only(std::initializer_list<std::string_view> keys) const {
-        return onlyKeys(json_, keys, name_);
-    }
+    Result<void> only(std::initializer_list<std::string_view> keys) const { return onlyKeys(json_, keys, name_); }
     Result<void> number(const char* key, double& into) const {
         if (!json_.contains(key)) return {};
         if (!json_[key].is_number()) return wrongType(key, "a number");
@@ -74,8 +72,8 @@ public:
 
 private:
     tl::unexpected<Error> wrongType(const char* key, std::string_view expected) const {
-        return fail(ErrorCode::ParseError, "{}: {} is {}; {} was expected", name_, key,
-                    shownJson(json_[key]), expected);
+        return fail(ErrorCode::ParseError, "{}: {} is {}; {} was expected", name_, key, shownJson(json_[key]),
+                    expected);
     }
     const Json& json_;
     std::string name_;

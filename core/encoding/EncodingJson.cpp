@@ -119,8 +119,7 @@ private:
         return found == section_.end() ? nullptr : &*found;
     }
     void refuse(const char* key, const json& value, std::string_view accepted) {
-        outcome_ = fail(ErrorCode::ParseError, "encoding.{} is {}, not {}", key,
-                        shownJson(value), accepted);
+        outcome_ = fail(ErrorCode::ParseError, "encoding.{} is {}, not {}", key, shownJson(value), accepted);
     }
 
     const json& section_;

@@ -36,9 +36,7 @@ Seconds PulseTrain::pulseDuration() const noexcept {
     return Seconds(inSeconds(phaseWidth) + gapOf(*this) + secondWidth(*this));
 }
 
-Seconds PulseTrain::outputDuration() const noexcept {
-    return Seconds((pulses - 1) / rate.value()) + pulseDuration();
-}
+Seconds PulseTrain::outputDuration() const noexcept { return Seconds((pulses - 1) / rate.value()) + pulseDuration(); }
 
 Result<void> validate(const PulseTrain& train) {
     const double amplitude = std::visit([](auto a) { return a.value(); }, train.amplitude);

@@ -54,8 +54,8 @@ DeliveryBounds::DeliveryBounds(const GateSetup& setup) noexcept
                  setup.source.accuracy.amplitude),
       width_(lineIn(setup.calibration, &StimulatorCalibration::phaseWidth), applied_, setup.source.accuracy.phaseWidth),
       gap_(lineIn(setup.calibration, &StimulatorCalibration::gap), applied_, setup.source.accuracy.gap),
-      interval_(lineIn(setup.calibration, &StimulatorCalibration::interval), applied_,
-                setup.source.accuracy.interval) {}
+      interval_(lineIn(setup.calibration, &StimulatorCalibration::interval), applied_, setup.source.accuracy.interval) {
+}
 
 PulseTrain DeliveryBounds::commandOf(const PulseTrain& told) const noexcept {
     return applied_ ? deliveredBy(told, *known_) : told;

@@ -23,7 +23,8 @@ struct TimeRange {
 /// The bounds of one quantity, in its own unit.
 class QuantityBounds {
 public:
-    QuantityBounds(const std::optional<CalibrationLine>& line, bool applied, const std::optional<Spread>& stated) noexcept;
+    QuantityBounds(const std::optional<CalibrationLine>& line, bool applied,
+                   const std::optional<Spread>& stated) noexcept;
     [[nodiscard]] double most(double told) const noexcept;
     [[nodiscard]] double least(double told) const noexcept;
     /// The same of a time; one that has no spread stays as it is to the last bit.

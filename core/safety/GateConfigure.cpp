@@ -57,8 +57,8 @@ Result<void> checkSource(const SourceTraits& s) {
         return invalid("the source's largest amplitude is {}; it must be above 0", s.amplitudeMax);
     if (checks(SourceAmplitudeStep) && !notNegative(s.amplitudeStep))
         return invalid("the source's amplitude step is {}; 0 or more is needed", s.amplitudeStep);
-    if (checks(SourceWidths) && !(notNegative(s.widthStep.count()) && notNegative(s.widthMin.count()) &&
-                                  positive(s.widthMax.count()))) {
+    if (checks(SourceWidths) &&
+        !(notNegative(s.widthStep.count()) && notNegative(s.widthMin.count()) && positive(s.widthMax.count()))) {
         return invalid("the source's pulse widths are {} to {} us in steps of {} us; finite numbers are needed",
                        s.widthMin.count(), s.widthMax.count(), s.widthStep.count());
     }

@@ -19,7 +19,7 @@
 namespace tacto {
 
 struct SafetyGate::State {
-    std::optional<GateSetup> setup;  // Nothing: everything is refused
+    std::optional<GateSetup> setup;        // Nothing: everything is refused
     std::optional<DeliveryBounds> bounds;  // of setup
     std::vector<gate::ActiveLimit> limits;
     LoadRange load;

@@ -13,7 +13,7 @@ using namespace gate;
 
 namespace {
 constexpr Instant kImpedanceAge = std::chrono::seconds(5);
-constexpr double kMostStretch = 2;  // the next request may need more than this one
+constexpr double kMostStretch = 2;    // the next request may need more than this one
 constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
 
 std::uint64_t firstEpoch() noexcept {
@@ -145,7 +145,8 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
         }
         if (auto known = s.withinCalibration(request); !known) return failure(known);
         if (checks(PersonLevel)) {
-            if (auto permitted = s.levels->permits(s.bounds->levelOf(request.train)); !permitted) return failure(permitted);
+            if (auto permitted = s.levels->permits(s.bounds->levelOf(request.train)); !permitted)
+                return failure(permitted);
         }
     }
     return grant(request.train, request.interval, epoch, now);
@@ -199,9 +200,10 @@ Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interva
                     lasts.count(), kLongestWithoutDeadMan.count());
     }
     if (checks(PastUnknown) && s.record != nullptr && now < s.record->quietUntil()) {
-        return fail(ErrorCode::LimitExceeded,
-                    "what this stimulator delivered last is not known: {}. It rests for another {:.1f} s; then try again",
-                    s.record->whyQuiet(), toSeconds(s.record->quietUntil() - now));
+        return fail(
+            ErrorCode::LimitExceeded,
+            "what this stimulator delivered last is not known: {}. It rests for another {:.1f} s; then try again",
+            s.record->whyQuiet(), toSeconds(s.record->quietUntil() - now));
     }
     request.stretch = bounds.stretch(interval);
     s.meter.forget(now, std::max(request.stretch, kMostStretch));

@@ -75,8 +75,9 @@ TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& s
     };
     const bool late = now - trainEnd > kStatusDeadline;
     if (!status) {
-        return late && checks(TrainNoStatus) ? found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train")
-                    : judgement;
+        return late && checks(TrainNoStatus)
+                   ? found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train")
+                   : judgement;
     }
     if (checks(TrainGarbage) && !(sane(status->imbalance) && sane(status->imbalanceUncertainty))) {
         return found(TrainFinding::Garbage,

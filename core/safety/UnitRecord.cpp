@@ -19,7 +19,7 @@ namespace tacto {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31'74'69'6e'75'74'63'61;  // "actunit1"
-constexpr double kMostStretch = 2;                            // as the gate: how much longer a window may last
+constexpr double kMostStretch = 2;                           // as the gate: how much longer a window may last
 
 /// FNV-1a over the bytes of what is checked. Against a torn or damaged record, not against a forger.
 std::uint64_t checksumOf(const void* data, std::size_t size) noexcept {
@@ -127,10 +127,10 @@ Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path
     if (file < 0) return cannot(path);
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
         const bool held = errno == EWOULDBLOCK;
-        tl::unexpected<Error> why = held ? fail(ErrorCode::Device,
-                                                "{} is driven by {}; end that first. Nothing was delivered here", unit,
-                                                holderOf(file))
-                                         : cannot(path);
+        tl::unexpected<Error> why =
+            held ? fail(ErrorCode::Device, "{} is driven by {}; end that first. Nothing was delivered here", unit,
+                        holderOf(file))
+                 : cannot(path);
         ::close(file);
         return why;
     }

@@ -7,8 +7,8 @@
 // start of the computer of which the wall time cannot say that it is long ago, are not believed: the unit then rests
 // until whatever it delivered is out of every window (quietUntil()).
 //
-// The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units keep
-// none: they are born with their bench, at rest.
+// The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units
+// keep none: they are born with their bench, at rest.
 //
 // Thread-safety: book() has one caller, the gate's; keepFault() and clearFault() have one caller at a time, the
 // interlock under its lock; the rest is constant after open().
@@ -54,8 +54,8 @@ public:
     /// A record from another start of the computer is long ago when the wall clock says at least this.
     static constexpr std::chrono::seconds kLongAgo{60};
 
-    /// Opens the record of `unit` ("sciencemode 1234") in `folder`, or makes it, and locks it. `clock` and `time` outlive
-    /// the record. Errors: Device when another process drives this unit, naming it; Io.
+    /// Opens the record of `unit` ("sciencemode 1234") in `folder`, or makes it, and locks it. `clock` and `time`
+    /// outlive the record. Errors: Device when another process drives this unit, naming it; Io.
     [[nodiscard]] static Result<std::unique_ptr<UnitRecord>> open(const std::filesystem::path& folder,
                                                                   std::string_view unit, const Clock& clock,
                                                                   const SystemTime& time = SystemTime::real());

@@ -95,11 +95,12 @@ nlohmann::json devicesJson(const std::vector<SessionDevice>& all) {
     auto devices = nlohmann::json::array();
     for (const auto& device : all) {
         const auto from = originOf(device);
-        devices.push_back({{"role", device.role},
-                           {"name", device.name},
-                           {"serial", device.serial},
-                           {"simulated", from == origin::kReplayedUnknown ? nlohmann::json() : nlohmann::json(device.simulated)},
-                           {"origin", from}});
+        devices.push_back(
+            {{"role", device.role},
+             {"name", device.name},
+             {"serial", device.serial},
+             {"simulated", from == origin::kReplayedUnknown ? nlohmann::json() : nlohmann::json(device.simulated)},
+             {"origin", from}});
     }
     return devices;
 }

@@ -138,8 +138,8 @@ public:
             captures.push_back(std::move(reading->capture));
         }
         DeviceIdentity identity{
-            uri.text(), Role::Oscilloscope, fmt::format("{} captures from {}", captures.size(), uri.path), "", "",
-            simulated.value_or(false)};
+            uri.text(), Role::Oscilloscope,       fmt::format("{} captures from {}", captures.size(), uri.path), "",
+            "",         simulated.value_or(false)};
         const auto origin = !simulated   ? StatedOrigin::NotStated
                             : *simulated ? StatedOrigin::Simulated
                                          : StatedOrigin::Measured;

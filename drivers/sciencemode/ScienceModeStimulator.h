@@ -4,8 +4,8 @@
 // deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, so that nothing lies
 // between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
 // electrode that is found off, an ack that is missing or a refusal ends the train there. Pulses never follow each other
-// faster than the approved rate, and a train whose next pulse is kLateMost late (a host that slept) is given up. repeat() uses mid
-// level, for bench loads, and only where the device was opened for it.
+// faster than the approved rate, and a train whose next pulse is kLateMost late (a host that slept) is given up.
+// repeat() uses mid level, for bench loads, and only where the device was opened for it.
 //
 // A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
 // the fault does.

@@ -123,7 +123,8 @@ void ScienceModeStimulator::firePlayed(Instant now) {
         if (!playing() || now < play_->due) return;  // another train by now
         play = *play_;
     }
-    // Each pulse is judged on its own interval: those before it have slipped, and moved it. A computer that slept is late.
+    // Each pulse is judged on its own interval: those before it have slipped, and moved it. A computer that slept is
+    // late.
     const Instant late = now - play.due + (clock_.asleep() - play.asleep);
     PulseReading reading;
     Instant written{0};

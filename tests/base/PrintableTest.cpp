@@ -15,7 +15,10 @@ TEST(Printable, SpellsOutWhatATerminalActsOn) {
     EXPECT_EQ(printable("a\rb\tc\x7f\a"), "a\\x0db\\x09c\\x7f\\x07");
     EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
     EXPECT_EQ(printable("a\u009b2Jb\u0085"), "a\\x9b2Jb\\x85") << "a C1 control in UTF-8";
-    EXPECT_EQ(printable("a\x9b" "2J"), "a\\x9b2J") << "and as a byte of its own";
+    EXPECT_EQ(printable("a\x9b"
+                        "2J"),
+              "a\\x9b2J")
+        << "and as a byte of its own";
 }
 
 TEST(Printable, SpellsOutWhatTurnsOrHidesText) {

@@ -1,5 +1,5 @@
-// A process that was stopped, a computer that slept: the loop and a device's thread wake in either order, and nothing is
-// delivered until somebody arms again (H2).
+// A process that was stopped, a computer that slept: the loop and a device's thread wake in either order, and nothing
+// is delivered until somebody arms again (H2).
 #include <gtest/gtest.h>
 
 #include "core/bench/Bench.h"
@@ -25,8 +25,8 @@ protected:
             parts.massager = &massagerSession;
         else
             parts.stimulator = &stimulatorSession;
-        loop = std::make_unique<ControlLoop>(std::move(parts), nullptr,
-                                             std::make_unique<TrainPlanner>(EncodingProfile{}, stimulator.traits(), gate));
+        loop = std::make_unique<ControlLoop>(
+            std::move(parts), nullptr, std::make_unique<TrainPlanner>(EncodingProfile{}, stimulator.traits(), gate));
     }
     void serve() {
         if (std::get<1>(GetParam()))
@@ -65,7 +65,9 @@ protected:
         const auto before = delivered();
         const Instant giveUp = clock.now() + 1s;
         // The device's thread is not served: what the loop hands over stays where it is.
-        const auto idle = [this] { return std::get<1>(GetParam()) ? massagerSession.idle() : stimulatorSession.idle(); };
+        const auto idle = [this] {
+            return std::get<1>(GetParam()) ? massagerSession.idle() : stimulatorSession.idle();
+        };
         while (idle() && clock.now() < giveUp) {
             clock.advanceTo(clock.now() + ControlLoop::kPeriod);
             serve();

@@ -122,8 +122,7 @@ TEST_F(StopTest, JustBeforeCheckingIsEnteredIsFollowedByNoCheckPulse) {
     parts.stops = &stops;
     for (const bool readsBack : {true, false}) {
         device.traits_.readsBack = readsBack;
-        ControlLoop loop(parts, nullptr,
-                         std::make_unique<TrainPlanner>(EncodingProfile{}, device.traits(), gate));
+        ControlLoop loop(parts, nullptr, std::make_unique<TrainPlanner>(EncodingProfile{}, device.traits(), gate));
         const auto asked = stops.mark();
         stops.raise();
         interlock.disarm("stopped");

@@ -80,7 +80,8 @@ TEST_F(RunOnHardware, IsNotCalledSimulatedForASimulatedFinger) {
     const auto script = desk_.protocol("feels.js", R"js(protocol({ title: "Feels", needs: ["sensor", "stimulator"] });
 function run(p) { bench.arm({ load: 1000 }); bench.drive("manual", { roughness: 0.5, pressure: 1 }); bench.wait(1.2);
   bench.disarm(); return verdict({ verdict: "pass" }); })js");
-    const Words first{"run", script, "--device", "sciencemode:?tty=" + pty_->path(), "--device", "sim:", "--out", "out"};
+    const Words first{"run",      script, "--device", "sciencemode:?tty=" + pty_->path(),
+                      "--device", "sim:", "--out",    "out"};
     auto second = first;
     second.insert(second.end(), {"--set", "confirm-arming=" + wanted(desk_.run(first).err)});
     const auto ran = desk_.run(second);

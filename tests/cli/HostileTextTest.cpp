@@ -47,8 +47,9 @@ TEST_F(HostileText, InARefusedTableIsSpelledOut) {
 }
 
 TEST_F(HostileText, InAScriptsNameTitleAndLogIsSpelledOut) {
-    desk_.protocol("evil\x1b[31m.js", "protocol({ title: \"Evil \\u001b[2J\", purpose: \"\\u009b1A\" });\n"
-                                   "function run(p) { log(\"one \\u001b[1A\\rtwo\"); throw new Error(\"\\u001b[0m\"); }");
+    desk_.protocol("evil\x1b[31m.js",
+                   "protocol({ title: \"Evil \\u001b[2J\", purpose: \"\\u009b1A\" });\n"
+                   "function run(p) { log(\"one \\u001b[1A\\rtwo\"); throw new Error(\"\\u001b[0m\"); }");
     const auto listed = desk_.run({"protocols"});
     EXPECT_THAT(listed.out, HasSubstr("Evil \\x1b[2J"));
     expectHarmless(listed);

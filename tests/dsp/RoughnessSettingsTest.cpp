@@ -52,7 +52,8 @@ TEST(RoughnessSettings, SurviveARoundTrip) {
 
 TEST(RoughnessSettings, RefuseUnknownKeysByName) {
     EXPECT_THAT(complaintAbout({{"smoothing", 0.05}}), HasSubstr("\"smoothing\" is not a known key; accepted are"));
-    EXPECT_THAT(complaintAbout({{"references", {{"H", 1}}}}), HasSubstr("roughness.references: \"H\" is not a known key"));
+    EXPECT_THAT(complaintAbout({{"references", {{"H", 1}}}}),
+                HasSubstr("roughness.references: \"H\" is not a known key"));
     EXPECT_THAT(complaintAbout({{"references", {{"h", {{"low", 1}}}}}}), HasSubstr("roughness.references.h"));
 }
 

@@ -14,9 +14,7 @@
 namespace tacto::test {
 
 /// A key as the X server sends it, to whatever has the focus there.
-inline void type(const QString& keys) {
-    ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0);
-}
+inline void type(const QString& keys) { ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0); }
 
 /// Moves to a place on the screen, in logical pixels, and clicks.
 inline void clickAt(const QPoint& global, const QString& button = "1") {

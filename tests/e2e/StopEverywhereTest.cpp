@@ -29,7 +29,7 @@
 namespace tacto::test {
 namespace {
 
-constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
+constexpr int kStopLimit_ms = 2000;   // for a loaded machine; the time taken is recorded
 constexpr int kOpenedBySeveral = -1;  // "Encoding profile" opens three
 
 /// How often app/gui calls the two functions that open dialogs.
@@ -76,9 +76,8 @@ protected:
         order.speed = 4;
         const auto before = window.desk().open();
         window.desk().openLive(order);
-        ASSERT_TRUE(comesTrue([&] {
-            return window.desk().activity() == gui::Activity::Live && window.desk().open() != before;
-        }));
+        ASSERT_TRUE(comesTrue(
+            [&] { return window.desk().activity() == gui::Activity::Live && window.desk().open() != before; }));
     }
     void deliver() {
         ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; }));

@@ -42,8 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(!profile.error().message.empty());
         return 0;
     }
-    const auto again = tacto::parseProfile(tacto::toJson(*profile).dump(-1, ' ', true, json::error_handler_t::replace),
-                                           "again.json");
+    const auto again =
+        tacto::parseProfile(tacto::toJson(*profile).dump(-1, ' ', true, json::error_handler_t::replace), "again.json");
     require(again && tacto::toJson(*again) == tacto::toJson(*profile));
     return 0;
 }

@@ -169,8 +169,13 @@ ReportModel separabilityModel(bool simulated, int repeats) {
     model.simulated = simulated;
     model.chainHead = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08";
     model.devices = {
-        {"stimulator", "Simulated voltage stimulator", "sim:stimulator?mode=voltage&gain=1.003", "SIM-0001", "1",
-         simulated, {}},
+        {"stimulator",
+         "Simulated voltage stimulator",
+         "sim:stimulator?mode=voltage&gain=1.003",
+         "SIM-0001",
+         "1",
+         simulated,
+         {}},
         {"oscilloscope", "Simulated oscilloscope, 10 MS/s", "sim:oscilloscope", "SIM-0002", "1", simulated, {}},
         {"sensor", "Simulated finger", "sim:sensor", "SIM-0003", "", simulated, {}}};
     model.settings = {{"Repeats per condition", "25"}, {"Drive from", "simulated or real finger"}, {"Load", "1 kΩ"}};

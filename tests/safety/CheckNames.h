@@ -1,5 +1,5 @@
-// CheckNames.h - the table of every check that has a case in GateCases. A check that is added to GateChecks.h and not to
-// this table does not build.
+// CheckNames.h - the table of every check that has a case in GateCases. A check that is added to GateChecks.h and not
+// to this table does not build.
 #pragma once
 
 #include <array>

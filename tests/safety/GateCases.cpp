@@ -211,9 +211,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, value);
     };
     const CalibrationLine known = exactLine(1, 0, 10, 50);
-    const auto times = [](double gain, double offset_us) {
-        return exactLine(gain, offset_us * 1e-6, 50e-6, 1e-3);
-    };
+    const auto times = [](double gain, double offset_us) { return exactLine(gain, offset_us * 1e-6, 50e-6, 1e-3); };
     add(MoreThanTold, "a phase that comes out longer than it is told", [=] {
         return refusedOnly(Quantity::PhaseCharge, 8.5, StimulatorCalibration{known, {}, times(1.05, 5), {}}, "8.6");
     });
@@ -268,8 +266,8 @@ void addStateCases(std::vector<GateCase>& cases) {
             });
         });
         for (const bool applied : {true, false}) {
-            add(Uncertainty, std::string("a calibration's uncertainty of the ") + kNames[static_cast<std::size_t>(part)],
-                [=] {
+            add(Uncertainty,
+                std::string("a calibration's uncertainty of the ") + kNames[static_cast<std::size_t>(part)], [=] {
                     return refusedWith([&](GateSetup& setup) {
                         const auto all = spoilt(Spread{0, part == 0 ? 2 : part == 3 ? 0.02 : 10e-6});
                         setup.calibration = StimulatorCalibration{
@@ -325,7 +323,8 @@ void addStateCases(std::vector<GateCase>& cases) {
         return true;
     };
     const auto full = [](SafetyGate& gate, VirtualClock& clock) {
-        return refuses(gate.approve({volts(40), Seconds(10), clock.now()}), ErrorCode::LimitExceeded, "4 trains before");
+        return refuses(gate.approve({volts(40), Seconds(10), clock.now()}), ErrorCode::LimitExceeded,
+                       "4 trains before");
     };
     add(MeterBooking, "what was approved before counts", [=] {
         Rig rig;

@@ -55,24 +55,22 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
 TEST(GateMutation, EveryRefusalHasItsCheck) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    for (const char* name :
-         {"AcceptedLevels.cpp", "GateConfigure.cpp", "GateJudge.cpp", "GateRequest.cpp", "Interlock.cpp",
-          "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
+    for (const char* name : {"AcceptedLevels.cpp", "GateConfigure.cpp", "GateJudge.cpp", "GateRequest.cpp",
+                             "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
         std::ifstream in(sourceDir() / "core" / "safety" / name);
         ASSERT_TRUE(in) << name;
         std::vector<std::string> lines;
         for (std::string line; std::getline(in, line);) lines.push_back(line);
         for (std::size_t at = 0; at < lines.size(); ++at) {
             const auto& line = lines[at];
-            const bool refuses = line.find("fail(ErrorCode") != std::string::npos ||
-                                 line.find("invalid(\"") != std::string::npos || line.ends_with("return invalid(") ||
-                                 line.find("refuse(ErrorCode") != std::string::npos ||
-                                 line.ends_with("return refuse(") || line.find("return found(") != std::string::npos ||
-                                 line.find("return late &&") != std::string::npos ||
-                                 line.find("return beyond(") != std::string::npos ||
-                                 (name == std::string("Heartbeat.h") && line.find("return false;") != std::string::npos);
-            const bool words = line.find("const auto") != std::string::npos ||
-                               line.find("std::forward<Args>") != std::string::npos;
+            const bool refuses =
+                line.find("fail(ErrorCode") != std::string::npos || line.find("invalid(\"") != std::string::npos ||
+                line.ends_with("return invalid(") || line.find("refuse(ErrorCode") != std::string::npos ||
+                line.ends_with("return refuse(") || line.find("return found(") != std::string::npos ||
+                line.find("return late &&") != std::string::npos || line.find("return beyond(") != std::string::npos ||
+                (name == std::string("Heartbeat.h") && line.find("return false;") != std::string::npos);
+            const bool words =
+                line.find("const auto") != std::string::npos || line.find("std::forward<Args>") != std::string::npos;
             if (!refuses || words) continue;
             ++refusals;
             bool named = false;

@@ -154,7 +154,8 @@ private:
         const auto doubt = [&](double most) -> std::optional<Spread> {
             if (!unsure) return Spread{};
             if (dice_.chance(0.3)) return std::nullopt;  // 5 %
-            return Spread{dice_.chance(0.4) ? 0 : dice_.between(0, 0.03), dice_.chance(0.5) ? 0 : dice_.between(0, most)};
+            return Spread{dice_.chance(0.4) ? 0 : dice_.between(0, 0.03),
+                          dice_.chance(0.5) ? 0 : dice_.between(0, most)};
         };
         const auto ofAmplitude = doubt(0.2), ofWidth = doubt(2e-6), ofGap = doubt(2e-6), ofInterval = doubt(1e-4);
         device_ = {truly(known_.amplitude, ofAmplitude, 1), truly(known_.width, ofWidth, 1e6),
@@ -499,11 +500,11 @@ private:
     };
 
     Unit& unit_;
-    double drifts_ = 0;  // How far the load moves from train to train, of itself
-    double loses_ = 0;   // How often a train finds no contact
+    double drifts_ = 0;   // How far the load moves from train to train, of itself
+    double loses_ = 0;    // How often a train finds no contact
     double halving_ = 0;  // V at which the load's R_p has fallen to half; 0: it does not
-    double pace_ = 1;   // Of true time to the computer's
-    double scale_ = 1;  // Where in the permitted range the truth lies
+    double pace_ = 1;     // Of true time to the computer's
+    double scale_ = 1;    // Where in the permitted range the truth lies
     bool configured_ = false;
     PulseTrain last_;  // approved
     std::deque<Pending> pending_;

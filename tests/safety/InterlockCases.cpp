@@ -102,15 +102,12 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         Interlock lock;
         return lock.connect().has_value() && notArmed(lock.arm(evidence(), 0s), "must be checking");
     });
-    add(ArmLimits, "arming without limits", [] {
-        return refusesToArm("no limit set", [](auto& e) { e.limitsLoaded = false; });
-    });
-    add(ArmIdentity, "arming an unknown device", [] {
-        return refusesToArm("not identified", [](auto& e) { e.deviceIdentified = false; });
-    });
-    add(ArmOperator, "arming without the operator", [] {
-        return refusesToArm("has not confirmed", [](auto& e) { e.operatorConfirmed = false; });
-    });
+    add(ArmLimits, "arming without limits",
+        [] { return refusesToArm("no limit set", [](auto& e) { e.limitsLoaded = false; }); });
+    add(ArmIdentity, "arming an unknown device",
+        [] { return refusesToArm("not identified", [](auto& e) { e.deviceIdentified = false; }); });
+    add(ArmOperator, "arming without the operator",
+        [] { return refusesToArm("has not confirmed", [](auto& e) { e.operatorConfirmed = false; }); });
     add(ArmImpedanceMissing, "arming without an impedance", [] {
         return refusesToArm("no impedance was measured", [](auto& e) { e.impedance.reset(); }) &&
                refusesToArm("is not confirmed", [](auto& e) {
@@ -124,8 +121,10 @@ void addInterlockCases(std::vector<GateCase>& cases) {
                refusesToArm("is accepted", [](auto& e) { e.impedance = Ohms(kNaN); });
     });
     add(ArmImpedanceAge, "arming on an old impedance", [] {
-        return refusesToArm("at most 5 s", [](auto& e) { e.impedanceAt = 4999ms; }, 10s) &&
-               refusesToArm("at most 5 s", [](auto& e) { e.impedanceAt = 10s + 1ns; }, 10s);
+        return refusesToArm(
+                   "at most 5 s", [](auto& e) { e.impedanceAt = 4999ms; }, 10s) &&
+               refusesToArm(
+                   "at most 5 s", [](auto& e) { e.impedanceAt = 10s + 1ns; }, 10s);
     });
     add(ResetState, "resetting what is not faulted", [] {
         Interlock lock;
@@ -149,12 +148,10 @@ void addInterlockCases(std::vector<GateCase>& cases) {
                found([](auto& s) { s.imbalance = -1; }) == TrainFinding::Garbage &&
                found([](auto& s) { s.imbalanceUncertainty = kNaN; }) == TrainFinding::Garbage;
     });
-    add(TrainOpen, "an open electrode", [] {
-        return found([](auto& s) { s.electrode = ElectrodeReading::Open; }) == TrainFinding::Open;
-    });
-    add(TrainShort, "shorted electrodes", [] {
-        return found([](auto& s) { s.electrode = ElectrodeReading::Short; }) == TrainFinding::Short;
-    });
+    add(TrainOpen, "an open electrode",
+        [] { return found([](auto& s) { s.electrode = ElectrodeReading::Open; }) == TrainFinding::Open; });
+    add(TrainShort, "shorted electrodes",
+        [] { return found([](auto& s) { s.electrode = ElectrodeReading::Short; }) == TrainFinding::Short; });
     add(TrainNetCharge, "net charge at a person", [] {
         return found([](auto& s) { s.imbalance = 0.0105; }) == TrainFinding::Ok &&
                found([](auto& s) { s.imbalance = 0.0115; }) == TrainFinding::NetCharge;
@@ -214,9 +211,8 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         return one.permits(milliamps(0.3)).has_value() &&
                refuses(one.permits(milliamps(0.31)), ErrorCode::LimitExceeded, "discomfort limit");
     });
-    add(LevelRamp, "a level above the ramp", [=] {
-        return refuses(levels().permits(milliamps(0.51)), ErrorCode::LimitExceeded, "ramp rule");
-    });
+    add(LevelRamp, "a level above the ramp",
+        [=] { return refuses(levels().permits(milliamps(0.51)), ErrorCode::LimitExceeded, "ramp rule"); });
     add(LevelAccept, "accepting a level that was not permitted", [=] {
         auto one = levels();
         return !one.accept(milliamps(1)) && one.accept(milliamps(0.5)).has_value();

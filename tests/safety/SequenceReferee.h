@@ -233,10 +233,10 @@ protected:
         if (!allowed_.person) return;
         if (train.shape == PulseShape::Monophasic || !current)
             violation("a person had a monophasic pulse or a voltage");
-        if (!isCheck && !(now() - measuredAt_ <= 5.1)) violation("a person was stimulated on an old or wrong impedance");
+        if (!isCheck && !(now() - measuredAt_ <= 5.1))
+            violation("a person was stimulated on an old or wrong impedance");
         const double accepted = !sameKind(train) ? 0 : ascending_ ? seriesLast_ : accepted_;
-        const double ceiling =
-            isCheck ? allowed_.discomfort : std::min(allowed_.discomfort, accepted + allowed_.step);
+        const double ceiling = isCheck ? allowed_.discomfort : std::min(allowed_.discomfort, accepted + allowed_.step);
         hold(Near::Level, amplitude, ceiling, false, "a person's level in A");
     }
 

@@ -96,7 +96,8 @@ TEST_F(UnitRecordFile, FourRunsInARowKeepTheLimitTogether) {
     for (const Instant first : delivered) {
         double squares = 0;
         for (const Instant at : delivered)
-            squares += at >= first && at - first < std::chrono::seconds(5) ? 0.5 * 0.5 * 0.4e-3 : 0;  // 40 V into 80 ohm
+            squares +=
+                at >= first && at - first < std::chrono::seconds(5) ? 0.5 * 0.5 * 0.4e-3 : 0;  // 40 V into 80 ohm
         worst_mA = std::max(worst_mA, 1e3 * std::sqrt(squares / 5));
     }
     EXPECT_LT(worst_mA, 10);
@@ -302,8 +303,7 @@ TEST_F(UnitRecordFile, AFaultStaysWithTheUnitUntilItIsReset) {
         ASSERT_TRUE(interlock.connect());
         interlock.keepFaultsIn(*two->record);
         EXPECT_EQ(interlock.state(), InterlockState::Faulted);
-        EXPECT_THAT(std::string(interlock.reason().view()),
-                    HasSubstr("left by an earlier run: the electrode is open"));
+        EXPECT_THAT(std::string(interlock.reason().view()), HasSubstr("left by an earlier run: the electrode is open"));
         EXPECT_TRUE(interlock.causePersists(FaultCause::OpenElectrode));
         EXPECT_TRUE(interlock.causePersists(FaultCause::DeviceLost));
         EXPECT_FALSE(interlock.reset()) << "its causes are looked at again first";

@@ -55,8 +55,8 @@ TEST_F(Arming, AYesConfirmsNothing) {
 }
 
 TEST_F(Arming, TheTextOfWhatWouldBeArmedConfirmsItAndNoOtherLoad) {
-    const auto outcome = run("bench.arm({ load: 1000 }); bench.disarm(); bench.arm({ load: 2000 });",
-                             {{"confirm-arming", kInto1k}});
+    const auto outcome =
+        run("bench.arm({ load: 1000 }); bench.disarm(); bench.arm({ load: 2000 });", {{"confirm-arming", kInto1k}});
     ASSERT_TRUE(outcome.error);
     EXPECT_EQ(outcome.error->code, ErrorCode::NotArmed);
     EXPECT_THAT(outcome.error->message, HasSubstr(kInto2k));
@@ -75,15 +75,15 @@ TEST_F(Arming, AnotherElectrodeAreaIsAnotherText) {
     auto profile = rig_.bench().profile();
     profile.electrodeArea = SquareCentimetres(4);
     ASSERT_TRUE(rig_.bench().setProfile(profile));
-    const auto outcome =
-        run("bench.setElectrodeArea(3); bench.arm({ load: 1000 });", {{"confirm-arming", kInto1k}});
+    const auto outcome = run("bench.setElectrodeArea(3); bench.arm({ load: 1000 });", {{"confirm-arming", kInto1k}});
     ASSERT_TRUE(outcome.error);
     EXPECT_THAT(outcome.error->message, HasSubstr("electrode area 3 cm2"));
     EXPECT_TRUE(nothingWasDelivered());
 }
 
 TEST_F(Arming, IsConfirmedOnceForALoadThatStays) {
-    const auto outcome = rig_.run(withRun("for (let i = 0; i < 3; ++i) { bench.arm({ load: 1000 }); bench.disarm(); }"));
+    const auto outcome =
+        rig_.run(withRun("for (let i = 0; i < 3; ++i) { bench.arm({ load: 1000 }); bench.disarm(); }"));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(rig_.technician().asked.size(), 1U);
     EXPECT_EQ(rig_.technician().asked.at(0).confirms, kInto1k);
@@ -100,9 +100,9 @@ TEST_F(Arming, IsConfirmedAgainAfterTheLoadWasFitted) {
 
 TEST_F(Arming, ThatFailsLeavesTheOutputDisarmedWhateverWasArmedBefore) {
     for (const char* second : {"bench.arm({ load: 2000 });", "bench.arm({ load: \"ten\" });", "bench.arm(7);"}) {
-        const auto outcome = run(fmt::format("bench.arm({{ load: 1000 }}); try {{ {} }} catch (e) {{ log(bench.live().state); }}",
-                                             second),
-                                 {{"confirm-arming", kInto1k}});
+        const auto outcome = run(
+            fmt::format("bench.arm({{ load: 1000 }}); try {{ {} }} catch (e) {{ log(bench.live().state); }}", second),
+            {{"confirm-arming", kInto1k}});
         ASSERT_FALSE(outcome.error) << outcome.error->message;
         EXPECT_EQ(outcome.log, std::vector<std::string>{"disarmed"}) << second;
     }

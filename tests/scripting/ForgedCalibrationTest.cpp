@@ -98,8 +98,9 @@ TEST_F(ForgedCalibration, OneOfInventedReadingsIsNotKept) {
 
 TEST_F(ForgedCalibration, NumbersOfReadingsThatDoNotExistAreRefused) {
     RecordProperty("hazard", "H1");
-    EXPECT_THAT(run(R"(analysis.calibration(invented(10, 40).map((row, i) => Object.assign(row, { reading: i + 1 })));)"),
-                HasSubstr("there is no reading 1 in this run"));
+    EXPECT_THAT(
+        run(R"(analysis.calibration(invented(10, 40).map((row, i) => Object.assign(row, { reading: i + 1 })));)"),
+        HasSubstr("there is no reading 1 in this run"));
 }
 
 TEST_F(ForgedCalibration, AReadingCountsOnce) {

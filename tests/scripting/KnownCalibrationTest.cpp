@@ -78,8 +78,7 @@ TEST_F(Known, AValidOneHoldsOnItsLastDayToo) {
                                      CalibrationLine{1, 1e-6, 100e-6, 400e-6, kUnknownSpread}}));
     EXPECT_TRUE(known.holds);
     EXPECT_THAT(known.text, HasSubstr("amplitude gain 1.02, offset 0 V, U 0.5 %; interval gain 1.001"));
-    EXPECT_THAT(known.text,
-                HasSubstr("phase width gain 1, offset 2 us, U 0.2 %; inter-phase gap gain 1, offset 1 us"));
+    EXPECT_THAT(known.text, HasSubstr("phase width gain 1, offset 2 us, U 0.2 %; inter-phase gap gain 1, offset 1 us"));
 }
 
 TEST_F(Known, AnExpiredOneIsKnownAndDoesNotHold) {

@@ -12,7 +12,8 @@ class Library : public ::testing::Test {
 protected:
     Library() {
         folder_.write("shipped/separability.js", "// shipped");
-        std::filesystem::copy_file(test::sourceDir() / "resources/protocols/live.js", folder_.path() / "shipped/live.js");
+        std::filesystem::copy_file(test::sourceDir() / "resources/protocols/live.js",
+                                   folder_.path() / "shipped/live.js");
         folder_.write("user/separability.js", "// ours");
         folder_.write("user/touch.js", "// touch");
         folder_.write("user/notes.txt", "no script");
@@ -42,8 +43,9 @@ TEST_F(Library, TheNameOfAShippedScriptIsNotTakenByAnother) {
     ASSERT_EQ(refused.size(), 1U);
     EXPECT_EQ(refused[0].path, ours);
     EXPECT_EQ(refused[0].why,
-              ours + ": separability is the name of a protocol that comes with the program; another file name is "
-                     "expected");
+              ours +
+                  ": separability is the name of a protocol that comes with the program; another file name is "
+                  "expected");
     EXPECT_EQ(library_.find(ours).error().message, refused[0].why) << "by its path as well";
     // Nor by one that the program's folder happens not to hold.
     folder_.write("user/transitions.js", "// ours");

@@ -47,8 +47,10 @@ private:
 /// Runs `greed` with the output delivering.
 Ended run(const std::string& greed, std::size_t limit) {
     RunBench rig(true, "sim:", 1, true);
-    auto request = rig.request(withRun("bench.arm({ load: 1000 }); bench.drive(\"manual\", { roughness: 1, pressure: 1 });"
-                                       "bench.wait(1);\n" + greed));
+    auto request =
+        rig.request(withRun("bench.arm({ load: 1000 }); bench.drive(\"manual\", { roughness: 1, pressure: 1 });"
+                            "bench.wait(1);\n" +
+                            greed));
     request.memoryLimit = limit;
     Ended ended;
     ended.outcome = runProtocol(std::move(request)).value();
@@ -100,14 +102,14 @@ TEST_P(ScriptWithoutMemory, EndsTheRunWithTheOutputOff) {
 // The engine throws std::bad_alloc, also from code that it would have compiled by then.
 INSTANTIATE_TEST_SUITE_P(
     Greed, ScriptWithoutMemory,
-    testing::Values(
-        std::pair("let s = 'x'; for (;;) { s += s; s.charCodeAt(0); }", "asked for more memory than there is"),
-        std::pair("function f(n) { let s = 'x'; for (let i = 0; i < n; i++) { s += s; s.charCodeAt(0); } }"
-                  "for (let i = 0; i < 2000; i++) f(8); f(40);",
-                  "asked for more memory than there is"),
-        std::pair("try { let s = 'x'; for (;;) { s += s; s.charCodeAt(0); } } catch (e) {}"
-                  "finally { return verdict({ verdict: 'pass' }); }",
-                  "asked for more memory than there is")));
+    testing::Values(std::pair("let s = 'x'; for (;;) { s += s; s.charCodeAt(0); }",
+                              "asked for more memory than there is"),
+                    std::pair("function f(n) { let s = 'x'; for (let i = 0; i < n; i++) { s += s; s.charCodeAt(0); } }"
+                              "for (let i = 0; i < 2000; i++) f(8); f(40);",
+                              "asked for more memory than there is"),
+                    std::pair("try { let s = 'x'; for (;;) { s += s; s.charCodeAt(0); } } catch (e) {}"
+                              "finally { return verdict({ verdict: 'pass' }); }",
+                              "asked for more memory than there is")));
 
 INSTANTIATE_TEST_SUITE_P(
     Greed, ScriptMemory,

@@ -91,12 +91,15 @@ TEST_F(ScriptTrust, WithoutAnAreaInTheProfileTheOperatorsWordIsNeeded) {
 TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
     RecordProperty("hazard", "H1");
     const auto roughness = toJson(RoughnessSettings{}).dump();
-    const auto error = run("bench.setElectrodeArea(1); bench.setEncoding({ amplitude_max_v: 20, pulses: 3 });\n"
-                           "const roughness = " + roughness + ";\n"
-                           "roughness.references.h.smooth = 0.0123;\n"
-                           "return verdict({ verdict: null, kept: record.sensorProfile({ accepted: true, roughness },"
-                           " { store: true }) });",
-                           3);
+    const auto error =
+        run("bench.setElectrodeArea(1); bench.setEncoding({ amplitude_max_v: 20, pulses: 3 });\n"
+            "const roughness = " +
+                roughness +
+                ";\n"
+                "roughness.references.h.smooth = 0.0123;\n"
+                "return verdict({ verdict: null, kept: record.sensorProfile({ accepted: true, roughness },"
+                " { store: true }) });",
+            3);
     ASSERT_EQ(error, "");
     const auto kept = loadProfile(results_["kept"]["file"].get<std::string>()).value();
     EXPECT_NEAR(kept.roughness.h.smooth, 0.0123, 1e-12);

@@ -38,11 +38,12 @@ protected:
     }
     /// One row for peak current into the load range.
     void addSet(const std::string& id, double max_mA) {
-        folder_.write("limits/" + id + ".json",
-                      fmt::format(R"({{"id": "{}", "title": "Ours", "limits": [{{"quantity": "rms_current_5s", "max": {},
+        folder_.write(
+            "limits/" + id + ".json",
+            fmt::format(R"({{"id": "{}", "title": "Ours", "limits": [{{"quantity": "rms_current_5s", "max": {},
                         "unit": "mA", "compare": "<", "judged": "load_range", "action": "refuse", "window_s": 5,
                         "source": "the lab", "confidence": "high"}}]}})",
-                                  id, max_mA));
+                        id, max_mA));
     }
     ScratchDir folder_;
 };

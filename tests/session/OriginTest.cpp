@@ -17,7 +17,8 @@ SessionAbout with(std::vector<SessionDevice> devices) {
 
 SessionDevice device(const char* role, const char* name, const char* serial, const char* from) {
     const std::string_view said(from);
-    return {std::string(role) + ":", role, name, serial, "", said == "simulated" || said == "replayed, simulated", from};
+    return {
+        std::string(role) + ":", role, name, serial, "", said == "simulated" || said == "replayed, simulated", from};
 }
 
 class Origins : public testing::Test {
@@ -26,8 +27,8 @@ protected:
 };
 
 TEST_F(Origins, ARealStimulatorIsNamedWithWhatItDeliveredWhereOnlyTheFingerWasSimulated) {
-    const auto about = with({device("sensor", "simulated fingertip", "SIM-0", "simulated"),
-                             device("stimulator", "P24", "0123", "real")});
+    const auto about = with(
+        {device("sensor", "simulated fingertip", "SIM-0", "simulated"), device("stimulator", "P24", "0123", "real")});
     EXPECT_EQ(originMarks(about, {12, 3, 39.96, "mA"}),
               (Marks{"SIMULATED: the fingertip sensor.",
                      "Real: stimulator P24 0123, which delivered 12 trains of up to 40 mA and 3 impedance checks."}));

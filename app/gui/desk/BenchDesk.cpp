@@ -121,7 +121,7 @@ void BenchDesk::arm(const ArmRequest& request) {
     order([this, request](Bench& bench) -> Result<void> {
         bench.resume();  // a pause from before this arming is over
         const auto armed = bench.arm(request);
-        if (!armed) bench.disarm();  // also what was armed before
+        if (!armed) bench.disarm();          // also what was armed before
         if (live_->scope) requestCapture();  // arming may have used the oscilloscope
         if (!armed) return armed;
         tell([this] { emit this->armed(); });
@@ -378,11 +378,8 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
         live->clock = std::make_shared<VirtualClock>();
     else
         live->clock = std::make_shared<SteadyClock>();
-    const OpenContext context{.clock = *live->clock,
-                              .seed = order.seed,
-                              .declaredLoad = kDefaultLoad,
-                              .stops = stops_.get(),
-                              .asked = asked};
+    const OpenContext context{
+        .clock = *live->clock, .seed = order.seed, .declaredLoad = kDefaultLoad, .stops = stops_.get(), .asked = asked};
     auto devices = registry.open(order.uris, order.needed, context);
     if (!devices) return give_up(devices.error());
     const auto files = prepareRunFiles("", "live");

@@ -2,8 +2,8 @@
 //
 // The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
 // thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue, and ends everything
-// that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if no
-// stop came since it was asked for.
+// that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if
+// no stop came since it was asked for.
 //
 // A bench of simulated devices and recordings runs on the virtual clock, moved by that thread at `speed` times real
 // time; one with hardware runs on the steady clock. Every opened bench records to a session file.
@@ -42,7 +42,7 @@ struct LiveOrder {
 struct OpenBench {
     SessionAbout about;
     std::filesystem::path session;
-    std::vector<StreamInfo> streams;  ///< of the sensor; empty without one
+    std::vector<StreamInfo> streams;       ///< of the sensor; empty without one
     std::optional<DeviceIdentity> output;  ///< what arming arms: the stimulator, else the massager
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;

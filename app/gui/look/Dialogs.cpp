@@ -68,9 +68,8 @@ private:
 QDialog* openTwin(const QDialog& dialog) {
     for (auto* widget : QApplication::topLevelWidgets()) {
         auto* other = qobject_cast<QDialog*>(widget);
-        if (other != nullptr && other != &dialog && other->isVisible() &&
-            other->metaObject() == dialog.metaObject() && other->parentWidget() == dialog.parentWidget() &&
-            other->windowTitle() == dialog.windowTitle())
+        if (other != nullptr && other != &dialog && other->isVisible() && other->metaObject() == dialog.metaObject() &&
+            other->parentWidget() == dialog.parentWidget() && other->windowTitle() == dialog.windowTitle())
             return other;
     }
     return nullptr;

@@ -164,8 +164,7 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
     // Both cells that may draw the bar have its data: a cell is painted again when data of its own change.
-    const auto share =
-        row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
+    const auto share = row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
     for (auto* drawn : {quantity, cell(line, kUsed, QString())}) {
         drawn->setData(kShare, share);
         drawn->setData(kEvaluated, row.evaluated);

@@ -38,11 +38,11 @@ struct Colours {
     QColor current;  ///< #009E73
     QColor math;     ///< #CC79A7
     QColor reference;
-    QColor accent;  ///< selection, the one button that goes on
+    QColor accent;     ///< selection, the one button that goes on
     QColor amber;      ///< fill of what is armed, and of a limit from 80 %
     QColor amberText;  ///< words of warning
     QColor fault;      ///< words and marks of faults and broken limits, and nothing else
-    QColor good;    ///< a pass: blue, not green, and never without its word
+    QColor good;       ///< a pass: blue, not green, and never without its word
     QColor watermark;
 };
 [[nodiscard]] const Colours& colours();

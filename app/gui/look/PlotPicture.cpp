@@ -72,8 +72,7 @@ void choosePath(QCustomPlot& plot, const QString& name) {
     question.name = name + ".png";
     askForFile(plot, question, [&plot](const QString& path) {
         if (const auto wrong = savePicture(plot, path)) {
-            openDialog(
-                new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &plot));
+            openDialog(new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &plot));
         }
     });
 }

@@ -122,7 +122,8 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
     };
     if (!question.confirms.empty()) {
         // Not the button that has the focus: a key that is held down must not arm.
-        add(tr("&Arm output"), QString::fromStdString(question.confirms), tr("Confirms exactly what the sentence says."));
+        add(tr("&Arm output"), QString::fromStdString(question.confirms),
+            tr("Confirms exactly what the sentence says."));
         first_->setObjectName("confirmArming");
         first_ = nullptr;
     } else if (question.kind == OperatorQuestion::Kind::Confirm) {

@@ -94,7 +94,7 @@ private:
     const QString fixed_;  ///< the one protocol, or empty
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
-    QString obstacle_;  // why it may not run: a limit that its strongest command would break
+    QString obstacle_;               // why it may not run: a limit that its strongest command would break
     std::optional<RunOrder> asked_;  // waits for the second step
     Plot plot_ = Plot::Trials;
     bool running_ = false;

@@ -403,11 +403,10 @@ void SessionsWorkspace::exportTo(const QString& folder) {
 
 void SessionsWorkspace::exportSession(const std::filesystem::path& session, const QString& folder) {
     say(tr("Exporting…"));
-    work_.start(
-        [session, folder](const WorkPort& port) { return exportCsv(session, folder.toStdString(), port); },
-        [this, folder](const Result<void>& done) {
-            say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(q(done.error().message)));
-        });
+    work_.start([session, folder](const WorkPort& port) { return exportCsv(session, folder.toStdString(), port); },
+                [this, folder](const Result<void>& done) {
+                    say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(q(done.error().message)));
+                });
 }
 
 void SessionsWorkspace::replay() {

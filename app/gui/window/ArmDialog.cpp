@@ -39,12 +39,13 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
                                          : tr("Arm the output on a bench load"),
                               this));
     layout->addWidget(explanation(
-        check      ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
-                        "stops at any time.")
-        : massager ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
-                 : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
-                      "each judged "
-                      "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
+        check ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
+                   "stops at any time.")
+        : massager
+            ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
+            : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
+                 "each judged "
+                 "against the limits over 80 to 120 % of the load you declare. Esc stops at any time."),
         this));
     auto* form = new QFormLayout;
     load_ = new QLineEdit(load, this);

@@ -114,8 +114,8 @@ private:
     QTimer frame_;
     QString load_ = "1 kohm";
     bool saidArmed_ = false;  // and nothing since that it is over
-    int faultedFrames_ = 0;  // since the bench faulted
-    QString faultText_;      // as the banner says it
+    int faultedFrames_ = 0;   // since the bench faulted
+    QString faultText_;       // as the banner says it
 };
 
 }  // namespace tacto::gui

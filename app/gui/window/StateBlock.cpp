@@ -84,8 +84,9 @@ void StateBlock::show(InterlockState state, const QString& reason, bool pulse) {
 /// As a sheet: under the program's own sheet a label's palette does not hold.
 void StateBlock::colour() {
     const auto look = stateLook(state_);
-    const auto sheet = QString("QFrame#stateBlock { background: %1; border: none; }"
-                          "QFrame#stateBlock QLabel { background: transparent; color: %2; }")
+    const auto sheet = QString(
+                           "QFrame#stateBlock { background: %1; border: none; }"
+                           "QFrame#stateBlock QLabel { background: transparent; color: %2; }")
                            .arg(look.ground.name(), look.ink.name());
     if (styleSheet() != sheet) setStyleSheet(sheet);  // which changes the palette, too
 }
@@ -93,7 +94,8 @@ void StateBlock::colour() {
 void StateBlock::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange) {
         // Once the new theme is in place everywhere.
-        QMetaObject::invokeMethod(this, [this] { colour(); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [this] { colour(); }, Qt::QueuedConnection);
     }
     QFrame::changeEvent(event);
 }

@@ -44,8 +44,7 @@ inline StoredCalibration calibration(int madeDaysAgo, int validForDays) {
     c.session = "run.tacto";
     c.sessionHead = std::string(64, '0');
     c.readings = 440;
-    c.instruments = {
-        {"oscilloscope X", "O-7", daysFromNow(validForDays - madeDaysAgo), 0.01, "the instrument"}};
+    c.instruments = {{"oscilloscope X", "O-7", daysFromNow(validForDays - madeDaysAgo), 0.01, "the instrument"}};
     return c;
 }
 

@@ -1,5 +1,5 @@
-// A stop in every window between an operator's order and its output: while it waits, while devices open, between opening
-// and start, at any call after that, and with the window that closes (H2).
+// A stop in every window between an operator's order and its output: while it waits, while devices open, between
+// opening and start, at any call after that, and with the window that closes (H2).
 #include <future>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -192,8 +192,7 @@ TEST_F(DeskStop, BetweenTheArmClickAndItsTaskNothingIsArmed) {
     EXPECT_EQ(desk->telemetry().state, InterlockState::Disarmed);
     EXPECT_EQ(watch->trains, 0) << "not even a check pulse";
     arm();
-    EXPECT_TRUE(comesTrue([this] { return desk->telemetry().state == InterlockState::Armed; }))
-        << "a new click arms";
+    EXPECT_TRUE(comesTrue([this] { return desk->telemetry().state == InterlockState::Armed; })) << "a new click arms";
 }
 
 TEST_F(DeskStop, BetweenTheRunClickAndItsTaskNothingIsOpened) {

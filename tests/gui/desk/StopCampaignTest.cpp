@@ -83,7 +83,8 @@ void stopAtRandomMoments(BenchDesk& desk, const DeviceUri& uri, const std::funct
 TEST(StopAtRandomMoments, OfTheSimulatedStimulator) {
     const auto watch = std::make_shared<Watch>();
     BenchDesk desk(watchedRegistry(watch, false));
-    stopAtRandomMoments(desk, *DeviceUri::parse("sim:"), [] {}, [watch] { return watch->trains.load(); });
+    stopAtRandomMoments(
+        desk, *DeviceUri::parse("sim:"), [] {}, [watch] { return watch->trains.load(); });
 }
 
 TEST(StopAtRandomMoments, OfAnEmulatedScienceModeStimulator) {
@@ -99,9 +100,8 @@ TEST(StopAtRandomMoments, OfAnEmulatedScienceModeStimulator) {
     // The stop is on its way through the terminal when stop() returns; what counts is what the device does with it.
     const auto quiet = [&] {
         const auto giveUp = clock.now() + std::chrono::seconds(5);
-        while (clock.now() < giveUp && device.inspect([](auto& on, Instant now) {
-            return on.state(now) != sciencemode::Stimulation::None;
-        }))
+        while (clock.now() < giveUp &&
+               device.inspect([](auto& on, Instant now) { return on.state(now) != sciencemode::Stimulation::None; }))
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
     stopAtRandomMoments(desk, {"sciencemode", "", {{"tty", device.path()}}}, quiet, [&] {

@@ -91,8 +91,8 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
 
 TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
     open("");
-    for (const char* name : {"encoding-comparison", "live", "load-safety", "separability", "stimulator-calibration",
-                             "transitions"}) {
+    for (const char* name :
+         {"encoding-comparison", "live", "load-safety", "separability", "stimulator-calibration", "transitions"}) {
         choose(name);
         EXPECT_TRUE(ready()) << name;
         QTest::qWait(200);  // judged a moment after it is shown
