@@ -18,7 +18,7 @@ public:
     static constexpr double kHeight = 968;  ///< of the text on one page
 
     /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is
-    /// a warning, set so that nobody overlooks it.
+    /// a warning, set where every reader sees it.
     PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total, bool alarming = false);
     /// The painter of the current page, its origin at the text's top left; null when only counting.
     [[nodiscard]] QCPPainter* painter() noexcept { return painter_ ? painter_.get() : nullptr; }

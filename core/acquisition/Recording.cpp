@@ -43,7 +43,7 @@ public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
 
     Result<Recording> read(const Json& root) const {
-        // Whoever recorded it may note more than is read here; nothing in a description loosens anything.
+        // A recording may carry more keys than are read here; none of them can loosen a limit.
         if (!root.is_object())
             return refuse("the file holds {}; an object with \"streams\" was expected", typeOf(root));
         Recording recording;

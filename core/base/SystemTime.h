@@ -17,7 +17,7 @@ public:
     virtual ~SystemTime() = default;
     /// Since the computer was started, the time for which it slept included. Never goes back. Does not block.
     [[nodiscard]] virtual Instant sinceBoot() const noexcept = 0;
-    /// Names this start of the computer; empty where nobody knows.
+    /// Names this start of the computer; empty where the system does not tell.
     [[nodiscard]] virtual std::string boot() const = 0;
     /// Wall time, UTC. May jump. Does not block.
     [[nodiscard]] virtual std::chrono::sys_seconds wall() const noexcept = 0;

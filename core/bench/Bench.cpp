@@ -38,7 +38,7 @@ SourceTraits traitsOf(const DeviceSet& devices) {
     return none;
 }
 
-/// The stimulator goes on from what it delivered before, and nobody else drives it meanwhile.
+/// The stimulator goes on from what it delivered before, and no other process drives it meanwhile.
 Result<void> Bench::State::takeUpRecord() {
     const auto& stimulating = config.devices.stimulator;
     if (!stimulating || stimulating->identity().simulated || config.units.empty()) return {};

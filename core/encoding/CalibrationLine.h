@@ -23,7 +23,7 @@ struct CalibrationLine {
     double offset = 0;  ///< in the quantity's unit, as the two below
     double lowest = 0;  ///< the calibrated range, as told: 0 < lowest < highest
     double highest = 0;
-    /// Of what is delivered, around the line: its uncertainty U (95 %) and the largest residual. Nothing: nobody knows.
+    /// Of what is delivered, around the line: its uncertainty U (95 %) and the largest residual. Nothing: unknown.
     std::optional<Spread> spread{};
 
     /// Both for values of 0 and more; NaN stays NaN.

@@ -27,7 +27,7 @@ struct Spread {
     bool operator==(const Spread&) const = default;
 };
 
-/// Where nobody states one: science.md section 12.
+/// Where none is stated: science.md section 12.
 inline constexpr Spread kUnknownSpread{0.05, 0};
 
 }  // namespace tacto

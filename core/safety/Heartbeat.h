@@ -4,7 +4,7 @@
 // on. After 100 ms of silence the answer is no: device threads force their output off and stop holding off dead-man
 // switches, so a hung program ends in silence. Not alive before the first beat.
 //
-// A heart that stood still stays dead. After a standstill of the whole process nobody knows which thread wakes first,
+// A heart that stood still stays dead. After a standstill of the whole process any thread may wake first,
 // so a beat that comes too late is refused: the loop switches off, voids what was approved, and only then calls
 // revive().
 //
