@@ -92,6 +92,9 @@ Result<void> BenchPulse::request() {
 }
 
 Result<PulseOutcome> BenchPulse::deliver() {
+    // Of a unit whose past is not known nothing is approved before.
+    while (!stopped_ && clock_.now() < record_->quietUntil())
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
     if (auto confirmed = interlock_.confirmArming(ticket_, clock_.now()); !confirmed) return failure(confirmed);
     PulseOutcome outcome;

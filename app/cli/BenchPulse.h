@@ -2,7 +2,8 @@
 // the interlock in two steps, after an impedance check pulse, and read back. What the check finds open, shorted or
 // another load than the declared one gets no pulse (H3).
 //
-// Thread-safety: stop() any thread; everything else one caller, which deliver() keeps for less than a second.
+// Thread-safety: stop() any thread; everything else one caller, which deliver() keeps for less than a second, or for
+// eight more where the unit must rest (UnitRecord.h).
 #pragma once
 
 #include <atomic>

@@ -5,8 +5,8 @@
 #include "app/cli/MeasureLoad.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
-#include "core/measure/CaptureOrigin.h"
 #include "core/measure/CaptureFile.h"
+#include "core/measure/CaptureOrigin.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto::cli {
@@ -49,7 +49,7 @@ nlohmann::json toJson(const ChannelMeasurement& m) {
 void printStatistic(const char* name, const Statistics& s, const std::string& unit) {
     if (s.n == 0) return;
     say("  {:<11} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
-               formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
+        formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
 }
 
 Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
@@ -121,7 +121,7 @@ int run(const QCommandLineParser& parser) {
     if (statedSimulated(*path).value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     for (const auto& m : found.channels) {
         say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
-                   m.measuredPulses);
+            m.measuredPulses);
         printStatistic("amplitude", m.amplitude, m.unit);
         printStatistic("width", m.width_s, "s");
         printStatistic("interval", m.interval_s, "s");

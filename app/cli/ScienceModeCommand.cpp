@@ -17,7 +17,7 @@ using sciencemode::HighVoltage;
 using sciencemode::Stimulation;
 
 void declare(QCommandLineParser& parser) {
-    parser.addOption({"device", "The stimulator (sciencemode:, the first that answers).", "URI"});
+    parser.addOption({"device", "The stimulator (sciencemode:, the one that answers).", "URI"});
     declarePulse(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }

@@ -23,10 +23,13 @@ Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& lo
                     : bench.devices().stimulator != nullptr ? "bench load"
                                                             : "massager";
     if (!session.hasConfirmed(question.confirms)) {
+        // Without the operator's word the run ends, whatever the script makes of it.
         auto answer = session.ask(question);
-        if (!answer) return failure(answer);
-        if (*answer != nlohmann::json(true))
-            return fail(ErrorCode::Stopped, "\"{}\" was not confirmed. Nothing was armed.", question.text);
+        if (!answer) return session.endWith(answer.error());
+        if (*answer != nlohmann::json(true)) {
+            return session.endWith(
+                {ErrorCode::Stopped, fmt::format("\"{}\" was not confirmed. Nothing was armed.", question.text)});
+        }
         session.noteConfirmed(question.confirms);
     }
     request.operatorConfirmed = true;

@@ -33,6 +33,7 @@ QJSValue HostBridge::call(int index, const QJSValue& arguments) {
 
     QJSValue error = engine_.newErrorObject(QJSValue::GenericError, QString::fromStdString(answer.error().message));
     error.setProperty(QStringLiteral("code"), static_cast<int>(answer.error().code));
+    error.setProperty(QStringLiteral("limit"), answer.error().code == ErrorCode::LimitExceeded);
     engine_.throwError(error);
     return {};
 }

@@ -65,8 +65,9 @@ std::string scriptReference() {
     std::string out =
         "# What a protocol script can call\n\n"
         "A script calls protocol() once at top level and defines run(p), where p holds the parameters. Everything here "
-        "may be used inside run(p) only. A function that fails throws an Error with a sentence for the operator; "
-        "uncaught, it ends the run with the output off.\n";
+        "may be used inside run(p) only. A function that fails throws an Error with a sentence for the operator; its "
+        "`limit` is true where a safety limit forbade what was asked for. Uncaught, it ends the run with the output "
+        "off. Arming that the operator did not confirm ends the run in any case.\n";
     // Tables may name an object twice; the reference lists it once.
     std::vector<std::string_view> objects;
     for (const auto& function : hostFunctions()) {

@@ -89,6 +89,7 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
         declared = arguments;
         return nlohmann::json();
     }
+    if (const auto& end = session.endedWith()) return tl::unexpected<Error>(*end);
     try {
         return function.call(session, arguments);
     } catch (const std::exception& surprise) {  // of a library, as JSON or memory: the script gets it as an Error
@@ -194,7 +195,13 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
             result.line = error->line;
             result.error = Error{error->code, error->text()};
         }
-        // A fault that the script swallowed is still the end of the run: no verdict stands on what came after it.
+        // What the script swallowed is still the end of the run: no verdict stands on what came after it.
+        if (!result.error && session.endedWith()) {
+            result.verdict =
+                session.endedWith()->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
+            result.line = line;
+            result.error = session.endedWith();
+        }
         if (!result.error && request.bench != nullptr &&
             request.bench->faults() > faultsBefore + session.expectedFaults()) {
             result.verdict = ScriptVerdict::Stopped;

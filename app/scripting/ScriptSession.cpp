@@ -46,6 +46,11 @@ void ScriptSession::progress(const ScriptProgress& progress) {
     if (request_.onProgress) request_.onProgress(progress);
 }
 
+tl::unexpected<Error> ScriptSession::endWith(Error error) {
+    if (!end_) end_ = std::move(error);
+    return tl::unexpected<Error>(*end_);
+}
+
 nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
     nlohmann::json handles = nlohmann::json::array();
     for (auto& capture : captures) {

@@ -44,6 +44,10 @@ public:
     [[nodiscard]] bool hasConfirmed(const std::string& text) const { return confirmed_.contains(text); }
     void noteConfirmed(const std::string& text) { confirmed_.insert(text); }
     void forgetConfirmed() { confirmed_.clear(); }
+    /// The run ends with `error`: every host call from now on fails with it, and so does the run, also where the script
+    /// catches it.
+    [[nodiscard]] tl::unexpected<Error> endWith(Error error);
+    [[nodiscard]] const std::optional<Error>& endedWith() const noexcept { return end_; }
     void log(const std::string& text);
     void progress(const ScriptProgress& progress);
 
@@ -108,6 +112,7 @@ private:
     const RunRequest& request_;
     Random random_;
     std::set<std::string> confirmed_;
+    std::optional<Error> end_;
     Profile chosen_;
     std::set<std::string> answered_;  // texts that the operator gave as answers
     std::deque<Held> captures_;

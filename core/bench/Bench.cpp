@@ -108,7 +108,9 @@ Result<void> Bench::State::open() {
     }
     parts.sensorReport = reportingDevice(Role::Sensor);
     loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
-    if (const auto connected = interlock.connect(); !connected) return connected;
+    const bool rests = record && !record->whyQuiet().empty();
+    const auto* note = rests ? "arming waits until 8 s after opening: what this unit delivered last is not known" : "";
+    if (const auto connected = interlock.connect(note); !connected) return connected;
     if (record) interlock.keepFaultsIn(*record);
     nextTick = outputDue = config.clock->now();
     noteCalibration();

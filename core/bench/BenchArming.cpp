@@ -162,6 +162,13 @@ bool Bench::State::passOnCheck(const PulseTrain& check) {
     return true;
 }
 
+/// Waits until the unit has rested, where what it delivered before is not known. Errors: Stopped.
+Result<void> Bench::State::rest() {
+    if (!record) return {};
+    const auto rested = advance(record->quietUntil(), [] { return false; });
+    return rested ? Result<void>{} : failure(rested);
+}
+
 Result<void> Bench::arm(const ArmRequest& request) {
     auto& s = *state_;
     if (!s.hasOutput()) return fail(ErrorCode::Unsupported, "not armed: no stimulator and no massager is open");
@@ -174,6 +181,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     const PulseTrain check = checkTrainOf(command.setup);
     // Without the operator's word for the load arming is refused, and no pulse is sent.
     const bool looks = command.confirmByCapture && command.evidence.declaredLoadConfirmed;
+    if (const auto rested = s.rest(); !rested) return rested;
     const auto ticket = s.interlock.requestArming(s.config.clock->now());
     if (!ticket) return failure(ticket);
     if (looks) {

@@ -137,6 +137,7 @@ struct Bench::State {
     [[nodiscard]] Result<void> letReportsBeJudged();
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
+    [[nodiscard]] Result<void> rest();
     [[nodiscard]] Result<void> health() const;
     template <class Session>
     [[nodiscard]] Result<void> askAgain(Session& session, DeviceThread* thread, Instant within, const char* who);

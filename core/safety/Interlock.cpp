@@ -52,7 +52,12 @@ void Interlock::keepFaultsIn(UnitRecord& record) noexcept {
     reason_ = std::string_view(text.data(), std::min(end.size, text.size() - 1));
 }
 
-Result<void> Interlock::connect() { return move(InterlockState::Disconnected, InterlockState::Disarmed, "connect"); }
+Result<void> Interlock::connect(std::string_view note) {
+    const auto connected = move(InterlockState::Disconnected, InterlockState::Disarmed, "connect");
+    const std::lock_guard lock(mutex_);
+    if (connected) reason_ = FixedText<159>(note);
+    return connected;
+}
 Result<void> Interlock::disconnect() {
     return move(InterlockState::Disarmed, InterlockState::Disconnected, "disconnect");
 }

@@ -69,8 +69,8 @@ public:
     /// before makes it Faulted. Once, after connect().
     void keepFaultsIn(UnitRecord& record) noexcept;
 
-    /// Disconnected → Disarmed: a device is open and identified.
-    [[nodiscard]] Result<void> connect();
+    /// Disconnected → Disarmed: a device is open and identified. `note`: what the operator should know before arming.
+    [[nodiscard]] Result<void> connect(std::string_view note = {});
     /// Disarmed → Disconnected. A device lost in any other state is a fault.
     [[nodiscard]] Result<void> disconnect();
 

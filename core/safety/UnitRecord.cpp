@@ -104,6 +104,14 @@ std::string holderOf(int file) {
     return fmt::format("{} (process {})", program.empty() ? "a program" : program, head.content.process);
 }
 
+/// True when `folder` has kept the same records for long: a unit without one there was not driven in that time. A
+/// folder that was made, moved here or emptied a moment ago proves nothing about a unit that it does not know.
+bool unchangedForLong(const std::filesystem::path& folder, const SystemTime& time) {
+    struct stat about {};
+    if (::stat(folder.c_str(), &about) != 0) return false;
+    return time.wall().time_since_epoch().count() - about.st_mtim.tv_sec >= UnitRecord::kLongAgo.count();
+}
+
 tl::unexpected<Error> cannot(const std::filesystem::path& path) {
     return fail(ErrorCode::Io,
                 "the record of what this unit has delivered, {}, cannot be kept: {}. Without it the unit is not driven",
@@ -120,11 +128,19 @@ struct UnitRecord::Map {
 
 Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path& folder, std::string_view unit,
                                                      const Clock& clock, const SystemTime& time) {
+    const bool settled = unchangedForLong(folder, time);
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     const auto path = folder / fileNameOf(unit);
-    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    const bool made = file >= 0;
+    if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
     if (file < 0) return cannot(path);
+    const auto giveUp = [&](tl::unexpected<Error> why) {
+        if (made) ::unlink(path.c_str());
+        ::close(file);
+        return why;
+    };
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
         const bool held = errno == EWOULDBLOCK;
         tl::unexpected<Error> why =
@@ -135,33 +151,25 @@ Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path
         return why;
     }
     struct stat about {};
-    const bool read = ::fstat(file, &about) == 0;
-    const bool fresh = read && about.st_size == 0;
-    const bool cut = read && !fresh && about.st_size != static_cast<off_t>(sizeof(Map));
+    if (::fstat(file, &about) != 0) return giveUp(cannot(path));
+    const bool whole = made || about.st_size == static_cast<off_t>(sizeof(Map));
     // Allocated now: a full disk is found here and not in the middle of a run.
-    if (!read || ::posix_fallocate(file, 0, sizeof(Map)) != 0) {
-        auto why = cannot(path);
-        ::close(file);
-        return why;
+    if (const int error = ::posix_fallocate(file, 0, sizeof(Map)); error != 0) {
+        errno = error;
+        return giveUp(cannot(path));
     }
     void* at = ::mmap(nullptr, sizeof(Map), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0);
-    if (at == MAP_FAILED) {
-        auto why = cannot(path);
-        ::close(file);
-        return why;
-    }
+    if (at == MAP_FAILED) return giveUp(cannot(path));
     auto& map = *static_cast<Map*>(at);
-    if (cut) map.head.sum = map.fault.sum = 0;  // What is missing is not nothing
-    if (fresh) {
-        map.head.write({.trainSize = sizeof(Train)});
-        map.fault.write({});
-    }
-    return std::unique_ptr<UnitRecord>(new UnitRecord(file, map, clock, time));
+    if (!whole) map.head.sum = map.fault.sum = 0;  // What is missing is not nothing
+    if (made) map.fault.write({});
+    if (made && settled) map.head.write({.trainSize = sizeof(Train)});
+    return std::unique_ptr<UnitRecord>(new UnitRecord(file, map, clock, time, !made || settled));
 }
 
-UnitRecord::UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time)
+UnitRecord::UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time, bool pastKept)
     : file_(file), map_(map), clock_(clock), time_(time), quietUntil_(clock.now()) {
-    takeOver();
+    takeOver(pastKept);
 }
 
 UnitRecord::~UnitRecord() {
@@ -171,8 +179,9 @@ UnitRecord::~UnitRecord() {
 
 Instant UnitRecord::onClock(Instant sinceBoot) const noexcept { return clock_.now() + (sinceBoot - time_.sinceBoot()); }
 
-/// Decides whether what stands in the record is believed, and makes it this process's.
-void UnitRecord::takeOver() {
+/// Decides whether what stands in the record is believed, and makes it this process's. `pastKept` is false for a
+/// record that was made now where an earlier one may have been.
+void UnitRecord::takeOver(bool pastKept) {
     const Instant boot = time_.sinceBoot();
     const auto wall = time_.wall().time_since_epoch().count();
     const std::string bootId = time_.boot();
@@ -180,7 +189,8 @@ void UnitRecord::takeOver() {
     std::string_view why;
     bool keep = false;  // the trains are of this start of the computer
     if (!before.sound() || before.content.magic != kMagic || before.content.trainSize != sizeof(Train)) {
-        why = "its record is damaged or of another version";
+        why = pastKept ? "its record is damaged or of another version"
+                       : "there is no record of it, and the folder of the records was made or changed just now";
     } else {
         auto newestWall = before.content.wall_s;
         auto newest = Instant(before.content.quietUntil_ns) - kRest;

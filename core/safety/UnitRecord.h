@@ -5,7 +5,8 @@
 // it wrote is there for the next process however this one ends. A train is written before its approval is handed out.
 // Each part carries a checksum. A record that does not check, one from a future that is not ours, and one from another
 // start of the computer of which the wall time cannot say that it is long ago, are not believed: the unit then rests
-// until whatever it delivered is out of every window (quietUntil()).
+// until whatever it delivered is out of every window (quietUntil()). The same holds for a unit without a record, unless
+// the folder has been there, unchanged, for longer than any window: a folder that is new says nothing of the past.
 //
 // The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units
 // keep none: they are born with their bench, at rest.
@@ -51,7 +52,8 @@ public:
     /// How long a unit rests whose past is not known: the longest window after a train of 2 s that may have begun when
     /// the process before ended.
     static constexpr Instant kRest = std::chrono::seconds(8);
-    /// A record from another start of the computer is long ago when the wall clock says at least this.
+    /// By the wall clock, what is at least this old is long ago: a record from another start of the computer, the last
+    /// change of the folder.
     static constexpr std::chrono::seconds kLongAgo{60};
 
     /// Opens the record of `unit` ("sciencemode 1234") in `folder`, or makes it, and locks it. `clock` and `time`
@@ -83,8 +85,8 @@ public:
 
 private:
     struct Map;
-    UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time);
-    void takeOver();
+    UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time, bool pastKept);
+    void takeOver(bool pastKept);
     void rest(std::string_view why);
     [[nodiscard]] Instant onClock(Instant sinceBoot) const noexcept;
 

@@ -84,17 +84,49 @@ Connect connectTo(std::shared_ptr<TransportPorts> ports, const TransportPort& po
     };
 }
 
-/// What `attempt(port, identity)` makes of the first port where it succeeds. `identity` is the one that the device must
-/// have; empty: any. Errors: NotFound where there is no port; else the first attempt's, in a sentence of its own.
+/// Asks who is there, then how it is.
+Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string place, std::string_view wanted,
+                     const Clock& clock) {
+    if (!opened) return failure(opened);
+    Exchange exchange(**opened, clock);
+    auto found = identify(exchange);
+    if (!found) return failure(found);
+    if (!wanted.empty() && found->id != wanted) {
+        return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
+    }
+    const auto answer = exchange.ask(Command::StimStatus);
+    if (!answer) return failure(answer);
+    const auto status = readStimStatusAck(*answer);
+    if (!status) return failure(status);
+    if (status->result != ResultCode::Ok) return refusal(Command::StimStatus, status->result);
+    return Sighting{std::move(*found), std::move(place), *status};
+}
+
+/// The ports among `all` where a stimulator answers.
+std::vector<TransportPort> thatAnswer(const std::vector<TransportPort>& all, TransportPorts& ports,
+                                      const Clock& clock) {
+    auto answering = all;
+    std::erase_if(answering, [&](const TransportPort& port) {
+        return !port.obstacle.empty() || !ask(ports.open(port), port.place, {}, clock);
+    });
+    return answering;
+}
+
+/// What `attempt(port, identity)` makes of the port where it succeeds. `identity` is the one that the device must have;
+/// empty: any. Errors: InvalidArgument where several stimulators are meant (H4); NotFound where there is no port; else
+/// the first attempt's, in a sentence of its own.
 template <class Attempt>
-auto firstThatAnswers(const DeviceUri& uri, const TransportPorts* ports, Attempt attempt)
+auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock& clock, Attempt attempt)
     -> decltype(attempt(TransportPort{}, std::string_view{})) {
     auto all = ports != nullptr ? ports->list() : std::vector<TransportPort>{};
     const auto byAddress = portsNamed(uri.path, all);
-    if (byAddress.size() > 1) {
+    const bool unnamed = uri.path.empty() && all.size() > 1;
+    const auto meant = unnamed ? thatAnswer(all, *ports, clock) : byAddress;
+    if (meant.size() > 1) {
         return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", uri.text(),
-                    choiceOf("sciencemode", byAddress, all));
+                    choiceOf("sciencemode", meant, all));
     }
+    if (unnamed && meant.size() == 1) all = meant;
     const auto named = [&](const TransportPort& port) {
         return !byAddress.empty() && port.place == byAddress.front().place;
     };
@@ -116,24 +148,6 @@ auto firstThatAnswers(const DeviceUri& uri, const TransportPorts* ports, Attempt
         uri.path.empty() ? std::string("no stimulator answers") : fmt::format("no stimulator \"{}\" answers", uri.path);
     if (problem) return fail(problem->code, "device \"{}\": {}: {}", uri.text(), what, problem->message);
     return fail(ErrorCode::NotFound, "device \"{}\": {}: none is plugged in (USB 0483:5740)", uri.text(), what);
-}
-
-/// Asks who is there, then how it is.
-Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string place, std::string_view wanted,
-                     const Clock& clock) {
-    if (!opened) return failure(opened);
-    Exchange exchange(**opened, clock);
-    auto found = identify(exchange);
-    if (!found) return failure(found);
-    if (!wanted.empty() && found->id != wanted) {
-        return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
-    }
-    const auto answer = exchange.ask(Command::StimStatus);
-    if (!answer) return failure(answer);
-    const auto status = readStimStatusAck(*answer);
-    if (!status) return failure(status);
-    if (status->result != ResultCode::Ok) return refusal(Command::StimStatus, status->result);
-    return Sighting{std::move(*found), std::move(place), *status};
 }
 
 class ScienceModeDriver final : public Driver {
@@ -178,10 +192,11 @@ private:
     }
 
     Opened openPort(const DeviceUri& uri, const Wanted& wanted, const OpenContext& context) const {
-        return firstThatAnswers(uri, ports_.get(), [&](const TransportPort& port, std::string_view identity) {
-            return ScienceModeStimulator::open(connectTo(ports_, port), uri.text(), identity, wanted.settings,
-                                               context.clock);
-        });
+        return theOneThatAnswers(uri, ports_.get(), context.clock,
+                                 [&](const TransportPort& port, std::string_view identity) {
+                                     return ScienceModeStimulator::open(connectTo(ports_, port), uri.text(), identity,
+                                                                        wanted.settings, context.clock);
+                                 });
     }
 
     const std::shared_ptr<TransportPorts> ports_;
@@ -197,7 +212,7 @@ Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock
     const auto wanted = readUri(uri);
     if (!wanted) return failure(wanted);
     if (wanted->terminal) return ask(TtyTransport::open(*wanted->terminal), *wanted->terminal, uri.path, clock);
-    return firstThatAnswers(uri, ports, [&](const TransportPort& port, std::string_view identity) {
+    return theOneThatAnswers(uri, ports, clock, [&](const TransportPort& port, std::string_view identity) {
         return ask(ports->open(port), port.place, identity, clock);
     });
 }

@@ -1,6 +1,6 @@
 // ScienceModeDriver.h - opens ScienceMode4 stimulators (Hasomed P24, RehaMove3).
 //
-//   sciencemode:                                    the first that answers
+//   sciencemode:                                    the one that answers; several that do are refused
 //   sciencemode:P24-000123                          by the device's identity, or by its USB serial number
 //   sciencemode:1-4.2                               by its USB socket
 //   sciencemode:?channel=2&connector=green          channel 0 to 3 of connector yellow or green (0, yellow)

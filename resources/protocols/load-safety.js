@@ -49,6 +49,7 @@ function arms(record) {
   } catch (error) {
     if (bench.live().state !== "disarmed") throw error;
     record.problem = error.message;
+    record.limited = error.limit === true;
     return false;
   }
 }
@@ -113,12 +114,14 @@ function commandsOn(name, p) {
   return commands;
 }
 
-// Where the impedance check alone breaks a limit, arming is what must be refused.
+// Where the impedance check alone breaks a limit, arming is what must be refused, and by a limit: arming that fails for
+// another reason says nothing about the limits and stays this load's problem.
 function askToArm(record, forbidden) {
-  const refused = !arms(record);
+  const armed = arms(record);
   bench.disarm();
-  record.refusals.push({ what: "arming", forbidden: true, refused: refused, predicted: forbidden,
-    reason: refused ? record.problem : "" });
+  if (!armed && !record.limited) return;
+  record.refusals.push({ what: "arming", forbidden: true, refused: !armed, predicted: forbidden,
+    reason: armed ? "" : record.problem });
   delete record.problem;
 }
 

@@ -8,8 +8,8 @@
 namespace tacto {
 namespace {
 
-using testing::HasSubstr;
 using nlohmann::json;
+using testing::HasSubstr;
 
 std::string refusal(std::string_view text, const JsonLimits& limits = {}) {
     const auto parsed = parseJson(text, "lab.json", limits);
@@ -17,9 +17,8 @@ std::string refusal(std::string_view text, const JsonLimits& limits = {}) {
 }
 
 TEST(JsonText, ReadsWhatTheLibraryReads) {
-    for (const char* text :
-         {R"({"a": [1, -2, 3.5e-3, true, false, null, "x\u00e9", {}], "b": {"a": []}})", "[]", "7", "\"text\"", " {} \n",
-          "18446744073709551615", "\xEF\xBB\xBF[1]"}) {
+    for (const char* text : {R"({"a": [1, -2, 3.5e-3, true, false, null, "x\u00e9", {}], "b": {"a": []}})", "[]", "7",
+                             "\"text\"", " {} \n", "18446744073709551615", "\xEF\xBB\xBF[1]"}) {
         const auto parsed = parseJson(text, "lab.json");
         ASSERT_TRUE(parsed) << text << ": " << parsed.error().message;
         EXPECT_EQ(*parsed, json::parse(text)) << text;
@@ -79,7 +78,8 @@ TEST(JsonText, NamesTheKeyThatIsNotKnown) {
 TEST(JsonText, IsTheOnlyReaderOfJsonInTheProgram) {
     RecordProperty("hazard", "H10");
     // QJsonDocument converts what the program itself made; nothing from outside reaches it.
-    const std::regex other(R"((json|Json|basic_json\s*<[^>]*>)\s*::\s*(parse|accept|sax_parse|from_\w+)\s*\(|_json\b|>>\s*\w*[jJ]son)");
+    const std::regex other(
+        R"((json|Json|basic_json\s*<[^>]*>)\s*::\s*(parse|accept|sax_parse|from_\w+)\s*\(|_json\b|>>\s*\w*[jJ]son)");
     std::vector<std::string> found;
     std::size_t files = 0;
     for (const char* folder : {"core", "drivers", "app"}) {
@@ -90,7 +90,8 @@ TEST(JsonText, IsTheOnlyReaderOfJsonInTheProgram) {
             std::ifstream in(entry.path());
             std::string line;
             for (int number = 1; std::getline(in, line); ++number) {
-                if (std::regex_search(line, other)) found.push_back(fmt::format("{}:{}", entry.path().string(), number));
+                if (std::regex_search(line, other))
+                    found.push_back(fmt::format("{}:{}", entry.path().string(), number));
             }
         }
     }

@@ -6,6 +6,7 @@
 #include "core/bench/ArmingText.h"
 #include "core/bench/Bench.h"
 #include "core/electrode/Load.h"
+#include "core/safety/UnitRecord.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/Support.h"
 
@@ -36,12 +37,13 @@ struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& clock) : clock_(clock) {}
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock_.now(); }
     [[nodiscard]] std::string boot() const override { return "boot"; }
-    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return {}; }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return SystemTime::real().wall(); }
     const Clock& clock_;
 };
 
 class UnitBench : public testing::Test {
 protected:
+    UnitBench() { settle(folder_.path()); }
     void open(double ohm = 1000) {
         bench_.reset();
         auto unit = std::make_unique<Unit>(*clock_);
@@ -95,6 +97,23 @@ TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
 
     open();
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed) << "a fault that was reset is over";
+}
+
+TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
+    RecordProperty("hazard", "H1");
+    std::filesystem::remove_all(folder_.path());  // as where another data folder is named
+    open();
+    const Instant opened = clock_->now();
+    ASSERT_TRUE(bench_->wait(Seconds(0.01)));
+    EXPECT_THAT(std::string(bench_->telemetry().reason.view()), HasSubstr("is not known"));
+    const auto armed = arm();
+    ASSERT_TRUE(armed) << armed.error().message;
+    EXPECT_GE(clock_->now() - opened, UnitRecord::kRest);
+    EXPECT_LT(clock_->now() - opened, UnitRecord::kRest + std::chrono::seconds(1));
+    open();
+    const Instant again = clock_->now();
+    ASSERT_TRUE(arm());
+    EXPECT_LT(clock_->now() - again, std::chrono::seconds(1)) << "known now";
 }
 
 TEST_F(UnitBench, ARunBeginsWithWhatTheRunsBeforeItDelivered) {

@@ -3,7 +3,9 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tuple>
 
+#include "core/devices/ReplayedDevice.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 #include "drivers/replay/ReplayDrivers.h"
@@ -17,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 /// 2 s of acceleration at 1 kHz and taxels at 50 Hz that start at 100 s on their own clock.
-void writeRecording(const ScratchDir& folder) {
+void writeRecording(const ScratchDir& folder, const std::string& origin = {}) {
     std::string acceleration = "time,X\n";
     for (int i = 0; i < 2000; ++i) acceleration += fmt::format("{:.3f},{}\n", 100 + i * 0.001, i);
     std::string taxels = "ms,a,b\n";
@@ -25,7 +27,7 @@ void writeRecording(const ScratchDir& folder) {
     folder.write("a.csv", acceleration);
     folder.write("t.csv", taxels);
     folder.write("recording.json",
-                 R"({"title": "made up", "baseline": [100, 100.5], "contact": [[101, 102]], "streams": [
+                 "{" + origin + R"("title": "made up", "baseline": [100, 100.5], "contact": [[101, 102]], "streams": [
         {"kind": "acceleration", "file": "a.csv", "time_column": "time", "time_unit": "s", "columns": ["X"], "unit": "m/s2"},
         {"kind": "taxels", "file": "t.csv", "time_column": "ms", "time_unit": "ms", "columns": ["a", "b"], "unit": "count"}]})");
 }
@@ -133,6 +135,22 @@ TEST(ReplayedRecording, PlaysFaster) {
     EXPECT_TRUE(sensor.finished());
 }
 
+StatedOrigin originOf(const Device& device) { return dynamic_cast<const ReplayedDevice&>(device).statedOrigin(); }
+
+TEST(ReplayedRecording, StaysWhatItIsStatedToBe) {
+    RecordProperty("hazard", "H9");
+    for (const auto& [text, origin, simulated] : {std::tuple{"", StatedOrigin::NotStated, false},
+                                                  {R"("simulated": true, )", StatedOrigin::Simulated, true},
+                                                  {R"("simulated": false, )", StatedOrigin::Measured, false}}) {
+        const ScratchDir folder;
+        writeRecording(folder, text);
+        FileBench bench;
+        ASSERT_TRUE(bench.open(*makeRecordingDriver(), "recording:" + folder.path().string()));
+        EXPECT_EQ(originOf(*bench.devices.sensor), origin) << text;
+        EXPECT_EQ(bench.devices.sensor->identity().simulated, simulated) << text;
+    }
+}
+
 TEST(ReplayedRecording, RefusesWhatItCannotOpen) {
     FileBench bench;
     auto driver = makeRecordingDriver();
@@ -179,6 +197,30 @@ TEST(ReplayedCaptures, ComeInOrderFromArmingOnAtTheirOwnDistances) {
     EXPECT_NEAR((*scope.poll())->trigger_s, 1.6005, 2e-5) << "armed at 1.6 s: nobody waits out the gap between files";
     bench.wait(Seconds(5));
     EXPECT_FALSE(scope.poll()->has_value());
+}
+
+TEST(ReplayedCaptures, StayWhatTheyAreStatedToBe) {
+    RecordProperty("hazard", "H9");
+    for (const auto& [text, origin, simulated] :
+         {std::tuple{"", StatedOrigin::NotStated, false},
+          {R"({"simulated": true})", StatedOrigin::Simulated, true},
+          {R"({"simulated": false})", StatedOrigin::Measured, false},
+          {R"({"simulated": "no"})", StatedOrigin::NotStated, false},
+          {R"({"simulated": true, "simulated": false})", StatedOrigin::NotStated, false}}) {
+        const ScratchDir folder;
+        ASSERT_TRUE(writeCapture(folder.path() / "a.csv", pulseCapture(20.0)));
+        if (*text != '\0') folder.write("origin.json", text);
+        FileBench bench;
+        ASSERT_TRUE(bench.open(*makeCaptureDriver(), "capture:" + folder.path().string()));
+        auto& scope = *bench.devices.oscilloscope;
+        EXPECT_EQ(originOf(scope), origin) << text;
+        EXPECT_EQ(scope.identity().simulated, simulated) << text;
+        ASSERT_TRUE(scope.arm());
+        bench.wait(Seconds(0.1));
+        const auto capture = scope.poll();
+        ASSERT_TRUE(capture->has_value());
+        EXPECT_EQ((*capture)->simulated, simulated) << text;
+    }
 }
 
 TEST(ReplayedCaptures, SayWhatWasToleratedWhenTheyWereRead) {

@@ -331,6 +331,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return fills(rig.gate, rig.clock) && full(rig.gate, rig.clock);
     });
     const auto recorded = [](const ScratchDir& folder, const Clock& clock) {
+        settle(folder.path());
         return UnitRecord::open(folder.path(), "a unit", clock).value();
     };
     add(RecordBooking, "what a run before approved counts", [=] {

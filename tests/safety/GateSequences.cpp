@@ -22,14 +22,17 @@ struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& ofTest) : clock(ofTest) {}
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock.now(); }
     [[nodiscard]] std::string boot() const override { return "boot"; }
-    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return {}; }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return SystemTime::real().wall(); }
     const Clock& clock;
 };
 
 /// A stimulator with its record, and the program that drives it until the next one does.
 class Unit {
 public:
-    explicit Unit(const Clock& clock) : clock_(clock), time_(clock) { reopen(); }
+    explicit Unit(const Clock& clock) : clock_(clock), time_(clock) {
+        settle(folder_.path());
+        reopen();
+    }
     /// The program ends and another begins.
     void reopen() {
         gate_.reset();

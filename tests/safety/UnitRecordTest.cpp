@@ -25,7 +25,7 @@ struct FakeTime final : SystemTime {
     [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return walls; }
     Instant now = std::chrono::hours(1);
     std::string id = "boot-1";
-    std::chrono::sys_seconds walls{std::chrono::seconds(1'800'000'000)};
+    std::chrono::sys_seconds walls = SystemTime::real().wall();
 };
 
 /// 40 V into 100 ohm: 1e-4 A²s a train at the low end of the load range, so that 5 s hold four.
@@ -37,6 +37,7 @@ GateSetup strongSetup() {
 
 class UnitRecordFile : public testing::Test {
 protected:
+    UnitRecordFile() { settle(folder_.path()); }
     /// A program that drives the unit: its own clock and gate.
     struct Run {
         Run(const UnitRecordFile& test, const GateSetup& setup) : time(test.time_) {
@@ -236,12 +237,39 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     expectRest("did not know it either", 4.8);
 }
 
+TEST_F(UnitRecordFile, AFolderThatIsNewSaysNothingOfTheUnitsThatItDoesNotKnow) {
+    RecordProperty("hazard", "H1");
+    const auto rests = [&] {
+        auto first = run();
+        const bool refused = !first->ask();
+        EXPECT_EQ(refused, !first->record->whyQuiet().empty());
+        if (!refused) return false;
+        EXPECT_THAT(std::string(first->record->whyQuiet()), HasSubstr("there is no record of it"));
+        EXPECT_FALSE(first->gate.approveCheck(first->clock.now())) << "not even a check";
+        first->pass(8.1);
+        EXPECT_TRUE(first->ask());
+        return true;
+    };
+    EXPECT_FALSE(rests()) << "a folder that has long been there";
+    std::filesystem::remove_all(folder_.path());
+    EXPECT_TRUE(rests()) << "none, as where another data folder is named";
+    std::filesystem::remove(file());
+    EXPECT_TRUE(rests()) << "the record was taken away";
+    std::filesystem::remove(file());
+    time_.walls += std::chrono::seconds(61);
+    EXPECT_FALSE(rests()) << "long ago";
+    std::filesystem::remove(file());
+    time_.walls -= std::chrono::hours(1);
+    EXPECT_TRUE(rests()) << "a folder from the future";
+}
+
 TEST_F(UnitRecordFile, AnotherStartOfTheComputerIsLongAgoOnlyWhenTheWallClockSaysSo) {
     RecordProperty("hazard", "H1");
     const auto restsAfter = [&](std::string id, int wall_s) {
         time_.id = "boot-1";
         time_.now = std::chrono::hours(1);
         std::filesystem::remove_all(folder_.path());
+        settle(folder_.path());
         EXPECT_TRUE(run()->ask());
         time_.id = std::move(id);
         time_.now = std::chrono::seconds(15);

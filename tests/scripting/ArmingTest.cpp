@@ -99,13 +99,38 @@ TEST_F(Arming, IsConfirmedAgainAfterTheLoadWasFitted) {
 }
 
 TEST_F(Arming, ThatFailsLeavesTheOutputDisarmedWhateverWasArmedBefore) {
-    for (const char* second : {"bench.arm({ load: 2000 });", "bench.arm({ load: \"ten\" });", "bench.arm(7);"}) {
+    for (const char* second : {"bench.arm({ load: \"ten\" });", "bench.arm(7);"}) {
         const auto outcome = run(
             fmt::format("bench.arm({{ load: 1000 }}); try {{ {} }} catch (e) {{ log(bench.live().state); }}", second),
             {{"confirm-arming", kInto1k}});
         ASSERT_FALSE(outcome.error) << outcome.error->message;
         EXPECT_EQ(outcome.log, std::vector<std::string>{"disarmed"}) << second;
     }
+}
+
+TEST_F(Arming, ThatWasNotConfirmedEndsTheRunWhateverTheScriptMakesOfIt) {
+    const auto outcome = run(
+        "bench.arm({ load: 1000 }); try { bench.arm({ load: 2000 }); } catch (e) {} try { log(\"on\"); } catch (e) {} "
+        "return { verdict: \"pass\" };",
+        {{"confirm-arming", kInto1k}});
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::NotArmed);
+    EXPECT_THAT(outcome.error->message, HasSubstr(kInto2k));
+    EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
+    EXPECT_TRUE(outcome.log.empty()) << "it went on";
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+TEST_F(Arming, AnErrorSaysWhetherALimitForbadeIt) {
+    RecordProperty("hazard", "H9");  // else a missing confirmation would count as a limit that holds
+    RunBench simulated{true, "sim:stimulator?mode=voltage"};
+    const auto outcome =
+        simulated.run(withRun("try { bench.arm({ load: \"ten\" }); } catch (error) { log(String(error.limit)); }\n"
+                              "bench.fitLoad(\"100 ohm\"); bench.arm({ load: \"100 ohm\" });\n"
+                              "try { bench.drive(\"manual\", { roughness: 1, pressure: 1 }); bench.wait(2); }\n"
+                              "catch (error) { log(String(error.limit)); }"));
+    EXPECT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.log, (std::vector<std::string>{"false", "true"}));
 }
 
 TEST_F(Arming, TheTripsAreConfirmedToo) {

@@ -33,4 +33,9 @@ std::filesystem::path ScratchDir::write(std::string_view name, std::string_view 
     return path;
 }
 
+void settle(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    std::filesystem::last_write_time(folder, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+}
+
 }  // namespace tacto::test

@@ -31,4 +31,7 @@ private:
     std::filesystem::path path_;
 };
 
+/// Makes `folder` as if nothing in it had changed for an hour: a unit without a record there is known to be at rest.
+void settle(const std::filesystem::path& folder);
+
 }  // namespace tacto::test

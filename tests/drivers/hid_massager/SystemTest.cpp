@@ -12,6 +12,7 @@
 #include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
@@ -139,6 +140,29 @@ TEST_P(HidSystem, WhoMayNotOpenItIsTold) {
     ASSERT_EQ(list.size(), 1u);
     EXPECT_FALSE(list[0].permitted);
     EXPECT_THAT(list[0].obstacle(), HasSubstr("./dev install-rules --device 054c:0ce6"));
+}
+
+TEST_P(HidSystem, LibusbTakesNoDeviceFromAProgramThatUsesItThroughTheKernelAndThatProgramIsNamed) {
+    RecordProperty("hazard", "H2");
+    EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const auto backend = isHidraw() ? hid::hidrawBackend() : hid::libusbHidBackend();
+    ASSERT_EQ(backend->devices().size(), 1u);  // and libusb has started, which needs the testbed's own sockets
+    {
+        // The emulated HID node is a pipe, whose holders are not looked for; a terminal beside it is a true node.
+        const OtherProgram other(pad.usb().addTerminal("ttyACM0", 1));
+        const auto opened = open();
+        if (isHidraw()) {
+            EXPECT_TRUE(opened) << "hidraw shares: the other program loses nothing";
+        } else {
+            ASSERT_FALSE(opened);
+            EXPECT_EQ(opened.error().code, ErrorCode::Io);
+            EXPECT_THAT(opened.error().message,
+                        AllOf(HasSubstr(other.text()), HasSubstr("/dev/ttyACM0"), HasSubstr("close that program")));
+            EXPECT_TRUE(pad.waitForReports(0).empty()) << "it was not spoken to either";
+        }
+    }
+    devices = {};
+    EXPECT_TRUE(open());
 }
 
 TEST_P(HidSystem, TheNodesByWhichAnotherProgramMayUseItAreKnown) {

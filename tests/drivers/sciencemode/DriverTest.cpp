@@ -74,7 +74,7 @@ protected:
     DeviceSet devices_;
 };
 
-TEST_F(ScienceModeUri, OpensTheFirstThatAnswersAsAStimulator) {
+TEST_F(ScienceModeUri, OpensTheOneThatAnswersAsAStimulator) {
     const auto other = ports_->add({"A1", "1-1", ""}, named("whatever"));
     other->inspect([](auto& device, Instant) { device.misbehave(AckFault::Drop, 1000); });  // some other STM32
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
@@ -118,6 +118,21 @@ TEST_F(ScienceModeUri, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
     ASSERT_FALSE(both.has_value());
     EXPECT_EQ(both.error().code, ErrorCode::InvalidArgument);
     EXPECT_THAT(both.error().message, HasSubstr("sciencemode:1-3 or sciencemode:1-4"));
+}
+
+TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
+    RecordProperty("hazard", "H4");
+    ports_->add({"A1", "1-1", ""}, named("P24-000001"));
+    ports_->add({"A2", "1-2", ""}, named("P24-000002"));
+    const auto opened = open("sciencemode:");
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(opened.error().message, HasSubstr("could be sciencemode:A1 or sciencemode:A2: name one"));
+    const auto looked = lookAt(DeviceUri::parse("sciencemode:").value(), ports_.get(), clock_);
+    ASSERT_FALSE(looked);
+    EXPECT_EQ(looked.error().message, opened.error().message);
+    ASSERT_TRUE(open("sciencemode:A2"));
+    EXPECT_EQ(serial(), "P24-000002");
 }
 
 TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {

@@ -1,7 +1,7 @@
 // A host for SuspendTest: a whole bench on the steady clock, to be stopped and continued by signals. Prints a line for
 // each train that it writes to its device, with the time of CLOCK_MONOTONIC in nanoseconds.
 //
-//   suspend_host sim | massager | /dev/pts/3 (a ScienceMode stimulator behind it)
+//   suspend_host sim | massager | pulsepal (emulated in this process) | /dev/pts/3 (a ScienceMode stimulator behind it)
 //
 // Commands on stdin, one a line: "go" arms and drives by hand, and prints "on" or "refused ..."; "state" prints the
 // interlock's state and its reason.
@@ -12,10 +12,11 @@
 #include <unistd.h>
 
 #include "core/bench/Bench.h"
+#include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/bench/FakeStimulator.h"
-#include "tests/bench/FakeStimulator.h"
+#include "tests/drivers/pulsepal/PulsePalLine.h"
 
 namespace tacto {
 namespace {
@@ -66,7 +67,8 @@ private:
 Result<void> go(Bench& bench) {
     if (auto reset = bench.resetFault(); !reset) return reset;
     if (auto begun = bench.begin(bench.stops().mark()); !begun) return begun;
-    if (auto armed = bench.arm(ArmRequest{"1 kohm", true, true}); !armed) return armed;
+    const Load load = Load::resistor(Ohms(1000));
+    if (auto armed = bench.arm({"1 kohm", true, true, bench.armingText(load)}); !armed) return armed;
     const auto before = bench.telemetry().trainsDelivered;
     if (auto driven = bench.drive(DriveSource::Manual, 1, 1); !driven) return driven;
     while (bench.telemetry().trainsDelivered == before) {
@@ -80,10 +82,15 @@ int run(const std::string& which) {
     std::vector<std::unique_ptr<Driver>> drivers;
     drivers.push_back(makeSimulatedDriver());
     drivers.push_back(makeScienceModeDriver(nullptr));
+    const auto ports = std::make_shared<test::PulsePalPorts>();
+    ports->plugged.emplace_back(TransportPort{"PP1", "1-1", ""}, std::make_shared<test::PulsePalLine>(*clock, nullptr));
+    drivers.push_back(makePulsePalDriver(ports));
     Registry registry(std::move(drivers));
     const bool terminal = which.starts_with("/");
     const Role role = which == "massager" ? Role::Massager : Role::Stimulator;
-    const DeviceUri uri = terminal ? DeviceUri{"sciencemode", "", {{"tty", which}}} : DeviceUri::parse("sim:").value();
+    const bool pulsePal = which == "pulsepal";
+    const DeviceUri uri = terminal ? DeviceUri{"sciencemode", "", {{"tty", which}}}
+                                   : DeviceUri::parse(pulsePal ? "pulsepal:" : "sim:").value();
     auto devices = registry.open({&uri, 1}, {role}, OpenContext{*clock});
     if (!devices) {
         std::cerr << devices.error().message << std::endl;
@@ -98,6 +105,10 @@ int run(const std::string& which) {
     // 200 ms of pulses every 500 ms: many a stop comes in the middle of a train.
     config.profile.encoding.train.pulses = 20;
     config.profile.encoding.train.rate = Hertz(100);
+    if (pulsePal) {
+        config.profile.encoding.amplitudeMin = Volts(2);
+        config.profile.encoding.amplitudeMax = Volts(8);
+    }
     auto bench = Bench::create(std::move(config));
     if (!bench) {
         std::cerr << bench.error().message << std::endl;

@@ -161,6 +161,12 @@ TEST(SuspendedProcess, DeliversNothingThroughAMassager) {
     tryManyTimes(host, [](std::int64_t) { return 0; });
 }
 
+TEST(SuspendedProcess, ProgramsNothingIntoAPulsePal) {
+    testing::Test::RecordProperty("hazard", "H2");
+    Host host("pulsepal");
+    tryManyTimes(host, [](std::int64_t) { return 0; });
+}
+
 TEST(SuspendedProcess, DeliversNothingThroughAScienceModeStimulatorNotEvenTheRestOfATrain) {
     testing::Test::RecordProperty("hazard", "H2");
     const SteadyClock clock;

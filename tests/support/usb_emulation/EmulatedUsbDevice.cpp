@@ -155,16 +155,17 @@ void EmulatedUsbDevice::loseKernelDriver() {
     emulation_->kernelBound = false;
 }
 
-std::filesystem::path EmulatedUsbDevice::addTerminal(const std::string& name) {
+std::filesystem::path EmulatedUsbDevice::addTerminal(const std::string& name, int interface) {
     auto& e = *emulation_;
     GError* error = nullptr;
     const auto text = fmt::format(
-        "P: {0}/{1}:1.0\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_interface\nE: DRIVER=cdc_acm\nA: bInterfaceNumber=00\\n\n\n"
-        "P: {0}/{1}:1.0/tty/{2}\nN: {2}\nE: SUBSYSTEM=tty\nE: DEVNAME=/dev/{2}\nE: MAJOR=166\nE: MINOR=0\n",
-        e.sysfs.substr(4), e.socket, name);
+        "P: {0}/{1}:1.{3}\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_interface\nE: DRIVER=cdc_acm\nA: "
+        "bInterfaceNumber=0{3}\\n\n\n"
+        "P: {0}/{1}:1.{3}/tty/{2}\nN: {2}\nE: SUBSYSTEM=tty\nE: DEVNAME=/dev/{2}\nE: MAJOR=166\nE: MINOR=0\n",
+        e.sysfs.substr(4), e.socket, name, interface);
     umockdev_testbed_add_from_string(e.testbed.get(), text.c_str(), &error);
     check(error, "adding an emulated terminal");
-    e.terminal = fmt::format("{}/{}:1.0/tty/{}", e.sysfs, e.socket, name);
+    e.terminal = fmt::format("{}/{}:1.{}/tty/{}", e.sysfs, e.socket, interface, name);
     return e.testbed.root() / "dev" / name;
 }
 

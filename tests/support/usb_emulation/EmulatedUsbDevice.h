@@ -79,9 +79,9 @@ public:
     void claimElsewhere(std::uint8_t interface);
     /// The kernel's driver lets go without coming back: what a program that was killed leaves behind.
     void loseKernelDriver();
-    /// The kernel's driver offers it as this terminal, "ttyACM0", of interface 0, until it is unplugged. Returns the
+    /// The kernel's driver offers it as this terminal, "ttyACM0", of `interface`, until it is unplugged. Returns the
     /// file that is behind /dev/ttyACM0.
-    [[nodiscard]] std::filesystem::path addTerminal(const std::string& name);
+    [[nodiscard]] std::filesystem::path addTerminal(const std::string& name, int interface = 0);
     /// The file that is behind its node in /dev/bus/usb.
     [[nodiscard]] std::filesystem::path nodeFile() const;
 
