@@ -1,6 +1,7 @@
 // tactoscope-cli - all of Tactoscope without a window. `tactoscope-cli help` is the contract.
 #include <QApplication>
 #include <QCoreApplication>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +10,7 @@
 
 #include "app/cli/Command.h"
 #include "app/scripting/ScriptRun.h"
+#include "core/base/StandardStreams.h"
 
 namespace tacto::cli {
 
@@ -68,7 +70,12 @@ int runCommand(const Command& command, int argc, char** argv) {
         return kDone;
     }
     try {
-        const int code = command.run(parser);
+        int code = command.run(parser);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            say(stderr, "tactoscope-cli: {}: the output could not be written: {}\n", command.name,
+                std::strerror(errno));
+            if (code == kDone) code = kCouldNotRun;
+        }
         if (ScriptRun::abandonedRunning() == 0) return code;
         std::fflush(nullptr);
         std::_Exit(code);  // a script that does not end would run on among what is taken down
@@ -84,6 +91,7 @@ int runCommand(const Command& command, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace tacto::cli;
+    tacto::holdStandardStreams();
     const char* name = argc > 1 ? argv[1] : nullptr;
     if (name == nullptr) {
         printHelp(stderr);

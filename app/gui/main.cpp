@@ -5,8 +5,10 @@
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/run/AllDrivers.h"
+#include "core/base/StandardStreams.h"
 
 int main(int argc, char** argv) {
+    tacto::holdStandardStreams();
     QApplication application(argc, argv);
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");

@@ -9,6 +9,7 @@
 #include "core/safety/UnitRecord.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
 
 namespace tacto {
 
@@ -49,7 +50,8 @@ std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
 std::string declaredLoad(const nlohmann::json& parameters) {
     const auto load = parameters.find("load");
     if (load == parameters.end()) return kDefaultLoad;
-    return load->is_number() ? fmt::format("{} ohm", load->get<double>()) : load->get<std::string>();
+    if (load->is_number()) return fmt::format("{} ohm", load->get<double>());
+    return load->is_string() ? load->get<std::string>() : kDefaultLoad;
 }
 
 SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, const ShippedLimits& limits,
@@ -122,6 +124,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.tap = tap;
     config.stops = order.stops;
     config.asked = order.asked;
+    config.watched = order.watched;
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolder();
     run->calibrated_ = config.calibration && config.calibrationHolds;
@@ -194,6 +197,22 @@ RunResult ProtocolRun::finish() {
         static_cast<void>(new std::shared_ptr<Clock>(clock_));
     }
     session_.reset();
+    if (!abandoned) {
+        // What is not on disk was not shown (hazard H8).
+        const auto kept = verifySession(files_.session);
+        if (!kept)
+            result.troubles.push_back(kept.error());
+        else if (kept->status != SessionStatus::Intact)
+            result.troubles.push_back(
+                {ErrorCode::Io, fmt::format("the session {} is {}: {}", files_.session.string(), nameOf(kept->status),
+                                            kept->problems.empty() ? "" : kept->problems.front())});
+    }
+    if (!result.troubles.empty() && !result.outcome.error) {
+        result.outcome.verdict = ScriptVerdict::None;
+        result.outcome.error = result.troubles.front();
+        result.outcome.reasons = {result.troubles.front().message};
+        result.troubles.erase(result.troubles.begin());
+    }
     result.devices = about_.devices;
     Delivered delivered;
     if (const auto reader = SessionReader::open(files_.session)) {

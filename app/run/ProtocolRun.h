@@ -32,6 +32,7 @@ struct RunOrder {
     /// asked for the run.
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
+    std::function<bool()> watched = {};  ///< BenchConfig::watched
 };
 
 /// The load that a protocol's parameters declare: what the simulated bench starts with.

@@ -1,5 +1,7 @@
 #include "app/scripting/HostBridge.h"
 
+#include <exception>
+
 #include "app/scripting/JsValue.h"
 
 namespace tacto {
@@ -24,8 +26,15 @@ QJSValue HostBridge::call(int index, const QJSValue& arguments) {
 
     Result<nlohmann::json> given = toJson(arguments);
     if (engine_.hasError()) return {};  // a getter of the script's own threw
+    const auto asked = [&]() -> Result<nlohmann::json> {
+        try {
+            return port_.call(function, *given, line);
+        } catch (const std::exception& surprise) {  // the engine cannot be unwound by one
+            return fail(ErrorCode::InvalidArgument, "{}: {}", function.name, surprise.what());
+        }
+    };
     Result<nlohmann::json> answer =
-        given ? port_.call(function, *given, line)
+        given ? asked()
               : tl::unexpected<Error>(
                     {given.error().code, fmt::format("{}{}{}: {}", function.object, function.object.empty() ? "" : ".",
                                                      function.name, given.error().message)});

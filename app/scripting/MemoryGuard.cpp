@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace tacto {
@@ -35,9 +40,50 @@ std::size_t available() noexcept {
     return kilobytes == 0 ? kMost : std::size_t{1024} * kilobytes;
 }
 
+/// The first number in a file of the kernel's; nothing where there is none ("max").
+std::optional<std::size_t> numberIn(const std::string& path) {
+    std::ifstream file(path);
+    std::size_t value = 0;
+    if (!(file >> value)) return std::nullopt;
+    return value;
+}
+
+/// What the control group of this program leaves it, in bytes: of the group itself and of those around it.
+std::size_t leftByGroup() {
+    std::size_t left = std::numeric_limits<std::size_t>::max();
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        if (!line.starts_with("0::/")) continue;
+        for (auto group = line.substr(3);; group = group.substr(0, group.rfind('/'))) {
+            const auto folder = "/sys/fs/cgroup" + group;
+            const auto most = numberIn(folder + "/memory.max");
+            const auto used = numberIn(folder + "/memory.current");
+            if (most && used) left = std::min(left, *most > *used ? *most - *used : 0);
+            if (group.empty() || group == "/") break;
+        }
+    }
+    return left;
+}
+
+/// What a resource limit leaves of what this program has taken by that reckoning: the `field`th of /proc/self/statm.
+std::size_t leftByLimit(int resource, int field) {
+    rlimit limit{};
+    if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::numeric_limits<std::size_t>::max();
+    std::ifstream statm("/proc/self/statm");
+    std::size_t pages = 0;
+    for (int i = 0; i <= field; ++i) statm >> pages;
+    const std::size_t used = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+}
+
 }  // namespace
 
-std::size_t MemoryGuard::usualLimit() noexcept { return std::min(kMost, available() / 2); }
+std::size_t MemoryGuard::usualLimit() {
+    constexpr int kAddressSpace = 0, kData = 5;
+    return std::min({kMost, available() / 2, leftByGroup() / 2, leftByLimit(RLIMIT_AS, kAddressSpace) / 2,
+                     leftByLimit(RLIMIT_DATA, kData) / 2});
+}
 
 MemoryGuard::MemoryGuard(std::function<void()> onExceeded, std::size_t most)
     : onExceeded_(std::move(onExceeded)), thread_([this, most] { watch(most); }) {}

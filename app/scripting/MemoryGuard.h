@@ -15,8 +15,8 @@ namespace tacto {
 class MemoryGuard {
 public:
     /// What a script may make the program grow by, in bytes: 2 GiB, or half of the memory that is free now if that is
-    /// less. The captures that are held for it count.
-    [[nodiscard]] static std::size_t usualLimit() noexcept;
+    /// less, or of what a resource limit or a control group leaves. The captures that are held for it count.
+    [[nodiscard]] static std::size_t usualLimit();
 
     /// Calls `onExceeded` when the program has grown by more than `most` bytes since now. Looks every 20 ms.
     explicit MemoryGuard(std::function<void()> onExceeded, std::size_t most = usualLimit());

@@ -5,6 +5,7 @@
 // Thread-safety: ask() is called on the script's thread and may block; cancel() from any thread wakes it.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/base/Units.h"
 
 namespace tacto {
 
@@ -32,11 +34,18 @@ struct OperatorQuestion {
     std::string confirms{};
     /// Confirm, at a terminal: the word that is typed.
     std::string word = "yes";
+    /// Which question of the desk's this is, so that an answer to one before it is none to this one.
+    std::uint64_t id = 0;
 };
 
 class Operator {
 public:
     virtual ~Operator() = default;
+    /// For how long output may go on while a question waits, unless present() is called again: the operator has the
+    /// stop, as long as there is something to press.
+    [[nodiscard]] virtual Seconds unwatchedFor() const { return Seconds(35); }  // longer than a terminal's arming waits
+    /// Called by ask() while it waits and the operator could press the stop. Set by the run.
+    std::function<void()> present;
     /// true for Confirm, the key for Choose, a number or text for Enter.
     /// Errors: NotFound when nobody can answer, naming the question; Stopped when refused or cancelled;
     /// InvalidArgument for an answer outside what is accepted; NotArmed for the confirmation of another text.

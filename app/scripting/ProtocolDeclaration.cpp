@@ -236,6 +236,29 @@ std::string_view nameOf(ParameterType type) noexcept {
     return "";
 }
 
+namespace {
+
+/// With these parameters the operator vouches for what the program cannot know, so the field must say what it is.
+Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
+    struct Vouched {
+        std::string_view name, unit, word;
+    };
+    constexpr Vouched kVouched[] = {{"area", "cm2", "electrode"},
+                                    {"scope_gain_pct", "%", "Oscilloscope gain"},
+                                    {"timebase_ppm", "ppm", "time base"}};
+    for (const auto& vouched : kVouched) {
+        if (parameter.name != vouched.name) continue;
+        if (parameter.unit == vouched.unit && parameter.label.find(vouched.word) != std::string::npos) return {};
+        return fail(ErrorCode::InvalidArgument,
+                    "the parameter {} is labelled \"{}\" in \"{}\"; by it the operator vouches for something, so a "
+                    "label with \"{}\" and the unit {} are expected",
+                    parameter.name, parameter.label, parameter.unit, vouched.word, vouched.unit);
+    }
+    return {};
+}
+
+}  // namespace
+
 Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& order, const Json& choiceOrder) {
     if (!given.is_object()) {
         return fail(ErrorCode::InvalidArgument, "protocol() was given {}, an object is expected", shown(given));
@@ -257,11 +280,14 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
     if (!parameters.is_object()) {
         return fail(ErrorCode::InvalidArgument, "parameters is {}, an object is expected", shown(parameters));
     }
+    if (!order.is_array() || !choiceOrder.is_array())
+        return fail(ErrorCode::InvalidArgument, "the names of the parameters cannot be listed");
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto name = order[i].is_string() ? order[i].get<std::string>() : std::string();
         auto parameter = readParameter(name, parameters.value(name, Json()),
                                        i < choiceOrder.size() ? choiceOrder[i] : Json::array());
         if (!parameter) return failure(parameter);
+        if (const auto honest = saysWhatItVouchesFor(*parameter); !honest) return failure(honest);
         out.parameters.push_back(std::move(*parameter));
     }
     return out;

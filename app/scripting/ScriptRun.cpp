@@ -3,8 +3,12 @@
 #include <QCoreApplication>
 #include <atomic>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
+#include <poll.h>
+#include <system_error>
 #include <thread>
+#include <unistd.h>
 
 #include "app/scripting/MemoryGuard.h"
 #include "app/scripting/ScriptSession.h"
@@ -33,6 +37,18 @@ std::string_view nameOf(ScriptVerdict verdict) noexcept {
     }
     return "";
 }
+
+namespace {
+
+/// Without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
+[[noreturn]] void endProgram(const std::string& why) {
+    pollfd out{STDERR_FILENO, POLLOUT, 0};
+    if (::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0)
+        static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
+    std::abort();
+}
+
+}  // namespace
 
 /// Shared with the script's thread, which may outlive the ScriptRun when it was abandoned.
 struct ScriptRun::State final : HostPort {
@@ -86,12 +102,17 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
     const std::lock_guard lock(access);
     if (abandoned) return fail(ErrorCode::Stopped, "this script was abandoned");
     if (declares) {
+        // As the program read it: the first one counts, and none inside run(p).
+        if (running || !declared.is_null()) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
         declared = arguments;
         return nlohmann::json();
     }
     if (const auto& end = session.endedWith()) return tl::unexpected<Error>(*end);
+    request.bench->attend();  // a script that calls runs
     try {
-        return function.call(session, arguments);
+        auto answer = function.call(session, arguments);
+        request.bench->attend();
+        return answer;
     } catch (const std::exception& surprise) {  // of a library, as JSON or memory: the script gets it as an Error
         return fail(ErrorCode::InvalidArgument, "{}.{}: {}", function.object, function.name, surprise.what());
     }
@@ -127,7 +148,7 @@ void ScriptRun::State::execute(Sandbox& sandbox) {
     if (abandoned) return;
     request.bench->disarm();
     error = std::move(failed);
-    stoppedInTime = stopped && error.has_value();
+    stoppedInTime = stopped;  // also where the script swallowed it
     ended = true;
 }
 
@@ -167,8 +188,8 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
     std::unique_lock lock(access, std::defer_lock);
     if (!lock.try_lock_for(kHostCallLimit)) {
         request.bench->stop("a host call that does not end");
-        qFatal("a call of script %s into the bench did not end after a stop; ending with outputs off",
-               request.script.name.c_str());
+        endProgram(fmt::format("a call of script {} into the bench did not end after a stop; ending with outputs off\n",
+                               request.script.name));
     }
     ScriptOutcome result;
     result.file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
@@ -207,6 +228,12 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
             result.verdict = ScriptVerdict::Stopped;
             result.error = Error{ErrorCode::Device, fmt::format("fault during the run: {}. Output is off.",
                                                                 request.bench->telemetry().reason.view())};
+        }
+        if (!result.error && request.bench->recordsLost() > 0) {
+            result.verdict = ScriptVerdict::None;
+            result.error = Error{ErrorCode::Io, fmt::format("{} records of this run were lost: the disk was too slow. "
+                                                            "There is no verdict on what is not on record.",
+                                                            request.bench->recordsLost())};
         }
         if (result.error) {
             result.results = result.abandoned ? nlohmann::json() : session.takePartial();
@@ -250,10 +277,17 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     auto state = std::make_shared<State>(std::move(request));
     state->faultsBefore = state->request.bench->faults();
     State* raw = state.get();  // the thread keeps the port, which is the state, alive
-    state->thread = std::make_unique<ScriptThread>(state, state->request.script,
-                                                   [raw](Sandbox& sandbox) { raw->execute(sandbox); });
-    state->memory = std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
-                                                  state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
+    try {
+        // The guard first: where a thread cannot be made, no script runs yet.
+        state->memory =
+            std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
+                                          state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
+        state->thread = std::make_unique<ScriptThread>(state, state->request.script,
+                                                       [raw](Sandbox& sandbox) { raw->execute(sandbox); });
+    } catch (const std::system_error& refused) {
+        return fail(ErrorCode::Io, "the script cannot run: the system gives this program no thread ({})",
+                    refused.what());
+    }
     return std::unique_ptr<ScriptRun>(new ScriptRun(std::move(state)));
 }
 

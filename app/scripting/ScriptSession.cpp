@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "app/scripting/Arguments.h"
 #include "core/base/Text.h"
@@ -21,7 +22,11 @@ Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
     if (request_.operatorDesk == nullptr) {
         return fail(ErrorCode::NotFound, "nobody can answer \"{}\"; give --set {}=...", question.text, question.name);
     }
+    request_.operatorDesk->present = [bench = request_.bench] { bench->attend(); };
+    request_.bench->attend(request_.operatorDesk->unwatchedFor());
     auto answer = request_.operatorDesk->ask(question);
+    request_.operatorDesk->present = {};
+    request_.bench->attend();
     // The keys of a choice are the script's words; what was entered is the operator's.
     if (question.kind == OperatorQuestion::Kind::Enter && answer && answer->is_string()) {
         answered_.insert(answer->get<std::string>());
@@ -70,6 +75,35 @@ nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
     return handles;
 }
 
+namespace {
+
+/// Whether the trains that a record shows were all told the same amplitude at the same distance; where the encoder
+/// moves in steps from level to level, the train before them too. Else a reading has no known command: a mean over
+/// unlike trains would pass for an error of the stimulator (hazard H1).
+bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
+    constexpr double kSame = 1e-3;    // relative
+    constexpr double kNear_s = 0.05;  // from the planned onset to the record, as for the capture's own train
+    const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b)); };
+    const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
+    std::vector<ToldTrain> told;
+    for (const auto& train : now.told) {
+        if (std::isfinite(train.amplitude) && toSeconds(train.onset) < end_s) told.push_back(train);
+    }
+    std::ranges::sort(told, {}, &ToldTrain::onset);
+    auto first = std::ranges::find_if(
+        told, [&](const ToldTrain& train) { return toSeconds(train.onset) >= capture.start_s - kNear_s; });
+    const bool inSteps = encoding.amplitudeSlew_V_per_s > 0 || encoding.intervalRatioPerTrain > 0;
+    if (inSteps && first != told.begin()) --first;
+    if (first == told.end()) return true;
+    for (auto next = first + 1; next != told.end(); ++first, ++next) {
+        if (!same(next->amplitude, first->amplitude)) return false;
+        if (!same(toSeconds(next->onset - first->onset), now.interval_s)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 /// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was told.
 CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -80,8 +114,11 @@ CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
     const auto onGrid = [&](Micros time) {
         return stimulator ? towardZero(time.count(), stimulator->traits().widthStep.count()) / 1e6 : kUnknown;
     };
-    return {.amplitude = std::isfinite(capture.told) ? capture.told : now.trainAmplitude,
-            .interval_s = now.interval_s,
+    const bool steady = toldTheSame(capture, now, bench.profile().encoding);
+    return {.amplitude = !steady                       ? kUnknown
+                         : std::isfinite(capture.told) ? capture.told
+                                                       : now.trainAmplitude,
+            .interval_s = steady ? now.interval_s : kUnknown,
             .width_s = onGrid(train.phaseWidth),
             .gap_s = onGrid(train.interPhaseGap),
             .calibrationApplied = bench.calibration().has_value(),

@@ -17,6 +17,9 @@ Result<std::string> readTextFile(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(status)) {
         return fail(ErrorCode::Io, "{} is a folder; a file was expected", path.string());
     }
+    if (!std::filesystem::is_regular_file(status)) {  // a pipe would wait for its other end
+        return fail(ErrorCode::Io, "{} is a pipe or a device; a file was expected", path.string());
+    }
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return fail(ErrorCode::Io, "{} cannot be opened for reading", path.string());
     std::string text;

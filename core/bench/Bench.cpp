@@ -192,9 +192,9 @@ void Bench::State::turn(Instant until) noexcept {
 
 Result<void> Bench::State::health() const {
     if (stopped()) {
-        const Instant slept = loop->sleptBeforeStop();
-        if (slept == Instant(0)) return fail(ErrorCode::Stopped, "stopped. Output is off.");
-        return fail(ErrorCode::Stopped, "stopped: the computer slept for {:.0f} s. Output is off.", toSeconds(slept));
+        const auto why = loop->endedBecause();
+        if (why.empty()) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+        return fail(ErrorCode::Stopped, "stopped: {}. Output is off.", why.view());
     }
     if (interlock.state() == InterlockState::Faulted) {
         return fail(ErrorCode::Device, "fault: {}. Output is off.", interlock.reason().view());
@@ -235,10 +235,15 @@ Result<void> Bench::begin(StopMark asked) {
     if (s.stops->movedSince(asked)) {
         return fail(ErrorCode::Stopped, "stopped before this was begun. Output is off.");
     }
-    s.loop->forgetSleep();
+    s.loop->beginOrder();
+    attend();
     s.order.store(asked, std::memory_order_release);
     return {};
 }
+
+void Bench::attend(Seconds within) noexcept { state_->attend(within); }
+
+std::uint64_t Bench::recordsLost() const noexcept { return state_->recorder ? state_->recorder->dropped() : 0; }
 
 StopCounter& Bench::stops() noexcept { return *state_->stops; }
 
@@ -273,6 +278,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
             }
         }
     }
+    attend();
     s.driving.store(source, std::memory_order_release);
     s.refusalsSeen = s.loop->refusals();
     s.loop->drive({source, roughness, pressure});

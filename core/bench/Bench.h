@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,9 @@ struct BenchConfig {
     /// its first order; without `stops` that is now.
     std::shared_ptr<StopCounter> stops;
     StopMark asked = {};
+    /// Whether the operator can reach the stop now (the window runs); empty: always. While it says no, nothing counts
+    /// as looking after the output: see Bench::attend(). Called from any thread; does not block.
+    std::function<bool()> watched;
     /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator goes on from there, and is held
     /// against other processes. Empty keeps none; a simulated stimulator never has one.
     std::filesystem::path units;
@@ -113,6 +117,13 @@ public:
     [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
     /// How long the loop had been silent when the stimulator was switched off for it; nothing if that never happened.
     [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
+    /// Records of the session that were lost because the disk was too slow. Any thread.
+    [[nodiscard]] std::uint64_t recordsLost() const noexcept;
+
+    /// The owner of the order, a script or a window, is looking after the output: driven output that nobody looks after
+    /// for `within` ends as by a stop (hazard H2). begin(), drive() and everything that waits do it too. Any thread.
+    void attend(Seconds within = kAttended) noexcept;
+    static constexpr Seconds kAttended{2};
 
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.

@@ -8,6 +8,7 @@
 
 #include "core/bench/ArmingText.h"
 #include "core/bench/BenchState.h"
+#include "core/devices/ReplayedDevice.h"
 
 namespace tacto {
 
@@ -66,8 +67,10 @@ ArmCommand Bench::State::armCommandFor(const ArmRequest& request, const Load& lo
     evidence.readsBack = source.readsBack;
     evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
     evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
-    command.confirmByCapture = scope && config.devices.stimulator && !source.readsBack;
-    if (scope && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
+    // Files show what they always showed: they confirm no pulse.
+    const bool sees = scope && dynamic_cast<const ReplayedDevice*>(config.devices.oscilloscope.get()) == nullptr;
+    command.confirmByCapture = sees && config.devices.stimulator && !source.readsBack;
+    if (sees && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
     evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config.mode == OutputMode::BenchLoad;
     return command;
 }

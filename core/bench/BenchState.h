@@ -138,6 +138,9 @@ struct Bench::State {
     template <class Done>
     [[nodiscard]] Result<bool> advance(Instant until, Done done);
     [[nodiscard]] Result<void> rest();
+    void attend(Seconds within) noexcept {
+        if (!config.watched || config.watched()) loop->attend(config.clock->now() + toInstant(within));
+    }
     [[nodiscard]] Result<void> health() const;
     template <class Session>
     [[nodiscard]] Result<void> askAgain(Session& session, DeviceThread* thread, Instant within, const char* who);
@@ -173,6 +176,7 @@ Result<bool> Bench::State::advance(Instant until, Done done) {
     constexpr Instant kLook = std::chrono::milliseconds(2);
     for (std::uint64_t turns = 0;; ++turns) {
         if (const auto well = health(); !well) return failure(well);
+        attend(kAttended);
         if (done()) return true;
         if (config.clock->now() >= until) return false;
         if (progress != nullptr && turns % 64 == 0) progress(progressContext);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr Instant kExposureEvery = std::chrono::milliseconds(100);
 constexpr Instant kReportLook = std::chrono::milliseconds(100);
+constexpr Instant kUnrecorded = std::chrono::seconds(2);
 constexpr Instant kSlept = std::chrono::seconds(1);         // shorter is a silence as any other
 constexpr Instant kReportEvery = std::chrono::seconds(10);  // of a line that goes on losing
 
@@ -101,20 +102,51 @@ void ControlLoop::wakeFromSilence(Instant now) noexcept {
 }
 
 void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
-    slept_.store(slept.count(), std::memory_order_release);
-    if (parts_.stops != nullptr) parts_.stops->raise();  // an order from before the sleep is over
     std::array<char, 80> why{};
     fmt::format_to_n(why.data(), why.size() - 1, "the computer slept for {:.0f} s", toSeconds(slept));
-    parts_.interlock.disarm(why.data());
+    endOrder(now, "sleep", why.data());
+}
+
+/// Output goes on only while its owner waits for it and what it does is recorded.
+void ControlLoop::watchOwner(Instant now) noexcept {
+    const auto state = parts_.interlock.state();
+    const bool on = state == InterlockState::Checking || state == InterlockState::Armed ||
+                    state == InterlockState::Delivering || state == InterlockState::Paused;
+    if (!on) return;
+    if (drive_.source != DriveSource::Off && now.count() > attendedUntil_.load(std::memory_order_acquire))
+        return endOrder(now, "unattended", "the program that ordered the output did not look after it for 2 s");
+    if (parts_.recorder != nullptr && parts_.recorder->standsStillFor() > kUnrecorded)
+        endOrder(now, "unrecorded", "the disk stood still for 2 s, and nothing is put out that is not recorded");
+}
+
+/// An order from before is over, as by a stop.
+void ControlLoop::endOrder(Instant now, const char* kind, std::string_view why) noexcept {
+    {
+        const std::scoped_lock lock(armedMutex_);
+        endedBecause_ = why;
+    }
+    if (parts_.stops != nullptr) parts_.stops->raise();
+    parts_.interlock.disarm(FixedText<159>(why).c_str());
     parts_.gate.latchStop();
     outputsOff();
     drive_ = {};
-    if (parts_.recorder != nullptr) parts_.recorder->event(now, "sleep", {{"slept_s", toSeconds(slept)}}, why.data());
+    if (parts_.recorder != nullptr) parts_.recorder->event(now, kind, {}, why);
+}
+
+FixedText<159> ControlLoop::endedBecause() const noexcept {
+    const std::scoped_lock lock(armedMutex_);
+    return endedBecause_;
+}
+
+void ControlLoop::beginOrder() noexcept {
+    const std::scoped_lock lock(armedMutex_);
+    endedBecause_ = {};
 }
 
 void ControlLoop::step(Instant now) noexcept {
     beat(now);
     takeCommands(now);
+    watchOwner(now);
     noteState(now);
     readFinger(now);
     watchSensor(now);

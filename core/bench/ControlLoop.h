@@ -100,10 +100,14 @@ public:
     [[nodiscard]] Telemetry telemetry() const noexcept { return latest_.read(); }
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
-    /// For how long the computer slept before the last stop that a sleep was; 0 = never. Any thread.
-    [[nodiscard]] Instant sleptBeforeStop() const noexcept { return Instant(slept_.load(std::memory_order_acquire)); }
-    /// What comes from now on is another order, which no sleep has stopped.
-    void forgetSleep() noexcept { slept_.store(0, std::memory_order_release); }
+    /// Who ordered the output (a script, a window) is looking after it until then. Output that is driven for longer
+    /// ends as by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
+    void attend(Instant until) noexcept { attendedUntil_.store(until.count(), std::memory_order_release); }
+    /// Why the loop itself ended the order: a sleep, an owner or a recording that stood still. Empty where it did not.
+    /// Any thread.
+    [[nodiscard]] FixedText<159> endedBecause() const noexcept;
+    /// What comes from now on is another order, which the loop has not ended.
+    void beginOrder() noexcept;
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
@@ -120,6 +124,8 @@ private:
     void beat(Instant now) noexcept;
     void wakeFromSilence(Instant now) noexcept;
     void wakeFromSleep(Instant now, Instant slept) noexcept;
+    void watchOwner(Instant now) noexcept;
+    void endOrder(Instant now, const char* kind, std::string_view why) noexcept;
     void outputsOff() noexcept;
     void takeCommands(Instant now) noexcept;
     void beginCheck(Instant now) noexcept;
@@ -165,7 +171,7 @@ private:
     std::atomic<bool> paused_{false};
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
-    std::atomic<Instant::rep> slept_{0};
+    std::atomic<Instant::rep> attendedUntil_{0};
 
     std::mutex inboxMutex_;  // held to move a setting in or out
     Inbox inbox_;
@@ -173,8 +179,9 @@ private:
     std::mutex listenMutex_;  // held to hand over the samples of one step
     BenchTap* listener_ = nullptr;
     std::atomic<bool> listening_{false};
-    std::mutex armedMutex_;
+    mutable std::mutex armedMutex_;
     std::optional<Result<void>> armedResult_;
+    FixedText<159> endedBecause_;  // guarded by armedMutex_
 
     // The loop's own:
     std::optional<ArmCommand> arming_;

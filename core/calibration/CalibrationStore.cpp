@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/file.h>
+#include <thread>
 #include <unistd.h>
 
 #include "core/base/Csv.h"
@@ -25,9 +27,15 @@ class LockedFile {
 public:
     explicit LockedFile(const std::filesystem::path& path)
         : handle_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-        if (handle_ >= 0 && ::flock(handle_, LOCK_EX) != 0) {
+        constexpr int kTries = 100;  // 2 s: another program that keeps a calibration takes milliseconds
+        for (int i = 1; handle_ >= 0 && ::flock(handle_, LOCK_EX | LOCK_NB) != 0; ++i) {
+            if (errno == EINTR || (errno == EWOULDBLOCK && i < kTries)) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                continue;
+            }
             ::close(handle_);
             handle_ = -1;
+            errno = EWOULDBLOCK;
         }
     }
     ~LockedFile() {
@@ -140,8 +148,9 @@ Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
     if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), failed);
     const LockedFile locked(file_);
     if (!locked.open()) {
+        const bool held = errno == EWOULDBLOCK;
         return fail(ErrorCode::Io, "{} cannot be written: {}; a writable file was expected", file_.string(),
-                    std::strerror(errno));
+                    held ? "another program has kept it locked for 2 s" : std::strerror(errno));
     }
     // Another process may have added one since.
     const auto text = readTextFile(file_);

@@ -45,7 +45,9 @@ void Interlock::keepFaultsIn(UnitRecord& record) noexcept {
     record_ = &record;
     const auto left = record.fault();
     if (!left) return;
-    causes_ |= left->causes;
+    // An error inside the program that had it is over with that program; the device is still to be looked at.
+    const bool internal = (left->causes & bitOf(FaultCause::Internal)) != 0;
+    causes_ |= (left->causes & ~bitOf(FaultCause::Internal)) | (internal ? bitOf(FaultCause::DeviceFault) : 0U);
     state_.store(InterlockState::Faulted, std::memory_order_release);
     std::array<char, 160> text{};
     const auto end = fmt::format_to_n(text.data(), text.size() - 1, "left by an earlier run: {}", left->reason.view());

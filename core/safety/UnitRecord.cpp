@@ -134,7 +134,8 @@ Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path
     const auto path = folder / fileNameOf(unit);
     int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     const bool made = file >= 0;
-    if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    // A link would lead to a file of another purpose, and a pipe would wait.
+    if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return cannot(path);
     const auto giveUp = [&](tl::unexpected<Error> why) {
         if (made) ::unlink(path.c_str());
@@ -152,6 +153,12 @@ Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path
     }
     struct stat about {};
     if (::fstat(file, &about) != 0) return giveUp(cannot(path));
+    if (!S_ISREG(about.st_mode) || about.st_nlink != 1) {
+        return giveUp(fail(ErrorCode::Io,
+                           "the record of what this unit has delivered, {}, is no file of its own (a link, a pipe); "
+                           "remove it. Without a record the unit is not driven",
+                           path.string()));
+    }
     const bool whole = made || about.st_size == static_cast<off_t>(sizeof(Map));
     // Allocated now: a full disk is found here and not in the middle of a run.
     if (const int error = ::posix_fallocate(file, 0, sizeof(Map)); error != 0) {
@@ -224,7 +231,8 @@ void UnitRecord::takeOver(bool pastKept) {
         next_ = 1;
     }
     if (!map_.fault.sound()) {
-        Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::Internal), .wall_s = wall};
+        // As a fault of the device: a reset asks it again, and arming begins with a check pulse.
+        Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};
         copyText(unknown.reason, "the record of this unit is damaged; whether it was left in a fault is not known");
         map_.fault.write(unknown);
     }

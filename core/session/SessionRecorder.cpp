@@ -92,6 +92,12 @@ struct SessionRecorder::State {
     const bool inlineWrites;
     std::unique_ptr<SpscRing<Record>> ring;  // Only with a thread of its own
     std::atomic<bool> broken{false};
+    static constexpr std::chrono::nanoseconds::rep kIdle = -1;
+    std::atomic<std::chrono::nanoseconds::rep> writingSince{kIdle};
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    [[nodiscard]] std::chrono::nanoseconds::rep sinceStart() const noexcept {
+        return std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+    }
     SampleBlock scratch;         // Writing side only, as the next two
     std::uint64_t reported = 0;  // Of ring->dropped(), what the session knows already
     Instant latest{0};
@@ -150,9 +156,11 @@ struct SessionRecorder::State {
             const auto wanted = drainsWanted;
             const bool last = ending;
             lock.unlock();
+            writingSince.store(sinceStart(), std::memory_order_release);
             while (const auto record = ring->pop()) write(*record);
             reportDropped();
             check(wanted != drainsDone || last ? writer.flush() : writer.commitIfDue());
+            writingSince.store(kIdle, std::memory_order_release);
             lock.lock();
             drainsDone = wanted;
             changed.notify_all();
@@ -249,6 +257,11 @@ void SessionRecorder::event(Instant at, const char* kind, std::initializer_list<
 void SessionRecorder::event(Instant at, const char* kind, std::span<const RecordField> fields,
                             std::string_view text) noexcept {
     state_->take(noteOf(RecordKind::Event, at, kind, fields, text));
+}
+
+std::chrono::nanoseconds SessionRecorder::standsStillFor() const noexcept {
+    const auto since = state_->writingSince.load(std::memory_order_acquire);
+    return std::chrono::nanoseconds(since == State::kIdle ? 0 : state_->sinceStart() - since);
 }
 
 Result<void> SessionRecorder::drain() {

@@ -9,6 +9,7 @@
 // Thread-safety: samples(), command(), event() have one caller, the control loop; the rest any thread.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -64,6 +65,9 @@ public:
     /// Why recording ended: the writer's first error. Never blocks; for the control loop.
     [[nodiscard]] bool failed() const noexcept;
     [[nodiscard]] std::optional<Error> error() const;
+    /// For how long the writing has taken that goes on now: how long the disk has stood still. 0 between two writings
+    /// and where the caller itself writes. Never blocks; for the control loop.
+    [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
     /// Records lost to overflow so far.
     [[nodiscard]] std::uint64_t dropped() const noexcept;
 

@@ -91,6 +91,9 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         auto store = attach(std::move(*database));
         if (!store) return failure(store);
         if (auto row = store->add(kind::kAbout, at, "", about); !row) return failure(row);
+        if (auto written = store->commit(); !written) return failure(written);
+        // Without it the rows would be in the draft's journal, which is not published.
+        if (auto whole = store->database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !whole) return failure(whole);
         if (auto closed = store->close(); !closed) return failure(closed);
         if (auto published = publish(draft, path); !published) return failure(published);
         auto final = Database::open(path.string(), SQLITE_OPEN_READWRITE);

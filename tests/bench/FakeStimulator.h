@@ -99,6 +99,7 @@ private:
 inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock,
                     StopMark asked = {}) {
     if (interlock.state() == InterlockState::Disconnected && !interlock.connect()) return;
+    loop.attend(Instant::max());
     const auto ticket = interlock.requestArming(clock.now()).value();
     if (!interlock.confirmArming(ticket, clock.now())) return;
     ArmCommand command;

@@ -1,5 +1,6 @@
 // A process that was stopped, a computer that slept: the loop and a device's thread wake in either order, and nothing
 // is delivered until somebody arms again (H2).
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/bench/Bench.h"
@@ -165,11 +166,31 @@ TEST_P(Silence, OfAComputerThatSleptDisarmsSaysWhyAndEndsTheOrder) {
     EXPECT_GT(offs(), off);
     EXPECT_EQ(interlock.state(), InterlockState::Disarmed);
     EXPECT_EQ(interlock.reason().view(), "the computer slept for 12 s");
-    EXPECT_EQ(loop->sleptBeforeStop(), 12s);
+    EXPECT_EQ(loop->endedBecause().view(), "the computer slept for 12 s");
     EXPECT_TRUE(stops.movedSince(asked)) << "what was asked for before it slept is over";
     arm();
     pass(1s);
     EXPECT_EQ(interlock.state(), InterlockState::Delivering);
+}
+
+TEST_P(Silence, OfWhatOrderedTheOutputEndsItWhileTheLoopRunsOn) {
+    deliverUntilOneIsHandedOver();
+    const auto asked = stops.mark();
+    loop->attend(clock.now() + 2s);
+    pass(1900ms);
+    EXPECT_EQ(interlock.state(), InterlockState::Delivering);
+    loop->attend(clock.now() + 2s);
+    pass(1900ms);
+    EXPECT_EQ(interlock.state(), InterlockState::Delivering) << "it was looked after";
+    pass(200ms);
+    EXPECT_EQ(interlock.state(), InterlockState::Disarmed);
+    EXPECT_THAT(std::string(interlock.reason().view()), testing::HasSubstr("did not look after it"));
+    EXPECT_TRUE(stops.movedSince(asked));
+    const auto before = delivered();
+    pass(3s);
+    EXPECT_EQ(delivered(), before);
+    loop->beginOrder();
+    EXPECT_TRUE(loop->endedBecause().empty());
 }
 
 TEST_P(Silence, OfAShortSleepIsASilence) {

@@ -1,7 +1,9 @@
 // Stops by the operator, crashes, and scripts that err or do not end.
 #include <csignal>
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
@@ -66,6 +68,27 @@ TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {
         const auto ran = run.wait(std::chrono::seconds(20));
         ASSERT_EQ(ran.code, 4) << delay << " ms after the session began: " << ran.err;
     }
+}
+
+TEST_F(Stop, ARunWhoseSessionIsGoneHasNoVerdictAndDoesNotSucceed) {
+    RecordProperty("hazard", "H8");
+    auto run = desk.start(
+        {"run", "live", "--device", "sim:", "--realtime", "--set", "duration=2", "--out", desk.at("out"), "--json"});
+    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    std::filesystem::remove(desk.named("out", ".tacto").at(0));
+    const auto ran = run.wait(std::chrono::seconds(60));
+    EXPECT_EQ(ran.code, 3) << ran.err;
+    const auto value = jsonOf(ran);
+    EXPECT_TRUE(value["verdict"].is_null());
+    EXPECT_TRUE(value["error"].is_string());
+}
+
+TEST_F(Stop, WhatCannotBePrintedIsNoSuccess) {
+    const auto ran = desk.run({"encode", "--roughness", "1", "--pressure-pa", "60000", "--load", "1000", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const std::string full =
+        std::string(TACTO_CLI) + " encode --roughness 1 --pressure-pa 60000 --load 1000 --json >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(std::system(full.c_str())), 3);
 }
 
 TEST_F(Stop, AKilledRunLeavesASessionThatIsIntactAndSaysThatItWasRecovered) {

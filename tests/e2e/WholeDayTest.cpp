@@ -7,6 +7,7 @@
 #include <QTabWidget>
 #include <gtest/gtest.h>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/e2e/Hand.h"
@@ -40,6 +41,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     ASSERT_TRUE(comesTrue([&] { return arm->isVisible(); }));
     picture("3-arming");
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the first step arms nothing";
+    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
     click(*arm);
     ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Armed; }));
     desk.drive(DriveSource::Sensor);

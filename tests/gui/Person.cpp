@@ -6,6 +6,7 @@
 #include <QPixmap>
 #include <QTest>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/simulated/SimulatedDriver.h"
 
@@ -21,7 +22,12 @@ bool answersTo(const QWidget& widget, const QString& text) {
     return false;
 }
 
-void click(QWidget& widget) { QTest::mouseClick(&widget, Qt::LeftButton); }
+void click(QWidget& widget) {
+    // One that reads before it confirms.
+    if (const auto* confirm = qobject_cast<const gui::ConfirmButton*>(&widget))
+        static_cast<void>(comesTrue([&] { return confirm->listens(); }));
+    QTest::mouseClick(&widget, Qt::LeftButton);
+}
 
 Registry simulatedRegistry() {
     std::vector<std::unique_ptr<Driver>> drivers;

@@ -263,6 +263,48 @@ TEST_F(UnitRecordFile, AFolderThatIsNewSaysNothingOfTheUnitsThatItDoesNotKnow) {
     EXPECT_TRUE(rests()) << "a folder from the future";
 }
 
+TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
+    RecordProperty("hazard", "H8");
+    ASSERT_TRUE(run()->ask());
+    const auto record = file();
+    const ScratchDir other;
+    const auto evidence = other.write("evidence.tacto", "a session");
+    for (const bool hard : {false, true}) {
+        std::filesystem::remove(record);
+        if (hard)
+            std::filesystem::create_hard_link(evidence, record);
+        else
+            std::filesystem::create_symlink(evidence, record);
+        VirtualClock clock;
+        const auto opened = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+        ASSERT_FALSE(opened) << hard;
+        EXPECT_EQ(opened.error().code, ErrorCode::Io);
+        EXPECT_EQ(std::filesystem::file_size(evidence), 9U) << "it was written over";
+    }
+}
+
+TEST_F(UnitRecordFile, ADamagedFaultIsAFaultThatCanBeReset) {
+    RecordProperty("hazard", "H1");
+    for (const bool internal : {false, true}) {
+        {
+            const auto before = run();
+            before->record->keepFault(internal ? FaultCause::Internal : FaultCause::OpenElectrode, "as it was");
+        }
+        if (!internal) std::filesystem::resize_file(file(), 64);
+        const auto found = run();
+        Interlock interlock;
+        ASSERT_TRUE(interlock.connect());
+        interlock.keepFaultsIn(*found->record);
+        EXPECT_EQ(interlock.state(), InterlockState::Faulted);
+        EXPECT_FALSE(interlock.causePersists(FaultCause::Internal)) << "only in the program that had it";
+        EXPECT_TRUE(interlock.causePersists(FaultCause::DeviceFault));
+        EXPECT_FALSE(interlock.reset()) << "not before the device was looked at";
+        interlock.causeGone(FaultCause::DeviceFault);
+        EXPECT_TRUE(interlock.reset());
+        EXPECT_FALSE(found->record->fault());
+    }
+}
+
 TEST_F(UnitRecordFile, AnotherStartOfTheComputerIsLongAgoOnlyWhenTheWallClockSaysSo) {
     RecordProperty("hazard", "H1");
     const auto restsAfter = [&](std::string id, int wall_s) {

@@ -159,5 +159,20 @@ TEST(ProtocolSettings, TakeAnyKeyWhereQuestionNamesAreComputed) {
     EXPECT_EQ(applySettings(declaration, {{"b", "yes"}}).value().answers.at("b"), "yes");
 }
 
+TEST(Declaration, AParameterByWhichTheOperatorVouchesSaysForWhat) {
+    testing::Test::RecordProperty("hazard", "H1");
+    const auto declare = [](const std::string& area) {
+        ProtocolSource source;
+        source.name = "vouch";
+        source.text = "protocol({ title: 'T', needs: [], parameters: { area: " + area + " } }); function run(p) {}";
+        return readDeclaration(source);
+    };
+    EXPECT_TRUE(declare("{ label: 'Smallest electrode', unit: 'cm2', min: 0, max: 1000, value: 0 }"));
+    const auto lies = declare("{ label: 'Seconds per trial', unit: 's', min: 0, max: 1000, value: 0 }");
+    ASSERT_FALSE(lies);
+    EXPECT_NE(lies.error().message.find("Seconds per trial"), std::string::npos);
+    EXPECT_FALSE(declare("{ label: 'Smallest electrode', unit: 'm2', min: 0, max: 1000, value: 0 }"));
+}
+
 }  // namespace
 }  // namespace tacto

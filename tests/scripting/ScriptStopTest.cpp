@@ -84,6 +84,22 @@ void expectStopped(const Stopping& stopping, int line) {
         << stopping.outcome.error->message;
 }
 
+TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
+    testing::Test::RecordProperty("hazard", "H2");  // it computes, or what it prints to stands still
+    RunBench rig(false);
+    const auto begun = steady_clock::now();
+    const auto outcome = rig.run(withRun(kArmed + "const until = Date.now() + 4000; while (Date.now() < until);\n"
+                                                  "log(bench.live().state); bench.wait(0.1);"));
+    ASSERT_TRUE(outcome.error);
+    EXPECT_EQ(outcome.error->code, ErrorCode::Stopped);
+    EXPECT_NE(outcome.error->message.find("did not look after it"), std::string::npos) << outcome.error->message;
+    ASSERT_EQ(outcome.log.size(), 2U);
+    EXPECT_EQ(outcome.log[1], "disarmed");
+    const double seconds = std::chrono::duration<double>(steady_clock::now() - begun).count();
+    const double most = 4 / rig.bench().profile().encoding.intervalMin.count();  // a train each 0.5 s for 4 s
+    EXPECT_LT(static_cast<double>(rig.bench().telemetry().trainsDelivered), most) << "in " << seconds << " s";
+}
+
 TEST(ScriptStop, EndsAnEndlessLoop) {
     RecordProperty("hazard", "H10");
     RunBench rig;

@@ -117,9 +117,10 @@ void BenchDesk::close() {
     post([this] { closeOnThread(); });
 }
 
-void BenchDesk::arm(const ArmRequest& request) {
-    order([this, request](Bench& bench) -> Result<void> {
-        bench.resume();  // a pause from before this arming is over
+void BenchDesk::arm(const ArmRequest& request, StopMark asked) {
+    order(asked, [this, request](Bench& bench) -> Result<void> {
+        if (bench.telemetry().paused) bench.disarm();  // so that resuming lets no train out
+        bench.resume();                                // a pause from before this arming is over
         const auto armed = bench.arm(request);
         if (!armed) bench.disarm();          // also what was armed before
         if (live_->scope) requestCapture();  // arming may have used the oscilloscope
@@ -129,8 +130,9 @@ void BenchDesk::arm(const ArmRequest& request) {
     });
 }
 
-void BenchDesk::checkImpedance(const ArmRequest& request) {
-    order([this, request](Bench& bench) -> Result<void> {
+void BenchDesk::checkImpedance(const ArmRequest& request, StopMark asked) {
+    order(asked, [this, request](Bench& bench) -> Result<void> {
+        if (bench.telemetry().paused) bench.disarm();
         bench.resume();  // a pause from before this check is over
         const auto found = bench.checkImpedance(request);
         if (live_->scope) requestCapture();  // the check may have used the oscilloscope
@@ -140,11 +142,7 @@ void BenchDesk::checkImpedance(const ArmRequest& request) {
     });
 }
 
-void BenchDesk::disarm() {
-    post([this] {
-        if (live_) live_->bench->disarm();
-    });
-}
+void BenchDesk::disarm() { stop("operator (Disarm)"); }
 
 void BenchDesk::resetFault() {
     order([](Bench& bench) { return bench.resetFault(); });
@@ -161,10 +159,14 @@ void BenchDesk::drive(DriveSource source, double roughness, double pressure) {
 }
 
 void BenchDesk::setProfile(const Profile& profile) {
-    if (activity_ != Activity::Live) {
+    if (activity_ == Activity::Closed) {
         profile_ = profile;
         emit changed();
         return;
+    }
+    if (activity_ != Activity::Live) {
+        return report({ErrorCode::NotArmed,
+                       "The profile was not changed: it can be while no protocol runs and no bench opens or closes."});
     }
     post([this, profile] {
         if (!live_) return;
@@ -218,12 +220,15 @@ void BenchDesk::stopScope() {
     });
 }
 
-void BenchDesk::run(const RunOrder& order) {
+void BenchDesk::run(const RunOrder& order, StopMark asked) {
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
     auto marked = order;
     marked.stops = stops_;
-    marked.asked = stops_->mark();
+    marked.asked = asked;
+    marked.watched = [pulse = pulse_] { return pulse->runs(); };
+    activity_ = Activity::Opening;  // at once: no other run is begun beside it
+    emit changed();
     post([this, marked = std::move(marked)] { runOnThread(marked); });
 }
 
@@ -240,8 +245,8 @@ void BenchDesk::post(std::function<void()> task) {
     taskCame_.notify_all();
 }
 
-void BenchDesk::order(std::function<Result<void>(Bench&)> task) {
-    post([this, asked = stops_->mark(), task = std::move(task)] {
+void BenchDesk::order(StopMark asked, std::function<Result<void>(Bench&)> task) {
+    post([this, asked, task = std::move(task)] {
         if (!live_) return report(Error{ErrorCode::NotArmed, "Nothing was done: no bench is open."});
         auto done = live_->bench->begin(asked);
         if (done) done = task(*live_->bench);
@@ -282,6 +287,7 @@ void BenchDesk::work() {
 
 void BenchDesk::serveLive() {
     if (!live_) return;
+    live_->bench->attend();
     if (live_->paced) {
         const auto now = realNow();
         const Seconds passed(std::chrono::duration<double>(now - live_->servedAt).count() * speed_);
@@ -398,6 +404,7 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
     config.tap = live->tap.get();
     config.stops = stops_;
     config.asked = asked;
+    config.watched = [pulse = pulse_] { return pulse->runs(); };
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolder();
     auto bench = Bench::create(std::move(config));

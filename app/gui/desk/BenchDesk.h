@@ -23,6 +23,7 @@
 
 #include "app/gui/desk/DeviceWatch.h"
 #include "app/gui/desk/OperatorDesk.h"
+#include "app/gui/desk/WindowPulse.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/BenchTap.h"
 
@@ -106,10 +107,16 @@ public:
     [[nodiscard]] std::string confirmationOf(const Load& load) const;
     /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken. Whatever fails leaves
     /// the bench disarmed.
-    void arm(const ArmRequest& request);
+    void arm(const ArmRequest& request, StopMark asked);
+    void arm(const ArmRequest& request) { arm(request, mark()); }
     /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() tells what it found.
-    void checkImpedance(const ArmRequest& request);
+    void checkImpedance(const ArmRequest& request, StopMark asked);
+    void checkImpedance(const ArmRequest& request) { checkImpedance(request, mark()); }
+    /// At once, past what waits to be done; ends a running protocol.
     void disarm();
+    /// For an order of two steps: taken at the first, so that a stop before the second voids it.
+    [[nodiscard]] StopMark mark() const noexcept { return stops_->mark(); }
+    [[nodiscard]] bool stoppedSince(StopMark asked) const noexcept { return stops_->movedSince(asked); }
     /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
     /// the driver that is at work returns.
     void stop(const char* by) noexcept;
@@ -128,7 +135,8 @@ public:
     void stopScope();
 
     /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is.
-    void run(const RunOrder& order);
+    void run(const RunOrder& order, StopMark asked);
+    void run(const RunOrder& order) { run(order, mark()); }
     [[nodiscard]] RunFeed takeRunFeed();
     [[nodiscard]] OperatorDesk& operatorDesk() noexcept { return operator_; }
 
@@ -150,7 +158,8 @@ private:
     void work();
     void post(std::function<void()> task);
     /// Carried out on the live bench unless a stop comes first; what fails is reported. For all that may start output.
-    void order(std::function<Result<void>(Bench&)> task);
+    void order(std::function<Result<void>(Bench&)> task) { order(mark(), std::move(task)); }
+    void order(StopMark asked, std::function<Result<void>(Bench&)> task);
     void tell(std::function<void()> onWindow);
     void report(const Error& error);
     void serveLive();
@@ -165,6 +174,7 @@ private:
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
 
     const MakeRegistry makeRegistry_;
+    const std::shared_ptr<WindowPulse> pulse_ = std::make_shared<WindowPulse>();
     OperatorDesk operator_;
     DeviceWatch watch_;
 

@@ -12,10 +12,15 @@ Result<nlohmann::json> OperatorDesk::ask(const OperatorQuestion& question) {
     std::unique_lock lock(mutex_);
     if (prepared_.contains(question.name)) return PresetOperator(prepared_).ask(question);
     open_ = question;
+    open_->id = ++lastId_;
     answer_.reset();
     refused_ = false;
-    emit asked(question);  // queued: the window lives on another thread
-    changed_.wait(lock, [this] { return answer_ || refused_ || cancelled_; });
+    emit asked(*open_);  // queued: the window lives on another thread
+    const auto ended = [this] { return answer_ || refused_ || cancelled_; };
+    constexpr std::chrono::milliseconds kTold{100};
+    while (!changed_.wait_for(lock, kTold, ended)) {
+        if (present) present();
+    }
     open_.reset();
     emit closed();
     if (answer_) return *answer_;
@@ -30,9 +35,9 @@ void OperatorDesk::cancel() noexcept {
     changed_.notify_all();
 }
 
-Result<void> OperatorDesk::answer(const std::string& text) {
+Result<void> OperatorDesk::answer(std::uint64_t id, const std::string& text) {
     const std::scoped_lock lock(mutex_);
-    if (!open_) return {};
+    if (!open_ || open_->id != id || answer_) return {};
     auto checked = PresetOperator(std::map<std::string, std::string>{{open_->name, text}}).ask(*open_);
     if (!checked) return failure(checked);
     answer_ = std::move(*checked);

@@ -15,13 +15,15 @@ namespace tacto::gui {
 class OperatorDesk final : public QObject, public Operator {
     Q_OBJECT
 public:
+    [[nodiscard]] Seconds unwatchedFor() const override { return Seconds(2); }
     /// Answers given in advance (by name) are used before anybody is asked.
     void prepare(std::map<std::string, std::string> answers);
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override;
 
-    /// The answer to the question that is open, checked against it. Errors: InvalidArgument: the question stays open.
-    [[nodiscard]] Result<void> answer(const std::string& text);
+    /// The answer to the question `id`, checked against it; one to a question that is no longer open does nothing.
+    /// Errors: InvalidArgument: the question stays open.
+    [[nodiscard]] Result<void> answer(std::uint64_t id, const std::string& text);
     void refuse();
 
 signals:
@@ -34,6 +36,7 @@ private:
     std::map<std::string, std::string> prepared_;  // guarded
     std::optional<OperatorQuestion> open_;         // guarded
     std::optional<nlohmann::json> answer_;         // guarded
+    std::uint64_t lastId_ = 0;                     // guarded
     bool refused_ = false;                         // guarded
     bool cancelled_ = false;                       // guarded
 };

@@ -75,23 +75,30 @@ QDialog* openTwin(const QDialog& dialog) {
     return nullptr;
 }
 
-/// Below the safety bar of its window where there is room, so that STOP stays in sight; never outside the screen.
-void place(QDialog& dialog) {
-    if (dialog.parentWidget() == nullptr) return;
-    const auto* window = dialog.parentWidget()->window();
-    const auto room = window->screen()->availableGeometry();
-    dialog.ensurePolished();
-    if (!dialog.testAttribute(Qt::WA_Resized)) dialog.adjustSize();
-    dialog.resize(dialog.size().boundedTo(room.size()));
-    const auto* bar = window->findChild<const QWidget*>("safetyBar");
-    int top = window->geometry().top() + (window->height() - dialog.height()) / 2;
-    if (bar != nullptr) top = std::max(top, bar->mapToGlobal(QPoint(0, bar->height())).y());
-    top = std::max(room.top(), std::min(top, room.bottom() - dialog.height()));
-    const int left = window->geometry().left() + (window->width() - dialog.width()) / 2;
-    dialog.move(std::max(room.left(), std::min(left, room.right() - dialog.width())), top);
-}
+/// Room for the frame that a window manager puts above a window.
+constexpr int kTitleBar = 30;
 
 }  // namespace
+
+void place(QWidget& dialog) {
+    if (dialog.parentWidget() == nullptr) return;
+    const auto* window = dialog.parentWidget()->window();
+    auto room = window->screen()->availableGeometry();
+    dialog.ensurePolished();
+    if (!dialog.testAttribute(Qt::WA_Resized)) dialog.adjustSize();
+    if (const auto* bar = window->findChild<const QWidget*>("safetyBar"); bar != nullptr) {
+        const int below = bar->mapToGlobal(QPoint(0, bar->height())).y() + kTitleBar;
+        if (room.contains(room.left(), below)) room.setTop(below);
+    }
+    dialog.setMinimumHeight(std::min(dialog.minimumHeight(), room.height()));
+    if (auto* layout = dialog.layout(); layout != nullptr && layout->minimumSize().height() > room.height())
+        layout->setSizeConstraint(QLayout::SetNoConstraint);
+    dialog.resize(dialog.size().boundedTo(room.size()));
+    const int top = window->geometry().top() + (window->height() - dialog.height()) / 2;
+    const int left = window->geometry().left() + (window->width() - dialog.width()) / 2;
+    dialog.move(std::max(room.left(), std::min(left, room.right() - dialog.width())),
+                std::max(room.top(), std::min(top, room.bottom() - dialog.height())));
+}
 
 void openDialog(QDialog* dialog) {
     if (auto* twin = openTwin(*dialog)) {

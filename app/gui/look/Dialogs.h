@@ -17,6 +17,10 @@ namespace tacto::gui {
 /// dialog (class and title) open already, that one comes to the front and `dialog` is deleted.
 void openDialog(QDialog* dialog);
 
+/// Moves a window that is not shown yet to below the safety bar of its parent's window, and makes it no higher than the
+/// screen has room there, so that STOP stays in sight. Without a parent it stays where it is.
+void place(QWidget& dialog);
+
 struct FileQuestion {
     enum class Wants { ExistingFile, Folder, NewFile };
     QString title;

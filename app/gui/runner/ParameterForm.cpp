@@ -92,12 +92,14 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
         line->addWidget(field.editor, 1);
         if (const auto range = rangeText(parameter); !range.isEmpty()) {
             auto* quiet = new QLabel(range, column);
+            quiet->setTextFormat(Qt::PlainText);
             quiet->setForegroundRole(QPalette::PlaceholderText);
             line->addSpacing(fontMetrics().averageCharWidth());
             line->addWidget(quiet);
         }
         stack->addLayout(line);
         field.trouble = new QLabel(column);
+        field.trouble->setTextFormat(Qt::PlainText);
         field.trouble->setObjectName("trouble-" + QString::fromStdString(parameter.name));
         field.trouble->setWordWrap(true);
         field.trouble->hide();

@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QSvgRenderer>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/Look.h"
 #include "app/scripting/ProtocolLibrary.h"
 
@@ -45,12 +46,14 @@ void PromptPanel::paintEvent(QPaintEvent* event) {
 
 void PromptPanel::ask(const OperatorQuestion& question) {
     close();
+    asked_ = question.id;
     body_ = new QWidget(this);
     first_ = nullptr;
     auto* column = new QVBoxLayout(body_);
     column->setContentsMargins(0, 0, 0, 0);
     auto* says = new QLabel(QString::fromStdString(question.text), body_);
     says->setObjectName("question");
+    says->setTextFormat(Qt::PlainText);  // a script's words: no picture is fetched for them
     says->setWordWrap(true);
     auto font = says->font();
     font.setPointSizeF(font.pointSizeF() * 1.15);
@@ -69,6 +72,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     if (first_ == nullptr) first_ = refuse;
     column->addLayout(row);
     trouble_ = new QLabel(body_);
+    trouble_->setTextFormat(Qt::PlainText);
     trouble_->setObjectName("promptTrouble");
     trouble_->setWordWrap(true);
     trouble_->hide();
@@ -113,8 +117,7 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(0, 0, 0, 0);
     const auto add = [&](const QString& text, const QString& key, const QString& tip) {
-        auto* button = new QPushButton(text, holder);
-        button->setAutoDefault(false);
+        auto* button = new ConfirmButton(text, holder);
         button->setToolTip(tip);
         connect(button, &QPushButton::clicked, this, [this, key] { answer(key); });
         row->addWidget(button);
@@ -122,12 +125,12 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
     };
     if (!question.confirms.empty()) {
         // Not the button that has the focus: a key that is held down must not arm.
-        add(tr("&Arm output"), QString::fromStdString(question.confirms),
+        add(tr("Arm output"), QString::fromStdString(question.confirms),
             tr("Confirms exactly what the sentence says."));
         first_->setObjectName("confirmArming");
         first_ = nullptr;
     } else if (question.kind == OperatorQuestion::Kind::Confirm) {
-        add(tr("&Done"), "yes", tr("It is as the sentence says."));
+        add(tr("Done"), "yes", tr("It is as the sentence says."));
     }
     for (const auto& [key, text] : question.choices) {
         const auto name = QString::fromStdString(key);
@@ -163,7 +166,7 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
 }
 
 void PromptPanel::answer(const QString& text) {
-    const auto taken = desk_.answer(text.trimmed().toStdString());
+    const auto taken = desk_.answer(asked_, text.trimmed().toStdString());
     if (taken || trouble_ == nullptr) return;
     trouble_->setText("⚠ " + QString::fromStdString(taken.error().message));
     trouble_->show();

@@ -30,6 +30,7 @@ private:
     [[nodiscard]] QWidget* buildEntry(const OperatorQuestion& question);
     void answer(const QString& text);
     OperatorDesk& desk_;
+    std::uint64_t asked_ = 0;  // the question that is shown
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
     QWidget* first_ = nullptr;  // takes the focus

@@ -201,8 +201,7 @@ Result<RunOrder> ProtocolWorkspace::order() {
 
 void ProtocolWorkspace::runAsked() {
     if (running_ || !declaration_) return;
-    if (desk_.activity() == Activity::Running || desk_.activity() == Activity::Opening)
-        return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
+    if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
     auto asked = order();
     if (!asked) {
         panel_->say(sentence(asked.error()));
@@ -213,6 +212,8 @@ void ProtocolWorkspace::runAsked() {
     const auto harmless = desk_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
     asked_ = std::move(*asked);
+    askedAt_ = desk_.mark();
+    askedSince_.start();
     if (*harmless) return runNow();
     panel_->say({});
     panel_->askToArm(tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
@@ -220,8 +221,17 @@ void ProtocolWorkspace::runAsked() {
                          .arg(QString::fromStdString(declaredLoad(asked_->settings.parameters))));
 }
 
+/// Also one that is just ending: what it still says is not this page's.
+bool ProtocolWorkspace::anotherRuns() const {
+    return desk_.activity() != Activity::Closed && desk_.activity() != Activity::Live;
+}
+
 void ProtocolWorkspace::runNow() {
     if (running_ || !asked_) return;
+    if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
+    // The first of the two steps is void after a stop, and does not wait for ever.
+    if (desk_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
+        return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
     paused_ = seenPaused_ = false;
     result_->clear();
@@ -240,7 +250,7 @@ void ProtocolWorkspace::runNow() {
     steps_->setCurrent(kRun);
     tabs_->setCurrentWidget(log_);
     showButtons();
-    desk_.run(*std::exchange(asked_, std::nullopt));
+    desk_.run(*std::exchange(asked_, std::nullopt), askedAt_);
 }
 
 void ProtocolWorkspace::refresh(const Telemetry& telemetry) {

@@ -8,6 +8,7 @@
 
 #include <QBoxLayout>
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QPdfDocument>
 #include <QPdfView>
@@ -83,6 +84,7 @@ private:
     void preview();
     void setObstacle(const QString& why);
     void runNow();
+    [[nodiscard]] bool anotherRuns() const;
     void ended(const FinishedRun& run);
     void showButtons();
     void edit(const ProtocolSource& source, int line, const QString& why);
@@ -96,6 +98,8 @@ private:
     std::optional<ProtocolDeclaration> declaration_;
     QString obstacle_;               // why it may not run: a limit that its strongest command would break
     std::optional<RunOrder> asked_;  // waits for the second step
+    StopMark askedAt_;               // when the first was taken
+    QElapsedTimer askedSince_;
     Plot plot_ = Plot::Trials;
     bool running_ = false;
     bool paused_ = false;  // asked for here, or seen

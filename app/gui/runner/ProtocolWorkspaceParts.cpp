@@ -79,9 +79,6 @@ void ProtocolWorkspace::buildKeys() {
         connect(shortcut, &QShortcut::activated, this, act);
     };
     key(Qt::Key_F5, [this] { runAsked(); });
-    key(Qt::SHIFT | Qt::Key_F5, [this] {
-        if (running_) desk_.stop("operator (Shift+F5)");
-    });
 }
 
 QWidget* ProtocolWorkspace::buildPath() {
@@ -130,6 +127,7 @@ QWidget* ProtocolWorkspace::buildHead(QWidget* parent) {
     auto* column = new QVBoxLayout(head);
     column->setContentsMargins(0, 0, 0, 0);
     purpose_ = new QLabel(head);
+    purpose_->setTextFormat(Qt::PlainText);
     purpose_->setObjectName("purpose");
     purpose_->setWordWrap(true);
     auto font = purpose_->font();
@@ -187,6 +185,7 @@ QWidget* ProtocolWorkspace::buildTabs() {
     worstPage_ = new QWidget(tabs_);
     auto* column = new QVBoxLayout(worstPage_);
     worstSays_ = new QLabel(worstPage_);
+    worstSays_->setTextFormat(Qt::PlainText);
     worstSays_->setObjectName("worstCase");
     worstSays_->setWordWrap(true);
     column->addWidget(worstSays_);

@@ -41,6 +41,7 @@ ResultPanel::ResultPanel(QWidget* parent) : QWidget(parent), maker_(this) {
     verdict_->setFont(font);
     layout->addWidget(verdict_);
     why_ = new QLabel(page);
+    why_->setTextFormat(Qt::PlainText);
     why_->setObjectName("verdictWhy");
     why_->setWordWrap(true);
     why_->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -122,6 +122,7 @@ void ResultTables::addValues(const nlohmann::json& results) {
         const auto name = QString::fromStdString(key);
         if (key == "verdict" || !isOneCell(value)) continue;
         auto* shown = new QLabel(shownValue(value, name), body_);
+        shown->setTextFormat(Qt::PlainText);
         shown->setTextInteractionFlags(Qt::TextSelectableByMouse);
         form->addRow(titleOf(name), shown);
     }
@@ -130,6 +131,7 @@ void ResultTables::addValues(const nlohmann::json& results) {
 
 QTableWidget* ResultTables::addTable(const QString& title, int rows, const QStringList& columns) {
     auto* above = new QLabel(title, body_);
+    above->setTextFormat(Qt::PlainText);
     auto font = above->font();
     font.setBold(true);
     above->setFont(font);

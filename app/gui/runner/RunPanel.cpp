@@ -4,6 +4,8 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/look/ConfirmButton.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -45,12 +47,14 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     obstacle_ = new QLabel(this);
+    obstacle_->setTextFormat(Qt::PlainText);
     obstacle_->setObjectName("runObstacle");
     obstacle_->setWordWrap(true);
     obstacle_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     obstacle_->hide();
     layout->addWidget(obstacle_);
     trouble_ = new QLabel(this);
+    trouble_->setTextFormat(Qt::PlainText);
     trouble_->setObjectName("runTrouble");
     trouble_->setWordWrap(true);
     trouble_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -90,6 +94,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     bar_->setFormat(tr("not started"));
     layout->addWidget(bar_);
     left_ = new QLabel(" ", this);
+    left_->setTextFormat(Qt::PlainText);
     left_->setObjectName("timeLeft");
     left_->setForegroundRole(QPalette::PlaceholderText);
     layout->addWidget(left_);
@@ -101,26 +106,26 @@ QWidget* RunPanel::buildQuestion() {
     auto* column = new QVBoxLayout(holder);
     column->setContentsMargins(0, 0, 0, 0);
     questionText_ = new QLabel(holder);
+    questionText_->setTextFormat(Qt::PlainText);
     questionText_->setObjectName("armQuestion");
     questionText_->setWordWrap(true);
     column->addWidget(questionText_);
     auto* row = new QHBoxLayout;
-    arm_ = new QPushButton(tr("&Arm and run"), holder);
+    arm_ = new ConfirmButton(tr("Arm and run"), holder);
     arm_->setToolTip(tr("The second of two steps: the protocol may now put out current."));
     connect(arm_, &QPushButton::clicked, this, [this] {
         question_->hide();
         emit confirmed();
     });
-    auto* back = new QPushButton(tr("&Back"), holder);
-    back->setToolTip(tr("Nothing is opened and nothing put out."));
-    connect(back, &QPushButton::clicked, this, [this] {
+    back_ = new QPushButton(tr("&Back"), holder);
+    back_->setToolTip(tr("Nothing is opened and nothing put out."));
+    back_->setAutoDefault(false);
+    connect(back_, &QPushButton::clicked, this, [this] {
         question_->hide();
         run_->setFocus();
     });
-    for (auto* button : {arm_, back}) {
-        button->setAutoDefault(false);
-        row->addWidget(button);
-    }
+    row->addWidget(arm_);
+    row->addWidget(back_);
     row->addStretch();
     column->addLayout(row);
     holder->hide();
@@ -150,7 +155,7 @@ void RunPanel::say(const QString& what, int line) {
 void RunPanel::askToArm(const QString& what) {
     questionText_->setText(what);
     question_->show();
-    arm_->setFocus();
+    back_->setFocus();
 }
 
 void RunPanel::begin() {

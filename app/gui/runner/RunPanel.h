@@ -61,6 +61,7 @@ private:
     QWidget* question_;
     QLabel* questionText_ = nullptr;
     QPushButton* arm_ = nullptr;
+    QPushButton* back_ = nullptr;  // of the question, takes the focus
     QPushButton* run_;
     QPushButton* pause_;
     QPushButton* stop_;

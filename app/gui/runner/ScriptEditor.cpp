@@ -4,6 +4,7 @@
 #include <QRegularExpression>
 #include <QSaveFile>
 
+#include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
 #include "app/scripting/ProtocolLibrary.h"
 
@@ -55,6 +56,7 @@ void ScriptEditor::edit(const ProtocolSource& source) {
                       : isNew ? tr("A template to begin with. Save it under a name of its own.")
                               : QString::fromStdString(source.path.string()));
     showTitle();
+    if (!isVisible()) place(*this);
     show();
     raise();
     activateWindow();

@@ -34,6 +34,7 @@ ScriptEditor::ScriptEditor(QWidget* parent)
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
     message_ = new QLabel(this);
+    message_->setTextFormat(Qt::PlainText);
     message_->setObjectName("scriptMessage");
     message_->setWordWrap(true);
     message_->setTextInteractionFlags(Qt::TextSelectableByMouse);

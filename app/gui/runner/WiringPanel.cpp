@@ -26,6 +26,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->setRowWrapPolicy(QFormLayout::WrapLongRows);
     needs_ = new QLabel(this);
+    needs_->setTextFormat(Qt::PlainText);
     needs_->setWordWrap(true);
     needs_->setForegroundRole(QPalette::PlaceholderText);
     form->addRow(needs_);
@@ -33,6 +34,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     form->addRow(tr("&Devices"), devices);
     static_cast<QLabel*>(form->labelForField(devices))->setBuddy(devices_);
     trouble_ = new QLabel(this);
+    trouble_->setTextFormat(Qt::PlainText);
     trouble_->setObjectName("devicesTrouble");
     trouble_->setWordWrap(true);
     trouble_->hide();

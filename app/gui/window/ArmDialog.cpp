@@ -2,31 +2,27 @@
 
 #include <QDialogButtonBox>
 #include <QFormLayout>
-#include <QKeyEvent>
+#include <QTimer>
 #include <QVBoxLayout>
+#include <chrono>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/Look.h"
 #include "core/electrode/Load.h"
+#include "core/safety/Interlock.h"
 
 namespace tacto::gui {
 
 namespace {
 
-/// A held key repeats; arming takes a press of its own.
-class NoRepeat final : public QObject {
-public:
-    using QObject::QObject;
-
-protected:
-    bool eventFilter(QObject*, QEvent* event) override {
-        return event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->isAutoRepeat();
-    }
-};
+constexpr int kLook_ms = 100;
+constexpr std::chrono::seconds kAnswerWithin =
+    std::chrono::duration_cast<std::chrono::seconds>(Interlock::kConfirmWithin);
 
 }  // namespace
 
 ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWidget* parent)
-    : QDialog(parent), desk_(desk), purpose_(purpose) {
+    : QDialog(parent), desk_(desk), purpose_(purpose), asked_(desk.mark()) {
     const bool check = purpose == Purpose::CheckImpedance;
     setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
     const auto open = desk.open();
@@ -72,17 +68,22 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     layout->addWidget(connected_);
 
     auto* buttons = new QDialogButtonBox(this);
-    arm_ = buttons->addButton(check ? tr("&Check impedance") : tr("&Arm output"), QDialogButtonBox::ActionRole);
+    arm_ = new ConfirmButton(check ? tr("Check impedance") : tr("Arm output"), this);
+    buttons->addButton(arm_, QDialogButtonBox::ActionRole);
     arm_->setObjectName(check ? "checkImpedance" : "armOutput");
     arm_->setToolTip(check ? tr("Second step: measures the load and ends disarmed.")
                            : tr("Second step: measures the load and arms."));
     auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
-    for (auto* button : {arm_, cancel}) {
-        button->setAutoDefault(false);
-        button->setDefault(false);
-    }
-    arm_->installEventFilter(new NoRepeat(this));
+    cancel->setAutoDefault(false);
+    cancel->setDefault(false);
     layout->addWidget(buttons);
+    // A stop between the two steps voids the first, and so does waiting.
+    auto* look = new QTimer(this);
+    connect(look, &QTimer::timeout, this, [this] {
+        if (desk_.stoppedSince(asked_)) reject();
+    });
+    look->start(kLook_ms);
+    QTimer::singleShot(kAnswerWithin, this, &QDialog::reject);
     connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
     connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
@@ -107,9 +108,9 @@ void ArmDialog::confirm() {
     request.declaredLoadConfirmed = connected_->isChecked();
     request.confirmed = text_;
     if (purpose_ == Purpose::CheckImpedance)
-        desk_.checkImpedance(request);
+        desk_.checkImpedance(request, asked_);
     else
-        desk_.arm(request);
+        desk_.arm(request, asked_);
     accept();
 }
 

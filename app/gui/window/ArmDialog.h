@@ -1,5 +1,6 @@
 // ArmDialog.h - the second step of arming, and of checking the impedance: what will be connected, what the limits will
-// be held against, the text that the operator confirms, and a button that is not the default one (hazards H6, H12).
+// be held against, the text that the operator confirms, and a button that is not the default one (hazards H6, H12). It
+// closes when a stop comes and after 30 s.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -28,7 +29,8 @@ private:
 
     BenchDesk& desk_;
     const Purpose purpose_;
-    std::string text_;  // as it stands in confirmed_
+    const StopMark asked_;  // when the operator took the first step
+    std::string text_;      // as it stands in confirmed_
     QLineEdit* load_;
     QLabel* confirmed_;
     QLabel* trouble_;

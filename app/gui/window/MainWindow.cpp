@@ -409,6 +409,11 @@ void MainWindow::restore() {
             if (height() < fontMetrics().height() * kStackedLines) tabifyDockWidget(measurements_, exposure_);
         });
     }
+    // A state that was damaged must not hide STOP.
+    if (auto* top = findChild<QToolBar*>("safetyToolBar")) {
+        addToolBar(Qt::TopToolBarArea, top);
+        top->show();
+    }
     showWorkspace(settings.value("workspace", 0).toInt());
 }
 

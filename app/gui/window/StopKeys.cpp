@@ -9,6 +9,9 @@
 #include <QPlainTextEdit>
 #include <QTextEdit>
 #include <QWindow>
+#include <utility>
+
+#include "app/gui/look/ConfirmButton.h"
 
 namespace tacto::gui {
 
@@ -24,11 +27,16 @@ bool takesText(const QWidget* widget) {
     return qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
 }
 
+bool isReturn(const QKeyEvent& key) { return key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter; }
+
 }  // namespace
 
 StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QObject(parent), stop_(std::move(stop)) {
     qApp->installEventFilter(this);
     startTimer(kFirstEvery_ms);
+    returnReleased_.setSingleShot(true);
+    returnReleased_.setInterval(kReleased_ms);
+    connect(&returnReleased_, &QTimer::timeout, this, [this] { returnHeld_ = false; });
 }
 
 /// Installing it again moves it before the others.
@@ -41,8 +49,22 @@ bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
         auto* widget = static_cast<QWidget*>(watched);
         if (widget->isWindow() && widget->isModal()) widget->setWindowModality(Qt::NonModal);
     }
+    if (event->type() == QEvent::KeyRelease && isReturn(*static_cast<QKeyEvent*>(event))) returnReleased_.start();
     if (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride) return false;
     return pressed(watched, *static_cast<QKeyEvent*>(event));
+}
+
+/// The first press of Return presses the focused button; the others of a held key press no button and enter no line,
+/// wherever the focus is by then.
+bool StopKeys::returnPressed(QObject* watched, bool repeated) {
+    returnReleased_.stop();
+    auto* button = qobject_cast<QAbstractButton*>(watched);
+    if (std::exchange(returnHeld_, true) || repeated)
+        return button != nullptr || qobject_cast<const QLineEdit*>(watched) != nullptr;
+    if (button == nullptr || !button->isEnabled()) return false;
+    const auto* confirm = qobject_cast<const ConfirmButton*>(button);
+    if (confirm == nullptr || confirm->listens()) button->click();
+    return true;
 }
 
 /// True when nobody else is to see the key. Called for the window, then for the widget: stopping twice does no harm.
@@ -62,12 +84,12 @@ bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
             return key.type() == QEvent::KeyPress;
         case Qt::Key_Return:
         case Qt::Key_Enter:
-            if (key.type() != QEvent::KeyPress || key.isAutoRepeat() || !watched->isWidgetType()) return false;
-            if (auto* button = qobject_cast<QAbstractButton*>(watched); button != nullptr && button->isEnabled()) {
-                button->click();
-                return true;
-            }
-            return false;
+            return key.type() == QEvent::KeyPress && watched->isWidgetType() &&
+                   returnPressed(watched, key.isAutoRepeat());
+        case Qt::Key_F5:
+            if (key.modifiers() != Qt::ShiftModifier) return false;
+            stop_("operator (Shift+F5)");
+            return true;
         default:
             return false;
     }

@@ -10,12 +10,15 @@
 #pragma once
 
 #include <QObject>
+#include <QTimer>
 #include <functional>
 
 class QKeyEvent;
 
 namespace tacto::gui {
 
+/// A held key repeats as presses and releases that X does not always mark as repeated: Return counts as released when
+/// no press has followed for kReleased_ms, and is one press until then.
 class StopKeys final : public QObject {
     Q_OBJECT
 public:
@@ -29,7 +32,11 @@ protected:
 
 private:
     [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);
+    [[nodiscard]] bool returnPressed(QObject* watched, bool repeated);
+    static constexpr int kReleased_ms = 150;
     const std::function<void(const char*)> stop_;
+    bool returnHeld_ = false;
+    QTimer returnReleased_;
 };
 
 }  // namespace tacto::gui

@@ -8,6 +8,7 @@
 
 #include "core/calibration/CalibrationStore.h"
 #include "tests/gui/Person.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 

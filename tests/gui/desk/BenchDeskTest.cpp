@@ -268,10 +268,33 @@ TEST_F(Desk, PutsAQuestionAndTakesOnlyAFittingAnswer) {
                 "{ unit: 'degC', min: 10, max: 40 })); }"));
     ASSERT_TRUE(comesTrue([&] { return asked.has_value(); }));
     EXPECT_EQ(asked->text, "Room temperature");
-    EXPECT_FALSE(desk.operatorDesk().answer("99"));
-    EXPECT_TRUE(desk.operatorDesk().answer("21.5"));
+    EXPECT_FALSE(desk.operatorDesk().answer(asked->id, "99"));
+    EXPECT_TRUE(desk.operatorDesk().answer(asked->id - 1, "30")) << "to a question from before: it does nothing";
+    EXPECT_TRUE(desk.operatorDesk().answer(asked->id, "21.5"));
     ASSERT_TRUE(comesTrue([&] { return ended != nullptr; }));
     EXPECT_THAT(desk.takeRunFeed().log, testing::ElementsAre("got 21.5"));
+}
+
+TEST_F(Desk, ARunKeepsItsProfileAndDisarmingEndsIt) {
+    RecordProperty("hazard", "H12");
+    std::shared_ptr<const gui::FinishedRun> ended;
+    QObject::connect(&desk, &BenchDesk::finished, [&](std::shared_ptr<const gui::FinishedRun> run) { ended = run; });
+    QString said;
+    QObject::connect(&desk, &BenchDesk::failed, [&](const QString& what) { said = what; });
+    desk.run(
+        orderOf("protocol({ title: 'T', needs: [], parameters: {} });\n"
+                "function run(p) { for (;;) bench.wait(0.1); }"));
+    EXPECT_EQ(desk.activity(), Activity::Opening) << "at once, so that no other run is begun";
+    ASSERT_TRUE(comesTrue([&] { return desk.activity() == Activity::Running; }));
+    auto changed = desk.profile();
+    const auto before = desk.profile().encoding.amplitudeMax;
+    changed.encoding.amplitudeMax = Volts(12);
+    desk.setProfile(changed);
+    ASSERT_TRUE(comesTrue([&] { return said.contains("The profile was not changed"); })) << said.toStdString();
+    EXPECT_EQ(desk.profile().encoding.amplitudeMax, before);
+    desk.disarm();
+    ASSERT_TRUE(comesTrue([&] { return ended != nullptr; }));
+    EXPECT_EQ(ended->result.verdict(), "stopped");
 }
 
 }  // namespace

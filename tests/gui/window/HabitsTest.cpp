@@ -7,6 +7,7 @@
 #include <QSettings>
 #include <QTabWidget>
 #include <QTextBrowser>
+#include <QToolBar>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
@@ -218,6 +219,25 @@ TEST_F(Habits, TheWindowIsAsItWasLeft) {
     }
     QSettings().clear();
     gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(Habits, ADamagedWindowStateDoesNotHideStop) {
+    RecordProperty("hazard", "H2");
+    auto* top = window.findChild<QToolBar*>("safetyToolBar");
+    ASSERT_NE(top, nullptr);
+    top->hide();
+    window.addToolBar(Qt::BottomToolBarArea, top);
+    window.close();  // keeps its state so
+    {
+        gui::MainWindow again(simulatedRegistry);
+        again.show();
+        auto* stop = again.findChild<QToolBar*>("safetyToolBar")->findChild<QWidget*>("stopButton");
+        ASSERT_NE(stop, nullptr);
+        EXPECT_TRUE(stop->isVisible());
+        EXPECT_LT(stop->mapTo(&again, QPoint()).y(), again.height() / 3);
+        again.close();
+    }
+    QSettings().clear();
 }
 
 TEST_F(Habits, TextAtTwiceTheSizeFits) {

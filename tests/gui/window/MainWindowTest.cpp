@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/run/RunFiles.h"
@@ -72,6 +73,77 @@ TEST_F(Window, AHeldReturnDoesNotArm) {
     QKeyEvent repeat(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r", true);
     QCoreApplication::sendEvent(second, &repeat);
     QTest::qWait(200);
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+}
+
+TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
+    RecordProperty("hazard", "H12");
+    open();
+    auto* first = window.findChild<QPushButton*>("armButton");
+    first->setFocus();
+    // As X sends a held key: presses and releases, most of them not marked as repeated.
+    const auto press = [](QWidget* widget) {
+        QKeyEvent down(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r");
+        QCoreApplication::sendEvent(widget, &down);
+    };
+    const auto repeat = [&](QWidget* widget) {
+        QKeyEvent up(QEvent::KeyRelease, Qt::Key_Return, Qt::NoModifier, "\r");
+        QCoreApplication::sendEvent(widget, &up);
+        press(widget);
+    };
+    press(first);
+    auto* second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    second->setFocus();
+    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 160);  // until a held key repeats
+    for (int i = 0; i < 10; ++i) {
+        repeat(second);
+        QTest::qWait(30);
+    }
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    EXPECT_TRUE(second->isVisible());
+    QKeyEvent up(QEvent::KeyRelease, Qt::Key_Return, Qt::NoModifier, "\r");
+    QCoreApplication::sendEvent(second, &up);
+    QTest::qWait(300);
+    press(second);
+    EXPECT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; })) << "a press of its own does";
+}
+
+TEST_F(Window, TheSecondHalfOfADoubleClickAndAHeldLetterDoNotTakeTheSecondStep) {
+    RecordProperty("hazard", "H12");
+    open();
+    QTest::mouseClick(window.findChild<QPushButton*>("armButton"), Qt::LeftButton);
+    auto* second = window.findChild<QPushButton*>("armOutput");
+    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    QTest::mouseClick(second, Qt::LeftButton);
+    QTest::mouseDClick(second, Qt::LeftButton);
+    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    for (int i = 0; i < 5; ++i) {
+        QTest::keyClick(second->window(), Qt::Key_A, Qt::AltModifier);
+        QTest::qWait(30);
+    }
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    EXPECT_FALSE(second->text().contains('&'));
+}
+
+TEST_F(Window, AStopBetweenTheTwoStepsVoidsTheFirst) {
+    RecordProperty("hazard", "H12");
+    open();
+    for (const char* name : {"armOutput", "checkImpedance"}) {
+        click(*window.findChild<QPushButton*>(name == std::string_view("armOutput") ? "armButton" : "impedanceButton"));
+        QPointer<QPushButton> second = window.findChild<QPushButton*>(name);
+        ASSERT_TRUE(comesTrue([&] { return second != nullptr && second->isVisible(); })) << name;
+        key(Qt::Key_Pause);
+        EXPECT_TRUE(comesTrue([&] { return second == nullptr || !second->isVisible(); })) << name;
+        QTest::qWait(200);
+    }
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    const auto asked = window.desk().mark();
+    window.desk().stop("the test");
+    ArmRequest request;
+    request.operatorConfirmed = true;
+    window.desk().arm(request, asked);
+    QTest::qWait(300);
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 

@@ -1,0 +1,19 @@
+#include "core/base/StandardStreams.h"
+
+#include <cstdlib>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tacto {
+
+void holdStandardStreams() noexcept {
+    for (;;) {
+        const int file = ::open("/dev/null", O_RDWR);  // the lowest number that is free
+        if (file < 0) std::_Exit(3);
+        if (file <= STDERR_FILENO) continue;
+        ::close(file);
+        return;
+    }
+}
+
+}  // namespace tacto
