@@ -82,7 +82,7 @@ namespace {
 /// unlike trains would pass for an error of the stimulator (hazard H1).
 bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
     constexpr double kSame = 1e-3;    // relative
-    constexpr double kNear_s = 0.05;  // from the planned onset to the record, as for the capture's own train
+    constexpr double kNear_s = 0.05;  // from the planned onset to the trigger
     const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b)); };
     const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
     std::vector<ToldTrain> told;
@@ -90,11 +90,12 @@ bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingPro
         if (std::isfinite(train.amplitude) && toSeconds(train.onset) < end_s) told.push_back(train);
     }
     std::ranges::sort(told, {}, &ToldTrain::onset);
-    auto first = std::ranges::find_if(
-        told, [&](const ToldTrain& train) { return toSeconds(train.onset) >= capture.start_s - kNear_s; });
+    // The one at the trigger, as toldFor() finds it; a check pulse may come shortly before it.
+    auto first = std::ranges::min_element(
+        told, {}, [&](const ToldTrain& train) { return std::abs(toSeconds(train.onset) - capture.trigger_s); });
     const bool inSteps = encoding.amplitudeSlew_V_per_s > 0 || encoding.intervalRatioPerTrain > 0;
+    if (first == told.end() || !(std::abs(toSeconds(first->onset) - capture.trigger_s) < kNear_s)) return !inSteps;
     if (inSteps && first != told.begin()) --first;
-    if (first == told.end()) return true;
     for (auto next = first + 1; next != told.end(); ++first, ++next) {
         if (!same(next->amplitude, first->amplitude)) return false;
         if (!same(toSeconds(next->onset - first->onset), now.interval_s)) return false;

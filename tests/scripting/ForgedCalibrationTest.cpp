@@ -154,6 +154,31 @@ TEST_F(ForgedCalibration, TheCommandIsThatOfTheCaptureWhateverCameAfter) {
     EXPECT_NEAR(commanded["width_s"].get<double>(), 200e-6, 1e-12);
 }
 
+TEST_F(ForgedCalibration, AReadingOfUnlikeTrainsHasNoKnownCommand) {
+    RecordProperty("hazard", "H1");
+    // The encoder is on its way down: the mean over the record would pass for a stimulator that gives too little, and a
+    // calibration from it would make every later train too strong.
+    for (const char* limit : {"amplitude_slew_v_per_s: 20", "interval_ratio_per_train: 1.15"}) {
+        RunBench rig(true, "sim:", 1, true, kNeeded);
+        const auto outcome = rig.run(withRun(std::string("bench.setEncoding({ ") + limit + R"( });
+  bench.arm({ load: 1000 });
+  bench.drive("manual", { roughness: 1, pressure: 1 });
+  bench.wait(12);
+  bench.drive("manual", { roughness: 0, pressure: 0 });
+  const long = measure.pulse(bench.capture({ trains: 1, rate_hz: 1e5, samples: 150000 }));
+  const two = measure.pulse(bench.capture({ trains: 2, rate_hz: 1e6 }));
+  bench.wait(40);
+  const after = measure.pulse(bench.capture({ trains: 2, rate_hz: 1e6 }));
+  return verdict({ verdict: null, long, two, after });)"));
+        ASSERT_FALSE(outcome.error) << outcome.error->message;
+        EXPECT_TRUE(outcome.results["long"]["commanded"]["amplitude"].is_null()) << limit;
+        const bool byInterval = std::string_view(limit).starts_with("interval");
+        EXPECT_EQ(outcome.results["two"]["commanded"]["interval_s"].is_null(), byInterval) << limit;
+        EXPECT_NEAR(outcome.results["after"]["commanded"]["amplitude"].get<double>(), 10, 1e-6) << limit;
+        EXPECT_NEAR(outcome.results["after"]["commanded"]["interval_s"].get<double>(), 2, 1e-3) << limit;
+    }
+}
+
 TEST_F(ForgedCalibration, AnAccuracyThatOnlyTheScriptStatesDoesNotCount) {
     RecordProperty("hazard", "H1");
     const std::string silent = "sim:oscilloscope?gaintolerance=0";
