@@ -323,11 +323,13 @@ void Bench::idle(Seconds duration) noexcept {
     auto& s = *state_;
     if (!(duration.count() > 0 && duration.count() <= 3600)) return;
     const Instant until = s.config.clock->now() + toInstant(duration);
+    constexpr Instant kLook = std::chrono::milliseconds(100);
     while (s.config.clock->now() < until) {
+        attend();  // who lets time pass is there
         if (s.virtualClock != nullptr)
             s.turn(until);
         else
-            std::this_thread::sleep_for(until - s.config.clock->now());
+            std::this_thread::sleep_for(std::min(kLook, until - s.config.clock->now()));
     }
 }
 
