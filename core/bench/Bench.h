@@ -120,8 +120,9 @@ public:
     /// Records of the session that were lost because the disk was too slow. Any thread.
     [[nodiscard]] std::uint64_t recordsLost() const noexcept;
 
-    /// The owner of the order, a script or a window, is looking after the output: driven output that nobody looks after
-    /// for `within` ends as by a stop (hazard H2). begin(), drive() and everything that waits do it too. Any thread.
+    /// Tells the control loop that the script or window that ordered the output still runs. Without another call
+    /// `within` that time the loop ends driven output as by a stop (hazard H2). begin(), drive() and every function that
+    /// waits call it. Any thread.
     void attend(Seconds within = kAttended) noexcept;
     static constexpr Seconds kAttended{2};
 
