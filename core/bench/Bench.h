@@ -121,8 +121,8 @@ public:
     [[nodiscard]] std::uint64_t recordsLost() const noexcept;
 
     /// Tells the control loop that the script or window that ordered the output still runs. Without another call
-    /// `within` that time the loop ends driven output as by a stop (hazard H2). begin(), drive() and every function that
-    /// waits call it. Any thread.
+    /// `within` that time the loop ends driven output as by a stop (hazard H2). begin(), drive() and every function
+    /// that waits call it. Any thread.
     void attend(Seconds within = kAttended) noexcept;
     static constexpr Seconds kAttended{2};
 
