@@ -278,17 +278,18 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     state->faultsBefore = state->request.bench->faults();
     State* raw = state.get();  // the thread keeps the port, which is the state, alive
     try {
-        // The guard first: where a thread cannot be made, no script runs yet.
+        state->thread = std::make_unique<ScriptThread>(state, state->request.script,
+                                                       [raw](Sandbox& sandbox) { raw->execute(sandbox); });
+        // From here on it stops the script where the guard gets no thread. The guard stops by the script's thread.
+        std::unique_ptr<ScriptRun> run(new ScriptRun(state));
         state->memory =
             std::make_unique<MemoryGuard>([raw] { raw->stop("the program: the script takes too much memory"); },
                                           state->request.memoryLimit.value_or(MemoryGuard::usualLimit()));
-        state->thread = std::make_unique<ScriptThread>(state, state->request.script,
-                                                       [raw](Sandbox& sandbox) { raw->execute(sandbox); });
+        return run;
     } catch (const std::system_error& refused) {
         return fail(ErrorCode::Io, "the script cannot run: the system gives this program no thread ({})",
                     refused.what());
     }
-    return std::unique_ptr<ScriptRun>(new ScriptRun(std::move(state)));
 }
 
 ScriptRun::~ScriptRun() {
