@@ -48,16 +48,18 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
     auto setup = setupFor(order, device.traits());
     std::unique_ptr<BenchPulse> made(new BenchPulse(std::move(order), std::move(setup), device, clock));
     const auto& identity = device.identity();
-    auto record = UnitRecord::open(unitFolder(), unitOf(identity.serial, identity.uri), clock);
-    if (!record) return failure(record);
-    if (const auto left = (*record)->fault()) {
-        return fail(ErrorCode::NotArmed,
-                    "the stimulator was left in a fault by an earlier run: {}. See to its cause and reset it: run with "
-                    "--reset-fault, or Bench > Reset fault in the window",
-                    left->reason.view());
+    if (!identity.simulated) {
+        auto record = UnitRecord::open(unitFolders(), unitOf(identity.serial, identity.uri), clock);
+        if (!record) return failure(record);
+        if (const auto left = (*record)->fault()) {
+            return fail(ErrorCode::NotArmed,
+                        "the stimulator was left in a fault by an earlier run: {}. See to its cause and reset it: run "
+                        "with --reset-fault, or Bench > Reset fault in the window",
+                        left->reason.view());
+        }
+        made->record_ = std::move(*record);
+        made->gate_.continueFrom(*made->record_);
     }
-    made->record_ = std::move(*record);
-    made->gate_.continueFrom(*made->record_);
     if (auto configured = made->gate_.configure(made->setup_); !configured) return failure(configured);
     if (auto connected = made->interlock_.connect(); !connected) return failure(connected);
     return made;
@@ -93,7 +95,7 @@ Result<void> BenchPulse::request() {
 
 Result<PulseOutcome> BenchPulse::deliver() {
     // Of a unit whose past is not known nothing is approved before.
-    while (!stopped_ && clock_.now() < record_->quietUntil())
+    while (!stopped_ && record_ && clock_.now() < record_->quietUntil())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
     if (auto confirmed = interlock_.confirmArming(ticket_, clock_.now()); !confirmed) return failure(confirmed);

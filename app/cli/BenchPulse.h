@@ -81,7 +81,7 @@ private:
     const GateSetup setup_;
     sciencemode::ScienceModeStimulator& device_;
     const Clock& clock_;
-    std::unique_ptr<UnitRecord> record_;  // Outlives those that write into it
+    std::unique_ptr<UnitRecord> record_;  // Outlives those that write into it; null: simulated
     SafetyGate gate_;
     Interlock interlock_;
     Heartbeat heartbeat_;

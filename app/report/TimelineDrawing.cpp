@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-constexpr std::size_t kStretches = 700;  // about one per unit of width
+constexpr std::size_t kTimelinePoints = 700;  // about one per unit of width
 
 void addSeries(QCPAxisRect* axes, QCPLegend* legend, const std::vector<double>& t, double timeFactor,
                const std::vector<double>& values, const QPen& pen, const QString& name, bool steps) {
@@ -16,7 +16,7 @@ void addSeries(QCPAxisRect* axes, QCPLegend* legend, const std::vector<double>& 
     graph->setAdaptiveSampling(false);
     if (steps) graph->setLineStyle(QCPGraph::lsStepLeft);
     QVector<double> x, y;
-    for (const std::size_t i : visiblePoints(values, kStretches)) {
+    for (const std::size_t i : visiblePoints(values, kTimelinePoints)) {
         if (!std::isfinite(t[i])) continue;
         x << t[i] * timeFactor;
         y << values[i];
@@ -65,7 +65,7 @@ double addTrains(QCPAxisRect* axes, QCPLegend* legend, const TimelineFigure& fig
         delivered->setPen(QPen(ink::kVoltage, t.size() > 150 ? 0.7 : 1.4));
         delivered->setName("train delivered");
         QVector<double> x, y;
-        for (const std::size_t i : visiblePoints(a, kStretches)) {
+        for (const std::size_t i : visiblePoints(a, kTimelinePoints)) {
             x << t[i];
             y << a[i];
         }
@@ -77,8 +77,8 @@ double addTrains(QCPAxisRect* axes, QCPLegend* legend, const TimelineFigure& fig
         crosses->setLineStyle(QCPGraph::lsNone);
         crosses->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, QPen(ink::kText, 1.2), Qt::NoBrush, 6));
         crosses->setName("train refused");
-        if (refused.size() > static_cast<qsizetype>(kStretches)) {
-            const auto step = refused.size() / static_cast<qsizetype>(kStretches) + 1;
+        if (refused.size() > static_cast<qsizetype>(kTimelinePoints)) {
+            const auto step = refused.size() / static_cast<qsizetype>(kTimelinePoints) + 1;
             QVector<double> fewer;
             for (qsizetype i = 0; i < refused.size(); i += step) fewer << refused[i];
             refused = fewer;

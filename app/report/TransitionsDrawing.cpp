@@ -18,7 +18,7 @@ QColor colourOf(double jnd, double wanted) {
 }
 
 /// What fits a cell: "0.4", "12".
-QString cellText(double jnd) { return QString::number(jnd, 'f', jnd < 9.95 ? 1 : 0); }
+QString jndText(double jnd) { return QString::number(jnd, 'f', jnd < 9.95 ? 1 : 0); }
 
 void addCell(QCPAxisRect* axes, double x, double y, double half, const QPen& pen, const QBrush& brush) {
     auto* cell = new QCPItemRect(axes->parentPlot());
@@ -56,7 +56,7 @@ QSharedPointer<QCPAxisTicker> ends() {
 
 void drawMap(PlotSheet& sheet, int column, const QString& title, const TransitionsFigure::Map& map, double wanted) {
     const QString largest =
-        std::isfinite(map.largest.jnd) ? QString(": at most %1").arg(cellText(map.largest.jnd)) : QString();
+        std::isfinite(map.largest.jnd) ? QString(": at most %1").arg(jndText(map.largest.jnd)) : QString();
     sheet.addTitle(0, column, title + largest, true);
     auto* axes = sheet.addAxes(1, column);
     const std::size_t n = map.cells.size();
@@ -85,7 +85,7 @@ void drawMap(PlotSheet& sheet, int column, const QString& title, const Transitio
             const bool seen = std::isfinite(jnd);
             addCell(axes, x, y, half, QPen(ink::kGrid, 0.5),
                     seen ? QBrush(colourOf(jnd, wanted)) : QBrush(ink::kGrid, Qt::BDiagPattern));
-            if (seen && numbered) addNumber(axes, x, y, cellText(jnd), n <= 8 ? 9 : 7.5);
+            if (seen && numbered) addNumber(axes, x, y, jndText(jnd), n <= 8 ? 9 : 7.5);
         }
     }
     if (!(map.largest.jnd > 0)) return;

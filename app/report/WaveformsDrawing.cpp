@@ -9,7 +9,7 @@ namespace {
 using Trace = WaveformsFigure::Trace;
 
 constexpr std::size_t kColumns = 4;
-constexpr std::size_t kStretches = 350;  // of which the extremes are drawn; a column is 150 units wide
+constexpr std::size_t kWavePoints = 350;  // of which the extremes are drawn; a column is 150 units wide
 
 bool measured(const Trace& trace) { return !trace.voltage_v.empty() || !trace.current_a.empty(); }
 
@@ -131,7 +131,7 @@ private:
         graph->setAdaptiveSampling(false);
         const auto shown = std::span(values).subspan(begin, std::min(end, values.size()) - begin);
         QVector<double> x, y;
-        for (const std::size_t i : visiblePoints(shown, kStretches)) {
+        for (const std::size_t i : visiblePoints(shown, kWavePoints)) {
             x << (trace.start_s + double(begin + i) / trace.rate_hz) * scales_.time.factor;
             y << shown[i] * unit.factor;
         }

@@ -126,7 +126,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.asked = order.asked;
     config.watched = order.watched;
     applyKnown(knownCalibration(config.devices), config);
-    config.units = unitFolder();
+    config.units = unitFolders();
     run->calibrated_ = config.calibration && config.calibrationHolds;
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);

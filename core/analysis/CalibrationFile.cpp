@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "core/base/Csv.h"
+#include "core/base/NaN.h"
 #include "core/base/Text.h"
 
 namespace tacto {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kExpected = "columns commanded and measured, and perhaps direction and u, were expected";
 
 struct Columns {
@@ -48,7 +48,7 @@ Result<Columns> findColumns(const std::vector<std::string_view>& header, Place a
 
 /// A finite number, or NaN where `mayLack` and the field is empty or says nan.
 Result<double> numberIn(std::string_view field, std::string_view column, bool mayLack, double least, Place at) {
-    if (field.empty() && mayLack) return kNan;
+    if (field.empty() && mayLack) return kNaN;
     const auto number = parseNumber(field);
     if (number && ((std::isfinite(*number) && *number >= least) || (std::isnan(*number) && mayLack))) return *number;
     return fail(ErrorCode::ParseError, "{}:{}: {} '{}'; a finite number{} was expected{}", at.name, at.line, column,

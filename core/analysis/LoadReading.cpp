@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "core/analysis/LoadTrace.h"
+#include "core/base/NaN.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSqrt2 = 1.4142135623730951;
 constexpr double kSqrt3 = 1.7320508075688772;
 constexpr double kSqrt12 = 3.4641016151377544;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/NaN.h"
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Reading scaledBy(double factor, const Reading& reading) { return {factor * reading.value, factor * reading.u}; }
 

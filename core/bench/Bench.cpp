@@ -41,7 +41,7 @@ SourceTraits traitsOf(const DeviceSet& devices) {
 /// The stimulator goes on from what it delivered before, and no other process drives it meanwhile.
 Result<void> Bench::State::takeUpRecord() {
     const auto& stimulating = config.devices.stimulator;
-    if (!stimulating || stimulating->identity().simulated || config.units.empty()) return {};
+    if (!stimulating || stimulating->identity().simulated || config.units.records.empty()) return {};
     const auto& identity = stimulating->identity();
     auto opened = UnitRecord::open(config.units, unitOf(identity.serial, identity.uri), *config.clock,
                                    config.systemTime != nullptr ? *config.systemTime : SystemTime::real());

@@ -27,6 +27,7 @@
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto {
 
@@ -59,7 +60,7 @@ struct BenchConfig {
     std::function<bool()> watched;
     /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator goes on from there, and is held
     /// against other processes. Empty keeps none; a simulated stimulator never has one.
-    std::filesystem::path units;
+    UnitFolders units;
     const SystemTime* systemTime = nullptr;  ///< of the record; null: the system's own. Outlives the bench
 };
 

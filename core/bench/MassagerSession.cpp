@@ -6,7 +6,7 @@
 namespace tacto {
 
 namespace {
-constexpr Instant kIdlePoll = std::chrono::milliseconds(20);
+constexpr Instant kMassagerPoll = std::chrono::milliseconds(20);
 }
 
 MassagerSession::MassagerSession(Massager& device, const SafetyGate& gate, const Heartbeat& heartbeat,
@@ -28,7 +28,7 @@ void MassagerSession::forceOff() noexcept {
 }
 
 Instant MassagerSession::serve(Instant now) noexcept {
-    Instant next = now + kIdlePoll;
+    Instant next = now + kMassagerPoll;
     watchLoop(now);
     std::optional<Pending> due;
     {

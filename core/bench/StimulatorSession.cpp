@@ -8,7 +8,7 @@
 namespace tacto {
 
 namespace {
-constexpr Instant kIdlePoll = std::chrono::milliseconds(20);
+constexpr Instant kStimulatorPoll = std::chrono::milliseconds(20);
 constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
 constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
 
@@ -47,7 +47,7 @@ void StimulatorSession::forceOff() noexcept {
 }
 
 Instant StimulatorSession::serve(Instant now) noexcept {
-    Instant next = now + kIdlePoll;
+    Instant next = now + kStimulatorPoll;
     feedDeadMan(now);
     if (healthAsked_.exchange(false, std::memory_order_acq_rel)) answerHealth();
     if (awaitingStatus_) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/dsp/SampleHistory.h"
 
 namespace tacto {
 
 namespace {
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kKept_s = 2.5;  // more than any frame waits
+constexpr double kAccelerationKept_s = 2.5;  // more than any frame waits
 constexpr std::size_t kMostWaiting = 512;
 // Below this rate the upper edge would come too near to half the rate.
 constexpr double kFullBandRate_hz = 2 * AccelerationTrack::kHigh_hz / 0.9;
@@ -26,7 +26,7 @@ AccelerationTrack::AccelerationTrack(const StreamInfo& info)
       softLimit_(8 * length_ + 2 * kChunk),
       filter_(kLow_hz, upperEdge_, rate_, axes_),
       grid_(info.rate_hz),
-      stamps_(std::max(rounded(kKept_s * info.rate_hz) + 2 * length_, softLimit_) + kChunk),
+      stamps_(std::max(rounded(kAccelerationKept_s * info.rate_hz) + 2 * length_, softLimit_) + kChunk),
       windows_(kMostWaiting) {
     for (std::size_t a = 0; a < axes_; ++a) filtered_[a].resize(stamps_.size());
     clear();

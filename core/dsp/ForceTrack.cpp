@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/base/NaN.h"
 
 namespace tacto {
 
 namespace {
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Stamps are decimal numbers in binary: 0.4 - 0.3 is a little more than 0.1.
 constexpr double kStampRounding = 1e-9;
-constexpr double kKept_s = 4;  // more than any frame waits
+constexpr double kForceKept_s = 4;  // more than any frame waits
 
-std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kKept_s * rate_hz) + 256; }
+std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kForceKept_s * rate_hz) + 256; }
 }  // namespace
 
 ForceTrack::ForceTrack(double rate_hz) : samples_(2, roomFor(rate_hz)), firstContact_(kNever) {}
@@ -118,7 +117,7 @@ bool ForceTrack::unsteady(double begin_s, double end_s, double start_s) const no
 }
 
 ForceTrack::Reading ForceTrack::at(double t_s) noexcept {
-    if (samples_.empty()) return {kNan, false, false};
+    if (samples_.empty()) return {kNaN, false, false};
     advance(readCursor_, t_s);
     const double from = samples_.t(readCursor_);
     double force = samples_.values(readCursor_)[0];

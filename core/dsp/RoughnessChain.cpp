@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/NaN.h"
 #include "core/dsp/AccelerationTrack.h"
 #include "core/dsp/ForceTrack.h"
 #include "core/dsp/FramePacer.h"
@@ -17,8 +18,6 @@ namespace tacto {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlice_s = 0.05;  // how far one stream may run ahead inside feed()
 constexpr double kSkew_s = 0.25;   // how far it may between calls, with margin
 
@@ -247,9 +246,9 @@ double RoughnessChain::State::spectralFeature(const AccelerationWindow& window, 
     } else {
         meanSquare = spectrum->power({whole.first, rough.first - 1}) + high;
     }
-    if (rough.empty()) return kNan;
+    if (rough.empty()) return kNaN;
     const double feature = settings.spectral == SpectralFeature::Relative ? high / meanSquare : high;
-    return feature > 0 && std::isfinite(feature) ? feature : kNan;
+    return feature > 0 && std::isfinite(feature) ? feature : kNaN;
 }
 
 /// The window's mean square with the normalisation undone sample by sample. While a finger lands or lifts, force
@@ -270,7 +269,7 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
                                      std::vector<RoughnessFrame>& frames) {
     RoughnessFrame frame;
     frame.t_s = centre_s;
-    ForceTrack::Reading pressed{kNan, false, false};
+    ForceTrack::Reading pressed{kNaN, false, false};
     if (force) pressed = force->at(centre_s);
     frame.contact = contactAt(centre_s, pressed);
 
@@ -288,10 +287,10 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
         }
     }
 
-    double taxelMean = kNan;
+    double taxelMean = kNaN;
     if (taxels) {
         const auto reading = taxels->at(centre_s, settings.taxel == TaxelFeature::Dynamic);
-        frame.v = reading.v > 0 && std::isfinite(reading.v) ? reading.v : kNan;
+        frame.v = reading.v > 0 && std::isfinite(reading.v) ? reading.v : kNaN;
         taxelMean = reading.mean;
     }
     const Motion motion = sliding->next({begin_s, end_s, meanSquare, frame.contact, streamBegin_s(), firstContact_s()});

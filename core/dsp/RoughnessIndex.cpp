@@ -1,12 +1,12 @@
 #include "core/dsp/RoughnessIndex.h"
 
 #include <cmath>
-#include <limits>
+
+#include "core/base/NaN.h"
 
 namespace tacto {
 
 namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHold_s = 0.25;
 constexpr double kDecay_s = 0.25;
 }  // namespace
@@ -25,21 +25,21 @@ double RoughnessIndex::combine(const RoughnessSettings& settings, double spectra
         sum += settings.taxelWeight * g;
         weights += settings.taxelWeight;
     }
-    return weights > 0 ? sum / weights : kNan;
+    return weights > 0 ? sum / weights : kNaN;
 }
 
 double RoughnessIndex::next(double t_s, Motion motion, double spectral, double taxel) noexcept {
     switch (motion) {
         case Motion::NoContact:
             started_ = false;
-            return kNan;
+            return kNaN;
         case Motion::Unknown:
-            return kNan;
+            return kNaN;
         case Motion::Sliding: {
             const double raw = combine(settings_, spectral, taxel);
             if (std::isnan(raw)) {
                 lastSliding_ = t_s;
-                return kNan;
+                return kNaN;
             }
             // After a rest it goes on from what was felt last, decayed or not.
             current_ = held_ = started_ ? current_ + alpha_ * (raw - current_) : raw;
@@ -50,7 +50,7 @@ double RoughnessIndex::next(double t_s, Motion motion, double spectral, double t
         case Motion::Resting:
             break;
     }
-    if (!started_) return kNan;
+    if (!started_) return kNaN;
     const double resting = t_s - lastSliding_;
     if (resting > kHold_s) current_ = held_ * std::exp(-(resting - kHold_s) / kDecay_s);
     return current_;

@@ -6,9 +6,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace tacto {
+
+/// The time of what has not happened.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 class SampleHistory {
 public:

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/base/NaN.h"
 
 namespace tacto {
 
 namespace {
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kReach_s = 0.1;
 constexpr double kTrailing_s = 0.25;
 constexpr double kFloorDeviations = 3;
-constexpr double kKept_s = 4;  // more than any frame waits, and its moving average
+constexpr double kTaxelsKept_s = 4;  // more than any frame waits, and its moving average
 }  // namespace
 
 void TaxelTrack::Stretch::add(const double* values) noexcept {
@@ -38,7 +37,7 @@ TaxelTrack::TaxelTrack(const StreamInfo& info, std::optional<TimeInterval> decla
     : taxels_(info.channels),
       declared_(declaredBaseline),
       reach_(std::max(kReach_s, 1.5 / info.rate_hz)),
-      samples_(info.channels, static_cast<std::size_t>(2 * kKept_s * info.rate_hz) + 256),
+      samples_(info.channels, static_cast<std::size_t>(2 * kTaxelsKept_s * info.rate_hz) + 256),
       baseline_(info.channels),
       above_(info.channels),
       trailing_(info.channels),
@@ -163,7 +162,7 @@ double TaxelTrack::variance(std::size_t sample, bool dynamic, double& meanAbove)
 }
 
 TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
-    if (samples_.empty()) return {kNan, kNan};
+    if (samples_.empty()) return {kNaN, kNaN};
     while (cursor_ + 1 < samples_.end() && samples_.t(cursor_ + 1) <= t_s) ++cursor_;
     std::size_t nearest = cursor_;
     if (nearest + 1 < samples_.end()) {
@@ -172,9 +171,9 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
         const double later = std::abs(samples_.t(nearest + 1) - t_s);
         if (later + kStampRounding < std::abs(samples_.t(nearest) - t_s)) ++nearest;
     }
-    if (std::abs(samples_.t(nearest) - t_s) > reach_) return {kNan, kNan};
+    if (std::abs(samples_.t(nearest) - t_s) > reach_) return {kNaN, kNaN};
 
-    Reading reading{kNan, 0};
+    Reading reading{kNaN, 0};
     const double* values = samples_.values(nearest);
     for (std::size_t i = 0; i < taxels_; ++i) reading.mean += values[i];
     reading.mean /= static_cast<double>(taxels_);

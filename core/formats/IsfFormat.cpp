@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kChunk = 1024 * 1024;
+constexpr std::size_t kBlock = 1024 * 1024;
 
 /// "#6200000": how many bytes of samples follow, and where.
 struct Block {
@@ -56,10 +56,10 @@ Result<void> readBlock(ByteFile& file, std::string_view head, const IsfPreamble&
     }
     if (auto placed = file.seek(block->begin); !placed) return placed;
     samples.reserve(wanted);
-    std::vector<char> chunk(kChunk);
+    std::vector<char> chunk(kBlock);
     bool lowBits = false;
     while (samples.size() < wanted) {
-        const auto got = file.read(chunk.data(), std::min(kChunk, (wanted - samples.size()) * pre.bytes));
+        const auto got = file.read(chunk.data(), std::min(kBlock, (wanted - samples.size()) * pre.bytes));
         if (!got) return failure(got);
         const auto count = *got / pre.bytes;
         if (count == 0) return fail(ErrorCode::Io, "{} became shorter while it was read", file.name());
@@ -86,7 +86,7 @@ Result<void> readBlock(ByteFile& file, std::string_view head, const IsfPreamble&
 Result<void> readText(ByteFile& file, const IsfPreamble& pre, const ReadWatch& watch, CaptureReading& reading) {
     auto& samples = reading.capture.channels[0].samples;
     if (auto placed = file.seek(pre.curve); !placed) return placed;
-    std::vector<char> chunk(kChunk);
+    std::vector<char> chunk(kBlock);
     std::string rest;
     std::uint64_t taken = pre.curve;
     for (bool ended = false; !ended && samples.size() < pre.points;) {
@@ -112,9 +112,9 @@ Result<void> readText(ByteFile& file, const IsfPreamble& pre, const ReadWatch& w
             if (at >= rest.size() || samples.size() == pre.points) break;
         }
         rest.erase(0, at);
-        if (rest.size() > 2 * kChunk) {
+        if (rest.size() > 2 * kBlock) {
             return fail(ErrorCode::ParseError, "{}: point {} is longer than {} bytes; a number was expected",
-                        file.name(), samples.size() + 1, kChunk);
+                        file.name(), samples.size() + 1, kBlock);
         }
         const auto done = static_cast<double>(taken) / static_cast<double>(std::max<std::uint64_t>(file.size(), 1));
         if (auto going = keepReading(watch, std::min(1.0, done), file.name()); !going) return going;

@@ -15,7 +15,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kChunk = 1024 * 1024;
+constexpr std::size_t kReadAtOnce = 1024 * 1024;
 
 std::uint64_t wordAt(const char* bytes, std::size_t count) {
     std::uint64_t value = 0;
@@ -41,7 +41,7 @@ Result<void> readSamples(ByteFile& file, const WavHeader& header, const ReadWatc
     const auto frames = static_cast<std::size_t>(header.bytes / frame);
     for (auto& channel : capture.channels) channel.samples.reserve(frames);
     if (auto placed = file.seek(header.begin); !placed) return placed;
-    std::vector<char> chunk(std::max(kChunk / frame, std::size_t{1}) * frame);
+    std::vector<char> chunk(std::max(kReadAtOnce / frame, std::size_t{1}) * frame);
     for (std::size_t done = 0; done < frames;) {
         const auto wanted = std::min(chunk.size(), (frames - done) * frame);
         const auto got = file.read(chunk.data(), wanted);
@@ -135,7 +135,7 @@ Result<void> WavFormat::write(const std::filesystem::path& path, const Capture& 
     stream << wavHeaderOf(capture, static_cast<std::uint32_t>(rate));
     std::vector<float> frames;
     const std::size_t channels = capture.channels.size();
-    const std::size_t atOnce = std::max(kChunk / (4 * channels), std::size_t{1});
+    const std::size_t atOnce = std::max(kReadAtOnce / (4 * channels), std::size_t{1});
     for (std::size_t i = 0; i < capture.samples() && stream; i += atOnce) {
         const auto count = std::min(atOnce, capture.samples() - i);
         frames.resize(count * channels);

@@ -7,8 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
+constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr std::size_t kLanes = 16;
 static_assert(MinMaxPyramid::kBlock % kLanes == 0);
 
@@ -19,8 +18,8 @@ Envelope ofLanes(const float* samples, std::size_t count) noexcept {
     std::array<float, kLanes> high;
     std::array<std::int32_t, kLanes> missing;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        low[lane] = kInfinity;
-        high[lane] = -kInfinity;
+        low[lane] = kNothing;
+        high[lane] = -kNothing;
         missing[lane] = 0;
     }
     for (std::size_t row = 0; row < count; row += kLanes) {

@@ -47,13 +47,13 @@ std::size_t meanFor(double standsOut) {
 /// How far the baseline moves by more than its noise: two thirds of the samples about it are within this. 0 if that is
 /// the noise, or less than a fiftieth of the pulses.
 double unrestOf(const SampleView& view, const StateLevels& levels, double noise) {
-    constexpr std::size_t kJudged = 32'768;
+    constexpr std::size_t kJudgedSamples = 32'768;
     double nearest = std::numeric_limits<double>::infinity();
     for (const double state : {levels.low, levels.high}) {
         if (state != levels.baseline) nearest = std::min(nearest, std::abs(state - levels.baseline));
     }
     std::vector<double> distances;
-    const std::size_t stride = std::max<std::size_t>(1, view.samples.size() / kJudged);
+    const std::size_t stride = std::max<std::size_t>(1, view.samples.size() / kJudgedSamples);
     distances.reserve(view.samples.size() / stride + 1);
     for (std::size_t i = 0; i < view.samples.size(); i += stride) {
         const double distance = std::abs(static_cast<double>(view.samples[i]) - levels.baseline);

@@ -10,26 +10,26 @@ namespace tacto {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kLanes = 16;
-static_assert(SampleBlocks::kSamples % kLanes == 0);
+constexpr float kNoExtreme = std::numeric_limits<float>::infinity();
+constexpr std::size_t kBlockLanes = 16;
+static_assert(SampleBlocks::kSamples % kBlockLanes == 0);
 
 struct Extremes {
-    float low = kInfinity;
-    float high = -kInfinity;
+    float low = kNoExtreme;
+    float high = -kNoExtreme;
     std::size_t finite = 0;
 };
 
 /// Sixteen lanes side by side and no branch, so that a compiler turns them into vectors.
 bool ofWholeBlock(const float* samples, Extremes& into) noexcept {
-    std::array<float, kLanes> low;
-    std::array<float, kLanes> high;
-    std::array<std::int32_t, kLanes> odd;  // not finite
-    low.fill(kInfinity);
-    high.fill(-kInfinity);
+    std::array<float, kBlockLanes> low;
+    std::array<float, kBlockLanes> high;
+    std::array<std::int32_t, kBlockLanes> odd;  // not finite
+    low.fill(kNoExtreme);
+    high.fill(-kNoExtreme);
     odd.fill(0);
-    for (std::size_t row = 0; row < SampleBlocks::kSamples; row += kLanes) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t row = 0; row < SampleBlocks::kSamples; row += kBlockLanes) {
+        for (std::size_t lane = 0; lane < kBlockLanes; ++lane) {
             const float x = samples[row + lane];
             low[lane] = x < low[lane] ? x : low[lane];
             high[lane] = x > high[lane] ? x : high[lane];
@@ -37,7 +37,7 @@ bool ofWholeBlock(const float* samples, Extremes& into) noexcept {
         }
     }
     std::int32_t anyOdd = 0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < kBlockLanes; ++lane) {
         into.low = std::min(into.low, low[lane]);
         into.high = std::max(into.high, high[lane]);
         anyOdd |= odd[lane];
@@ -70,7 +70,7 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
         known = std::min(known + 1, blocks.size());
     }
     std::array<float, 3> smallest;  // ascending
-    smallest.fill(kInfinity);
+    smallest.fill(kNoExtreme);
     for (std::size_t k = 0; k < known; ++k) {
         const std::size_t first = blocks[k] * SampleBlocks::kSamples;
         for (const float sample : samples.subspan(first, std::min(SampleBlocks::kSamples, samples.size() - first))) {
@@ -86,18 +86,18 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
 /// Where the first of `samples` lies that is beyond; their number if none is. Eight are asked in one go, for the
 /// silence between two pulses is short where a record holds many.
 std::size_t firstBeyond(std::span<const float> samples, float below, float above) noexcept {
-    constexpr std::size_t kRow = 8;
+    constexpr std::size_t kLaneRow = 8;
     const std::size_t n = samples.size();
-    for (std::size_t i = 0; i < n; i += kRow) {
-        if (i + kRow <= n) {
+    for (std::size_t i = 0; i < n; i += kLaneRow) {
+        if (i + kLaneRow <= n) {
             std::int32_t any = 0;
-            for (std::size_t k = 0; k < kRow; ++k) {
+            for (std::size_t k = 0; k < kLaneRow; ++k) {
                 const float x = samples[i + k];
                 any |= (x > above ? 1 : 0) | (x < below ? 1 : 0);
             }
             if (any == 0) continue;
         }
-        for (std::size_t k = i; k < std::min(n, i + kRow); ++k) {
+        for (std::size_t k = i; k < std::min(n, i + kLaneRow); ++k) {
             const float x = samples[k];
             if ((x > above || x < below) && std::isfinite(x)) return k;
         }
@@ -111,8 +111,8 @@ SampleBlocks::SampleBlocks(std::span<const float> samples) : samples_(samples) {
     const std::size_t blocks = (samples.size() + kSamples - 1) / kSamples;
     low_.resize(blocks);
     high_.resize(blocks);
-    lowest_ = kInfinity;
-    highest_ = -kInfinity;
+    lowest_ = kNoExtreme;
+    highest_ = -kNoExtreme;
     for (std::size_t b = 0; b < blocks; ++b) {
         const auto block = samples.subspan(b * kSamples, std::min(kSamples, samples.size() - b * kSamples));
         Extremes found;

@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kFewestSamples = 20;
+constexpr std::size_t kFewestForLevels = 20;
 constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
 constexpr double kSmallestBaseline = 0.05;  // of the samples, between two other states
 constexpr double kSmallestReturn = 0.2;     // of the leading phase's charge, to be a second phase and not ringing
@@ -92,22 +92,22 @@ struct Moments {
 
 /// In lanes without branches, a few thousand samples at a time: a float's digits suffice for so short a sum.
 Moments momentsAbout(std::span<const float> samples, double origin, double window, double half) {
-    constexpr std::size_t kLanes = 8;
-    constexpr std::size_t kRows = 256;
+    constexpr std::size_t kFloatLanes = 8;
+    constexpr std::size_t kLaneRows = 256;
     Moments all;
     const auto zero = static_cast<float>(origin);
     const auto outer = static_cast<float>(half);
     const auto inner = std::min(static_cast<float>(window), std::nextafter(outer, 0.0F));
-    std::array<float, kLanes * kRows> chunk;
+    std::array<float, kFloatLanes * kLaneRows> chunk;
     // A million samples say where the baseline is to a thousandth of the noise: of a longer record every k-th chunk.
     const std::size_t stride = chunk.size() * std::max<std::size_t>(1, samples.size() / 1'000'000);
     for (std::size_t first = 0; first < samples.size(); first += stride) {
         const std::size_t n = std::min(chunk.size(), samples.size() - first);
         if (n < chunk.size()) chunk.fill(std::numeric_limits<float>::quiet_NaN());
         std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(first), n, chunk.begin());
-        std::array<float, kLanes> near{}, sum{}, squares{}, within{}, spread{};
-        for (std::size_t row = 0; row < chunk.size(); row += kLanes) {
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        std::array<float, kFloatLanes> near{}, sum{}, squares{}, within{}, spread{};
+        for (std::size_t row = 0; row < chunk.size(); row += kFloatLanes) {
+            for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
                 const float d = chunk[row + lane] - zero;
                 const float distance = d < 0 ? -d : d;
                 // A comparison with NaN is false: what is missing counts nowhere.
@@ -120,7 +120,7 @@ Moments momentsAbout(std::span<const float> samples, double origin, double windo
                 squares[lane] += inWindow * inWindow;
             }
         }
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
             all.near += static_cast<double>(near[lane]);
             all.sum += static_cast<double>(sum[lane]);
             all.squares += static_cast<double>(squares[lane]);
@@ -180,8 +180,8 @@ StateLevels findStateLevels(std::span<const float> samples, double lsb, bool log
 StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) {
     const double low = static_cast<double>(blocks.lowest());
     const double high = static_cast<double>(blocks.highest());
-    if (blocks.finite() < kFewestSamples)
-        return none(fmt::format("it has {} samples; {} are the least", blocks.finite(), kFewestSamples));
+    if (blocks.finite() < kFewestForLevels)
+        return none(fmt::format("it has {} samples; {} are the least", blocks.finite(), kFewestForLevels));
     if (!(high > low)) return none(fmt::format("it stays at {:.4g}", low));
     if (logic) {
         StateLevels levels;

@@ -10,7 +10,7 @@ using namespace gate;
 
 namespace {
 // 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
-constexpr double kRounding = 1e-9;
+constexpr double kLevelRounding = 1e-9;
 
 double milliamps(const PulseTrain& train) noexcept { return siValue(train.amplitude) * 1e3; }
 
@@ -48,7 +48,7 @@ Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
                     level, discomfort_);
     }
     const double ceiling = ceilingFor(train).value();
-    if (checks(LevelRamp) && !(level <= ceiling * (1 + kRounding))) {
+    if (checks(LevelRamp) && !(level <= ceiling * (1 + kLevelRounding))) {
         return fail(ErrorCode::LimitExceeded,
                     "current would be {:.4g} mA; {} allows at most {:.4g} mA, one step of {:.4g} mA above the last "
                     "accepted level",

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 
+#include "core/base/NaN.h"
 #include "core/electrode/LoadResponse.h"
 
 namespace tacto {
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The larger of both; NaN wins, so that it is refused and not lost.
 double larger(double a, double b) noexcept { return std::isnan(a) || a > b ? a : b; }

@@ -1,50 +1,18 @@
 #include "core/safety/UnitRecord.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
-#include <limits>
-#include <sys/file.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <type_traits>
+#include <random>
 #include <unistd.h>
 
 namespace tacto {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31'74'69'6e'75'74'63'61;  // "actunit1"
-constexpr double kMostStretch = 2;                           // as the gate: how much longer a window may last
-
-/// FNV-1a over the bytes of what is checked. Against a torn or damaged record, not against a forger.
-std::uint64_t checksumOf(const void* data, std::size_t size) noexcept {
-    std::uint64_t sum = 0xcbf29ce484222325;
-    for (const auto *at = static_cast<const unsigned char*>(data), *end = at + size; at != end; ++at)
-        sum = (sum ^ *at) * 0x100000001b3;
-    return sum;
-}
-
-/// A part of the record: its content, and the checksum that is taken away before the content changes.
-template <class Content>
-struct Checked {
-    Content content{};
-    std::uint64_t sum = 0;
-    static_assert(std::is_trivially_copyable_v<Content>);
-
-    [[nodiscard]] bool sound() const noexcept { return sum == checksumOf(&content, sizeof content); }
-    void write(const Content& newer) noexcept {
-        std::atomic_ref(sum).store(0, std::memory_order_relaxed);
-        std::atomic_signal_fence(std::memory_order_seq_cst);  // The process may end between any two stores
-        content = newer;
-        std::atomic_signal_fence(std::memory_order_seq_cst);
-        std::atomic_ref(sum).store(checksumOf(&content, sizeof content), std::memory_order_relaxed);
-    }
-};
+constexpr std::uint64_t kMagic = 0x32'74'69'6e'75'74'63'61;  // "actunit2"
+constexpr double kLongestStretch = 2;                        // as the gate: how much longer a window may last
 
 template <std::size_t N>
 void copyText(std::array<char, N>& into, std::string_view text) noexcept {
@@ -63,6 +31,7 @@ struct Head {
     std::int64_t quietUntil_ns = 0;  // since boot
     std::int64_t wall_s = 0;         // when it was opened
     std::int64_t process = 0;
+    std::uint64_t id = 0;  // of this record, at random: what a claim names
 };
 
 /// Times since boot.
@@ -93,29 +62,36 @@ std::string fileNameOf(std::string_view unit) {
     return fmt::format("{}-{:08x}.unit", name.substr(0, 80), checksumOf(unit.data(), unit.size()) & 0xffffffff);
 }
 
-/// "tactoscope-cli (process 4711)".
-std::string holderOf(int file) {
+/// The process that has the record, where it says so.
+std::string holderOf(const std::filesystem::path& path) {
     Checked<Head> head;
-    if (::pread(file, &head, sizeof head, 0) != static_cast<ssize_t>(sizeof head) || !head.sound())
-        return "another process";
-    std::string program;
-    std::ifstream in(fmt::format("/proc/{}/comm", head.content.process));
-    std::getline(in, program);
-    return fmt::format("{} (process {})", program.empty() ? "a program" : program, head.content.process);
+    std::ifstream in(path, std::ios::binary);
+    if (!in.read(reinterpret_cast<char*>(&head), sizeof head) || !head.sound()) return "another process";
+    return programOf(head.content.process);
 }
 
-/// True when `folder` has kept the same records for long: a unit without one there was not driven in that time. A
-/// folder that was made, moved here or emptied a moment ago proves nothing about a unit that it does not know.
-bool unchangedForLong(const std::filesystem::path& folder, const SystemTime& time) {
-    struct stat about {};
-    if (::stat(folder.c_str(), &about) != 0) return false;
-    return time.wall().time_since_epoch().count() - about.st_mtim.tv_sec >= UnitRecord::kLongAgo.count();
+std::uint64_t newId() {
+    std::random_device source;
+    return static_cast<std::uint64_t>(source()) << 32U | source();
 }
 
-tl::unexpected<Error> cannot(const std::filesystem::path& path) {
+tl::unexpected<Error> refusalOf(const LockedFile::Refused& refused, const std::filesystem::path& path,
+                                std::string_view unit) {
+    switch (refused.why) {
+        case LockedFile::Refusal::Held:
+            return fail(ErrorCode::Device, "{} is driven by {}; end that first. Nothing was delivered here", unit,
+                        holderOf(path));
+        case LockedFile::Refusal::NotItsOwn:
+            return fail(ErrorCode::Io,
+                        "the record of what this unit has delivered, {}, is no file of its own (a link, a pipe); "
+                        "remove it. Without a record the unit is not driven",
+                        path.string());
+        case LockedFile::Refusal::Failed:
+            break;
+    }
     return fail(ErrorCode::Io,
                 "the record of what this unit has delivered, {}, cannot be kept: {}. Without it the unit is not driven",
-                path.string(), std::strerror(errno));
+                path.string(), std::strerror(refused.error));
 }
 
 }  // namespace
@@ -126,69 +102,39 @@ struct UnitRecord::Map {
     std::array<Checked<Train>, kTrains> trains;
 };
 
-Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const std::filesystem::path& folder, std::string_view unit,
+Result<std::unique_ptr<UnitRecord>> UnitRecord::open(const UnitFolders& folders, std::string_view unit,
                                                      const Clock& clock, const SystemTime& time) {
-    const bool settled = unchangedForLong(folder, time);
     std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    const auto path = folder / fileNameOf(unit);
-    int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    const bool made = file >= 0;
-    // A link would lead to a file of another purpose, and a pipe would wait.
-    if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (file < 0) return cannot(path);
-    const auto giveUp = [&](tl::unexpected<Error> why) {
-        if (made) ::unlink(path.c_str());
-        ::close(file);
-        return why;
-    };
-    if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-        const bool held = errno == EWOULDBLOCK;
-        tl::unexpected<Error> why =
-            held ? fail(ErrorCode::Device, "{} is driven by {}; end that first. Nothing was delivered here", unit,
-                        holderOf(file))
-                 : cannot(path);
-        ::close(file);
-        return why;
-    }
-    struct stat about {};
-    if (::fstat(file, &about) != 0) return giveUp(cannot(path));
-    if (!S_ISREG(about.st_mode) || about.st_nlink != 1) {
-        return giveUp(fail(ErrorCode::Io,
-                           "the record of what this unit has delivered, {}, is no file of its own (a link, a pipe); "
-                           "remove it. Without a record the unit is not driven",
-                           path.string()));
-    }
-    const bool whole = made || about.st_size == static_cast<off_t>(sizeof(Map));
-    // Allocated now: a full disk is found here and not in the middle of a run.
-    if (const int error = ::posix_fallocate(file, 0, sizeof(Map)); error != 0) {
-        errno = error;
-        return giveUp(cannot(path));
-    }
-    void* at = ::mmap(nullptr, sizeof(Map), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0);
-    if (at == MAP_FAILED) return giveUp(cannot(path));
-    auto& map = *static_cast<Map*>(at);
-    if (!whole) map.head.sum = map.fault.sum = 0;  // What is missing is not nothing
-    if (made) map.fault.write({});
-    if (made && settled) map.head.write({.trainSize = sizeof(Train)});
-    return std::unique_ptr<UnitRecord>(new UnitRecord(file, map, clock, time, !made || settled));
+    std::filesystem::create_directories(folders.records, failed);
+    const auto path = folders.records / fileNameOf(unit);
+    auto file = LockedFile::open(path, sizeof(Map), 0644);
+    if (!file) return refusalOf(file.error(), path, unit);
+    auto claim = UnitClaim::open(folders.claims, "tactoscope-" + fileNameOf(unit), unit);
+    if (!claim) return failure(claim);
+    return std::unique_ptr<UnitRecord>(new UnitRecord(std::move(*file), std::move(*claim), clock, time));
 }
 
-UnitRecord::UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time, bool pastKept)
-    : file_(file), map_(map), clock_(clock), time_(time), quietUntil_(clock.now()) {
-    takeOver(pastKept);
+UnitRecord::UnitRecord(LockedFile&& file, std::unique_ptr<UnitClaim> claim, const Clock& clock, const SystemTime& time)
+    : file_(std::move(file)),
+      map_(*static_cast<Map*>(file_.content())),
+      claim_(std::move(claim)),
+      clock_(clock),
+      time_(time),
+      quietUntil_(clock.now()) {
+    if (!file_.whole()) map_.head.sum = map_.fault.sum = 0;  // What is missing is not nothing
+    if (file_.made()) {
+        map_.head.write({.trainSize = sizeof(Train)});
+        map_.fault.write({});
+    }
+    takeOver();
 }
 
-UnitRecord::~UnitRecord() {
-    ::munmap(&map_, sizeof(Map));
-    ::close(file_);  // and with it the lock
-}
+UnitRecord::~UnitRecord() = default;
 
 Instant UnitRecord::onClock(Instant sinceBoot) const noexcept { return clock_.now() + (sinceBoot - time_.sinceBoot()); }
 
-/// Decides whether what stands in the record is believed, and makes it this process's. `pastKept` is false for a
-/// record that was made now where an earlier one may have been.
-void UnitRecord::takeOver(bool pastKept) {
+/// Decides whether what stands in the record is believed, and makes it this process's.
+void UnitRecord::takeOver() {
     const Instant boot = time_.sinceBoot();
     const auto wall = time_.wall().time_since_epoch().count();
     const std::string bootId = time_.boot();
@@ -196,8 +142,7 @@ void UnitRecord::takeOver(bool pastKept) {
     std::string_view why;
     bool keep = false;  // the trains are of this start of the computer
     if (!before.sound() || before.content.magic != kMagic || before.content.trainSize != sizeof(Train)) {
-        why = pastKept ? "its record is damaged or of another version"
-                       : "there is no record of it, and the folder of the records was made or changed just now";
+        why = "its record is damaged or of another version";
     } else {
         auto newestWall = before.content.wall_s;
         auto newest = Instant(before.content.quietUntil_ns) - kRest;
@@ -211,17 +156,21 @@ void UnitRecord::takeOver(bool pastKept) {
             newest = std::max(newest, Instant(train.content.earliest_ns));
         }
         next_ = last + 1;
-        const bool neverUsed = before.content.process == 0;
-        keep = neverUsed || (!bootId.empty() && textIn(before.content.boot) == bootId);
+        keep = file_.made() || (!bootId.empty() && textIn(before.content.boot) == bootId);
         if (!whole) {
             why = "its record was torn, as when a program ends while it writes";
         } else if (keep && newest > boot) {
             why = "its record is from a time that has not come";
+        } else if (!claim_) {
+            why = "this computer has no place to note which record of it is the last one";
+        } else if (!claim_->isOf(before.content.id)) {
+            why = "a program drove it since from another record, of another account or data folder";
         } else if (!keep && !(wall - newestWall >= kLongAgo.count())) {
             why = "its record is from before the computer was started, and the wall clock does not say how long ago";
         }
     }
-    Head head{.trainSize = sizeof(Train), .wall_s = wall, .process = ::getpid()};
+    Head head{.trainSize = sizeof(Train), .wall_s = wall, .process = ::getpid(), .id = before.content.id};
+    if (!before.sound() || head.id == 0) head.id = newId();
     copyText(head.boot, bootId);
     head.quietUntil_ns = !why.empty() ? (boot + kRest).count() : keep ? before.content.quietUntil_ns : 0;
     if (!why.empty() || !keep) {
@@ -230,13 +179,19 @@ void UnitRecord::takeOver(bool pastKept) {
         for (auto& train : map_.trains) train = {};
         next_ = 1;
     }
-    if (!map_.fault.sound()) {
+    const bool faultElsewhere = claim_ && !claim_->isOf(before.content.id) && claim_->faulted();
+    if (!map_.fault.sound() || (faultElsewhere && map_.fault.content.causes == 0)) {
         // As a fault of the device: a reset asks it again, and arming begins with a check pulse.
         Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};
-        copyText(unknown.reason, "the record of this unit is damaged; whether it was left in a fault is not known");
+        copyText(unknown.reason,
+                 map_.fault.sound()
+                     ? "a program of another account or data folder left this unit in a fault"
+                     : "the record of this unit is damaged; whether it was left in a fault is not known");
         map_.fault.write(unknown);
     }
     map_.head.write(head);
+    // Last: until then the claim names what this record does not know.
+    if (claim_) claim_->take(head.id, map_.fault.content.causes != 0);
     if (Instant(head.quietUntil_ns) > boot) {
         why_ = why.empty() ? "a program before this one did not know it either" : why;
         quietUntil_ = onClock(Instant(head.quietUntil_ns));
@@ -245,7 +200,7 @@ void UnitRecord::takeOver(bool pastKept) {
 
 ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
     const Instant boot = time_.sinceBoot();
-    const Instant window = toInstant(ExposureMeter::kLongestWindow * kMostStretch);
+    const Instant window = toInstant(ExposureMeter::kLongestWindow * kLongestStretch);
     ResidualVoltages left;
     if (next_ == 1) return left;
     // In the order in which they were booked; what is overwritten is older than any window.
@@ -303,15 +258,20 @@ void UnitRecord::keepFault(FaultCause cause, std::string_view reason) noexcept {
     }
     newer.causes |= 1U << static_cast<unsigned>(cause);
     map_.fault.write(newer);
+    if (claim_) claim_->keepFault(true);
 }
 
-void UnitRecord::clearFault() noexcept { map_.fault.write({}); }
+void UnitRecord::clearFault() noexcept {
+    map_.fault.write({});
+    if (claim_) claim_->keepFault(false);
+}
 
-std::filesystem::path unitFolder() {
+UnitFolders unitFolders() {
+    constexpr const char* kClaims = "/run/lock";
     const char* data = std::getenv("XDG_DATA_HOME");
-    if (data != nullptr && *data != '\0') return std::filesystem::path(data) / "tactoscope" / "units";
+    if (data != nullptr && *data != '\0') return {std::filesystem::path(data) / "tactoscope" / "units", kClaims};
     const char* home = std::getenv("HOME");
-    return std::filesystem::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "units";
+    return {std::filesystem::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "units", kClaims};
 }
 
 }  // namespace tacto

@@ -3,10 +3,10 @@
 //
 // One file of fixed size per unit, mapped into memory: the control loop writes into it without a system call, and what
 // it wrote is there for the next process however this one ends. A train is written before its approval is handed out.
-// Each part carries a checksum. A record that does not check, one from a future that is not ours, and one from another
-// start of the computer of which the wall time cannot say that it is long ago, are not believed: the unit then rests
-// until whatever it delivered is out of every window (quietUntil()). The same holds for a unit without a record, unless
-// the folder has been there, unchanged, for longer than any window: a folder that is new says nothing of the past.
+// Each part carries a checksum. A record that does not check, one from a future that is not ours, one from another
+// start of the computer of which the wall time cannot say that it is long ago, and one that is not the last that the
+// unit was driven from on this computer (UnitClaim.h), are not believed: the unit then rests until whatever it
+// delivered is out of every window (quietUntil()).
 //
 // The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units
 // keep none: they are born with their bench, at rest.
@@ -28,6 +28,8 @@
 #include "core/base/SystemTime.h"
 #include "core/safety/ExposureMeter.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/LockedFile.h"
+#include "core/safety/UnitClaim.h"
 
 namespace tacto {
 
@@ -45,6 +47,12 @@ struct UnitFault {
     FixedText<159> reason;
 };
 
+/// Where records are kept, and where it is noted which of them was the last.
+struct UnitFolders {
+    std::filesystem::path records;
+    std::filesystem::path claims;  ///< the same for everybody on this computer, and emptied when it starts
+};
+
 class UnitRecord {
 public:
     /// How many trains it holds: as many as the meter.
@@ -52,14 +60,13 @@ public:
     /// How long a unit rests whose past is not known: the longest window after a train of 2 s that may have begun when
     /// the process before ended.
     static constexpr Instant kRest = std::chrono::seconds(8);
-    /// By the wall clock, what is at least this old is long ago: a record from another start of the computer, the last
-    /// change of the folder.
+    /// By the wall clock, a record from another start of the computer that is at least this old is long ago.
     static constexpr std::chrono::seconds kLongAgo{60};
 
-    /// Opens the record of `unit` ("sciencemode 1234") in `folder`, or makes it, and locks it. `clock` and `time`
-    /// outlive the record. Errors: Device when another process drives this unit, naming it; Io.
-    [[nodiscard]] static Result<std::unique_ptr<UnitRecord>> open(const std::filesystem::path& folder,
-                                                                  std::string_view unit, const Clock& clock,
+    /// Opens the record of `unit` ("sciencemode 1234"), or makes it, and locks it. `clock` and `time` outlive the
+    /// record. Errors: Device when another process drives this unit, naming it; Io.
+    [[nodiscard]] static Result<std::unique_ptr<UnitRecord>> open(const UnitFolders& folders, std::string_view unit,
+                                                                  const Clock& clock,
                                                                   const SystemTime& time = SystemTime::real());
     ~UnitRecord();
     UnitRecord(const UnitRecord&) = delete;
@@ -85,13 +92,13 @@ public:
 
 private:
     struct Map;
-    UnitRecord(int file, Map& map, const Clock& clock, const SystemTime& time, bool pastKept);
-    void takeOver(bool pastKept);
-    void rest(std::string_view why);
+    UnitRecord(LockedFile&& file, std::unique_ptr<UnitClaim> claim, const Clock& clock, const SystemTime& time);
+    void takeOver();
     [[nodiscard]] Instant onClock(Instant sinceBoot) const noexcept;
 
-    const int file_;
+    const LockedFile file_;
     Map& map_;
+    const std::unique_ptr<UnitClaim> claim_;  // null: none could be made
     const Clock& clock_;
     const SystemTime& time_;
     std::string_view why_;
@@ -99,7 +106,7 @@ private:
     std::uint64_t next_ = 1;  // Sequence number of the next train
 };
 
-/// $XDG_DATA_HOME/tactoscope/units, or ~/.local/share/tactoscope/units.
-[[nodiscard]] std::filesystem::path unitFolder();
+/// The records in $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units, the claims in /run/lock.
+[[nodiscard]] UnitFolders unitFolders();
 
 }  // namespace tacto

@@ -43,7 +43,7 @@ std::optional<Values> deviceOf(std::string_view metadata) {
 }
 
 /// A whole number; `otherwise` where it is not there, nothing where it is not one or above `most`.
-std::optional<std::uint64_t> numberOf(const Values& values, std::string_view key, std::uint64_t otherwise,
+std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key, std::uint64_t otherwise,
                                       std::uint64_t most) {
     const auto found = values.find(key);
     if (found == values.end()) return otherwise;
@@ -85,9 +85,9 @@ private:
 
 Result<SrLayout> layoutFrom(const Reader& reader, const Values& device) {
     SrLayout layout;
-    const auto probes = numberOf(device, "total probes", 0, kMostChannels);
-    const auto analog = numberOf(device, "total analog", 0, kMostChannels);
-    const auto unit = numberOf(device, "unitsize", 0, kMostChannels);
+    const auto probes = numberIn(device, "total probes", 0, kMostChannels);
+    const auto analog = numberIn(device, "total analog", 0, kMostChannels);
+    const auto unit = numberIn(device, "unitsize", 0, kMostChannels);
     if (!probes || !analog || !unit || *probes + *analog == 0) {
         return reader.broken("its metadata has no sensible number of channels; 1 to {} were expected", kMostChannels);
     }

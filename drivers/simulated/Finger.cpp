@@ -9,7 +9,6 @@ namespace tacto::sim {
 
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr double kGravity = 9.80665;
 constexpr double kForceTime = 0.02;  // a hand presses within a few of these, s
 constexpr double kSpeedTime = 0.04;
 constexpr double kTouching = 0.01;     // N: below this the skin is off

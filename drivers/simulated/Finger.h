@@ -28,6 +28,9 @@
 
 namespace tacto::sim {
 
+/// Standard acceleration of gravity, m/s² (3rd CGPM, 1901).
+inline constexpr double kGravity = 9.80665;
+
 struct FingerSettings {
     std::string material = "P120";
     MillimetresPerSecond speed{50};

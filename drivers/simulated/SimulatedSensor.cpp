@@ -7,7 +7,6 @@
 namespace tacto::sim {
 
 namespace {
-constexpr double kGravity = 9.80665;
 constexpr double kFaultyDropouts = 0.3;   // of the packets, while the fault "dropout" lasts
 constexpr double kForceDrift_N_s = 0.05;  // while the fault "drift" lasts
 constexpr double kPressureDrift_Pa_s = 500;

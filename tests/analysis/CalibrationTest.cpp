@@ -4,14 +4,13 @@
 #include "core/analysis/Calibration.h"
 #include "core/analysis/CalibrationFile.h"
 #include "core/analysis/CalibrationJson.h"
+#include "core/base/NaN.h"
 #include "tests/analysis/CalibrationTwin.h"
 
 namespace tacto::test {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The textbook's sums, in the readings' own unit.
 std::pair<double, double> lineThrough(const std::vector<CalibrationReading>& readings) {
@@ -93,11 +92,11 @@ TEST(Calibration, IsWeightedOnlyWhenEveryReadingCarriesItsUncertainty) {
     EXPECT_NEAR(weighted->gain, lineThrough(readings).first, 1e-12);
     EXPECT_NEAR(weighted->offset, lineThrough(readings).second, 1e-12);
 
-    readings[1].uncertainty = kNan;
+    readings[1].uncertainty = kNaN;
     const auto partly = fitCalibration(readings);
     ASSERT_TRUE(partly);
     EXPECT_FALSE(partly->weighted);
-    for (auto& r : readings) r.uncertainty = kNan;
+    for (auto& r : readings) r.uncertainty = kNaN;
     EXPECT_DOUBLE_EQ(partly->gain, fitCalibration(readings)->gain);
     EXPECT_THAT(partly->warnings, testing::Contains(HasSubstr("3 of 4 readings carry an uncertainty")));
 }
@@ -126,7 +125,7 @@ TEST(Calibration, WhatLiesWithinTheResolutionDoesNotStandOut) {
     readings[40].measured += 0.002;
     EXPECT_EQ(fitCalibration(readings)->outliers, 1U);
     EXPECT_EQ(fitCalibration(readings, {.resolution = 0.0025})->outliers, 0U);
-    EXPECT_FALSE(fitCalibration(readings, {.resolution = kNan}));
+    EXPECT_FALSE(fitCalibration(readings, {.resolution = kNaN}));
 }
 
 TEST(Calibration, CommandsThatDifferALittleAreOneLevelAndTheirDifferenceNoScatter) {
@@ -147,7 +146,7 @@ TEST(Calibration, CommandsThatDifferALittleAreOneLevelAndTheirDifferenceNoScatte
     EXPECT_NEAR(found->offset, 0.15, 1e-9);
     EXPECT_GT(fitCalibration(readings)->levels.size(), 100U);
     EXPECT_FALSE(fitCalibration(readings, {.sameLevel = -1}));
-    EXPECT_FALSE(fitCalibration(readings, {.sameLevel = kNan}));
+    EXPECT_FALSE(fitCalibration(readings, {.sameLevel = kNaN}));
 }
 
 TEST(Calibration, MarksFewOfAHealthyDevicesReadings) {
@@ -158,7 +157,7 @@ TEST(Calibration, MarksFewOfAHealthyDevicesReadings) {
 
 TEST(Calibration, AReadingThatWasNotMeasuredIsCounted) {
     auto readings = CalibrationTwin{}.run(5);
-    readings[3].measured = kNan;
+    readings[3].measured = kNaN;
     const auto found = fitCalibration(readings);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->notMeasured, 1U);
@@ -174,9 +173,9 @@ TEST(Calibration, RefusesWhatHasNoLine) {
     };
     EXPECT_THAT(refusal({}), HasSubstr("at least two levels"));
     EXPECT_THAT(refusal({{10, 1}, {10, 2}}), HasSubstr("1 levels"));
-    EXPECT_THAT(refusal({{10, 1}, {20, kNan}}), HasSubstr("1 levels"));
+    EXPECT_THAT(refusal({{10, 1}, {20, kNaN}}), HasSubstr("1 levels"));
     EXPECT_THAT(refusal({{0, 1}, {0, 2}}), HasSubstr("other than 0"));
-    EXPECT_THAT(refusal({{kNan, 1}, {20, 1}}), HasSubstr("reading 1"));
+    EXPECT_THAT(refusal({{kNaN, 1}, {20, 1}}), HasSubstr("reading 1"));
     EXPECT_THAT(refusal({{10, 1}, {20, INFINITY}}), HasSubstr("reading 2"));
     EXPECT_THAT(refusal({{10, 1}, {20, 1, SweepDirection::Up, -0.1}}), HasSubstr("uncertainty -0.1"));
 }
@@ -226,7 +225,7 @@ TEST(CalibrationVerdict, WithoutRepeatsThereIsNoUncertainty) {
     ASSERT_FALSE(judged);
     EXPECT_THAT(judged.error().message, HasSubstr("not repeated"));
     EXPECT_FALSE(judgeCalibration(*fitCalibration(CalibrationTwin{}.run(1)), {}, 0));
-    EXPECT_FALSE(judgeCalibration(*fitCalibration(CalibrationTwin{}.run(1)), {}, kNan));
+    EXPECT_FALSE(judgeCalibration(*fitCalibration(CalibrationTwin{}.run(1)), {}, kNaN));
 }
 
 TEST(CalibrationVerdict, SamplingCountsWhereTheScatterDoesNotShowIt) {

@@ -3,12 +3,12 @@
 #include <numbers>
 
 #include "core/analysis/UncertaintyBudget.h"
+#include "core/base/NaN.h"
 
 namespace tacto::test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(StudentQuantile, AgreesWithPrintedTables) {
     // GUM table G.2, p = 95 % (two-sided).
@@ -25,8 +25,8 @@ TEST(StudentQuantile, AgreesWithPrintedTables) {
 }
 
 TEST(StudentQuantile, HasNoValueOutsideItsRange) {
-    for (const double p : {0.0, 1.0, -0.1, kNan}) EXPECT_TRUE(std::isnan(studentQuantile(p, 5))) << p;
-    for (const double freedom : {0.0, -1.0, kNan}) EXPECT_TRUE(std::isnan(studentQuantile(0.975, freedom))) << freedom;
+    for (const double p : {0.0, 1.0, -0.1, kNaN}) EXPECT_TRUE(std::isnan(studentQuantile(p, 5))) << p;
+    for (const double freedom : {0.0, -1.0, kNaN}) EXPECT_TRUE(std::isnan(studentQuantile(0.975, freedom))) << freedom;
 }
 
 TEST(UncertaintyBudget, FollowsTheGumsOwnExample) {
@@ -107,12 +107,12 @@ TEST(UncertaintyBudget, NothingUncertainHasNoFactor) {
 TEST(UncertaintyBudget, RefusesWhatIsNoUncertainty) {
     RecordProperty("hazard", "H9");
     EXPECT_FALSE(combine({}));
-    for (const double value : {-1.0, kNan, kInf})
+    for (const double value : {-1.0, kNaN, kInf})
         EXPECT_FALSE(combine({{"s", Distribution::Normal, value, 1, 1, kInf}}));
-    for (const double divisor : {0.0, -1.0, kNan})
+    for (const double divisor : {0.0, -1.0, kNaN})
         EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, divisor, 1, kInf}}));
-    for (const double freedom : {0.0, kNan}) EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, 1, freedom}}));
-    EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, kNan, kInf}}));
+    for (const double freedom : {0.0, kNaN}) EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, 1, freedom}}));
+    EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, kNaN, kInf}}));
     EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, 1, kInf}}, {1, 999}));
 }
 
@@ -124,11 +124,11 @@ TEST(GuardBand, PassesAndFailsOnlyWhereTheUncertaintyCannotTurnIt) {
     EXPECT_EQ(guardBanded(-1.25, 0.25, 1), Verdict::Indeterminate);  // |error| - U = tolerance
     EXPECT_EQ(guardBanded(1.3, 0.25, 1), Verdict::Fail);
     EXPECT_EQ(guardBanded(-1.3, 0.25, 1), Verdict::Fail);
-    EXPECT_EQ(guardBanded(kNan, 0.25, 1), Verdict::Indeterminate);
-    EXPECT_EQ(guardBanded(0, kNan, 1), Verdict::Indeterminate);
+    EXPECT_EQ(guardBanded(kNaN, 0.25, 1), Verdict::Indeterminate);
+    EXPECT_EQ(guardBanded(0, kNaN, 1), Verdict::Indeterminate);
     EXPECT_EQ(guardBanded(0, -1, 1), Verdict::Indeterminate);
     EXPECT_EQ(guardBanded(0, 0, 0), Verdict::Indeterminate);
-    EXPECT_EQ(guardBanded(0, 0, kNan), Verdict::Indeterminate);
+    EXPECT_EQ(guardBanded(0, 0, kNaN), Verdict::Indeterminate);
 }
 
 }  // namespace

@@ -43,7 +43,6 @@ struct ComputerTime final : SystemTime {
 
 class UnitBench : public testing::Test {
 protected:
-    UnitBench() { settle(folder_.path()); }
     void open(double ohm = 1000) {
         bench_.reset();
         auto unit = std::make_unique<Unit>(*clock_);
@@ -53,7 +52,7 @@ protected:
         config.devices.stimulator = std::move(unit);
         config.clock = clock_;
         config.limits = loadLimitSets(sourceDir() / "resources" / "limits").value();
-        config.units = folder_.path();
+        config.units = {folder_.path(), claims_.path()};
         config.systemTime = &time_;
         auto made = Bench::create(std::move(config));
         ASSERT_TRUE(made) << made.error().message;
@@ -66,6 +65,7 @@ protected:
     }
 
     ScratchDir folder_;
+    ScratchDir claims_;
     std::shared_ptr<VirtualClock> clock_ = std::make_shared<VirtualClock>();
     ComputerTime time_{*clock_};
     FakeStimulator* unit_ = nullptr;
@@ -101,6 +101,8 @@ TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
 
 TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
     RecordProperty("hazard", "H1");
+    open();
+    bench_.reset();
     std::filesystem::remove_all(folder_.path());  // as where another data folder is named
     open();
     const Instant opened = clock_->now();
@@ -145,7 +147,7 @@ TEST_F(UnitBench, ASecondBenchOnTheSameUnitIsRefused) {
     BenchConfig config;
     config.devices.stimulator = std::make_unique<Unit>(*clock_);
     config.clock = clock_;
-    config.units = folder_.path();
+    config.units = {folder_.path(), claims_.path()};
     config.systemTime = &time_;
     const auto second = Bench::create(std::move(config));
     ASSERT_FALSE(second);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/NaN.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/Digest.h"
 #include "tests/support/Support.h"
@@ -11,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 CalibrationDate on(const char* text) { return parseDate(text).value(); }
 
 StoredCalibration sample(const std::string& serial, double gain = 1.02) {
@@ -157,7 +157,7 @@ TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
     ASSERT_TRUE(lines.gap->spread);
     EXPECT_DOUBLE_EQ(lines.gap->spread->relative, 0.05);
     EXPECT_NEAR(lines.phaseWidth->spread->relative, 0.08, 1e-3);
-    for (const double wrong : {-1.0, kNan}) {
+    for (const double wrong : {-1.0, kNaN}) {
         made.amplitude.residual = wrong;
         const auto added = store().add(made);
         ASSERT_FALSE(added) << wrong;
@@ -248,14 +248,14 @@ TEST_F(CalibrationStoreFile, RefusesWhatIsNoCalibration) {
     };
     EXPECT_TRUE(refused([](auto& c) { c.serial.clear(); }));
     EXPECT_TRUE(refused([](auto& c) { c.unit = "A"; }));
-    for (const double gain : {0.0, -1.0, kNan}) EXPECT_TRUE(refused([&](auto& c) { c.amplitude.gain = gain; })) << gain;
-    EXPECT_TRUE(refused([](auto& c) { c.amplitude.offset = kNan; }));
+    for (const double gain : {0.0, -1.0, kNaN}) EXPECT_TRUE(refused([&](auto& c) { c.amplitude.gain = gain; })) << gain;
+    EXPECT_TRUE(refused([](auto& c) { c.amplitude.offset = kNaN; }));
     EXPECT_TRUE(refused([](auto& c) { c.amplitude.uncertainty_pct = 0; }));
     EXPECT_TRUE(refused([](auto& c) { c.amplitude.highest = c.amplitude.lowest; }));
     EXPECT_TRUE(refused([](auto& c) { c.interval.reset(); }));
-    EXPECT_TRUE(refused([](auto& c) { c.phaseWidth->gain = kNan; }));
+    EXPECT_TRUE(refused([](auto& c) { c.phaseWidth->gain = kNaN; }));
     EXPECT_TRUE(refused([](auto& c) { c.gap->lowest = 0; }));
-    EXPECT_TRUE(refused([](auto& c) { c.gap->uncertainty_pct = kNan; }));
+    EXPECT_TRUE(refused([](auto& c) { c.gap->uncertainty_pct = kNaN; }));
     EXPECT_TRUE(refused([](auto& c) { c.validUntil = on("2026-11-20"); }));
     EXPECT_TRUE(refused([](auto& c) { c.instruments[0].due = on("2026-11-20"); }));  // overdue when it was used
     EXPECT_FALSE(std::filesystem::exists(path));

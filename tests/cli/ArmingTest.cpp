@@ -14,9 +14,9 @@ using testing::HasSubstr;
 class RunOnHardware : public testing::Test {
 protected:
     RunOnHardware() { RecordProperty("hazard", "H12"); }
-    static sciencemode::EmulatedSettings unit() {
+    [[nodiscard]] sciencemode::EmulatedSettings unit() const {
         sciencemode::EmulatedSettings settings;
-        settings.id = "P240000123";
+        settings.id = serial_.text();
         return settings;
     }
     [[nodiscard]] Words words(const Words& more = {}) const {
@@ -36,6 +36,7 @@ protected:
         return said.substr(begin, said.find('"', begin) - begin);
     }
 
+    const OwnSerial serial_;
     const SteadyClock clock_;
     const Desk desk_;
     const std::unique_ptr<sciencemode::EmulatedPty> pty_ = *sciencemode::EmulatedPty::open(unit(), clock_);
@@ -49,7 +50,7 @@ TEST_F(RunOnHardware, DeliversNothingThatNobodyConfirmedAndSaysWhatToAnswer) {
     EXPECT_EQ(refused.code, 3) << refused.err;
     EXPECT_EQ(putOut(), 0U);
     const auto text = wanted(refused.err);
-    EXPECT_THAT(text, HasSubstr("P240000123 into 1 kohm, up to 40 V and 50 mA")) << refused.err;
+    EXPECT_THAT(text, HasSubstr(serial_.text() + " into 1 kohm, up to 40 V and 50 mA")) << refused.err;
 
     const auto yes = desk_.run(words({"--set", "confirm-arming=yes"}));
     EXPECT_EQ(yes.code, 4) << yes.err;
@@ -67,7 +68,7 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
     for (const auto& [typed, code] : {std::pair("yes\n", 4), std::pair("\n", 4), std::pair("bench load\n", 0)}) {
         TerminalCli cli(desk_, words(), 200);
         ASSERT_TRUE(cli.waitFor("anything else delivers nothing: ")) << cli.screen();
-        EXPECT_THAT(cli.screen(), HasSubstr("P240000123 into 1 kohm, up to 40 V and 50 mA"));
+        EXPECT_THAT(cli.screen(), HasSubstr(serial_.text() + " into 1 kohm, up to 40 V and 50 mA"));
         EXPECT_EQ(putOut(), 0U) << "before it was confirmed";
         cli.type(typed);
         EXPECT_EQ(cli.wait(), code) << cli.screen();
@@ -87,13 +88,13 @@ function run(p) { bench.arm({ load: 1000 }); bench.drive("manual", { roughness: 
     const auto ran = desk_.run(second);
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("SIMULATED: the fingertip sensor."));
-    EXPECT_THAT(ran.out, HasSubstr("Real: stimulator ScienceMode stimulator P240000123, which delivered "));
+    EXPECT_THAT(ran.out, HasSubstr("Real: stimulator ScienceMode stimulator " + serial_.text() + ", which delivered "));
     EXPECT_THAT(ran.out, testing::Not(HasSubstr("no number here was measured")));
     second.emplace_back("--json");
     const auto json = nlohmann::json::parse(desk_.run(second).out);
     for (const auto& device : json["devices"]) {
         EXPECT_EQ(device["simulated"], device["role"] == "sensor") << device;
-        EXPECT_EQ(device["serial"] == "P240000123", device["role"] == "stimulator") << device;
+        EXPECT_EQ(device["serial"] == serial_.text(), device["role"] == "stimulator") << device;
     }
     EXPECT_EQ(json["devices"].size(), 2U);
     EXPECT_GE(json["marks"].size(), 2U);

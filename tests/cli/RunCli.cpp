@@ -71,7 +71,6 @@ Words Desk::environment() const {
         kept.emplace_back(text);
     }
     kept.push_back("HOME=" + home_.path().string());
-    settle(home_.path() / "data" / "tactoscope" / "units");
     kept.push_back("XDG_DATA_HOME=" + (home_.path() / "data").string());
     return kept;
 }

@@ -6,13 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/NaN.h"
 #include "core/base/Random.h"
 
 namespace tacto::test {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPi = std::numbers::pi;
 using Complex = std::complex<double>;
 using Series = std::vector<double>;
@@ -158,8 +158,8 @@ Spectra spectraOf(const SampleBlock& block, const StreamInfo& info, const Sample
         out.end.push_back(t0 + static_cast<double>(n - 1) / fs);
         out.meanSquare.push_back(whole);
         out.undone.push_back(undone);
-        out.h.push_back(top > bandLow && rough > 0 ? rough / whole : kNan);
-        out.hAbs.push_back(top > bandLow && rough > 0 ? rough : kNan);
+        out.h.push_back(top > bandLow && rough > 0 ? rough / whole : kNaN);
+        out.hAbs.push_back(top > bandLow && rough > 0 ? rough : kNaN);
     }
     return out;
 }
@@ -214,7 +214,7 @@ Series taxelFeature(const SampleBlock& taxels, std::size_t channels, bool dynami
         double variance = 0;
         for (const double one : x) middle += one / static_cast<double>(channels);
         for (const double one : x) variance += (one - middle) * (one - middle) / static_cast<double>(channels);
-        out.push_back(mean > 0 && mean >= floor && variance > 0 ? variance / (mean * mean) : kNan);
+        out.push_back(mean > 0 && mean >= floor && variance > 0 ? variance / (mean * mean) : kNaN);
     }
     return out;
 }
@@ -304,7 +304,7 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
                 }
             }
             // Before the first contact ends the rest, its baseline is not known yet: those frames have no v.
-            if (!declared.baseline && firstContact - taxels->t_s.front() >= 0.25 && f.t_s < firstContact) f.v = kNan;
+            if (!declared.baseline && firstContact - taxels->t_s.front() >= 0.25 && f.t_s < firstContact) f.v = kNaN;
         }
         if (!std::isnan(f.pressure_pa)) {
             const double p = (f.pressure_pa - s.pressureMin.value()) / (s.pressureMax.value() - s.pressureMin.value());
@@ -313,7 +313,7 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
         frames.push_back(f);
     }
 
-    double rest = kNan;
+    double rest = kNaN;
     double restFrames = 0;
     double restSum = 0;
     for (std::size_t k = 0; k < product.size(); ++k) {
@@ -328,13 +328,13 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
     if (restFrames > 0) rest = restSum / restFrames;
 
     const double alpha = 1 - std::exp(-spectra.hop_s / s.smoothing.count());
-    double r = kNan;
-    double held = kNan;
+    double r = kNaN;
+    double held = kNaN;
     double lastSliding = 0;
     for (std::size_t k = 0; k < frames.size(); ++k) {
         auto& f = frames[k];
         if (!f.contact) {
-            r = kNan;
+            r = kNaN;
             continue;
         }
         f.sliding = std::isnan(rest) || product.empty() || product[k] >= 3 * rest;

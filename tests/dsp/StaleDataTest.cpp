@@ -3,8 +3,8 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <limits>
 
+#include "core/base/NaN.h"
 #include "core/base/Random.h"
 #include "core/dsp/RoughnessAnalysis.h"
 #include "tests/dsp/RoughnessOracle.h"
@@ -14,8 +14,6 @@ using namespace tacto::test;
 using testing::Contains;
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 RoughnessResult analysed(const Slide& slide, const DeclaredIntervals& declared = {}) {
     auto result = analyseRoughness(slide.streams, slide.blocks, {}, declared);
@@ -108,7 +106,7 @@ TEST(StaleData, AForceThatStopsEndsContactAndIsCounted) {
 TEST(StaleData, NoFrameStandsOnASampleThatIsNoNumber) {
     RecordProperty("hazard", "H7");
     auto slide = makeSlide(4000, 3, 200, 200, 8);
-    slide.blocks[0].values[3 * 8000 + 1] = kNan;  // 2.0 s
+    slide.blocks[0].values[3 * 8000 + 1] = kNaN;  // 2.0 s
     const auto result = analysed(slide);
     for (const auto& frame : result.frames) {
         ASSERT_FALSE(frame.t_s > 2.0 - 0.032 && frame.t_s < 2.0 + 0.0318) << "window over the NaN at " << frame.t_s;
@@ -168,7 +166,7 @@ TEST(StaleData, TaxelsThatStopHaveNoSay) {
 TEST(StaleData, ATaxelThatIsNoNumberTakesItsSampleOut) {
     RecordProperty("hazard", "H7");
     auto slide = makeSlide(4000, 1, 200, 200, 8);
-    for (std::size_t i = 320; i < 400; ++i) slide.blocks[2].values[i * 8 + 3] = kNan;  // 1.6 to 2.0 s
+    for (std::size_t i = 320; i < 400; ++i) slide.blocks[2].values[i * 8 + 3] = kNaN;  // 1.6 to 2.0 s
     const auto result = analysed(slide);
     for (const auto& frame : result.frames) {
         if (frame.t_s > 1.71 && frame.t_s < 1.89) {

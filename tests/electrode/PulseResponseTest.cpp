@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-const Circuit kRc = circuitAt(benchRcLoad(), 0);
+const Circuit kRcLoad = circuitAt(benchRcLoad(), 0);
 
 PulseSegments biphasic(Drive drive, double level, double width, double gap, Drive inGap) {
     PulseSegments pulse;
@@ -34,19 +34,19 @@ double peakDuring(const Circuit& circuit, const PulseSegments& pulse, std::size_
 TEST(PulseResponse, PeaksAtTheLeadingEdgeAndHigherAtReversalIntoTheRcLoad) {
     const auto withGap = biphasic(Drive::Voltage, 40, 200e-6, 100e-6, Drive::HighImpedance);
     const auto withoutGap = biphasic(Drive::Voltage, 40, 200e-6, 0, Drive::HighImpedance);
-    EXPECT_NEAR(peakDuring(kRc, withGap, 0), 200e-3, 1e-9);
-    EXPECT_NEAR(peakDuring(kRc, withGap, 2), 361e-3, 0.5e-3);
-    EXPECT_NEAR(peakDuring(kRc, withoutGap, 1), 396e-3, 0.5e-3);
+    EXPECT_NEAR(peakDuring(kRcLoad, withGap, 0), 200e-3, 1e-9);
+    EXPECT_NEAR(peakDuring(kRcLoad, withGap, 2), 361e-3, 0.5e-3);
+    EXPECT_NEAR(peakDuring(kRcLoad, withoutGap, 1), 396e-3, 0.5e-3);
     // (V + |V_C|)/R_s with V_C from its own exponentials.
     const double charged = 40 * 10 / 10.2;
-    EXPECT_NEAR(peakDuring(kRc, withoutGap, 1), (40 + charged) / 200, 1e-6);
-    EXPECT_NEAR(peakDuring(kRc, withGap, 2), (40 + charged * std::exp(-0.2)) / 200, 1e-6);
+    EXPECT_NEAR(peakDuring(kRcLoad, withoutGap, 1), (40 + charged) / 200, 1e-6);
+    EXPECT_NEAR(peakDuring(kRcLoad, withGap, 2), (40 + charged * std::exp(-0.2)) / 200, 1e-6);
 }
 
 TEST(PulseResponse, FindsNetChargeOfAVoltageSourceThatLetsGoBetweenPhases) {
     RecordProperty("hazard", "H5");
     const auto pulse = biphasic(Drive::Voltage, 40, 200e-6, 100e-6, Drive::HighImpedance);
-    const auto lettingGo = pulseTotals(kRc, pulse, rest(Drive::HighImpedance, 0.5));
+    const auto lettingGo = pulseTotals(kRcLoad, pulse, rest(Drive::HighImpedance, 0.5));
     EXPECT_NEAR(std::abs(lettingGo.netCharge_C / lettingGo.leadingCharge_C), 0.58, 0.005);
     EXPECT_NEAR(std::abs(lettingGo.endCapacitorVoltage), 0, 1e-12);
     EXPECT_GT(lettingGo.imbalance(), 0.3);
@@ -55,7 +55,7 @@ TEST(PulseResponse, FindsNetChargeOfAVoltageSourceThatLetsGoBetweenPhases) {
 TEST(PulseResponse, FindsACurrentSourceBalanced) {
     RecordProperty("hazard", "H5");
     const auto pulse = biphasic(Drive::Current, 4e-3, 200e-6, 100e-6, Drive::HighImpedance);
-    const auto totals = pulseTotals(kRc, pulse, rest(Drive::HighImpedance, 0.5));
+    const auto totals = pulseTotals(kRcLoad, pulse, rest(Drive::HighImpedance, 0.5));
     EXPECT_NEAR(totals.imbalance(), 0, 1e-12);
     EXPECT_NEAR(totals.leadingCharge_C, 0.8e-6, 1e-15);
     EXPECT_NEAR(totals.secondCharge_C, -0.8e-6, 1e-15);
@@ -65,7 +65,7 @@ TEST(PulseResponse, FindsACurrentSourceBalanced) {
 TEST(PulseResponse, FindsACompliantCurrentSourceUnbalanced) {
     RecordProperty("hazard", "H5");
     const auto pulse = biphasic(Drive::Current, 10e-3, 200e-6, 100e-6, Drive::HighImpedance);
-    const auto totals = pulseTotals(kRc, pulse, rest(Drive::HighImpedance, 0.5), {20, 1});
+    const auto totals = pulseTotals(kRcLoad, pulse, rest(Drive::HighImpedance, 0.5), {20, 1});
     EXPECT_TRUE(totals.limited);
     EXPECT_GT(totals.imbalance(), 0.01);
     EXPECT_NEAR(totals.peakVoltage_V, 20, 1e-9);
@@ -85,7 +85,7 @@ TEST(PulseResponse, AgreesWithTheArithmeticOfAResistor) {
 
 TEST(PulseResponse, CarriesTheResidualVoltageToTheNextPulse) {
     const auto pulse = biphasic(Drive::Voltage, 40, 200e-6, 0, Drive::Voltage);
-    PulseResponse response(kRc);
+    PulseResponse response(kRcLoad);
     response.addPulse(pulse, rest(Drive::HighImpedance, 0.2e-3));
     const double residual = response.capacitorVoltage();
     EXPECT_LT(residual, -10);
@@ -93,17 +93,17 @@ TEST(PulseResponse, CarriesTheResidualVoltageToTheNextPulse) {
     response.restart();
     EXPECT_EQ(response.totals().peakCurrent_A, 0);
     EXPECT_EQ(response.capacitorVoltage(), residual);
-    PulseResponse second(kRc, {}, residual);
+    PulseResponse second(kRcLoad, {}, residual);
     EXPECT_NEAR(second.add(pulse.items[0], PulsePart::LeadingPhase).current(0), (40 - residual) / 200, 1e-12);
 }
 
 TEST(PulseResponse, TotalsOfTwoPulsesAreTheSumOfTheParts) {
     const auto pulse = biphasic(Drive::Voltage, 20, 200e-6, 100e-6, Drive::HighImpedance);
-    PulseResponse both(kRc);
+    PulseResponse both(kRcLoad);
     both.addPulse(pulse, rest(Drive::HighImpedance, 1e-3));
     const auto first = both.totals();
     both.addPulse(pulse, rest(Drive::HighImpedance, 1e-3));
-    PulseResponse alone(kRc, {}, first.endCapacitorVoltage);
+    PulseResponse alone(kRcLoad, {}, first.endCapacitorVoltage);
     alone.addPulse(pulse, rest(Drive::HighImpedance, 1e-3));
     EXPECT_NEAR(both.totals().energy_J, first.energy_J + alone.totals().energy_J, 1e-15);
     EXPECT_NEAR(both.totals().netCharge_C, first.netCharge_C + alone.totals().netCharge_C, 1e-15);
@@ -113,7 +113,7 @@ TEST(PulseResponse, TotalsOfTwoPulsesAreTheSumOfTheParts) {
 TEST(PulseResponse, GainsNoEnergyFromAPassiveLoad) {
     for (const double level : {1.0, 20.0, 40.0}) {
         const auto pulse = biphasic(Drive::Voltage, level, 200e-6, 100e-6, Drive::HighImpedance);
-        const auto totals = pulseTotals(kRc, pulse, rest(Drive::Voltage, 0.1));
+        const auto totals = pulseTotals(kRcLoad, pulse, rest(Drive::Voltage, 0.1));
         // All of it ends in the two resistors; what the series one takes is a lower bound.
         EXPECT_GT(totals.energy_J, totals.currentSquared_A2s * 200);
     }

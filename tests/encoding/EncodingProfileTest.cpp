@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/NaN.h"
 #include "core/encoding/EncodingProfile.h"
 
 namespace tacto {
@@ -117,7 +118,6 @@ TEST(EncodingProfile, RefusesImpossibleValuesNamingThem) {
 
 TEST(EncodingProfile, RefusesNanInEveryNumber) {
     RecordProperty("hazard", "H1");
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [](const auto& change) {
         EncodingProfile profile;
         change(profile);

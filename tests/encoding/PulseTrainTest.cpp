@@ -4,6 +4,7 @@
 #include <limits>
 #include <rapidcheck/gtest.h>
 
+#include "core/base/NaN.h"
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
@@ -11,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PulseTrain train(const auto& change) {

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 #include <vector>
 
+#include "core/base/NaN.h"
 #include "core/encoding/Waveform.h"
 
 namespace tacto {
@@ -91,7 +92,6 @@ TEST(Waveform, GivesTheSameSamplesInAWindowAsInTheWhole) {
 
 TEST(Waveform, RefusesARateOrStartThatIsNone) {
     std::vector<double> samples(10);
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {0.0, -1.0, kNaN, std::numeric_limits<double>::infinity()}) {
         EXPECT_FALSE(synthesize(PulseTrain{}, Hertz(bad), samples)) << bad;
     }

@@ -21,12 +21,12 @@ constexpr std::string_view kKeys =
     "BYT_NR 2;BIT_NR 16;ENCDG BINARY;BN_FMT RI;BYT_OR MSB;WFID \"Ch2, DC coupling; odd\";NR_PT 3;PT_FMT Y;XUNIT \"s\";"
     "XINCR 1.0E-3;XZERO 5.0E-3;PT_OFF 1;YUNIT \"V\";YMULT 0.5;YOFF 2;YZERO 1";
 
-Result<CaptureReading> readBytes(const std::string& bytes, const ReadOptions& options = {}) {
+Result<CaptureReading> readIsf(const std::string& bytes, const ReadOptions& options = {}) {
     const ScratchDir scratch;
     return ownCaptureFormats()->read(scratch.write("t.isf", bytes), options);
 }
 std::string refusal(const std::string& bytes) {
-    const auto read = readBytes(bytes);
+    const auto read = readIsf(bytes);
     return read ? "accepted" : read.error().message;
 }
 
@@ -57,7 +57,7 @@ TEST(Isf, HoldsWhatTheOscilloscopeWroteAsCsv) {
 }
 
 TEST(Isf, CodesBecomeValuesByItsOwnFormula) {
-    const auto read = readBytes(isf(kKeys, std::string("#16\x00\x02\x00\x04\xFF\xFE", 9)));
+    const auto read = readIsf(isf(kKeys, std::string("#16\x00\x02\x00\x04\xFF\xFE", 9)));
     ASSERT_TRUE(read) << read.error().message;
     const auto& channel = read->capture.channels.at(0);
     EXPECT_EQ(channel.name, "CH2");
@@ -70,30 +70,30 @@ TEST(Isf, ShortKeysOtherBytesAndText) {
     const std::string shortKeys =
         "BYT_N 1;BIT_N 8;ENC BIN;BN_F RP;BYT_O LSB;NR_P 2;PT_F Y;XUN \"s\";XIN 1;XZE 0;PT_O 0;YUN \"Volts\";YMU 2;YOF "
         "128;YZE 0";
-    const auto bytes = readBytes(isf(shortKeys, std::string("#12\x80\xFF", 5)));
+    const auto bytes = readIsf(isf(shortKeys, std::string("#12\x80\xFF", 5)));
     ASSERT_TRUE(bytes) << bytes.error().message;
     EXPECT_THAT(bytes->capture.channels[0].samples, ElementsAre(0, 254));
     EXPECT_EQ(bytes->capture.channels[0].unit, "V");
     EXPECT_DOUBLE_EQ(bytes->capture.channels[0].high, 254);
-    const auto text = readBytes(isf("ENCDG ASCII;NR_PT 4;XINCR 0.5;YMULT 2;YUNIT \"mV\"", "1,-2,3,4\n"));
+    const auto text = readIsf(isf("ENCDG ASCII;NR_PT 4;XINCR 0.5;YMULT 2;YUNIT \"mV\"", "1,-2,3,4\n"));
     ASSERT_TRUE(text) << text.error().message;
     EXPECT_THAT(text->capture.channels[0].samples, ElementsAre(0.002F, -0.004F, 0.006F, 0.008F));
 }
 
 TEST(Isf, OptionsApplyToItsChannel) {
     const auto bytes = isf(kKeys, std::string("#16\x00\x02\x00\x04\xFF\xFE", 9));
-    const auto read = readBytes(bytes, {.units = {{"1", "mA"}}, .probeFactors = {{"CH2", 10.0}}, .rate = Hertz(5)});
+    const auto read = readIsf(bytes, {.units = {{"1", "mA"}}, .probeFactors = {{"CH2", 10.0}}, .rate = Hertz(5)});
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->capture.channels[0].unit, "A");
     EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(0.01F, 0.02F, -0.01F));
     EXPECT_DOUBLE_EQ(read->capture.channels[0].lsb, 0.5 * 0.01);
     EXPECT_DOUBLE_EQ(read->capture.rate_hz, 5);
-    EXPECT_FALSE(readBytes(bytes, {.skipRows = 1}));
-    EXPECT_FALSE(readBytes(bytes, {.timeColumn = "1"}));
+    EXPECT_FALSE(readIsf(bytes, {.skipRows = 1}));
+    EXPECT_FALSE(readIsf(bytes, {.timeColumn = "1"}));
 }
 
 TEST(Isf, AFileCutShortIsReadAsFarAsItGoes) {
-    const auto read = readBytes(isf(kKeys, std::string("#16\x00\x02\x00\x04", 7)));
+    const auto read = readIsf(isf(kKeys, std::string("#16\x00\x02\x00\x04", 7)));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_THAT(read->capture.channels[0].samples, SizeIs(2));
     EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("3 points are announced, 2 are there")));

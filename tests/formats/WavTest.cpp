@@ -43,7 +43,7 @@ std::string wav(const Shape& s, const std::string& data) {
     return wav(s, data, static_cast<std::uint32_t>(data.size()));
 }
 
-Result<CaptureReading> readBytes(const std::string& bytes, const ReadOptions& options = {}) {
+Result<CaptureReading> readWav(const std::string& bytes, const ReadOptions& options = {}) {
     const ScratchDir scratch;
     return ownCaptureFormats()->read(scratch.write("t.wav", bytes), options);
 }
@@ -58,7 +58,7 @@ TEST(Wav, PcmOfEveryWidthIsAFractionOfFullScale) {
                  {32, little(0x80000000, 4) + little(0, 4) + little(0x40000000, 4)}};
     for (const auto& [bits, data] : cases) {
         for (const bool extensible : {false, true}) {
-            const auto read = readBytes(wav({.bits = bits, .extensible = extensible}, data));
+            const auto read = readWav(wav({.bits = bits, .extensible = extensible}, data));
             ASSERT_TRUE(read) << read.error().message;
             EXPECT_EQ(read->formatId, "wav");
             EXPECT_DOUBLE_EQ(read->capture.rate_hz, 48000);
@@ -71,9 +71,8 @@ TEST(Wav, PcmOfEveryWidthIsAFractionOfFullScale) {
 }
 
 TEST(Wav, UnitAndProbeSayWhatFullScaleIs) {
-    const auto read =
-        readBytes(wav({.channels = 2}, little(0x4000, 2) + little(0xC000, 2) + little(0, 2) + little(0, 2)),
-                  {.units = {{"CH1", "V"}, {"CH2", "mA"}}, .probeFactors = {{"CH1", 20.0}}});
+    const auto read = readWav(wav({.channels = 2}, little(0x4000, 2) + little(0xC000, 2) + little(0, 2) + little(0, 2)),
+                              {.units = {{"CH1", "V"}, {"CH2", "mA"}}, .probeFactors = {{"CH1", 20.0}}});
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_THAT(read->warnings, IsEmpty());
     EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(10, 0));
@@ -83,12 +82,12 @@ TEST(Wav, UnitAndProbeSayWhatFullScaleIs) {
 }
 
 TEST(Wav, FloatsAreTakenAsTheyAre) {
-    const auto one = readBytes(wav({.kind = 3, .bits = 32}, little(std::bit_cast<std::uint32_t>(12.5F), 4) +
-                                                                little(std::bit_cast<std::uint32_t>(-3.0F), 4)));
+    const auto one = readWav(wav({.kind = 3, .bits = 32}, little(std::bit_cast<std::uint32_t>(12.5F), 4) +
+                                                              little(std::bit_cast<std::uint32_t>(-3.0F), 4)));
     ASSERT_TRUE(one) << one.error().message;
     EXPECT_THAT(one->capture.channels[0].samples, ElementsAre(12.5F, -3));
-    const auto two = readBytes(wav({.kind = 3, .bits = 64}, little(std::bit_cast<std::uint64_t>(0.1), 8) +
-                                                                little(std::bit_cast<std::uint64_t>(1.0), 8)));
+    const auto two = readWav(wav({.kind = 3, .bits = 64}, little(std::bit_cast<std::uint64_t>(0.1), 8) +
+                                                              little(std::bit_cast<std::uint64_t>(1.0), 8)));
     ASSERT_TRUE(two) << two.error().message;
     EXPECT_THAT(two->capture.channels[0].samples, ElementsAre(0.1F, 1));
 }
@@ -131,16 +130,16 @@ TEST(Wav, HoldsOnlyWholeRates) {
 TEST(Wav, CutShortOpenEndedAndSenseless) {
     RecordProperty("hazard", "H10");
     const auto data = little(1, 2) + little(2, 2) + little(3, 2);
-    const auto cut = readBytes(wav({}, data, 100));
+    const auto cut = readWav(wav({}, data, 100));
     ASSERT_TRUE(cut) << cut.error().message;
     EXPECT_THAT(cut->capture.channels[0].samples, SizeIs(3));
     EXPECT_THAT(cut->warnings, ::testing::Contains(HasSubstr("cut short")));
-    const auto open = readBytes(wav({}, data, 0xFFFFFFFFU));
+    const auto open = readWav(wav({}, data, 0xFFFFFFFFU));
     ASSERT_TRUE(open) << open.error().message;
     EXPECT_THAT(open->capture.channels[0].samples, SizeIs(3));
     EXPECT_THAT(open->warnings, SizeIs(1)) << "only the full scale";
     const auto refusal = [](const std::string& bytes) {
-        const auto read = readBytes(bytes);
+        const auto read = readWav(bytes);
         return read ? "accepted" : read.error().message;
     };
     EXPECT_THAT(refusal(wav({.kind = 6, .bits = 8}, data)), HasSubstr("samples of kind 6 with 8 bits"));

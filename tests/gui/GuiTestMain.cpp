@@ -12,7 +12,6 @@ int main(int argc, char** argv) {
     const QTemporaryDir home;
     for (const auto* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
         qputenv(name, home.path().toUtf8());
-    tacto::test::settle(std::filesystem::path(home.path().toStdString()) / "tactoscope" / "units");
     tacto::test::useOffscreenScreen(home);
     QApplication application(argc, argv);
     QApplication::setApplicationName("tactoscope");

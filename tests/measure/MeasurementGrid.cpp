@@ -8,8 +8,8 @@ namespace tacto::test {
 namespace {
 
 constexpr double kLevel = 40;
-constexpr double kWidth_s = 200e-6;
-constexpr double kGap_s = 100e-6;
+constexpr double kGridWidth_s = 200e-6;
+constexpr double kGridGap_s = 100e-6;
 constexpr double kRechargeTimes = 10;
 
 /// Where the phase passes `level` upwards (or downwards) between `from` and `to`, by bisection of its formula.
@@ -31,15 +31,16 @@ struct Record {
 Record recordAt(const GridPoint& point, unsigned seed) {
     Record record;
     SyntheticRecord r;
-    r.rate_hz = point.perPhase / kWidth_s;
+    r.rate_hz = point.perPhase / kGridWidth_s;
     r.seed = seed;
     Random random(seed, "grid");
     // The first edge falls anywhere between two samples.
-    const double firstOnset_s = 2 * kWidth_s + random.uniform() / r.rate_hz;
+    const double firstOnset_s = 2 * kGridWidth_s + random.uniform() / r.rate_hz;
     record.phases = phasesOf(point, firstOnset_s);
     const auto& last = record.phases.back();
     // As much silence as a pulse and its tail need, and at least as much as is between pulses.
-    const double end_s = std::max(last.onset_s + last.width_s + 4 * kWidth_s, point.pulses * point.interval * kWidth_s);
+    const double end_s =
+        std::max(last.onset_s + last.width_s + 4 * kGridWidth_s, point.pulses * point.interval * kGridWidth_s);
     r.samples = static_cast<std::size_t>(end_s * r.rate_hz);
     const double level = point.shape == PulseShape::Logic ? 1 : kLevel;
     if (point.shape != PulseShape::Logic) {
@@ -99,7 +100,7 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
         for (std::size_t j = 0; j < perPulse; ++j) truths.push_back(truthOf(record.phases[k + j]));
         const PulseMeasurement* found = nullptr;
         for (std::size_t j = 0; j < m.pulses.size(); ++j) {
-            const bool here = std::abs(m.pulses[j].seenFrom_s - truths.front().onset_s) < 0.5 * kWidth_s;
+            const bool here = std::abs(m.pulses[j].seenFrom_s - truths.front().onset_s) < 0.5 * kGridWidth_s;
             if (claimed[j] || !here) continue;
             claimed[j] = true;
             found = &m.pulses[j];
@@ -129,7 +130,7 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
     const double level = std::abs(truth.level);
     result.beyondAmplitude += beyond(errors.amplitude, before_n, u.amplitude / level);
     result.beyondWidth += beyond(errors.width, before_n, u.width_s * rate_hz);
-    result.beyondCharge += beyond(errors.charge, before_n, u.charge / (level * kWidth_s));
+    result.beyondCharge += beyond(errors.charge, before_n, u.charge / (level * kGridWidth_s));
     result.beyondGap += beyond(errors.gap, beforeGap_n, u.gap_s * rate_hz);
     result.beyondImbalance += beyond(errors.imbalance, beforeGap_n, u.imbalance);
     result.silent += (missed > 0 || invented > 0 || halves > 0) && m.warnings.empty() ? 1 : 0;
@@ -142,16 +143,16 @@ std::vector<SyntheticPhase> phasesOf(const GridPoint& point, double firstOnset_s
     std::vector<SyntheticPhase> phases;
     for (int k = 0; k < point.pulses; ++k) {
         SyntheticPhase p;
-        p.onset_s = firstOnset_s + k * point.interval * kWidth_s;
-        p.width_s = kWidth_s;
+        p.onset_s = firstOnset_s + k * point.interval * kGridWidth_s;
+        p.width_s = kGridWidth_s;
         p.level = point.polarity * (point.shape == PulseShape::Logic ? 1 : kLevel);
         p.edge_s = point.shape == PulseShape::Logic ? 1e-9 : 2e-6;
         p.ringing = point.ringing;
-        if (point.shape == PulseShape::Exponential) p.tau_s = kWidth_s / 10;
+        if (point.shape == PulseShape::Exponential) p.tau_s = kGridWidth_s / 10;
         phases.push_back(p);
         if (point.shape == PulseShape::Monophasic || point.shape == PulseShape::Logic) continue;
         SyntheticPhase second = p;
-        second.onset_s = p.onset_s + kWidth_s + kGap_s;
+        second.onset_s = p.onset_s + kGridWidth_s + kGridGap_s;
         second.level = -p.level;
         if (point.shape == PulseShape::Recharge) {
             second.level /= kRechargeTimes;
@@ -188,7 +189,7 @@ GridResult measureGridPoint(const GridPoint& point, int seeds) {
     GridResult result;
     Errors errors;
     const bool biphasic = point.shape != PulseShape::Monophasic && point.shape != PulseShape::Logic;
-    result.rate_hz = point.perPhase / kWidth_s;
+    result.rate_hz = point.perPhase / kGridWidth_s;
     result.records = seeds;
     for (int seed = 1; seed <= seeds; ++seed) {
         judge(recordAt(point, static_cast<unsigned>(seed)), biphasic, result, errors);

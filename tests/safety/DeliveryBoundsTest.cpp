@@ -1,13 +1,11 @@
 #include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
 
+#include "core/base/NaN.h"
 #include "core/safety/DeliveryBounds.h"
 
 namespace tacto {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a quantity that is told 10, and of one that is told nothing.
 void expectBounds(const QuantityBounds& bounds, double least, double most) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "core/base/NaN.h"
 #include "core/safety/GateChecks.h"
 #include "core/safety/TrainExposure.h"
 #include "core/safety/UnitRecord.h"
@@ -14,12 +14,6 @@ namespace tacto::test {
 using namespace gate;
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-template <class T>
-bool refuses(const Result<T>& result, ErrorCode code, std::string_view words) {
-    return !result && result.error().code == code && result.error().message.find(words) != std::string::npos;
-}
 
 /// Setups that configure() must refuse, each for one reason.
 void addConfigureCases(std::vector<GateCase>& cases) {
@@ -331,8 +325,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return fills(rig.gate, rig.clock) && full(rig.gate, rig.clock);
     });
     const auto recorded = [](const ScratchDir& folder, const Clock& clock) {
-        settle(folder.path());
-        return UnitRecord::open(folder.path(), "a unit", clock).value();
+        return UnitRecord::open({folder.path() / "records", folder.path()}, "a unit", clock).value();
     };
     add(RecordBooking, "what a run before approved counts", [=] {
         ScratchDir folder;
@@ -353,7 +346,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         ScratchDir folder;
         Rig rig(benchSetup());
         (void)recorded(folder, rig.clock);
-        std::filesystem::resize_file(std::filesystem::directory_iterator(folder.path())->path(), 10);
+        std::filesystem::resize_file(std::filesystem::directory_iterator(folder.path() / "records")->path(), 10);
         const auto record = recorded(folder, rig.clock);
         const bool fine = rig.ask(volts(1)).has_value();
         rig.gate.continueFrom(*record);

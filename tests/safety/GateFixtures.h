@@ -106,4 +106,10 @@ struct Rig {
     void wait(double seconds) { clock.advanceTo(clock.now() + toInstant(seconds)); }
 };
 
+/// Whether `result` is this refusal, and says so.
+template <class T>
+[[nodiscard]] bool refuses(const Result<T>& result, ErrorCode code, std::string_view words) {
+    return !result && result.error().code == code && result.error().message.find(words) != std::string::npos;
+}
+
 }  // namespace tacto::test

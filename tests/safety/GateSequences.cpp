@@ -29,15 +29,12 @@ struct ComputerTime final : SystemTime {
 /// A stimulator with its record, and the program that drives it until the next one does.
 class Unit {
 public:
-    explicit Unit(const Clock& clock) : clock_(clock), time_(clock) {
-        settle(folder_.path());
-        reopen();
-    }
+    explicit Unit(const Clock& clock) : clock_(clock), time_(clock) { reopen(); }
     /// The program ends and another begins.
     void reopen() {
         gate_.reset();
         record_.reset();
-        record_ = UnitRecord::open(folder_.path(), "a unit", clock_, time_).value();
+        record_ = UnitRecord::open({folder_.path(), claims_.path()}, "a unit", clock_, time_).value();
         gate_ = std::make_unique<SafetyGate>(clock_);
         gate_->continueFrom(*record_);
     }
@@ -45,6 +42,7 @@ public:
 
 private:
     ScratchDir folder_;
+    ScratchDir claims_;
     const Clock& clock_;
     ComputerTime time_;
     std::unique_ptr<UnitRecord> record_;

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "core/base/NaN.h"
 #include "core/safety/AcceptedLevels.h"
 #include "core/safety/GateChecks.h"
 #include "core/safety/Heartbeat.h"
@@ -14,12 +15,7 @@ using namespace gate;
 using namespace std::chrono_literals;
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-template <class T>
-bool refuses(const Result<T>& result, ErrorCode code, std::string_view words) {
-    return !result && result.error().code == code && result.error().message.find(words) != std::string::npos;
-}
 template <class T>
 bool notArmed(const Result<T>& result, std::string_view words) {
     return refuses(result, ErrorCode::NotArmed, words);

@@ -2,6 +2,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/base/NaN.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/GateCases.h"
@@ -17,7 +18,6 @@ static_assert(!std::is_constructible_v<ApprovedTrain, PulseTrain, Seconds, std::
 static_assert(!std::is_copy_constructible_v<ApprovedBurst> && !std::is_default_constructible_v<ApprovedBurst>);
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 GateSetup shippedSetup(double ohm) {

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "core/base/Clock.h"
+#include "core/base/NaN.h"
 #include "core/safety/SourceTraits.h"
 #include "tests/safety/GateSequences.h"
 #include "tests/safety/IndependentBody.h"
 
 namespace tacto::test {
 
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Near::Count);
 inline constexpr double kSlack = 1 + 2e-6;  // Of the referee's quadrature

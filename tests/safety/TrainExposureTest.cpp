@@ -1,7 +1,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
 
+#include "core/base/NaN.h"
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
@@ -9,7 +9,6 @@
 namespace tacto::test {
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TrainExposure into(double ohm, const PulseTrain& train, double interval) {
     return exposureOf(train, Seconds(interval), Load::resistor(Ohms(ohm)), voltageSource(), kNaN);

@@ -37,11 +37,10 @@ GateSetup strongSetup() {
 
 class UnitRecordFile : public testing::Test {
 protected:
-    UnitRecordFile() { settle(folder_.path()); }
     /// A program that drives the unit: its own clock and gate.
     struct Run {
         Run(const UnitRecordFile& test, const GateSetup& setup) : time(test.time_) {
-            auto opened = UnitRecord::open(test.folder_.path(), kUnit, clock, test.time_);
+            auto opened = UnitRecord::open(test.folders(), kUnit, clock, test.time_);
             if (!opened) {
                 ADD_FAILURE() << opened.error().message;
                 return;
@@ -76,7 +75,14 @@ protected:
         out.put(byte);
     }
 
+    [[nodiscard]] UnitFolders folders() const { return {folder_.path(), claims_.path()}; }
+    /// As a start of the computer does.
+    void emptyClaims() const {
+        for (const auto& claim : std::filesystem::directory_iterator(claims_.path())) std::filesystem::remove(claim);
+    }
+
     ScratchDir folder_;
+    ScratchDir claims_;
     mutable FakeTime time_;
 };
 
@@ -118,7 +124,7 @@ TEST_F(UnitRecordFile, ABenchThatIsOpenedAgainStartsFromWhatWasDelivered) {
     EXPECT_EQ(approvedAtOnce(*second), 4);
     // Another unit has had nothing.
     VirtualClock clock;
-    auto other = UnitRecord::open(folder_.path(), "sciencemode 1235", clock, time_);
+    auto other = UnitRecord::open(folders(), "sciencemode 1235", clock, time_);
     ASSERT_TRUE(other) << other.error().message;
     ExposureMeter meter;
     (void)(*other)->replay(meter);
@@ -156,13 +162,13 @@ TEST_F(UnitRecordFile, OneUnitIsDrivenByOneProgram) {
     RecordProperty("hazard", "H1");
     auto first = run();
     VirtualClock clock;
-    const auto second = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+    const auto second = UnitRecord::open(folders(), kUnit, clock, time_);
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error().code, ErrorCode::Device);
     EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
     EXPECT_THAT(second.error().message, HasSubstr(kUnit));
     first.reset();
-    EXPECT_TRUE(UnitRecord::open(folder_.path(), kUnit, clock, time_));
+    EXPECT_TRUE(UnitRecord::open(folders(), kUnit, clock, time_));
 }
 
 TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
@@ -171,7 +177,7 @@ TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
     ASSERT_GE(child, 0);
     if (child == 0) {
         SteadyClock clock;
-        auto record = UnitRecord::open(folder_.path(), kUnit, clock);
+        auto record = UnitRecord::open(folders(), kUnit, clock);
         SafetyGate gate(clock);
         if (record) gate.continueFrom(**record);
         if (!record || !gate.configure(strongSetup())) ::_exit(1);
@@ -184,7 +190,7 @@ TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
     SteadyClock clock;
-    auto record = UnitRecord::open(folder_.path(), kUnit, clock);
+    auto record = UnitRecord::open(folders(), kUnit, clock);
     ASSERT_TRUE(record) << "the lock of a dead process is gone: " << record.error().message;
     EXPECT_TRUE((*record)->whyQuiet().empty()) << (*record)->whyQuiet();
     SafetyGate gate(clock);
@@ -237,30 +243,93 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     expectRest("did not know it either", 4.8);
 }
 
-TEST_F(UnitRecordFile, AFolderThatIsNewSaysNothingOfTheUnitsThatItDoesNotKnow) {
+TEST_F(UnitRecordFile, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     RecordProperty("hazard", "H1");
-    const auto rests = [&] {
-        auto first = run();
-        const bool refused = !first->ask();
-        EXPECT_EQ(refused, !first->record->whyQuiet().empty());
-        if (!refused) return false;
-        EXPECT_THAT(std::string(first->record->whyQuiet()), HasSubstr("there is no record of it"));
-        EXPECT_FALSE(first->gate.approveCheck(first->clock.now())) << "not even a check";
-        first->pass(8.1);
-        EXPECT_TRUE(first->ask());
-        return true;
+    const ScratchDir other;
+    // Of two accounts or data folders, both of which have long been there.
+    const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
+        const VirtualClock clock;
+        SafetyGate gate(clock);
+        const auto record = UnitRecord::open({records, claims_.path()}, kUnit, clock, time_);
+        ASSERT_TRUE(record) << record.error().message;
+        EXPECT_THAT(std::string((*record)->whyQuiet()), HasSubstr(why));
+        gate.continueFrom(**record);
+        ASSERT_TRUE(gate.configure(strongSetup()));
+        std::size_t approved = 0;
+        while (approved < 100 && gate.approve({volts(40), Seconds(10), clock.now()})) ++approved;
+        EXPECT_EQ(approved, expected);
+        EXPECT_EQ(gate.approveCheck(clock.now()).has_value(), std::string_view(why).empty()) << "not even a check";
     };
-    EXPECT_FALSE(rests()) << "a folder that has long been there";
-    std::filesystem::remove_all(folder_.path());
-    EXPECT_TRUE(rests()) << "none, as where another data folder is named";
-    std::filesystem::remove(file());
-    EXPECT_TRUE(rests()) << "the record was taken away";
-    std::filesystem::remove(file());
-    time_.walls += std::chrono::seconds(61);
-    EXPECT_FALSE(rests()) << "long ago";
-    std::filesystem::remove(file());
-    time_.walls -= std::chrono::hours(1);
-    EXPECT_TRUE(rests()) << "a folder from the future";
+    drive(folder_.path(), 4, "");
+    time_.now += std::chrono::seconds(20);
+    drive(other.path(), 0, "from another record");
+    time_.now += std::chrono::seconds(20);
+    drive(other.path(), 4, "");
+    drive(folder_.path(), 0, "from another record");
+    time_.now += std::chrono::seconds(3);
+    drive(folder_.path(), 0, "did not know it either");
+    time_.now += std::chrono::seconds(6);
+    drive(folder_.path(), 4, "");
+    drive(folder_.path() / "a new one", 0, "from another record");
+    time_.now += std::chrono::seconds(20);
+    drive(folder_.path() / "a new one", 4, "");
+    std::filesystem::remove_all(folder_.path() / "a new one");
+    drive(folder_.path() / "a new one", 0, "from another record");
+}
+
+TEST_F(UnitRecordFile, WithoutAPlaceForClaimsAUnitAlwaysRests) {
+    RecordProperty("hazard", "H1");
+    const ScratchDir other;
+    const auto rests = [&](const std::filesystem::path& claims) {
+        const VirtualClock clock;
+        const auto record = UnitRecord::open({folder_.path(), claims}, kUnit, clock, time_);
+        if (!record) return record.error().message;
+        time_.now += std::chrono::seconds(20);
+        return std::string((*record)->whyQuiet());
+    };
+    EXPECT_EQ(rests(claims_.path()), "");
+    EXPECT_EQ(rests(claims_.path()), "");
+    EXPECT_THAT(rests(claims_.path() / "none"), HasSubstr("no place"));
+    const auto claim = std::filesystem::directory_iterator(claims_.path())->path();
+    EXPECT_EQ(std::filesystem::status(claim).permissions(), std::filesystem::perms(0666)) << "for every account";
+    const auto evidence = other.write("evidence.tacto", "a session");
+    std::filesystem::remove(claim);
+    std::filesystem::create_symlink(evidence, claim);
+    EXPECT_THAT(rests(claims_.path()), HasSubstr("no place"));
+    EXPECT_EQ(std::filesystem::file_size(evidence), 9U) << "it was written over";
+    std::filesystem::remove(claim);
+    EXPECT_EQ(rests(claims_.path()), "") << "the computer was started";
+    std::filesystem::resize_file(claim, 3);
+    EXPECT_THAT(rests(claims_.path()), HasSubstr("from another record")) << "a damaged claim is nobody's";
+    EXPECT_EQ(rests(claims_.path()), "");
+}
+
+TEST_F(UnitRecordFile, TwoAccountsNeverDriveOneUnitAtOnce) {
+    RecordProperty("hazard", "H1");
+    const ScratchDir other;
+    const auto first = run();
+    const VirtualClock clock;
+    const auto second = UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::Device);
+    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
+}
+
+TEST_F(UnitRecordFile, AFaultIsFoundFromEveryAccount) {
+    RecordProperty("hazard", "H3");
+    const ScratchDir other;
+    const VirtualClock clock;
+    const auto elsewhere = [&] {
+        return UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_).value();
+    };
+    run()->record->keepFault(FaultCause::OpenElectrode, "the electrode is open");
+    const auto fault = elsewhere()->fault();
+    ASSERT_TRUE(fault);
+    EXPECT_THAT(std::string(fault->reason.view()), HasSubstr("of another account or data folder"));
+    elsewhere()->clearFault();
+    EXPECT_FALSE(elsewhere()->fault());
+    EXPECT_THAT(std::string(run()->record->fault().value().reason.view()), HasSubstr("the electrode is open"))
+        << "a record forgets nothing that it saw itself";
 }
 
 TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
@@ -276,7 +345,7 @@ TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
         else
             std::filesystem::create_symlink(evidence, record);
         VirtualClock clock;
-        const auto opened = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+        const auto opened = UnitRecord::open(folders(), kUnit, clock, time_);
         ASSERT_FALSE(opened) << hard;
         EXPECT_EQ(opened.error().code, ErrorCode::Io);
         EXPECT_EQ(std::filesystem::file_size(evidence), 9U) << "it was written over";
@@ -311,8 +380,9 @@ TEST_F(UnitRecordFile, AnotherStartOfTheComputerIsLongAgoOnlyWhenTheWallClockSay
         time_.id = "boot-1";
         time_.now = std::chrono::hours(1);
         std::filesystem::remove_all(folder_.path());
-        settle(folder_.path());
+        emptyClaims();
         EXPECT_TRUE(run()->ask());
+        emptyClaims();
         time_.id = std::move(id);
         time_.now = std::chrono::seconds(15);
         time_.walls += std::chrono::seconds(wall_s);
@@ -336,7 +406,7 @@ TEST_F(UnitRecordFile, HoldsAsManyTrainsAsTheMeterAndTheNewest) {
     }
     busy.reset();
     VirtualClock clock;
-    auto record = UnitRecord::open(folder_.path(), kUnit, clock, time_);
+    auto record = UnitRecord::open(folders(), kUnit, clock, time_);
     ASSERT_TRUE(record) << record.error().message;
     ExposureMeter meter;
     (void)(*record)->replay(meter);

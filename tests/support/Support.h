@@ -31,7 +31,17 @@ private:
     std::filesystem::path path_;
 };
 
-/// Makes `folder` as if nothing in it had changed for an hour: a unit without a record there is known to be at rest.
-void settle(const std::filesystem::path& folder);
+/// The serial number of a unit that no other test drives, and of which nothing is left on the computer.
+class OwnSerial {
+public:
+    OwnSerial();
+    ~OwnSerial();
+    OwnSerial(const OwnSerial&) = delete;
+    OwnSerial& operator=(const OwnSerial&) = delete;
+    [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+private:
+    std::string text_;
+};
 
 }  // namespace tacto::test

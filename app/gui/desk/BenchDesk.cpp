@@ -406,7 +406,7 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
     config.asked = asked;
     config.watched = [pulse = pulse_] { return pulse->runs(); };
     applyKnown(knownCalibration(config.devices), config);
-    config.units = unitFolder();
+    config.units = unitFolders();
     auto bench = Bench::create(std::move(config));
     if (!bench) return give_up(bench.error());
     live->bench = std::move(*bench);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "core/base/NaN.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 
 namespace tacto::test {
@@ -26,9 +27,8 @@ TEST(VibrationReports, IntensityFollowsEachFieldsOwnRange) {
 
 TEST(VibrationReports, WhatIsNoIntensityIsRefusedNotClamped) {
     RecordProperty("hazard", "H1");
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    for (const double wrong : {-0.001, 1.001, -1.0, kNan, kInfinity, -kInfinity}) {
+    for (const double wrong : {-0.001, 1.001, -1.0, kNaN, kInfinity, -kInfinity}) {
         const auto bytes = startBytes(padReports(), wrong);
         ASSERT_FALSE(bytes) << wrong;
         EXPECT_EQ(bytes.error().code, ErrorCode::InvalidArgument);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "core/base/NaN.h"
 #include "drivers/pulsepal/EmulatedPulsePal.h"
 #include "drivers/pulsepal/TrainProgram.h"
 
@@ -118,13 +119,12 @@ TEST(PulsePalCommands, VoltagesRoundTowardZeroWithinOneStepOfTheMakersFormula) {
 
 TEST(PulsePalCommands, WhatIsOutOfRangeIsRefusedNotClamped) {
     RecordProperty("hazard", "H1");
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (const double v : {10.0001, -10.0001, 1e9, kNan, std::numeric_limits<double>::infinity()}) {
+    for (const double v : {10.0001, -10.0001, 1e9, kNaN, std::numeric_limits<double>::infinity()}) {
         const auto code = VoltageCode::of(Volts(v));
         ASSERT_FALSE(code) << v;
         EXPECT_THAT(code.error().message, HasSubstr("-10 to 10"));
     }
-    for (const double us : {-50.0, 3.7e9, kNan}) {
+    for (const double us : {-50.0, 3.7e9, kNaN}) {
         const auto cycles = Cycles::of(Micros(us), "gap");
         ASSERT_FALSE(cycles) << us;
         EXPECT_THAT(cycles.error().message, AllOf(HasSubstr("gap"), HasSubstr("3600")));

@@ -3,6 +3,7 @@
 #include <limits>
 #include <rapidcheck.h>
 
+#include "core/base/NaN.h"
 #include "drivers/sciencemode/Commands.h"
 #include "tests/drivers/sciencemode/Bytes.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 using namespace sciencemode;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::vector<std::uint8_t> vectorOf(const Payload& payload) { return {payload.view().begin(), payload.view().end()}; }
@@ -56,10 +56,10 @@ TEST(ScienceModePoint, TimeAndCurrentHaveBitsOfTheirOwn) {
 
 TEST(ScienceModePoint, RefusesWhatWouldWrap) {
     RecordProperty("hazard", "H1");
-    for (const double mA : {130.5, -130.5, 131.0, 212.0, 1e9, -1e300, 0.25, 4.9, kNan, kInfinite, -kInfinite}) {
+    for (const double mA : {130.5, -130.5, 131.0, 212.0, 1e9, -1e300, 0.25, 4.9, kNaN, kInfinite, -kInfinite}) {
         EXPECT_FALSE(encodePoint({Micros(200), Milliamps(mA)}).has_value()) << mA << " mA";
     }
-    for (const double us : {4096.0, 9.0, 0.0, -200.0, 200.5, 1e12, kNan, kInfinite}) {
+    for (const double us : {4096.0, 9.0, 0.0, -200.0, 200.5, 1e12, kNaN, kInfinite}) {
         const auto refused = encodePoint({Micros(us), Milliamps(5)});
         ASSERT_FALSE(refused.has_value()) << us << " µs";
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
@@ -83,7 +83,7 @@ TEST(ScienceModePeriod, IsInHalfMillisecondsOrQuartersWhereOnlyThoseFit) {
 TEST(ScienceModePeriod, RefusesWhatDoesNotFit) {
     RecordProperty("hazard", "H1");
     for (const double s :
-         {16.384, 16.3840001, 20.0, 32.768, 8.19225, 0.0, -0.5, 0.0001, 0.5001, 1e9, kNan, kInfinite}) {
+         {16.384, 16.3840001, 20.0, 32.768, 8.19225, 0.0, -0.5, 0.0001, 0.5001, 1e9, kNaN, kInfinite}) {
         EXPECT_FALSE(encodePeriod(Seconds(s)).has_value()) << s;
     }
 }

@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using sensorboard::FingerSignal;
 using testing::HasSubstr;
 
-sensorboard::EmulatedBoardSettings named(const std::string& serial) {
+sensorboard::EmulatedBoardSettings boardNamed(const std::string& serial) {
     sensorboard::EmulatedBoardSettings settings;
     settings.serial = serial;
     return settings;
@@ -95,7 +95,7 @@ protected:
 
     UsbTestbed bed_;
     std::shared_ptr<SteadyClock> clock_ = std::make_shared<SteadyClock>();
-    BoardOnUsb device_{bed_, *clock_, named("TSB-0001"), BoardInterface::Serial, 1, [](Instant now) {
+    BoardOnUsb device_{bed_, *clock_, boardNamed("TSB-0001"), BoardInterface::Serial, 1, [](Instant now) {
                            return std::make_unique<FingerSignal>(sim::FingerSettings{}, now);
                        }};
     UsbProvider usb_ = makeUsbProvider();
@@ -177,7 +177,7 @@ TEST_F(SensorBoardBenchOnUsb, AnotherBoardInItsPlaceIsNotTaken) {
     open();
     device_.unplug();
     ASSERT_TRUE(comes([&] { return bench_->telemetry().state == InterlockState::Faulted; }));
-    BoardOnUsb other(bed_, *clock_, named("TSB-0002"), BoardInterface::Serial, 2);
+    BoardOnUsb other(bed_, *clock_, boardNamed("TSB-0002"), BoardInterface::Serial, 2);
     ASSERT_TRUE(comes([&] { return registry().list().size() > 1; }));
     const auto refused = bench_->resetFault();
     ASSERT_FALSE(refused);

@@ -14,7 +14,7 @@ using namespace sensorboard;
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-EmulatedBoardSettings named(const std::string& serial) {
+EmulatedBoardSettings settingsFor(const std::string& serial) {
     EmulatedBoardSettings settings;
     settings.serial = serial;
     return settings;
@@ -66,8 +66,8 @@ protected:
 
 TEST_F(SensorBoardOnUsb, IsFoundAndOpenedBySerialNumberWhicheverInterfaceItShows) {
     RecordProperty("hazard", "H4");
-    BoardOnUsb serial(bed_, clock_, named("TSB-0001"), BoardInterface::Serial, 1);
-    BoardOnUsb vendor(bed_, clock_, named("TSB-0002"), BoardInterface::Vendor, 2);
+    BoardOnUsb serial(bed_, clock_, settingsFor("TSB-0001"), BoardInterface::Serial, 1);
+    BoardOnUsb vendor(bed_, clock_, settingsFor("TSB-0002"), BoardInterface::Vendor, 2);
     ASSERT_TRUE(listed(2));
     for (const char* number : {"TSB-0002", "TSB-0001"}) {
         const auto opened = open(std::string("sensor:") + number);
@@ -85,7 +85,7 @@ TEST_F(SensorBoardOnUsb, ADeviceOfThePrivateTestNumberThatIsNoBoardIsLeftAlone) 
     auto other = boardDescription(BoardInterface::Serial, "X-1");
     other.name = "Somebody's lamp";
     EmulatedUsbDevice lamp(bed_, other, {});
-    BoardOnUsb board(bed_, clock_, named("TSB-0001"), BoardInterface::Serial, 2);
+    BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"), BoardInterface::Serial, 2);
     ASSERT_TRUE(listed(1));
     ASSERT_TRUE(open("sensor:"));
     EXPECT_TRUE(lamp.waitForReceived(0).empty());
@@ -94,7 +94,7 @@ TEST_F(SensorBoardOnUsb, ADeviceOfThePrivateTestNumberThatIsNoBoardIsLeftAlone) 
 
 TEST_F(SensorBoardOnUsb, TenSecondsOfAllStreamsLoseNothing) {
     RecordProperty("hazard", "H7");
-    auto settings = named("TSB-0001");
+    auto settings = settingsFor("TSB-0001");
     settings.drift_ppm = 50;
     BoardOnUsb board(bed_, clock_, settings);
     ASSERT_TRUE(listed(1));
@@ -120,7 +120,7 @@ TEST_F(SensorBoardOnUsb, TenSecondsOfAllStreamsLoseNothing) {
 
 TEST_F(SensorBoardOnUsb, UnpluggedInMidStreamIsAnErrorAndPluggedInAgainItOpensByItsIdentity) {
     RecordProperty("hazard", "H7");
-    BoardOnUsb board(bed_, clock_, named("TSB-0001"));
+    BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"));
     ASSERT_TRUE(listed(1));
     ASSERT_TRUE(open("sensor:TSB-0001"));
     ASSERT_TRUE(readFor(200ms));
@@ -144,7 +144,7 @@ TEST_F(SensorBoardOnUsb, UnpluggedInMidStreamIsAnErrorAndPluggedInAgainItOpensBy
 
 TEST_F(SensorBoardOnUsb, ABoardThatTalksGarbageIsRefusedInTimeAndNotWaitedFor) {
     RecordProperty("hazard", "H10");
-    BoardOnUsb board(bed_, clock_, named("TSB-0001"));
+    BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"));
     ASSERT_TRUE(listed(1));
     ASSERT_TRUE(open("sensor:"));
     ASSERT_TRUE(readFor(100ms));
@@ -168,7 +168,7 @@ TEST_F(SensorBoardOnUsb, ABoardThatTalksGarbageIsRefusedInTimeAndNotWaitedFor) {
 
 TEST_F(SensorBoardOnUsb, ADeviceThatAnswersNothingIsRefusedInTime) {
     RecordProperty("hazard", "H10");
-    BoardOnUsb board(bed_, clock_, named("TSB-0001"));
+    BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"));
     board.board().inspect([](auto& b, Instant) { b.fallSilent(); });
     ASSERT_TRUE(listed(1));
     const auto begin = clock_.now();
@@ -179,7 +179,7 @@ TEST_F(SensorBoardOnUsb, ADeviceThatAnswersNothingIsRefusedInTime) {
 }
 
 TEST_F(SensorBoardOnUsb, OneThatMayNotBeOpenedIsListedWithWhatHelps) {
-    BoardOnUsb board(bed_, clock_, named("TSB-0001"));
+    BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"));
     board.usb().permit(false);
     ASSERT_TRUE(listed(1));
     const UnprivilegedUser user(bed_);

@@ -29,7 +29,7 @@ Result<Capture> captured(Oscilloscope& scope) {
     }
 }
 
-ScopeSettings settings() {
+ScopeSettings demoSettings() {
     ScopeSettings s;
     s.sampleRate = Hertz(100e3);
     s.samples = 5000;
@@ -62,7 +62,7 @@ TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
     ASSERT_TRUE(devices.has_value()) << devices.error().message;
     auto& scope = *devices->oscilloscope;
     EXPECT_TRUE(scope.identity().simulated);
-    ASSERT_TRUE(scope.configure(settings()).has_value());
+    ASSERT_TRUE(scope.configure(demoSettings()).has_value());
     ASSERT_TRUE(scope.arm().has_value());
     double last = -1;
     for (int i = 0; i < 3; ++i) {
@@ -97,7 +97,7 @@ TEST(SigrokDemo, ItsSquareIsMeasuredLikeAPulseTrain) {
     const SteadyClock clock;
     auto devices = openDemo("sigrok:demo", clock);
     ASSERT_TRUE(devices.has_value()) << devices.error().message;
-    ASSERT_TRUE(devices->oscilloscope->configure(settings()).has_value());
+    ASSERT_TRUE(devices->oscilloscope->configure(demoSettings()).has_value());
     ASSERT_TRUE(devices->oscilloscope->arm().has_value());
     const auto capture = captured(*devices->oscilloscope);
     ASSERT_TRUE(capture.has_value()) << capture.error().message;
@@ -120,7 +120,7 @@ TEST(SigrokDemo, ARecordIsForcedWhereNothingTriggers) {
     auto* forced = dynamic_cast<ForcedTrigger*>(&scope);
     ASSERT_NE(forced, nullptr);
     EXPECT_EQ(forced->forceTrigger().error().code, ErrorCode::Unsupported) << "not armed";
-    auto high = settings();
+    auto high = demoSettings();
     high.triggerLevel = 40;  // the signal is ±10 V
     ASSERT_TRUE(scope.configure(high).has_value());
     ASSERT_TRUE(scope.arm().has_value());
@@ -152,7 +152,7 @@ TEST(SigrokDemo, TwoAreOpenAtOnceAndCloseWhileTheyRun) {
     auto second = openDemo("sigrok:demo?voltage=A1", clock);
     ASSERT_TRUE(first.has_value() && second.has_value());
     for (auto* one : {&*first, &*second}) {
-        ASSERT_TRUE(one->oscilloscope->configure(settings()).has_value());
+        ASSERT_TRUE(one->oscilloscope->configure(demoSettings()).has_value());
         ASSERT_TRUE(one->oscilloscope->arm().has_value());
     }
     EXPECT_TRUE(captured(*first->oscilloscope).has_value());

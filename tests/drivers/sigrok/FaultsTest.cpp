@@ -10,7 +10,7 @@ namespace {
 using sigrok_driver::ScopeFault;
 using SteadyTime = std::chrono::steady_clock;
 
-ScopeSettings settings() {
+ScopeSettings faultSettings() {
     ScopeSettings s;
     s.sampleRate = Hertz(1e6);
     s.samples = 2000;
@@ -32,7 +32,7 @@ class ScopeFails : public testing::TestWithParam<Failing> {};
 TEST_P(ScopeFails, IsAnErrorOfPollAndClosesInTime) {
     RecordProperty("hazard", "H4");
     ScopeOnLan lan;
-    lan.arm(settings());
+    lan.arm(faultSettings());
     lan.instrument().setFault(GetParam().fault);
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     auto since = SteadyTime::now();
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, ScopeFails,
 
 TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
     ScopeOnLan lan;
-    lan.arm(settings());
+    lan.arm(faultSettings());
     lan.instrument().fallSilent();
     const auto since = SteadyTime::now();
     const auto capture = lan.poll(Seconds(20));
@@ -69,7 +69,7 @@ TEST(ScopeFaults, SilenceWhileWaitingIsATimeout) {
 
 TEST(ScopeFaults, ClosesInTimeWhileTheInstrumentIsSilentWithinARecord) {
     ScopeOnLan lan;
-    lan.arm(settings());
+    lan.arm(faultSettings());
     lan.instrument().setFault(ScopeFault::Silence);
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     (void)lan.instrument().waits(Seconds(0));
@@ -80,7 +80,7 @@ TEST(ScopeFaults, ClosesInTimeWhileTheInstrumentIsSilentWithinARecord) {
 
 TEST(ScopeFaults, ClosesInTimeWhileItWaitsForATrigger) {
     ScopeOnLan lan;
-    lan.arm(settings());
+    lan.arm(faultSettings());
     const auto since = SteadyTime::now();
     lan.close();
     EXPECT_LT(seconds(since), 2.0);
@@ -90,11 +90,11 @@ TEST(ScopeFaults, ClosesInTimeWhileItWaitsForATrigger) {
 
 TEST(ScopeFaults, DisarmingReturnsAtOnceAndItCanBeArmedAgain) {
     ScopeOnLan lan;
-    lan.arm(settings());
+    lan.arm(faultSettings());
     const auto since = SteadyTime::now();
     lan.scope().disarm();
     EXPECT_LT(seconds(since), 0.1);
-    lan.arm(settings());
+    lan.arm(faultSettings());
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     const auto capture = lan.poll();
     ASSERT_TRUE(capture.has_value()) << capture.error().message;

@@ -8,7 +8,7 @@
 namespace tacto::test {
 namespace {
 
-ScopeSettings settings(double rate = 1e6, std::size_t samples = 7000) {
+ScopeSettings lanSettings(double rate = 1e6, std::size_t samples = 7000) {
     ScopeSettings s;
     s.sampleRate = Hertz(rate);
     s.samples = samples;
@@ -34,7 +34,7 @@ TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
     auto two = voltagePulse(10);  // over 1 kohm: 10 mA
     two.pulses = 2;
     two.rate = Hertz(400);
-    lan.arm(settings());
+    lan.arm(lanSettings());
     lan.bench().deliver(two, Seconds(0));
     lan.pass(Seconds(0.06));
     const auto capture = lan.poll();
@@ -59,7 +59,7 @@ TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
 
 TEST(ScopeOnLan, ManyTriggersGiveManyCaptures) {
     ScopeOnLan lan;
-    lan.arm(settings(1e6, 2000));
+    lan.arm(lanSettings(1e6, 2000));
     double last = -1;
     for (int i = 0; i < 5; ++i) {
         ASSERT_TRUE(lan.instrument().waits(Seconds(5)));
@@ -77,7 +77,7 @@ TEST(ScopeOnLan, ManyTriggersGiveManyCaptures) {
 
 TEST(ScopeOnLan, PulsesThatBeginNegativeTriggerWithSlopeFall) {
     ScopeOnLan lan("&slope=fall");
-    lan.arm(settings(1e6, 2000));
+    lan.arm(lanSettings(1e6, 2000));
     auto pulse = voltagePulse(10);
     pulse.polarity = Polarity::Negative;
     lan.bench().deliver(pulse, Seconds(0));
@@ -90,7 +90,7 @@ TEST(ScopeOnLan, PulsesThatBeginNegativeTriggerWithSlopeFall) {
 
 TEST(ScopeOnLan, ProbesCouplingScaleAndTriggerReachTheInstrument) {
     ScopeOnLan lan("&probe=10");
-    auto s = settings(1e6, 2000);
+    auto s = lanSettings(1e6, 2000);
     s.triggerOnCurrent = true;
     s.triggerLevel = 0.005;
     lan.arm(s);
@@ -107,7 +107,7 @@ TEST(ScopeOnLan, ProbesCouplingScaleAndTriggerReachTheInstrument) {
 
 TEST(ScopeOnLan, LiveGivesEachRecordOnce) {
     ScopeOnLan lan("&record=live");
-    auto s = settings(200e3, 1400);  // 1400 points over 7 ms
+    auto s = lanSettings(200e3, 1400);  // 1400 points over 7 ms
     lan.arm(s);
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     const auto first = lan.poll();

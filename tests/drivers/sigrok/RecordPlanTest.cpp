@@ -43,7 +43,7 @@ Wiring wiring(const Abilities& abilities, const std::string& parameters = "volta
     return wire(ScopeUri::parse(DeviceUri::parse("sigrok:rigol-ds?" + parameters).value()).value(), abilities).value();
 }
 
-ScopeSettings settings(double rate, std::size_t samples) {
+ScopeSettings planSettings(double rate, std::size_t samples) {
     ScopeSettings s;
     s.sampleRate = Hertz(rate);
     s.samples = samples;
@@ -67,23 +67,23 @@ TEST(RecordPlan, KnowsTheMemoryOfTheSeriesLibsigrokDrives) {
 TEST(RecordPlan, TakesTheShortestScreenWhoseRateIsAMultiple) {
     const auto abilities = ds2072a();
     // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is no multiple.
-    const auto plan = planRecord(settings(1e6, 2000), abilities, wiring(abilities));
+    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
     ASSERT_TRUE(plan.has_value()) << plan.error().message;
     EXPECT_DOUBLE_EQ(plan->timebase.value(), 500e-6);
     EXPECT_EQ(plan->record, 7000U);
     // 250 us at 2.5 MHz: 20 us/div is 280 us at 25 MHz.
-    EXPECT_DOUBLE_EQ(planRecord(settings(2.5e6, 625), abilities, wiring(abilities))->timebase.value(), 20e-6);
+    EXPECT_DOUBLE_EQ(planRecord(planSettings(2.5e6, 625), abilities, wiring(abilities))->timebase.value(), 20e-6);
 }
 
 TEST(RecordPlan, TheRangeIsTheNextOneUpAndTheShuntTurnsMilliampsIntoVolts) {
     const auto abilities = ds2072a();
-    const auto plan = planRecord(settings(1e6, 2000), abilities, wiring(abilities));
+    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
     ASSERT_TRUE(plan.has_value());
     EXPECT_EQ(plan->voltageScale, (Fraction{5, 1}));       // 13 V: 4 divisions of 5 V
     EXPECT_EQ(plan->currentScale, (Fraction{500, 1000}));  // 18 mA * 100 ohm = 1.8 V
     EXPECT_EQ(plan->triggerSource, "CH1");
     EXPECT_DOUBLE_EQ(plan->triggerLevel_V, 5);
-    auto byCurrent = settings(1e6, 2000);
+    auto byCurrent = planSettings(1e6, 2000);
     byCurrent.triggerOnCurrent = true;
     byCurrent.triggerLevel = 0.005;
     const auto second =
@@ -95,7 +95,7 @@ TEST(RecordPlan, TheRangeIsTheNextOneUpAndTheShuntTurnsMilliampsIntoVolts) {
 
 TEST(RecordPlan, TheTriggerPositionMakesUpForLibsigroksScale) {
     const auto abilities = ds2072a();
-    const auto plan = planRecord(settings(1e6, 2000), abilities, wiring(abilities));
+    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
     ASSERT_TRUE(plan.has_value());
     // What libsigrok will send: -(position - 0.5) * timebase * number of time bases. Wanted: a tenth before the
     // trigger.
@@ -112,15 +112,15 @@ TEST(RecordPlan, RefusesByNameWhatTheInstrumentCannotDo) {
         EXPECT_EQ(plan.error().code, ErrorCode::InvalidArgument);
         for (const auto& one : named) EXPECT_THAT(plan.error().message, HasSubstr(one));
     };
-    refused(settings(1e6, 7001), {"7001", "2 to 7000"});
-    refused(settings(3e6, 2000), {"3000000", "1, 2, 5"});
-    auto s = settings(1e6, 2000);
+    refused(planSettings(1e6, 7001), {"7001", "2 to 7000"});
+    refused(planSettings(3e6, 2000), {"3000000", "1, 2, 5"});
+    auto s = planSettings(1e6, 2000);
     s.voltageRange = Volts(500);
     refused(s, {"voltage range", "500 V", "400 V"});
-    s = settings(1e6, 2000);
+    s = planSettings(1e6, 2000);
     s.triggerLevel = std::numeric_limits<double>::quiet_NaN();
     refused(s, {"trigger level nan"});
-    s = settings(1e6, 2000);
+    s = planSettings(1e6, 2000);
     s.triggerOnCurrent = true;
     s.triggerLevel = 0.001;
     refused(s, {"no current channel"}, "voltage=CH1");

@@ -9,7 +9,7 @@ namespace {
 
 using namespace sigrok_driver;
 
-RecordPlan planFor(std::size_t samples, double level) {
+RecordPlan triggeredPlan(std::size_t samples, double level) {
     RecordPlan plan;
     plan.settings.sampleRate = Hertz(1000);
     plan.settings.samples = samples;
@@ -32,7 +32,7 @@ TEST(StreamTrigger, OneRecordPerPulseHoweverThePacketsFall) {
     std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
     for (int round = 0; round < 50; ++round) {
         const auto signal = pulses(200'000, {1000, 1020, 30'000, 150'000});  // the second is within the first record
-        StreamTrigger trigger(planFor(100, 5), {});
+        StreamTrigger trigger(triggeredPlan(100, 5), {});
         std::vector<Capture> found;
         std::uniform_int_distribution<std::size_t> sizes(1, 40'000);
         for (std::size_t at = 0; at < signal.size();) {
@@ -58,7 +58,7 @@ TEST(StreamTrigger, OneRecordPerPulseHoweverThePacketsFall) {
 }
 
 TEST(StreamTrigger, FallingPulsesTriggerOnTheWayDown) {
-    StreamTrigger trigger(planFor(100, -5), {});
+    StreamTrigger trigger(triggeredPlan(100, -5), {});
     const auto signal = pulses(1000, {500}, -10);
     trigger.add(0, signal, 0.01, 1);
     const auto found = trigger.next();
@@ -67,7 +67,7 @@ TEST(StreamTrigger, FallingPulsesTriggerOnTheWayDown) {
 }
 
 TEST(StreamTrigger, AForcedRecordIsMarkedAndATriggerBeforeItWins) {
-    StreamTrigger quiet(planFor(100, 5), {});
+    StreamTrigger quiet(triggeredPlan(100, 5), {});
     quiet.add(0, pulses(1000, {}), 0.01, 1);
     ASSERT_FALSE(quiet.next()->has_value());
     quiet.force();
@@ -83,7 +83,7 @@ TEST(StreamTrigger, WaitsForBothChannels) {
     Wiring wiring;
     wiring.current = 3;
     wiring.shunt = Ohms(100);
-    StreamTrigger trigger(planFor(100, 5), wiring);
+    StreamTrigger trigger(triggeredPlan(100, 5), wiring);
     trigger.add(0, pulses(1000, {500}), 0.01, 1);
     trigger.add(2, pulses(1000, {100}), 0.01, 1);
     EXPECT_FALSE(trigger.next()->has_value());

@@ -15,10 +15,7 @@ namespace tacto::test {
 /// $XDG_DATA_HOME is a folder of its own while it lives.
 class OwnDataHome {
 public:
-    OwnDataHome() : before_(qgetenv("XDG_DATA_HOME")) {
-        qputenv("XDG_DATA_HOME", folder_.path().toUtf8());
-        settle(std::filesystem::path(folder_.path().toStdString()) / "tactoscope" / "units");
-    }
+    OwnDataHome() : before_(qgetenv("XDG_DATA_HOME")) { qputenv("XDG_DATA_HOME", folder_.path().toUtf8()); }
     ~OwnDataHome() { qputenv("XDG_DATA_HOME", before_); }
     OwnDataHome(const OwnDataHome&) = delete;
     OwnDataHome& operator=(const OwnDataHome&) = delete;

@@ -11,8 +11,8 @@ namespace tacto::test {
 
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(5);
-constexpr std::uint8_t kInput = 0x81;
+constexpr auto kHidPatience = std::chrono::seconds(5);
+constexpr std::uint8_t kInputEndpoint = 0x81;
 
 void check(GError* error) {
     if (error == nullptr) return;
@@ -102,7 +102,7 @@ void EmulatedHidDevice::unplug() {
 void EmulatedHidDevice::send(std::span<const std::uint8_t> report) {
     auto& e = *emulation_;
     if (!e.usb.kernelDriverBound()) {
-        e.usb.send(kInput, report);
+        e.usb.send(kInputEndpoint, report);
         return;
     }
     const std::lock_guard lock(e.mutex);
@@ -129,7 +129,7 @@ void EmulatedHidDevice::hold(bool held) {
 
 std::vector<UsbBytes> EmulatedHidDevice::waitForReports(std::size_t count) const {
     std::unique_lock lock(emulation_->mutex);
-    emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->reports.size() >= count; });
+    emulation_->changed.wait_for(lock, kHidPatience, [&] { return emulation_->reports.size() >= count; });
     return emulation_->reports;
 }
 

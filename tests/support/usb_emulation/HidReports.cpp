@@ -9,7 +9,7 @@ namespace tacto::test {
 
 namespace {
 
-constexpr std::uint8_t kInput = 0x81;
+constexpr std::uint8_t kInterruptIn = 0x81;
 // HID 1.11, sections 7.1 and 7.2.
 constexpr std::uint8_t kGetReport = 1;
 constexpr std::uint8_t kSetReport = 9;
@@ -68,7 +68,7 @@ std::vector<UsbBytes> EmulatedHidDevice::Emulation::take(std::span<const std::ui
 }
 
 UsbBytes EmulatedHidDevice::Emulation::fromUsb(std::span<const std::uint8_t> report) {
-    for (const auto& answer : take(report)) usb.send(kInput, answer);
+    for (const auto& answer : take(report)) usb.send(kInterruptIn, answer);
     return {};
 }
 
@@ -83,7 +83,7 @@ std::optional<UsbBytes> EmulatedHidDevice::Emulation::request(const UsbSetup& se
         if (kind == kFeature)
             setFeature(data, number);
         else
-            for (const auto& answer : take(data)) usb.send(kInput, answer);
+            for (const auto& answer : take(data)) usb.send(kInterruptIn, answer);
         return UsbBytes{};
     }
     if (setup.type == kFromInterface && setup.request == kGetReport && kind == kFeature) return getFeature(number);

@@ -15,7 +15,7 @@ namespace tacto::test {
 namespace {
 
 constexpr std::size_t kSetupSize = 8;
-constexpr std::uint8_t kInput = 0x80;
+constexpr std::uint8_t kInputBit = 0x80;
 
 IoctlData resolve(UMockdevIoctlData* parent, std::size_t offset, std::size_t length) {
     return IoctlData(umockdev_ioctl_data_resolve(parent, offset, length, nullptr));
@@ -223,7 +223,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::bulkNow(std::
     const auto& asked = as<usbdevfs_bulktransfer>(data);
     const auto endpoint = static_cast<std::uint8_t>(asked.ep);
     if (!wire.knows(endpoint)) return refuse(ENOENT);
-    if ((endpoint & kInput) != 0) return refuse(ENOTTY);  // no test needs one
+    if ((endpoint & kInputBit) != 0) return refuse(ENOTTY);  // no test needs one
     const auto owner = claims.find(wire.interfaceOf(endpoint));
     if (owner == claims.end() || owner->second != client) return refuse(EBUSY);
     if (!wire.takes(endpoint)) return refuse(ETIMEDOUT);
@@ -249,7 +249,7 @@ void EmulatedUsbDevice::Emulation::pump(std::unique_lock<std::mutex>& lock) {
         lock.unlock();
         const auto answer = behaviour.onBytes(transfer->bytes);
         lock.lock();
-        const auto back = static_cast<std::uint8_t>(transfer->endpoint | kInput);
+        const auto back = static_cast<std::uint8_t>(transfer->endpoint | kInputBit);
         if (node && !answer.empty() && wire.knows(back)) wire.queue(back, answer, false);
     }
     pumping = false;

@@ -1,0 +1,10 @@
+// NaN.h - the number of what is not known.
+#pragma once
+
+#include <limits>
+
+namespace tacto {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace tacto
