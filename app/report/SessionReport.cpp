@@ -88,11 +88,14 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     for (const auto& set : about.limitSets) hash("Limits " + text(set.id), set.sha256);
 }
 
+bool judgeTheSame(const ExposureFigure::Row& a, const ExposureFigure::Row& b) {
+    return a.name == b.name && a.source == b.source && !(a.limit < b.limit) && !(a.limit > b.limit);
+}
+
 /// The worse of two rows alike: one not evaluated first, then the larger share of its limit.
 void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
     for (auto& known : model.exposure) {
-        if (known.name != row.name || known.source != row.source || known.limit < row.limit || known.limit > row.limit)
-            continue;
+        if (!judgeTheSame(known, row)) continue;
         if (!std::isfinite(known.value)) return;
         const bool newlyOver = row.over() && !known.over();
         if (!row.evaluated() || newlyOver || std::abs(row.value) > std::abs(known.value)) known = row;
@@ -143,9 +146,8 @@ private:
         auto figure = parseFigure(item["figure"].toObject());
         if (figure) {
             if (const auto* exposure = std::get_if<ExposureFigure>(&figure->content)) {
-                // It has a section of its own, with its table; twice would be one too many.
-                for (const auto& row : exposure->rows) addExposure(model_, row);
-                return;
+                // What the program itself recorded has a section of its own; twice would be one too many.
+                if (recorded(*exposure)) return;
             }
             const auto resolved = resolveCaptures(*figure, [&](qint64 id) { return reader_.capture(id); });
             if (resolved) {
@@ -156,6 +158,15 @@ private:
             return;
         }
         model_.items.emplace_back(missing(caption, figure.error()));
+    }
+
+    /// Whether the program's own record says as much: the same limits, and at least these values.
+    [[nodiscard]] bool recorded(const ExposureFigure& figure) const {
+        return std::all_of(figure.rows.begin(), figure.rows.end(), [&](const auto& row) {
+            return std::any_of(model_.exposure.begin(), model_.exposure.end(), [&](const auto& own) {
+                return judgeTheSame(own, row) && (!own.evaluated() || std::abs(row.value) <= std::abs(own.value));
+            });
+        });
     }
 
     /// A figure that cannot be drawn is said, never left out.
@@ -247,6 +258,16 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     const auto delivered = deliveredIn(*reader);
     if (!delivered) return failure(delivered);
     for (const auto& mark : originMarks(reader->about(), *delivered)) model.marks << text(mark);
+    const auto measurements = reader->measurements();
+    if (!measurements) return failure(measurements);
+    for (const auto& row : *measurements) {
+        if (row.name != kExposureMeasurement) continue;
+        QJsonObject body = objectOf(row.body);
+        body["type"] = "exposure";
+        const auto figure = parseFigure(body);
+        if (!figure) return failure(figure);
+        for (const auto& exposure : std::get<ExposureFigure>(figure->content).rows) addExposure(model, exposure);
+    }
     const auto items = reader->reportItems();
     if (!items) return failure(items);
     ItemReader itemReader(*reader, model);
@@ -261,17 +282,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
         last = std::max(last, row.at);
         if (!isQuiet(row.name)) addEvent(model, row);
     }
-    const auto measurements = reader->measurements();
-    if (!measurements) return failure(measurements);
-    for (const auto& row : *measurements) {
-        last = std::max(last, row.at);
-        if (row.name != "exposure") continue;
-        QJsonObject body = objectOf(row.body);
-        body["type"] = "exposure";
-        const auto figure = parseFigure(body);
-        if (!figure) return failure(figure);
-        for (const auto& exposure : std::get<ExposureFigure>(figure->content).rows) addExposure(model, exposure);
-    }
+    for (const auto& row : *measurements) last = std::max(last, row.at);
     for (const auto& row : *items) last = std::max(last, row.at);
     const bool stimulates = std::any_of(model.devices.begin(), model.devices.end(),
                                         [](const ReportDevice& device) { return device.role == "stimulator"; });

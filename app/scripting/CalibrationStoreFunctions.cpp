@@ -196,7 +196,7 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
         evidence[own->quantity] = own->found;
     }
     // The readings are in the session, on disk, before a calibration refers to them.
-    if (auto kept = writer->measurement(session.now(), "calibration to keep", evidence); !kept) return failure(kept);
+    if (auto kept = writer->measurement(session.now(), kCalibrationMeasurement, evidence); !kept) return failure(kept);
     if (auto flushed = writer->flush(); !flushed) return failure(flushed);
     made.session = writer->path().filename().string();
     made.sessionHead = writer->chainHead();

@@ -1,5 +1,6 @@
 #include "app/scripting/OwnReadings.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -34,6 +35,14 @@ Result<std::vector<const OwnReading*>> OwnReadings::readings(const std::vector<s
         found.push_back(&reading);
     }
     return found;
+}
+
+void OwnReadings::note(const nlohmann::json& made) {
+    made_.push_back(nlohmann::json::parse(made.dump()));  // as the script gets it: what is no number is null
+}
+
+bool OwnReadings::noted(const nlohmann::json& said) const {
+    return std::find(made_.begin(), made_.end(), said) != made_.end();
 }
 
 const OwnCalibration* OwnReadings::calibration(const nlohmann::json& number) const noexcept {

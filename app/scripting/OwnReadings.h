@@ -56,12 +56,18 @@ public:
     /// The readings with these numbers, for one calibration. Errors: InvalidArgument for a number that is none, or a
     /// reading or capture that comes twice.
     [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
+    /// Remembers what a host function returned, where scripts hand on whole objects.
+    void note(const nlohmann::json& made);
+    /// True for what was noted, unchanged.
+    [[nodiscard]] bool noted(const nlohmann::json& said) const;
+
     /// Nothing for a number that is none.
     [[nodiscard]] const OwnCalibration* calibration(const nlohmann::json& number) const noexcept;
 
 private:
     std::vector<OwnReading> readings_;
     std::vector<OwnCalibration> calibrations_;
+    std::vector<nlohmann::json> made_;
 };
 
 /// The names by which a calibration's quantities are known: amplitude, interval, width, gap.

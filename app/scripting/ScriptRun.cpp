@@ -191,6 +191,7 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
         endProgram(fmt::format("a call of script {} into the bench did not end after a stop; ending with outputs off\n",
                                request.script.name));
     }
+    session.recordExposure();
     ScriptOutcome result;
     result.file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
     if (end == ScriptThread::End::Abandoned && !ended) {

@@ -245,6 +245,12 @@ nlohmann::json ScriptSession::worstExposure() const {
     return rows;
 }
 
+void ScriptSession::recordExposure() {
+    watchExposure();
+    if (writer() != nullptr && !exposure_.empty())
+        (void)writer()->measurement(now(), kExposureMeasurement, {{"rows", worstExposure()}});
+}
+
 void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {
     partial_ = std::move(results);
     partialTables_ = std::move(tables);

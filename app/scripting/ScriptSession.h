@@ -83,6 +83,8 @@ public:
     /// Looks at the exposure now; worstExposure() is the largest seen, row by row, as report figures take it.
     void watchExposure();
     [[nodiscard]] nlohmann::json worstExposure() const;
+    /// Writes worstExposure() into the session, once, at the end: what its report says of exposure.
+    void recordExposure();
 
     /// A fault that the script provoked, found as it should be, and reset: it does not void the run.
     void noteExpectedFault() noexcept { ++expectedFaults_; }

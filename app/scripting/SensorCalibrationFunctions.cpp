@@ -1,5 +1,6 @@
 // Calibrating a fingertip: its rest, slides over surfaces, weights on it, and what follows from them.
 #include <cmath>
+#include <set>
 
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
@@ -116,6 +117,7 @@ Result<Json> measureRest(ScriptSession& session, const Json& list) {
     Json out = toJson(*rest);
     out["duration_s"] = *duration;
     out["force"] = toJson(levelOf(*samples, StreamKind::Force));
+    session.own().note(out);
     return out;
 }
 
@@ -143,6 +145,7 @@ Result<Json> measureSlide(ScriptSession& session, const Json& list) {
     if (!reading) return fail(reading.error().code, "{}: {}", *material, reading.error().message);
     Json out = toJson(*reading);
     out["material"] = *material;
+    if (session.own().noted(**rest)) session.own().note(out);
     return out;
 }
 
@@ -224,6 +227,8 @@ Result<Json> sensorCalibration(ScriptSession& session, const Json& list) {
     auto levels = sensorRestFrom(**rest);
     if (!levels) return failure(levels);
     std::vector<SlidSurface> surfaces;
+    bool own = session.own().noted(**rest);
+    std::set<Json> seen;
     for (const auto& row : **rows) {
         if (!row.is_object() || !row.value("slides", Json()).is_array()) {
             return arguments.wrong("a surface", row, "an object with name, ra_um, rz_um and slides");
@@ -242,12 +247,15 @@ Result<Json> sensorCalibration(ScriptSession& session, const Json& list) {
             auto slid = slideReadingFrom(one);
             if (!slid) return failure(slid);
             surface.slides.push_back(*std::move(slid));
+            own = own && session.own().noted(one) && one["material"] == surface.name && seen.insert(one).second;
         }
         surfaces.push_back(std::move(surface));
     }
     auto found = calibrateSensor(surfaces, session.bench().profile().roughness, *levels);
     if (!found) return failure(found);
-    return toJson(*found);
+    Json out = toJson(*found);
+    if (own) session.own().note(out);
+    return out;
 }
 
 }  // namespace

@@ -81,6 +81,12 @@ Result<Json> keep(ScriptSession& session, const Json& list) {
     if ((*found)->value("accepted", Json()) != Json(true) || !(*found)->value("roughness", Json()).is_object()) {
         return arguments.wrong("found", **found, "an accepted result of analysis.sensorCalibration()");
     }
+    if (!session.own().noted(**found)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.sensorProfile: this result does not come from this run's own slides; what "
+                    "analysis.sensorCalibration() returned is expected, unchanged, made from what bench.measureRest() "
+                    "and bench.measureSlide() returned, each slide once and under its own surface");
+    }
     auto roughness = roughnessSettingsFromJson((**found)["roughness"]);
     if (!roughness) return failure(roughness);
     auto area = arguments.number(*options, "contact_area_cm2", roughness->contactArea.value(), {0.01, 100});

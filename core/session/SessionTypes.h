@@ -11,6 +11,10 @@
 
 namespace tacto {
 
+/// Measurements that the program alone writes: what its report says of exposure, and what a calibration rests on.
+inline constexpr const char* kExposureMeasurement = "exposure";
+inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
+
 /// One device of the session.
 struct SessionDevice {
     std::string uri;

@@ -140,12 +140,29 @@ TEST_F(SessionReport, SaysStoppedWhereTheScriptEndedByAnError) {
     EXPECT_EQ(model.reasons, QStringList{"separability.js:12: no trains"});
 }
 
-TEST_F(SessionReport, MovesTheScriptsExposureFigureIntoItsSection) {
-    ASSERT_TRUE(writer_->reportItem(Instant{0},
-                                    {{"kind", "figure"}, {"caption", "Exposure"}, {"figure", toJson(exposureJson())}}));
+TEST_F(SessionReport, OnlyWhatTheProgramRecordedStandsUnderExposureAgainstLimits) {
+    RecordProperty("hazard", "H9");
+    const auto row = [](double value) {
+        return nlohmann::json{{"name", "RMS"}, {"value", value}, {"limit", 10}, {"unit", "mA"}, {"source", "paper"}};
+    };
+    const auto figure = [&](const char* caption, const nlohmann::json& rows) {
+        const nlohmann::json exposure{{"type", "exposure"}, {"rows", rows}};
+        ASSERT_TRUE(writer_->reportItem(Instant{0}, {{"kind", "figure"}, {"caption", caption}, {"figure", exposure}}));
+    };
+    figure("as the program says", nlohmann::json::array({row(2)}));
+    figure("more than it says", nlohmann::json::array({row(3.5)}));
+    auto other = row(1);
+    other["name"] = "Charge";
+    figure("something else", nlohmann::json::array({row(1), other}));
+    figure("broken", nlohmann::json::array({5}));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, kExposureMeasurement, {{"rows", nlohmann::json::array({row(3)})}}));
     const auto model = closedAndRead();
-    EXPECT_TRUE(model.items.empty());
-    EXPECT_EQ(model.exposure.size(), 6U);
+    ASSERT_EQ(model.exposure.size(), 1U);
+    EXPECT_DOUBLE_EQ(model.exposure[0].value, 3);
+    ASSERT_EQ(model.items.size(), 3U);
+    EXPECT_EQ(std::get<ReportFigure>(model.items[0]).caption, "more than it says");
+    EXPECT_EQ(std::get<ReportFigure>(model.items[1]).caption, "something else");
+    EXPECT_TRUE(std::get<ReportText>(model.items[2]).text.contains("“broken” could not be drawn"));
 }
 
 TEST_F(SessionReport, ListsFaultsAndRefusalsButNotTheQuietEvents) {
@@ -169,9 +186,9 @@ TEST_F(SessionReport, ShowsTheWorstExposureAndNotEvaluatedAboveAnyNumber) {
                  {{{"name", "RMS"}, {"value", current}, {"limit", 10}, {"unit", "mA"}, {"source", "paper"}},
                   {{"name", "Density"}, {"value", density}, {"limit", 2}, {"unit", "mA/cm2"}, {"source", "x"}}})}};
     };
-    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(1.0, 0.5)));
-    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(3.0, nullptr)));
-    ASSERT_TRUE(writer_->measurement(Instant{0}, "exposure", rows(2.0, 0.5)));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, kExposureMeasurement, rows(1.0, 0.5)));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, kExposureMeasurement, rows(3.0, nullptr)));
+    ASSERT_TRUE(writer_->measurement(Instant{0}, kExposureMeasurement, rows(2.0, 0.5)));
     const auto model = closedAndRead();
     ASSERT_EQ(model.exposure.size(), 2U);
     EXPECT_DOUBLE_EQ(model.exposure[0].value, 3.0);

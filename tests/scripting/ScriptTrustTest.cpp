@@ -1,5 +1,6 @@
 // What a script asks for and does not get: a larger electrode, safety fields in a stored profile, files of its own
 // choice.
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -88,25 +89,71 @@ TEST_F(ScriptTrust, WithoutAnAreaInTheProfileTheOperatorsWordIsNeeded) {
     EXPECT_THAT(said, HasSubstr("Electrode area: 4 cm², declared by the operator."));
 }
 
+// The shortest calibration of the twin's fingertip.
+constexpr const char* kCalibrates = R"js(
+const rest = bench.measureRest({ duration_s: 1 });
+const slidOver = (name, ra_um) => ({ name, ra_um, rz_um: null,
+  slides: [1, 2, 3].map(() => bench.measureSlide(name, rest, { duration_s: 2 })) });
+const surfaces = [slidOver("glass", 0.02), slidOver("P120", 42)];
+const calibrate = () => analysis.sensorCalibration(surfaces, rest);
+)js";
+
 TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
     RecordProperty("hazard", "H1");
-    const auto roughness = toJson(RoughnessSettings{}).dump();
-    const auto error =
-        run("bench.setElectrodeArea(1); bench.setEncoding({ amplitude_max_v: 20, pulses: 3 });\n"
-            "const roughness = " +
-                roughness +
-                ";\n"
-                "roughness.references.h.smooth = 0.0123;\n"
-                "return verdict({ verdict: null, kept: record.sensorProfile({ accepted: true, roughness },"
-                " { store: true }) });",
-            3);
+    const auto error = run(
+        std::string("bench.setElectrodeArea(1); bench.setEncoding({ amplitude_max_v: 20, pulses: 3 });") + kCalibrates +
+            "const found = calibrate();\n"
+            "return verdict({ verdict: null, smooth: found.roughness.references.h.smooth,"
+            " kept: record.sensorProfile(found, { store: true }) });",
+        3);
     ASSERT_EQ(error, "");
     const auto kept = loadProfile(results_["kept"]["file"].get<std::string>()).value();
-    EXPECT_NEAR(kept.roughness.h.smooth, 0.0123, 1e-12);
+    EXPECT_NEAR(kept.roughness.h.smooth, results_["smooth"].get<double>(), 1e-12);
+    EXPECT_TRUE(kept.roughness.calibrated);
     EXPECT_EQ(kept.electrodeArea, SquareCentimetres(3));
     EXPECT_EQ(kept.encoding, EncodingProfile{});
     EXPECT_EQ(rig_->bench().profile().encoding.amplitudeMax, Volts(20)) << "in force for the rest of the run";
     EXPECT_EQ(areaInForce(), 1);
+}
+
+TEST_F(ScriptTrust, AProfileComesFromSlidesThatTheProgramMeasured) {
+    RecordProperty("hazard", "H9");
+    const auto roughness = toJson(RoughnessSettings{}).dump();
+    for (const std::string& forged : {
+             "const found = { accepted: true, roughness: " + roughness + " };",
+             kCalibrates + std::string("const found = calibrate(); found.roughness.references.h.smooth = 0.0123;"),
+             kCalibrates + std::string("surfaces[1].slides[0].h *= 3; const found = calibrate();"),
+             kCalibrates + std::string("surfaces[1].slides[1] = surfaces[1].slides[0]; const found = calibrate();"),
+             kCalibrates + std::string("surfaces[0].name = \"steel\"; const found = calibrate();"),
+             kCalibrates + std::string("rest.mean_square *= 2; const found = calibrate();"),
+         }) {
+        EXPECT_THAT(run(forged + "found.accepted = true; record.sensorProfile(found, { store: true });", 3),
+                    HasSubstr("does not come from this run's own slides"))
+            << forged.substr(forged.size() - 60);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tactoscope" / "profiles"));
+}
+
+TEST_F(ScriptTrust, WhatTheProgramSaysOfExposureIsNotTheScripts) {
+    RecordProperty("hazard", "H9");
+    for (const char* name : {"exposure", "calibration to keep"}) {
+        EXPECT_THAT(run(fmt::format("record.measurement(\"{}\", {{ rows: [] }});", name), {}),
+                    HasSubstr("a name that the program does not use itself"));
+    }
+    EXPECT_EQ(run("bench.arm({ load: 1000 }); bench.drive(\"manual\", { roughness: 0.5, pressure: 1 }); bench.wait(2);"
+                  "bench.disarm(); report.figure(\"Exposure\", plot.exposure([]));",
+                  {}),
+              "");
+    rig_->closeBench();
+    ASSERT_TRUE(rig_->writer().close());
+    const auto rows = SessionReader::open(rig_->folder().path() / "run.tacto").value().measurements().value();
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].name, kExposureMeasurement);
+    const auto& limits = rows[0].body["rows"];
+    ASSERT_FALSE(limits.empty()) << "recorded, whatever the script shows";
+    EXPECT_TRUE(std::any_of(limits.begin(), limits.end(), [](const Json& row) {
+        return row["unit"] == "mA" && row["value"].is_number() && row["value"] > 0;
+    })) << limits.dump();
 }
 
 TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {
