@@ -13,6 +13,7 @@
 #include "app/run/ProtocolRun.h"
 #include "app/scripting/Arming.h"
 #include "app/scripting/ProtocolLibrary.h"
+#include "core/base/Printable.h"
 #include "core/session/Origin.h"
 
 namespace tacto::cli {
@@ -153,17 +154,28 @@ int exitFor(const RunResult& result) {
     return result.outcome.error ? static_cast<int>(kCouldNotRun) : exitForVerdict(result.verdict());
 }
 
+/// A script may return anything under any name; its verdict stands all the same.
+void printAnyResults(const json& results) {
+    if (!results.is_object()) return;
+    try {
+        if (results.contains("trials_needed"))
+            printVariation(results);
+        else if (results.contains("confusion"))
+            printSeparability(results);
+        else if (results.contains("loads"))
+            printLoadSafety(results);
+        else if (results.contains("reference"))
+            printCalibration(results);
+        else
+            printResults(results);
+    } catch (const json::exception& problem) {
+        say("\n  The results do not have the shape that is shown here ({}); the session holds them as they are.\n",
+            printable(problem.what()));
+    }
+}
+
 void printSummary(const ScriptOutcome& outcome, const json& value) {
-    if (outcome.results.is_object() && outcome.results.contains("trials_needed"))
-        printVariation(outcome.results);
-    else if (outcome.results.is_object() && outcome.results.contains("confusion"))
-        printSeparability(outcome.results);
-    else if (outcome.results.is_object() && outcome.results.contains("loads"))
-        printLoadSafety(outcome.results);
-    else if (outcome.results.is_object() && outcome.results.contains("reference"))
-        printCalibration(outcome.results);
-    else if (outcome.results.is_object())
-        printResults(outcome.results);
+    printAnyResults(outcome.results);
     say("\n");
     for (const auto& mark : value["marks"]) say("  {}\n", mark.get<std::string>());
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()

@@ -9,8 +9,7 @@ namespace {
 sigset_t stopSignals() {
     sigset_t set;
     sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&set, signal);
     return set;
 }
 }  // namespace
@@ -18,6 +17,7 @@ sigset_t stopSignals() {
 SignalStop::SignalStop() {
     const auto set = stopSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is told by what writes
     thread_ = std::thread([this] { wait(); });
 }
 

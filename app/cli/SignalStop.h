@@ -1,5 +1,5 @@
-// SignalStop.h - Ctrl+C and termination as a stop of the run: a thread waits for the signal, so that the handler's
-// restrictions do not reach the bench.
+// SignalStop.h - Ctrl+C, Ctrl+\, termination and a terminal that closes as a stop of the run: a thread waits for the
+// signal, so that the handler's restrictions do not reach the bench.
 //
 // Thread-safety: make one before any other thread starts, so that they all inherit the blocked signals.
 #pragma once
@@ -18,7 +18,7 @@ public:
     SignalStop(const SignalStop&) = delete;
     SignalStop& operator=(const SignalStop&) = delete;
 
-    /// Called on the waiting thread at each SIGINT or SIGTERM. An empty function calls nothing.
+    /// Called on the waiting thread at each SIGINT, SIGTERM, SIGHUP or SIGQUIT. An empty function calls nothing.
     void onStop(std::function<void()> stop);
     [[nodiscard]] bool signalled() const noexcept { return signalled_; }
 

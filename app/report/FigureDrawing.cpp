@@ -126,7 +126,7 @@ QByteArray sheetSvg(PlotSheet& sheet, const QString& title) {
           body;
     // Verdana has DejaVu's widths, for readers without DejaVu.
     svg.replace("font-family=\"DejaVu Sans\"", "font-family=\"'DejaVu Sans',Verdana,sans-serif\"");
-    return svg.toUtf8();
+    return visible(svg).toUtf8();
 }
 
 std::vector<std::size_t> visiblePoints(std::span<const double> values, std::size_t keep) {

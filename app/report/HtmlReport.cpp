@@ -1,6 +1,7 @@
 #include "app/report/HtmlReport.h"
 
 #include "app/report/FigureDrawing.h"
+#include "app/report/NumberText.h"
 
 namespace tacto {
 namespace {
@@ -124,14 +125,7 @@ public:
 
     void operator()(const CodeBlock& block) { out_ += "<pre>" + escaped(block.lines.join('\n')) + "</pre>\n"; }
 
-    /// Text for XML: what may not stand in it at all (control characters) becomes a replacement character.
-    static QString escaped(const QString& text) {
-        QString safe = text;
-        for (auto& c : safe) {
-            if (c.unicode() < 0x20 && c != '\n' && c != '\t') c = QChar(0xfffd);
-        }
-        return safe.toHtmlEscaped();
-    }
+    static QString escaped(const QString& text) { return visible(text).toHtmlEscaped(); }
 
     QString take() { return std::move(out_); }
 

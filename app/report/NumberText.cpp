@@ -213,6 +213,17 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
                     split.base.isEmpty() ? shown : prefixFor(format.exponent).symbol + split.base);
 }
 
+QString visible(QString text) {
+    for (auto& c : text) {
+        const char16_t u = c.unicode();
+        const bool control = (u < 0x20 && u != '\n' && u != '\t') || (u >= 0x7f && u < 0xa0);
+        const bool turns = u == 0x061c || (u >= 0x200b && u <= 0x200f) || (u >= 0x2028 && u <= 0x202e) ||
+                           (u >= 0x2060 && u <= 0x206f) || u == 0xfeff;
+        if (control || turns) c = QChar::ReplacementCharacter;
+    }
+    return text;
+}
+
 QString cellText(const QJsonValue& value, const QString& unit) {
     if (value.isDouble()) return quantityText(value.toDouble(), unit);
     if (value.isString()) return value.toString();

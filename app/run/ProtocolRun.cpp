@@ -100,13 +100,11 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
                               .asked = order.asked};
     auto devices = registry.open(order.uris, order.declaration.needs, context);
     if (!devices) return failure(devices);
-    auto files = prepareRunFiles(order.out, order.script.name);
-    if (!files) return failure(files);
-    run->files_ = std::move(*files);
     run->about_ = aboutSession(*devices, order.profile, order.limits, &order);
-    auto session = SessionWriter::create(run->files_.session, run->about_, *run->clock_);
+    auto session = makeRunSession(order.out, order.script.name, run->about_, *run->clock_);
     if (!session) return failure(session);
-    run->session_ = std::move(*session);
+    run->files_ = std::move(session->files);
+    run->session_ = std::move(session->writer);
     if (devices->stimulator) {
         const auto& stimulator = *devices->stimulator;
         if (auto beyond = beyondReach(order.profile, stimulator.traits(), stimulator.identity().name)) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
+#include "core/base/Clock.h"
 #include "core/base/Result.h"
+#include "core/session/SessionWriter.h"
 
 namespace tacto {
 
@@ -17,6 +20,15 @@ struct RunFiles {
 /// `out` as given by --out, or empty: the user's sessions folder, and no capture files. A folder that already holds a
 /// session or captures gets a folder of its own for this run. Errors: Io when a folder cannot be made.
 [[nodiscard]] Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& protocol);
+
+struct RunSession {
+    RunFiles files;
+    std::unique_ptr<SessionWriter> writer;
+};
+/// The files of a run and its session, begun: another program that begins one in the same second gets another name.
+/// Errors: as prepareRunFiles() and SessionWriter::create().
+[[nodiscard]] Result<RunSession> makeRunSession(const std::string& out, const std::string& protocol,
+                                                const SessionAbout& about, const Clock& clock);
 
 /// $XDG_DATA_HOME/tactoscope/sessions, or ~/.local/share/tactoscope/sessions.
 [[nodiscard]] std::filesystem::path userSessionsFolder();

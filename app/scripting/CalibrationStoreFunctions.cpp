@@ -32,7 +32,7 @@ Json lineJson(const StoredLine& line, std::string_view unit) {
             {"lowest", line.lowest}, {"highest", line.highest}};
 }
 
-Result<Json> calibration(ScriptSession& session, const Json&) {
+Result<Json> storedCalibration(ScriptSession& session, const Json&) {
     auto stimulator = connected(session, "bench.calibration");
     if (!stimulator) return failure(stimulator);
     const auto& device = (*stimulator)->identity();
@@ -132,7 +132,7 @@ Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::s
     return line;
 }
 
-Result<Json> keep(ScriptSession& session, const Json& list) {
+Result<Json> keepCalibration(ScriptSession& session, const Json& list) {
     const Arguments arguments("record.calibration", list);
     auto given = arguments.object(0, "found");
     if (!given) return failure(given);
@@ -221,7 +221,7 @@ std::vector<HostFunction> calibrationStoreFunctions() {
          "{ calibrated, text }, and where calibrated: { made, valid_until, amplitude, interval, width, gap }, each of "
          "these { unit, gain, offset, uncertainty_pct, lowest, highest }.",
          "Throws without a stimulator, or when the store is damaged.",
-         calibration},
+         storedCalibration},
         {"bench",
          "useCalibration",
          HostKind::Function,
@@ -245,7 +245,7 @@ std::vector<HostFunction> calibrationStoreFunctions() {
          "Throws for a calibration that is incomplete or does not rest on readings of this run, a run that is not "
          "recorded, a stimulator without a serial, an oscilloscope that is overdue or does not state its accuracy, or "
          "a store that cannot be written.",
-         keep},
+         keepCalibration},
     };
 }
 

@@ -20,7 +20,7 @@ Result<Json> member(const Arguments& arguments, const char* key) {
     return (**found)[key];
 }
 
-Result<Json> conditions(ScriptSession&, const Json& list) {
+Result<Json> conditionsFigure(ScriptSession&, const Json& list) {
     auto found = member(Arguments("plot.conditions", list), "conditions");
     if (!found) return found;
     return Json{{"type", "conditions"}, {"conditions", *found}};
@@ -75,7 +75,7 @@ Result<Json> waveforms(ScriptSession& session, const Json&) {
     return Json{{"type", "waveforms"}, {"captures", captures}};
 }
 
-Result<Json> exposure(ScriptSession& session, const Json& list) {
+Result<Json> exposureFigure(ScriptSession& session, const Json& list) {
     const Arguments arguments("plot.exposure", list);
     if (arguments.at(0).is_null()) {
         session.watchExposure();
@@ -115,7 +115,7 @@ std::vector<HostFunction> plotFunctions() {
          "The conditions as measured: texture alone, pressure alone, the two combined.",
          kFigure,
          "",
-         conditions},
+         conditionsFigure},
         {"plot",
          "plane",
          HostKind::Function,
@@ -148,7 +148,7 @@ std::vector<HostFunction> plotFunctions() {
          "Exposure against its limits.",
          kFigure,
          "",
-         exposure},
+         exposureFigure},
         {"plot",
          "timeline",
          HostKind::Function,

@@ -72,7 +72,7 @@ Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, cons
     return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMostADay);
 }
 
-Result<Json> keep(ScriptSession& session, const Json& list) {
+Result<Json> keepProfile(ScriptSession& session, const Json& list) {
     const Arguments arguments("record.sensorProfile", list);
     auto found = arguments.object(0, "found");
     if (!found) return failure(found);
@@ -143,7 +143,7 @@ std::vector<HostFunction> sensorProfileFunctions() {
          "one gets a number.",
          "{ name, file, profile }: file is null where it was not stored; what --profile takes.",
          "Throws for a refused calibration, while armed with another encoding, or where the file cannot be written.",
-         keep},
+         keepProfile},
     };
 }
 

@@ -17,7 +17,7 @@ namespace tacto {
 namespace {
 
 using Json = nlohmann::json;
-constexpr Seconds kLook{0.02};
+constexpr Seconds kStepLook{0.02};
 
 /// A train as the oscilloscope saw it. NaN where the record could not be measured.
 struct SeenTrain {
@@ -115,8 +115,8 @@ Result<void> settle(Bench& bench, const Command& wanted) {
                std::abs(now.interval_s - wanted.interval.count()) <= 1e-9;
     };
     std::uint64_t deliveredBefore = bench.telemetry().trainsDelivered;
-    for (double passed = 0; passed < kLongest_s; passed += kLook.count()) {
-        if (auto waited = bench.wait(kLook); !waited) return waited;
+    for (double passed = 0; passed < kLongest_s; passed += kStepLook.count()) {
+        if (auto waited = bench.wait(kStepLook); !waited) return waited;
         if (!arrived()) deliveredBefore = bench.telemetry().trainsDelivered;
         if (bench.telemetry().trainsDelivered > deliveredBefore) return {};
     }
@@ -134,7 +134,8 @@ Result<bool> watch(Recording& recording, Seconds limit, const Enough& enough) {
         if (enough()) return true;
         const Instant now = bench.clock().now();
         if (now >= until) return false;
-        if (auto waited = bench.wait(Seconds(std::min(toInstant(kLook), until - now))); !waited) return failure(waited);
+        if (auto waited = bench.wait(Seconds(std::min(toInstant(kStepLook), until - now))); !waited)
+            return failure(waited);
     }
 }
 

@@ -229,5 +229,35 @@ TEST(RunCaptureFolder, AnOscilloscopeFromFilesGivesTheTrialsOfThoseFiles) {
     }
 }
 
+TEST(Run, ResultsOfAnyShapeLeaveTheVerdictStanding) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    for (const char* results : {"loads: [1]", "loads: 5", "loads: [{ name: 3, verdict: {} }]", "confusion: 1",
+                                "confusion: [[1, 'x'], 2]", "trials_needed: 'many'", "reference: 5, amplitude: [1]",
+                                "amplitude: { levels: [1], readings: [1] }, reference: {}"}) {
+        const auto script =
+            desk.protocol("shape.js", fmt::format("protocol({{ title: 'S' }});\nfunction run(p) {{ return "
+                                                  "verdict({{ verdict: 'pass', {} }}); }}",
+                                                  results));
+        const auto ran = desk.run({"run", script, "--device", "sim:", "--out", desk.at("out")});
+        EXPECT_EQ(ran.code, 0) << results << "\n" << ran.err;
+        EXPECT_THAT(ran.out, HasSubstr("pass")) << results;
+    }
+}
+
+TEST(Run, TwoThatBeginInTheSameSecondKeepTheirSessions) {
+    const Desk desk;
+    const auto script = desk.protocol("short.js",
+                                      "protocol({ title: 'S' });\nfunction run(p) { return verdict({ verdict: "
+                                      "'pass' }); }");
+    const Words words{"run", script, "--device", "sim:"};
+    std::vector<std::unique_ptr<Desk::Started>> runs;
+    for (int i = 0; i < 6; ++i) runs.emplace_back(new Desk::Started(desk.start(words)));
+    for (const auto& run : runs) {
+        const auto ran = run->wait(std::chrono::seconds(60));
+        EXPECT_EQ(ran.code, 0) << ran.err;
+    }
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -48,12 +48,15 @@ TEST_F(Stop, AnInterruptEndsALiveRunWithExitCodeFour) {
     EXPECT_LT(secondsSince(signalled), 5);
 }
 
-TEST_F(Stop, ATerminationDoesTheSame) {
+TEST_F(Stop, ATerminationATerminalThatClosesAndAQuitDoTheSame) {
     RecordProperty("hazard", "H2");
-    auto run = live();
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
-    run.signal(SIGTERM);
-    expectStopped(desk, run.wait(std::chrono::seconds(20)));
+    for (const int signal : {SIGTERM, SIGHUP, SIGQUIT}) {
+        std::filesystem::remove_all(desk.at("out"));
+        auto run = live();
+        ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+        run.signal(signal);
+        expectStopped(desk, run.wait(std::chrono::seconds(20)));
+    }
 }
 
 TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {

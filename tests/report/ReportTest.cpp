@@ -187,6 +187,24 @@ TEST_F(Report, NeverCallsAMissingExposureWithin) {
     EXPECT_TRUE(contentOfFile(write(model, "e.html")).contains("Not evaluated: this session holds no exposure."));
 }
 
+TEST_F(Report, HoldsNoCharacterThatCommandsATerminalOrTurnsTheText) {
+    RecordProperty("hazard", "H10");
+    auto model = separabilityModel(false, 3);
+    const QString hostile = QString::fromUtf8("a\x1b[31m b\u202e c\u009b d\x07 e\u200b.");
+    model.reasons << hostile;
+    model.protocol = hostile;
+    for (auto& item : model.items) {
+        if (auto* figure = std::get_if<ReportFigure>(&item)) figure->caption = hostile;
+    }
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "h.html")));
+    EXPECT_TRUE(html.contains(QChar(QChar::ReplacementCharacter)));
+    for (const QChar c : html) {
+        const auto u = c.unicode();
+        EXPECT_FALSE((u < 0x20 && u != '\n' && u != '\t') || (u >= 0x7f && u < 0xa0) || u == 0x202e || u == 0x200b)
+            << int{u};
+    }
+}
+
 TEST_F(Report, WritesWellFormedHtmlThatNeedsNoOtherFile) {
     auto model = separabilityModel(true);
     model.title = "Marks <b> & \"quotes\" \x01";

@@ -14,11 +14,11 @@ using testing::HasSubstr;
 using Json = nlohmann::json;
 using Settings = std::map<std::string, std::string>;
 
-const std::set<Role> kNeeded{Role::Stimulator, Role::Oscilloscope};
+const std::set<Role> kCompared{Role::Stimulator, Role::Oscilloscope};
 const Settings kShort{{"repeats", "2"}, {"level_repeats", "2"}};
 
 ScriptOutcome compare(const Settings& settings) {
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kCompared);
     auto outcome = runProtocol(rig.shipped("encoding-comparison", settings)).value();
     EXPECT_TRUE(rig.outputOff());
     return outcome;
@@ -114,7 +114,7 @@ TEST(EncodingComparison, OnAnotherLoadThanStatedComparesNothing) {
 }
 
 TEST(EncodingComparison, ReportsSideBySideAndAgainstTheDefault) {
-    RunBench rig(true, "sim:", 1, true, kNeeded);
+    RunBench rig(true, "sim:", 1, true, kCompared);
     const auto outcome = runProtocol(rig.shipped("encoding-comparison", kShort)).value();
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     rig.closeBench();
@@ -137,7 +137,7 @@ class ComparisonFault : public ::testing::TestWithParam<std::tuple<const char*, 
 TEST_P(ComparisonFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     RecordProperty("hazard", "H2");
     const auto [device, at_s] = GetParam();
-    RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kNeeded);
+    RunBench rig(true, fmt::format("sim:{}@{}s", device, at_s), 1, false, kCompared);
     const auto outcome = runProtocol(rig.shipped("encoding-comparison", kShort)).value();
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(AtEachStep, ComparisonFault,
 
 TEST(EncodingComparison, StoppedKeepsTheEncodingsThatWereWhole) {
     RecordProperty("hazard", "H2");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
+    RunBench rig(true, "sim:", 1, false, kCompared);
     auto request = rig.shipped("encoding-comparison", kShort);
     Bench& bench = rig.bench();
     int trials = 0;

@@ -26,12 +26,12 @@ enum Column {
     kColumns
 };
 
-QString day(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
+QString dayText(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
 
 QString instrumentsOf(const StoredCalibration& c) {
     QStringList all;
     for (const auto& one : c.instruments) {
-        const auto due = one.due ? QObject::tr("due %1").arg(day(*one.due)) : QObject::tr("due date not stated");
+        const auto due = one.due ? QObject::tr("due %1").arg(dayText(*one.due)) : QObject::tr("due date not stated");
         all << QString("%1 %2, %3").arg(QString::fromStdString(one.name), QString::fromStdString(one.serial), due);
     }
     return all.isEmpty() ? QString("–") : all.join("; ");
@@ -97,8 +97,8 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
         if (c.simulated) state += tr(", simulated");
         const QString cells[kColumns] = {
             state,
-            day(c.made),
-            day(c.validUntil),
+            dayText(c.made),
+            dayText(c.validUntil),
             QString::number(c.amplitude.gain, 'f', 4),
             quantityText(c.amplitude.offset, unit, 2),
             quantityText(c.amplitude.uncertainty_pct, "%", 2),

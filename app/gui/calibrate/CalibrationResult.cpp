@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-double number(const json& in, const char* key) {
+double numberIn(const json& in, const char* key) {
     const auto at = in.find(key);
     return at != in.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
@@ -85,17 +85,17 @@ void CalibrationResult::addSummary(const json& found) {
         shown->setToolTip(tip);
         form->addRow(name, shown);
     };
-    add(tr("Gain"), plusMinus(number(found, "gain"), number(found, "gain_expanded_uncertainty"), {}),
+    add(tr("Gain"), plusMinus(numberIn(found, "gain"), numberIn(found, "gain_expanded_uncertainty"), {}),
         tr("Delivered over commanded, of the fitted line, with its uncertainty (95 %)."));
-    add(tr("Offset"), plusMinus(number(found, "offset"), number(found, "offset_expanded_uncertainty"), unit_),
+    add(tr("Offset"), plusMinus(numberIn(found, "offset"), numberIn(found, "offset_expanded_uncertainty"), unit_),
         tr("What the fitted line delivers for a command of 0, with its uncertainty (95 %)."));
-    add(tr("U at the largest command"), quantityText(number(found, "expanded_uncertainty"), unit_, 2),
+    add(tr("U at the largest command"), quantityText(numberIn(found, "expanded_uncertainty"), unit_, 2),
         tr("Expanded uncertainty (95 %): the budget below says what it is made of."));
-    add(tr("Largest residual"), quantityText(number(found, "residual_max_pct_fs"), "% FS", 2),
+    add(tr("Largest residual"), quantityText(numberIn(found, "residual_max_pct_fs"), "% FS", 2),
         tr("The largest distance of a level's mean from the line, in % of the largest command."));
-    add(tr("Repeatability"), quantityText(number(found, "repeatability_pct_fs"), "% FS", 2),
+    add(tr("Repeatability"), quantityText(numberIn(found, "repeatability_pct_fs"), "% FS", 2),
         tr("Standard deviation of repeats in the same direction, in % of the largest command."));
-    add(tr("Hysteresis"), quantityText(number(found, "hysteresis_pct_fs"), "% FS", 2),
+    add(tr("Hysteresis"), quantityText(numberIn(found, "hysteresis_pct_fs"), "% FS", 2),
         tr("The largest difference between going up and down at one level, in % of the largest command."));
     const int outliers = found.value("outliers", 0), missing = found.value("not_measured", 0);
     auto readings = tr("n = %1").arg(found.value("n", 0));
@@ -136,7 +136,7 @@ void CalibrationResult::addLevels(const json& levels) {
            "by more than U."));
     const auto column = [&](const char* key) {
         std::vector<double> values;
-        for (const auto& level : levels) values.push_back(number(level, key));
+        for (const auto& level : levels) values.push_back(numberIn(level, key));
         return values;
     };
     const char* keys[] = {"commanded", "", "mean", "mean_up", "mean_down", "s", "error", "expanded_uncertainty",
@@ -164,23 +164,23 @@ void CalibrationResult::addBudget(const json& budget) {
            "They are combined as the sum of squares (GUM)."));
     for (int row = 0; row < int(rows.size()); ++row) {
         const auto& one = rows[std::size_t(row)];
-        const double freedom = number(one, "degrees_of_freedom");
+        const double freedom = numberIn(one, "degrees_of_freedom");
         putText(*table, row, 0, words(one, "name"), false);
         putText(*table, row, 1, words(one, "distribution"), false);
-        putText(*table, row, 2, plain(number(one, "value"), 3), true);
-        putText(*table, row, 3, plain(number(one, "divisor"), 4), true);
-        putText(*table, row, 4, plain(number(one, "sensitivity"), 4), true);
-        putText(*table, row, 5, plain(number(one, "contribution"), 3), true);
+        putText(*table, row, 2, plain(numberIn(one, "value"), 3), true);
+        putText(*table, row, 3, plain(numberIn(one, "divisor"), 4), true);
+        putText(*table, row, 4, plain(numberIn(one, "sensitivity"), 4), true);
+        putText(*table, row, 5, plain(numberIn(one, "contribution"), 3), true);
         putText(*table, row, 6, std::isfinite(freedom) ? plain(freedom, 3) : QString("∞"), true);
     }
     const int last = int(rows.size());
-    const double factor = number(budget, "coverage_factor");
+    const double factor = numberIn(budget, "coverage_factor");
     putText(*table, last, 0, tr("combined"), false);
     putText(*table, last, 1,
             tr("%1%2").arg(words(budget, "method"),
                            std::isfinite(factor) ? tr(", k = %1").arg(factor, 0, 'f', 2) : QString()),
             false);
-    putText(*table, last, 5, plain(number(budget, "combined"), 3), true);
+    putText(*table, last, 5, plain(numberIn(budget, "combined"), 3), true);
     fitToRows(*table);
 }
 

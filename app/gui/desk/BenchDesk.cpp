@@ -388,13 +388,11 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
         .clock = *live->clock, .seed = order.seed, .declaredLoad = kDefaultLoad, .stops = stops_.get(), .asked = asked};
     auto devices = registry.open(order.uris, order.needed, context);
     if (!devices) return give_up(devices.error());
-    const auto files = prepareRunFiles("", "live");
-    if (!files) return give_up(files.error());
     auto about = aboutSession(*devices, order.profile, limits_, nullptr);
     about.seed = order.seed;
-    auto session = SessionWriter::create(files->session, about, *live->clock);
+    auto session = makeRunSession("", "live", about, *live->clock);
     if (!session) return give_up(session.error());
-    live->session = std::move(*session);
+    live->session = std::move(session->writer);
     BenchConfig config;
     config.devices = std::move(*devices);
     config.clock = live->clock;
@@ -417,7 +415,7 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
         live->bench.reset();
         return give_up(Error{ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered"});
     }
-    auto open = describe(*live->bench, about, files->session);
+    auto open = describe(*live->bench, about, session->files.session);
     auto tap = live->tap;
     live_ = std::move(live);
     become(Activity::Live, std::move(open), std::move(tap));

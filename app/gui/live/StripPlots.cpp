@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kMostTaxels = TapSample::kMaxChannels;
 constexpr double kGapSteps = 2.5;  // of a stream's own step: beyond, a sample is missing
 constexpr double kFrameGap_s = 0.1;
-constexpr std::size_t kReadings = 256;
 // How much of the height each strip gets.
 constexpr double kHeights[] = {1.3, 0.8, 0.9, 1.2, 1, 1.1};
 

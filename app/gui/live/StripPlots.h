@@ -88,6 +88,7 @@ private:
     QCPGraph* measured_ = nullptr;
     QCPGraph* scoped_ = nullptr;
     QCPGraph* failed_ = nullptr;
+    static constexpr std::size_t kReadings = 256;
     std::vector<QCPGraphData> readings_;  // of the oscilloscope, a ring
     std::size_t nextReading_ = 0;
     QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // reused

@@ -11,7 +11,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kReadings = 256;
 constexpr double kUnderZero = 0.06;  // of the height, so that a trace at zero is seen
 constexpr int kTextEvery = 4;        // pictures: as fast as one reads
 

@@ -118,6 +118,7 @@ void LoadRows::add(const nlohmann::json& trial) {
 void LoadRows::end(const nlohmann::json& results) {
     if (results.is_object() && results.contains("loads")) {
         for (const auto& line : results["loads"]) {
+            if (!line.is_object()) continue;
             const int row = rowOf(QString::fromStdString(line.value("name", std::string())));
             numbers(row, line, "measured_ohm");
             judge(row, QString::fromStdString(line.value("verdict", std::string("not evaluated"))));

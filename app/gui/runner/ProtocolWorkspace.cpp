@@ -286,11 +286,21 @@ void ProtocolWorkspace::ended(const FinishedRun& run) {
     prompt_->close();
     const auto& error = run.result.outcome.error;
     plane_->setSimulated(run.result.simulated);
-    loads_->end(run.result.outcome.results);
     calibration_->setSimulated(run.result.simulated);
-    calibration_->end(run.result.outcome.results);
     panel_->end(error.has_value());
-    result_->show(run);
+    // A script may return anything under any name.
+    const auto shows = [&](auto&& show) {
+        try {
+            show();
+        } catch (const nlohmann::json::exception& problem) {
+            panel_->say(
+                tr("The results do not have the shape that is shown here (%1); the session holds them as they are.")
+                    .arg(QString::fromUtf8(problem.what())));
+        }
+    };
+    shows([&] { loads_->end(run.result.outcome.results); });
+    shows([&] { calibration_->end(run.result.outcome.results); });
+    shows([&] { result_->show(run); });
     steps_->setCurrent(kAllDone);
     steps_->setTroubled(kRun, false);
     steps_->setNote(kResult, result_->word());

@@ -67,7 +67,7 @@ QString readingText(Reading reading, double value, const QString& channelUnit) {
     return unit == "%" ? percentText(shown) : quantityText(shown, unit);
 }
 
-QString titled(QString name) {
+QString channelTitle(QString name) {
     if (!name.isEmpty()) name[0] = name[0].toUpper();
     return name;
 }
@@ -143,7 +143,7 @@ void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, cons
     statistics_.add(measured);
     if (rows != statistics_.channels().size() || statistics_.captures() == 1) layRows();
     QStringList sentences;
-    for (const auto& warning : warnings) sentences << titled(QString::fromStdString(warning)) + ".";
+    for (const auto& warning : warnings) sentences << channelTitle(QString::fromStdString(warning)) + ".";
     warnings_->setText(sentences.join("\n"));
     warnings_->setVisible(!sentences.isEmpty());
     refill();
@@ -175,7 +175,7 @@ void MeasurementTable::layRows() {
             table_->setItem(row, c, item);
         }
         const auto& channel = channels[static_cast<std::size_t>(row / kStatistics)];
-        if (row % kStatistics == 0) table_->item(row, 0)->setText(titled(channel.name));
+        if (row % kStatistics == 0) table_->item(row, 0)->setText(channelTitle(channel.name));
         table_->item(row, 1)->setText(statisticName(row % kStatistics));
     }
     restyle();

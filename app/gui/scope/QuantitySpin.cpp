@@ -12,10 +12,10 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kDecimals = 12;  // of the value that is held
-constexpr int kShown = 4;      // significant digits of it that are shown
+constexpr int kDigits = 4;     // significant digits of it that are shown
 
 /// Nobody sets a level to a millionth, and nobody reads one.
-double asShown(double value) { return QString::number(value, 'g', kShown).toDouble(); }
+double asShown(double value) { return QString::number(value, 'g', kDigits).toDouble(); }
 
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kHalf = kDivisionsUp / 2.0;
+constexpr double kHalfHeight = kDivisionsUp / 2.0;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void ScopeView::fitLanes(Viewport& view) const {
             low = middle - least / 2;
             high = middle + least / 2;
         }
-        const double middle = l->shown ? kHalf - (place++ + 0.5) * height : 0;
+        const double middle = l->shown ? kHalfHeight - (place++ + 0.5) * height : 0;
         // Lanes may touch: half a division more would often halve them.
         view.lanes[l->key] = restingLevels(low, high, middle, height * (count > 1 ? 1.08 : 0.95));
     }
@@ -55,8 +55,8 @@ bool ScopeView::outgrown() const {
         const auto scale = scaleOf(*l);
         const auto all = newest->pyramid.over(0, newest->size());
         if (all.empty()) continue;
-        if (static_cast<double>(all.high) / scale.perDivision + scale.position > kHalf ||
-            static_cast<double>(all.low) / scale.perDivision + scale.position < -kHalf) {
+        if (static_cast<double>(all.high) / scale.perDivision + scale.position > kHalfHeight ||
+            static_cast<double>(all.low) / scale.perDivision + scale.position < -kHalfHeight) {
             return true;
         }
     }

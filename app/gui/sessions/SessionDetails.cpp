@@ -12,9 +12,9 @@ namespace tacto::gui {
 
 namespace {
 
-QString q(const std::string& text) { return QString::fromStdString(text); }
+QString shownText(const std::string& text) { return QString::fromStdString(text); }
 
-constexpr std::size_t kDrawnPoints = 4000;
+constexpr std::size_t kDetailPoints = 4000;
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
@@ -98,32 +98,35 @@ void SessionDetails::say(const QString& why) {
 
 QString SessionDetails::aboutHtml() const {
     const auto& about = session_->about;
-    QString html = QString("<h3>%1</h3>").arg(q(session_->path.filename().string()).toHtmlEscaped());
+    QString html = QString("<h3>%1</h3>").arg(shownText(session_->path.filename().string()).toHtmlEscaped());
     if (about.simulated) html += "<p><b>" + tr("SIMULATED") + "</b></p>";
     for (const auto& verdict : session_->verdicts) {
-        html += QString("<p><b>%1: %2</b>").arg(q(verdict.subject).toHtmlEscaped(), q(verdict.verdict).toHtmlEscaped());
-        for (const auto& reason : verdict.reasons) html += "<br>" + q(reason).toHtmlEscaped();
+        html += QString("<p><b>%1: %2</b>")
+                    .arg(shownText(verdict.subject).toHtmlEscaped(), shownText(verdict.verdict).toHtmlEscaped());
+        for (const auto& reason : verdict.reasons) html += "<br>" + shownText(reason).toHtmlEscaped();
         html += "</p>";
     }
     html += "<table cellpadding=\"3\">";
     const auto row = [&](const QString& name, const QString& value) {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
     };
-    row(tr("Protocol"), about.protocol.empty() ? tr("live") : q(about.protocol));
-    row(tr("Began"), q(about.wallStart));
+    row(tr("Protocol"), about.protocol.empty() ? tr("live") : shownText(about.protocol));
+    row(tr("Began"), shownText(about.wallStart));
     row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
-    if (!about.parameters.empty()) row(tr("Parameters"), q(about.parameters.dump()));
+    if (!about.parameters.empty()) row(tr("Parameters"), shownText(about.parameters.dump()));
     row(tr("Seed"), QString::number(about.seed));
-    row(tr("Output mode"), q(about.mode));
+    row(tr("Output mode"), shownText(about.mode));
     for (const auto& device : about.devices) {
-        row(q(device.role), QString("%1 · %2%3")
-                                .arg(q(device.name), q(device.uri),
-                                     device.serial.empty() ? QString() : tr(" · serial %1").arg(q(device.serial))));
+        row(shownText(device.role),
+            QString("%1 · %2%3")
+                .arg(shownText(device.name), shownText(device.uri),
+                     device.serial.empty() ? QString() : tr(" · serial %1").arg(shownText(device.serial))));
     }
-    for (const auto& set : about.limitSets) row(tr("Limit set"), q(set.id + " · " + set.sha256.substr(0, 16) + "…"));
-    row(tr("Profile"), q(about.profileSha256.substr(0, 16) + "…"));
-    row(tr("Program"), q(about.programVersion));
-    row(tr("Chain head"), q(session_->head));
+    for (const auto& set : about.limitSets)
+        row(tr("Limit set"), shownText(set.id + " · " + set.sha256.substr(0, 16) + "…"));
+    row(tr("Profile"), shownText(about.profileSha256.substr(0, 16) + "…"));
+    row(tr("Program"), shownText(about.programVersion));
+    row(tr("Chain head"), shownText(session_->head));
     return html + "</table>";
 }
 
@@ -153,26 +156,26 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
             return quantityText(at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan(""), unit,
                                 4);
         };
-        rows << QStringList{QString::number(trial.number),
-                            quantityText(toSeconds(trial.at), "s", 4),
-                            q(trial.condition),
-                            number("amplitude_v", "V"),
-                            number("interval_s", "s"),
-                            number("width_s", "s")};
+        rows << QStringList{QString::number(trial.number), quantityText(toSeconds(trial.at), "s", 4),
+                            shownText(trial.condition),    number("amplitude_v", "V"),
+                            number("interval_s", "s"),     number("width_s", "s")};
     }
     fill(*trials_, {tr("Trial"), tr("At"), tr("Condition"), tr("Amplitude"), tr("Interval"), tr("Width")}, rows);
     rows.clear();
     for (const auto& event : session_->events)
-        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), q(event.name), q(event.body.dump())};
+        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), shownText(event.name),
+                            shownText(event.body.dump())};
     for (const auto& line : session_->log)
-        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), q(line.name), q(line.body.value("text", ""))};
+        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), shownText(line.name),
+                            shownText(line.body.value("text", ""))};
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a[0].toDouble() < b[0].toDouble(); });
     fill(*events_, {tr("At (s)"), tr("Event"), tr("Details")}, rows);
     rows.clear();
     for (const auto& stream : session_->streams) {
-        rows << QStringList{q(stream.stream.name), q(stream.stream.unit), quantityText(stream.stream.rate_hz, "Hz", 4),
-                            QString::number(stream.samples), QString::number(stream.stream.columns.size())};
+        rows << QStringList{shownText(stream.stream.name), shownText(stream.stream.unit),
+                            quantityText(stream.stream.rate_hz, "Hz", 4), QString::number(stream.samples),
+                            QString::number(stream.stream.columns.size())};
     }
     fill(*streams_, {tr("Stream"), tr("Unit"), tr("Rate"), tr("Samples"), tr("Channels")}, rows);
     plot_->clearGraphs();
@@ -205,7 +208,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         std::vector<double> values(samples.samples());
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = samples.values[i * columns + c];
         QVector<double> x, y;
-        for (const auto i : visiblePoints(values, kDrawnPoints)) {
+        for (const auto i : visiblePoints(values, kDetailPoints)) {
             x << samples.t_s[i];
             y << values[i];
         }
@@ -214,8 +217,9 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         const QColor of[] = {colours().voltage, colours().current, colours().math, colours().amber};
         graph->setPen(QPen(of[c % 4]));
     }
-    plot_->yAxis->setLabel(info.stream.unit.empty() ? q(info.stream.name)
-                                                    : QString("%1 (%2)").arg(q(info.stream.name), q(info.stream.unit)));
+    plot_->yAxis->setLabel(info.stream.unit.empty()
+                               ? shownText(info.stream.name)
+                               : QString("%1 (%2)").arg(shownText(info.stream.name), shownText(info.stream.unit)));
     plot_->rescaleAxes();
     plot_->replot();
 }

@@ -18,7 +18,7 @@ namespace tacto::gui {
 
 namespace {
 
-QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
+QString helpText(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
 
 QString definitions() {
     const auto resources = resourcesFolder();
@@ -32,22 +32,22 @@ QString limitsAsHtml(const ShippedLimits& limits) {
     QString html;
     for (const auto& set : limits.sets) {
         html += QString("<h3>%1 (%2)</h3><table cellspacing=\"0\" cellpadding=\"4\">")
-                    .arg(words(set.title).toHtmlEscaped(), words(set.id).toHtmlEscaped());
+                    .arg(helpText(set.title).toHtmlEscaped(), helpText(set.id).toHtmlEscaped());
         html += QString(
                     "<tr><th align=\"left\">%1</th><th align=\"left\">%2</th><th align=\"left\">%3</th>"
                     "<th align=\"left\">%4</th></tr>")
                     .arg(QObject::tr("Quantity"), QObject::tr("Limit"), QObject::tr("Judged"), QObject::tr("Source"));
         for (const auto& row : set.rows) {
             const auto limit =
-                QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, words(unitOf(row.quantity))));
+                QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, helpText(unitOf(row.quantity))));
             const auto judged = row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω")
                                                                : QObject::tr("worst case over the load range");
             auto action = row.action == LimitAction::Refuse ? QString()
                           : row.action == LimitAction::Warn ? QObject::tr(" (a warning)")
                                                             : QObject::tr(" (to be stated)");
             html += QString("<tr><td>%1</td><td>%2%3</td><td>%4</td><td>%5</td></tr>")
-                        .arg(words(titleOf(row.quantity)), limit.toHtmlEscaped(), action, judged,
-                             words(row.source).toHtmlEscaped());
+                        .arg(helpText(titleOf(row.quantity)), limit.toHtmlEscaped(), action, judged,
+                             helpText(row.source).toHtmlEscaped());
         }
         html += "</table>";
     }
@@ -66,7 +66,7 @@ struct Key {
 };
 constexpr const char* kAlways = QT_TRANSLATE_NOOP("Keys", "Always");
 constexpr const char* kBench = QT_TRANSLATE_NOOP("Keys", "Bench and protocols");
-constexpr const char* kScope = QT_TRANSLATE_NOOP("Keys", "Oscilloscope and plots");
+constexpr const char* kScopeKeys = QT_TRANSLATE_NOOP("Keys", "Oscilloscope and plots");
 const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
     static const std::vector<std::pair<const char*, std::vector<Key>>> all{
         {kAlways,
@@ -84,7 +84,7 @@ const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
           {"Ctrl+Shift+A", QT_TRANSLATE_NOOP("Keys", "arms: the first of two steps")},
           {"F5", QT_TRANSLATE_NOOP("Keys", "runs the protocol")},
           {"Shift+F5", QT_TRANSLATE_NOOP("Keys", "stops the protocol")}}},
-        {kScope,
+        {kScopeKeys,
          {{"S, N, A", QT_TRANSLATE_NOOP("Keys", "single, normal, auto")},
           {"Wheel, Ctrl+Wheel", QT_TRANSLATE_NOOP("Keys", "zooms time, level")},
           {"Drag", QT_TRANSLATE_NOOP("Keys", "pans")},

@@ -438,6 +438,15 @@ void MainWindow::showEvent(QShowEvent* event) {
     QTimer::singleShot(0, this, &MainWindow::stayOnScreen);  // once the window system has put its frame around it
 }
 
+void MainWindow::changeEvent(QEvent* event) {
+    QMainWindow::changeEvent(event);
+    if (event->type() != QEvent::WindowStateChange || !isMinimized()) return;
+    // Nobody reaches a STOP that is not on the screen. A simulated output may go on.
+    const auto open = desk_.open();
+    const bool virtualOutput = open && (!open->output || open->output->simulated);
+    if (desk_.activity() != Activity::Closed && !virtualOutput) desk_.stop("the window was minimised");
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
     desk_.stop("the window closes");
     QSettings settings;

@@ -15,7 +15,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFlashFrames = 4;
-constexpr int kGap = 16;
+constexpr int kBarGap = 16;
 constexpr const char* kFactsWidth = "calibrated 12 d ago, until";
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
                                     QT_TRANSLATE_NOOP("SafetyBar", "&Reset fault")};
@@ -82,7 +82,7 @@ SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidg
     setBackgroundRole(QPalette::Base);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(kGap);
+    row->setSpacing(kBarGap);
     row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() says how narrow it may be
     facts_ = buildFacts();
     QStringList titles;
@@ -148,8 +148,8 @@ void SafetyBar::giveRoom() {
     const auto metrics = fontMetrics();
     int widest = 0;
     for (const auto* words : kActions) widest = std::max(widest, metrics.horizontalAdvance(tr(words).remove('&')));
-    buttons_->setFixedWidth(widest + 3 * kGap);
-    const int always = buttons_->width() + stop_->sizeHint().width() + 4 * kGap;
+    buttons_->setFixedWidth(widest + 3 * kBarGap);
+    const int always = buttons_->width() + stop_->sizeHint().width() + 4 * kBarGap;
     const int facts = metrics.horizontalAdvance(tr(kFactsWidth));
     const int aBar = metrics.horizontalAdvance("88.8 of 188 mA/cm²");
     block_->fit(width() - always - facts - aBar);
@@ -157,7 +157,7 @@ void SafetyBar::giveRoom() {
 }
 
 QSize SafetyBar::minimumSizeHint() const {
-    return {block_->smallestWidth() + buttons_->minimumWidth() + stop_->sizeHint().width() + 4 * kGap,
+    return {block_->smallestWidth() + buttons_->minimumWidth() + stop_->sizeHint().width() + 4 * kBarGap,
             QFrame::minimumSizeHint().height()};
 }
 

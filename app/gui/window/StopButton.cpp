@@ -11,12 +11,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kDisplay = 2.67;  // times the text's size: 28 pt where text has 10.5 pt
-constexpr int kPadding = 24;
+constexpr double kStopDisplay = 2.67;  // times the text's size: 28 pt where text has 10.5 pt
+constexpr int kStopPadding = 24;
 
 QFont wordFont() {
     auto font = QApplication::font();
-    font.setPointSizeF(font.pointSizeF() * kDisplay);
+    font.setPointSizeF(font.pointSizeF() * kStopDisplay);
     font.setBold(true);
     return font;
 }
@@ -56,8 +56,8 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
 
 QSize StopButton::sizeHint() const {
     const QFontMetrics word(wordFont()), small(keysFont());
-    return {std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kPadding,
-            word.height() + small.height() + kPadding / 3};
+    return {std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kStopPadding,
+            word.height() + small.height() + kStopPadding / 3};
 }
 
 void StopButton::changeEvent(QEvent* event) {

@@ -16,14 +16,14 @@ using gui::RollingGraph;
 using gui::Series;
 using gui::StripPlots;
 
-const std::vector<StreamInfo> kStreams{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "a"},
+const std::vector<StreamInfo> kPlotted{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "a"},
                                        {StreamKind::Force, StreamUnit::Newton, 1, 200, "f"},
                                        {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "t"}};
 
 class Plots : public testing::Test {
 protected:
     Plots() {
-        history.begin(kStreams);
+        history.begin(kPlotted);
         plots.begin(true, true, "V");
         plots.resize(900, 700);
         plots.show();
@@ -177,7 +177,7 @@ TEST_F(Plots, AFrozenPictureStandsStillWhileTheHistoryGoesOn) {
 }
 
 TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
-    history.begin({kStreams[2]});
+    history.begin({kPlotted[2]});
     plots.begin(false, true, "mA");
     EXPECT_FALSE(plots.has(StreamKind::Acceleration));
     EXPECT_FALSE(plots.has(StreamKind::Force));

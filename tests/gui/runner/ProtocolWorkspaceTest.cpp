@@ -282,5 +282,21 @@ function run(p) {
     EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
 }
 
+TEST_F(Workspace, ResultsOfAnyShapeAreNoReasonToEnd) {
+    RecordProperty("hazard", "H10");
+    write("shapes", R"js(protocol({ title: "S", purpose: "Returns anything.", needs: [], parameters: {} });
+function run(p) {
+  return verdict({ verdict: "pass", loads: [1, { name: 5, verdict: {} }], confusion: [[1, "x"], 2],
+    amplitude: { levels: [1], readings: [1, { outlier: "yes" }], gain: "x", unit: 5 }, reference: 5, trials_needed: [] });
+}
+)js");
+    open("");
+    choose("shapes");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("runButton"));
+    ASSERT_TRUE(ends());
+    EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -4,6 +4,7 @@
 
 #include "app/gui/look/Look.h"
 #include "tests/gui/window/HardwareBench.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -143,6 +144,26 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
     gui::applyTheme(gui::Theme::Light);
     QTest::qWait(100);
     shot(window, "hardware_faulted_light_small");
+}
+
+TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
+    RecordProperty("hazard", "H2");
+    const OwnSerial serial;  // as a real device has it
+    sciencemode::EmulatedSettings real;
+    real.id = serial.text();
+    stimulator->plugAnother(real);
+    open({kStimulator});
+    arm();
+    deliver();
+    window.showMinimized();
+    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; }, 1000));
+    const auto pulses = stimulator->pulses();
+    QTest::qWait(700);
+    EXPECT_EQ(stimulator->pulses(), pulses);
+    window.showNormal();
+    EXPECT_EQ(state(), InterlockState::Disarmed) << "nothing comes back by itself";
+    window.desk().close();
+    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == gui::Activity::Closed; }));
 }
 
 }  // namespace
