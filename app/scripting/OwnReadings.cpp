@@ -2,9 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace tacto {
+
+namespace {
+
+/// As a script is given it: what is not finite is null.
+void noNaN(nlohmann::json& value) {
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
+    if (value.is_structured()) std::for_each(value.begin(), value.end(), noNaN);
+}
+
+}  // namespace
 
 std::int64_t OwnReadings::add(OwnReading reading) {
     readings_.push_back(std::move(reading));
@@ -37,8 +48,9 @@ Result<std::vector<const OwnReading*>> OwnReadings::readings(const std::vector<s
     return found;
 }
 
-void OwnReadings::note(const nlohmann::json& made) {
-    made_.push_back(nlohmann::json::parse(made.dump()));  // as the script gets it: what is no number is null
+void OwnReadings::note(nlohmann::json made) {
+    noNaN(made);
+    made_.push_back(std::move(made));
 }
 
 bool OwnReadings::noted(const nlohmann::json& said) const {

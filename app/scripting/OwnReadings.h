@@ -57,7 +57,7 @@ public:
     /// reading or capture that comes twice.
     [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
     /// Remembers what a host function returned, where scripts hand on whole objects.
-    void note(const nlohmann::json& made);
+    void note(nlohmann::json made);
     /// True for what was noted, unchanged.
     [[nodiscard]] bool noted(const nlohmann::json& said) const;
 
