@@ -1,11 +1,14 @@
-// Runs a script's top level to learn what it declares.
+#include "app/scripting/DeclarationReader.h"
+
+#include <QProcess>
 #include <QRegularExpression>
 #include <mutex>
 
 #include "app/scripting/Arming.h"
 #include "app/scripting/MemoryGuard.h"
-#include "app/scripting/ProtocolDeclaration.h"
 #include "app/scripting/ScriptThread.h"
+#include "core/base/JsonText.h"
+#include "core/base/ProgramPath.h"
 
 namespace tacto {
 
@@ -23,17 +26,18 @@ public:
                         function.object.empty() ? "" : ".", function.name);
         }
         if (arguments.size() < 3) return fail(ErrorCode::InvalidArgument, "protocol() was given nothing");
-        auto declaration = parseDeclaration(arguments[0], arguments[1], arguments[2]);
-        if (!declaration) return failure(declaration);
+        // Here, so that the script's error names its line.
+        if (const auto sound = parseDeclaration(arguments[0], arguments[1], arguments[2]); !sound)
+            return failure(sound);
         const std::lock_guard lock(mutex_);
-        if (declaration_) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
-        declaration_ = std::move(*declaration);
+        if (declared_) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
+        declared_ = nlohmann::json{arguments[0], arguments[1], arguments[2]};
         return nlohmann::json();
     }
 
     std::mutex mutex_;
-    std::optional<ProtocolDeclaration> declaration_;  // guarded
-    std::optional<ScriptError> error_;                // guarded
+    std::optional<nlohmann::json> declared_;  // guarded
+    std::optional<ScriptError> error_;        // guarded
 };
 
 void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaration) {
@@ -60,10 +64,70 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     if (fits.match(text).hasMatch()) declaration.questions.emplace_back("fit-load");
 }
 
+std::string fileOf(const ProtocolSource& source) {
+    return source.path.empty() ? source.name + ".js" : source.path.string();
+}
+
+Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chrono::milliseconds limit) {
+    // Its start on a busy machine, and what a script may take to end when told to.
+    constexpr std::chrono::milliseconds kAround{10'000};
+    const auto program = programBeside("tactoscope-declare");
+    QProcess reader;
+    reader.setProgram(QString::fromStdString(program.string()));
+    reader.setArguments({QString::fromStdString(source.name), QString::fromStdString(source.path.string()),
+                         QString::number(limit.count())});
+    reader.setStandardErrorFile(QProcess::nullDevice());
+    reader.start();
+    if (!reader.waitForStarted()) {
+        return fail(ErrorCode::NotFound, "{} cannot be read: {} does not start ({}); install Tactoscope again",
+                    fileOf(source), program.string(), reader.errorString().toStdString());
+    }
+    reader.write(QByteArray::fromStdString(source.text));
+    reader.closeWriteChannel();
+    if (!reader.waitForFinished(static_cast<int>((limit + kAround).count()))) {
+        reader.kill();
+        reader.waitForFinished();
+        return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end", fileOf(source));
+    }
+    if (reader.exitStatus() != QProcess::NormalExit) {
+        return fail(ErrorCode::ParseError, "{}:1: the lines outside run(p) made the script engine crash",
+                    fileOf(source));
+    }
+    return readAnswer(reader.readAllStandardOutput().toStdString(), fileOf(source));
+}
+
 }  // namespace
 
+nlohmann::json answerOf(const Result<nlohmann::json>& declared) {
+    if (declared) return {{"declared", *declared}};
+    return {{"code", static_cast<int>(declared.error().code)}, {"text", declared.error().message}};
+}
+
+Result<nlohmann::json> readAnswer(std::string_view answer, std::string_view from) {
+    auto read = parseJson(answer, from, {.bytes = 4'000'000, .depth = 64});
+    if (!read) return failure(read);
+    if (!read->is_object()) *read = nlohmann::json::object();
+    if (read->contains("declared") && (*read)["declared"].is_array() && (*read)["declared"].size() == 3)
+        return (*read)["declared"];
+    const auto code = read->value("code", nlohmann::json());
+    const auto text = read->value("text", nlohmann::json());
+    const bool known = code == static_cast<int>(ErrorCode::Timeout) || code == static_cast<int>(ErrorCode::ParseError);
+    if (known && text.is_string()) return fail(static_cast<ErrorCode>(code.get<int>()), "{}", text.get<std::string>());
+    return fail(ErrorCode::ParseError, "{}:1: the lines outside run(p) declare nothing that can be read", from);
+}
+
 Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source, std::chrono::milliseconds limit) {
-    const std::string file = source.path.empty() ? source.name + ".js" : source.path.string();
+    auto declared = source.shipped ? declareHere(source, limit) : declareElsewhere(source, limit);
+    if (!declared) return failure(declared);
+    auto declaration = parseDeclaration((*declared)[0], (*declared)[1], (*declared)[2]);
+    if (!declaration) return fail(ErrorCode::ParseError, "{}:1: {}", fileOf(source), declaration.error().message);
+    declaration->name = source.name;
+    findQuestions(source, *declaration);
+    return declaration;
+}
+
+Result<nlohmann::json> declareHere(const ProtocolSource& source, std::chrono::milliseconds limit) {
+    const std::string file = fileOf(source);
     auto port = std::make_shared<DeclarationPort>();
     ScriptThread thread(port, source, [raw = port.get()](Sandbox& sandbox) {
         auto error = sandbox.load();
@@ -95,13 +159,10 @@ Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source, std::c
     }
     const std::lock_guard lock(port->mutex_);
     if (port->error_) return fail(ErrorCode::ParseError, "{}", port->error_->text());
-    if (!port->declaration_) {
+    if (!port->declared_) {
         return fail(ErrorCode::ParseError, "{}:1: the script does not call protocol({{ title: ... }})", file);
     }
-    ProtocolDeclaration declaration = *port->declaration_;
-    declaration.name = source.name;
-    findQuestions(source, declaration);
-    return declaration;
+    return *port->declared_;
 }
 
 }  // namespace tacto

@@ -66,6 +66,8 @@ Result<ProtocolSource> readScript(const fs::path& path) {
     source.sha256 = QCryptographicHash::hash(bytes, QCryptographicHash::Sha256).toHex().toStdString();
     const auto* built = digestOfShipped(source.name);
     source.shipped = built != nullptr && built->sha256 == source.sha256;
+    // Wherever it lies, also in the program's own folder: the name says what was reviewed.
+    if (built != nullptr && !source.shipped) return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(path));
     QStringDecoder utf8(QStringDecoder::Utf8, QStringDecoder::Flag::Stateless);
     const QString text = utf8(bytes);
     if (utf8.hasError() || text.contains(QChar::Null)) {

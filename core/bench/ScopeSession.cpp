@@ -1,5 +1,6 @@
 #include "core/bench/ScopeSession.h"
 
+#include <new>
 #include <utility>
 
 namespace tacto {
@@ -67,6 +68,19 @@ bool ScopeSession::stale(const Capture& capture) const {
 
 Instant ScopeSession::serve(Instant now) noexcept {
     constexpr Instant kPollEvery = std::chrono::milliseconds(5);
+    try {
+        serveDevice(now);
+    } catch (const std::bad_alloc&) {
+        // A record may be the largest thing that the program holds. Its place is given back, and the run told.
+        device_.disarm();
+        const std::scoped_lock lock(mutex_);
+        error_ = Error{ErrorCode::Device, "no memory left"};  // short enough to need none
+        active_ = waiting_ = false;
+    }
+    return now + kPollEvery;
+}
+
+void ScopeSession::serveDevice(Instant now) {
     std::optional<ScopeSettings> settings;
     bool cancel = false;
     bool polling = false;
@@ -117,7 +131,6 @@ Instant ScopeSession::serve(Instant now) noexcept {
         error_ = done.error();
         active_ = waiting_ = false;
     }
-    return now + kPollEvery;
 }
 
 }  // namespace tacto

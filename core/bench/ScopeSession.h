@@ -46,6 +46,7 @@ public:
     [[nodiscard]] bool active() const;
 
 private:
+    void serveDevice(Instant now);
     [[nodiscard]] Result<void> forceWhenDue(Instant now);
     /// Of an earlier request.
     [[nodiscard]] bool stale(const Capture& capture) const;

@@ -172,7 +172,8 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     if (what != HidWrite::Stop) {
         lastBeat_ = clock_.now();
         if (!watchdog_->beat()) {
-            raise({ErrorCode::Device, fmt::format("{} is not driven: its watchdog has ended", identity_.name)});
+            raise({ErrorCode::Device,
+                   fmt::format("{} is not driven: its watchdog has ended or stands still", identity_.name)});
             timer_.askStop();
             return finish(tl::unexpected<Error>(*fault_));
         }
@@ -221,7 +222,7 @@ Instant HidMassager::keepBeating(Instant now) {
     if (now - lastBeat_ < Watchdog::kBeat) return lastBeat_ + Watchdog::kBeat;
     lastBeat_ = now;
     if (watchdog_->beat()) return now + Watchdog::kBeat;
-    raise({ErrorCode::Device, fmt::format("{} was stopped: its watchdog has ended", identity_.name)});
+    raise({ErrorCode::Device, fmt::format("{} was stopped: its watchdog has ended or stands still", identity_.name)});
     timer_.askStop();
     return now;
 }

@@ -21,8 +21,10 @@ public:
     static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
 
     virtual ~Watchdog() = default;
-    /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended: then there must be no
-    /// output.
+    static constexpr Instant kDeaf = std::chrono::milliseconds(500);  ///< so long it may leave beats unanswered
+
+    /// Output is about to begin, or goes on. Never waits. False where the watchdog has ended or stands still: then
+    /// there must be no output.
     [[nodiscard]] virtual bool beat() noexcept = 0;
     /// The device took its stop: silence is allowed until the next beat(). Never waits.
     virtual void rest() noexcept = 0;

@@ -14,7 +14,7 @@ inline constexpr int kWatchdogSocket = 3;  ///< the watchdog's end is this file 
 enum class WatchdogWord : char {
     Ready = 'r',   ///< watchdog: the device's node is open
     Failed = 'f',  ///< watchdog: it could not be opened; the error's number follows as an int
-    Beat = 'b',    ///< program: output begins or goes on
+    Beat = 'b',    ///< program: output begins or goes on; the watchdog answers with the same
     Rest = 'o',    ///< program: the device took its stop
     Leave = 'q',   ///< program: ends in order, with the output off
 };

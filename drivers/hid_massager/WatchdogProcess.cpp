@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/base/ProgramPath.h"
 #include "drivers/hid_massager/WatchdogLine.h"
 
 namespace tacto::hid {
@@ -64,10 +65,7 @@ bool waitFor(int line, int time_ms) noexcept {
 
 }  // namespace
 
-std::filesystem::path WatchdogProcess::programPath() {
-    std::error_code error;
-    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "tactoscope-watchdog";
-}
+std::filesystem::path WatchdogProcess::programPath() { return programBeside("tactoscope-watchdog"); }
 
 Result<std::unique_ptr<Watchdog>> WatchdogProcess::start(const StopWay& way, const std::filesystem::path& program) {
     std::error_code none;
@@ -106,14 +104,30 @@ WatchdogProcess::~WatchdogProcess() {
     const char leave = static_cast<char>(WatchdogWord::Leave);
     if (resting_) static_cast<void>(send(line_, &leave, 1, MSG_NOSIGNAL | MSG_DONTWAIT));
     shutdown(line_, SHUT_WR);
-    if (waitFor(line_, kEnd_ms)) waitpid(process_, nullptr, 0);
+    // Its end of the line closes with it; answers to beats may come before.
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kEnd_ms);
+    for (;;) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()).count();
+        if (left <= 0 || !waitFor(line_, static_cast<int>(left))) break;
+        char answer = 0;
+        const auto got = recv(line_, &answer, 1, MSG_DONTWAIT);
+        if (got == 1 || (got < 0 && (errno == EAGAIN || errno == EINTR))) continue;
+        waitpid(process_, nullptr, 0);
+        break;
+    }
     close(line_);
 }
 
 bool WatchdogProcess::beat() noexcept {
     const char word = static_cast<char>(WatchdogWord::Beat);
+    const auto now = std::chrono::steady_clock::now();
+    char answer = 0;
+    while (recv(line_, &answer, 1, MSG_DONTWAIT) == 1) unanswered_.reset();
+    // At rest there was nothing to answer.
+    if (resting_ || !unanswered_) unanswered_ = now;
     resting_ = false;
-    return send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1;
+    return now - *unanswered_ <= kDeaf && send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1;
 }
 
 void WatchdogProcess::rest() noexcept {

@@ -3,7 +3,9 @@
 // Thread-safety: as Watchdog. start() any thread.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <sys/types.h>
 
 #include "drivers/hid_massager/StopWay.h"
@@ -34,6 +36,7 @@ private:
     const pid_t process_;
     const int line_;
     bool resting_ = true;
+    std::optional<std::chrono::steady_clock::time_point> unanswered_;  // since then
 };
 
 }  // namespace tacto::hid

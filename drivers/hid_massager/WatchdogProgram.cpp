@@ -143,6 +143,7 @@ int watch(Device& device) {
         } else if (word == static_cast<char>(WatchdogWord::Beat)) {
             on = true;
             silentAt = SteadyTime::now() + kWatchdogSilence;
+            send(kWatchdogSocket, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
         } else if (word == static_cast<char>(WatchdogWord::Rest)) {
             on = stopDue = false;
         } else if (word == static_cast<char>(WatchdogWord::Leave)) {

@@ -11,6 +11,22 @@ using std::chrono::steady_clock;
 
 class RealTimeBenchTest : public test::BenchFixture {};
 
+TEST_F(RealTimeBenchTest, PausedDeliversNothingAndGoesOnAfterwards) {
+    open({}, {Role::Stimulator}, true);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(0.3)));
+    bench_->pause();
+    ASSERT_TRUE(bench_->wait(Seconds(0.1)));
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    ASSERT_TRUE(bench_->wait(Seconds(1.2)));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+    EXPECT_EQ(state(), InterlockState::Paused);
+    bench_->resume();
+    ASSERT_TRUE(bench_->wait(Seconds(0.8)));
+    EXPECT_GT(bench_->telemetry().trainsDelivered, delivered);
+}
+
 TEST_F(RealTimeBenchTest, DeliversOnTimeWithAThreadPerDevice) {
     open({"sim:finger?material=P60&force=6N"}, {Role::Sensor, Role::Stimulator, Role::Oscilloscope}, true);
     ASSERT_TRUE(arm());

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "app/scripting/DeclarationReader.h"
 #include "app/scripting/ProtocolDeclaration.h"
 #include "tests/scripting/RunBench.h"
 
@@ -115,6 +116,33 @@ TEST(ProtocolDeclaration, InterruptsATopLevelThatDoesNotEnd) {
     EXPECT_EQ(read.error().code, ErrorCode::Timeout);
     EXPECT_TRUE(read.error().message.starts_with("/lab/probe.js:1: ")) << read.error().message;
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST(ProtocolDeclaration, ATopLevelThatMakesTheEngineCrashEndsNoProgramButTheReader) {
+    RecordProperty("hazard", "H10");
+    for (const char* crash : {"new RegExp('('.repeat(2e5) + ')'.repeat(2e5));",
+                              "let a = []; for (let i = 0; i < 1e6; i++) a = [a]; String(a);",
+                              "function* g() { yield* g(); } for (const x of g()) ;",
+                              "const p = {}; const q = new Proxy(p, {}); Object.setPrototypeOf(p, q); p.nothing;"}) {
+        const auto read = readDeclaration(probe(std::string(crash) + " protocol({ title: 'x' }); function run() {}"));
+        if (read) continue;  // an engine that copes
+        EXPECT_TRUE(read.error().message.starts_with("/lab/probe.js:1: ")) << read.error().message;
+        EXPECT_TRUE(read.error().code == ErrorCode::ParseError || read.error().code == ErrorCode::Timeout);
+    }
+}
+
+TEST(ProtocolDeclaration, AnAnswerOfTheReaderIsReadAsStrictlyAsAFile) {
+    RecordProperty("hazard", "H10");
+    const nlohmann::json lists{{{"title", "x"}}, nlohmann::json::array(), nlohmann::json::array()};
+    EXPECT_EQ(readAnswer(answerOf(lists).dump(), "a.js").value(), lists);
+    const Result<nlohmann::json> error = fail(ErrorCode::Timeout, "a.js:1: too long");
+    EXPECT_EQ(readAnswer(answerOf(error).dump(), "a.js").error().message, "a.js:1: too long");
+    EXPECT_EQ(readAnswer(answerOf(error).dump(), "a.js").error().code, ErrorCode::Timeout);
+    for (const char* answer :
+         {"", "[]", "5", "{}", "{\"declared\":[1,2]}", "{\"declared\":5}", "{\"code\":99,\"text\":\"\"}",
+          "{\"code\":1.5,\"text\":\"a\"}", "{\"code\":\"x\",\"text\":5}", "{\"declared\":[1,2,3]} x"}) {
+        EXPECT_FALSE(readAnswer(answer, "a.js")) << answer;
+    }
 }
 
 TEST(ProtocolSettings, AreTypedAndChecked) {

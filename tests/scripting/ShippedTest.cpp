@@ -101,15 +101,19 @@ TEST_F(Shipped, TheDefaultProfileIsBuiltIn) {
     EXPECT_EQ(toJson(shippedProfile().value()), toJson(Profile{}));
 }
 
-TEST_F(Shipped, AProtocolOfOtherBytesIsNotCalledShipped) {
+TEST_F(Shipped, AProtocolOfOtherBytesIsRefusedUnderItsName) {
     RecordProperty("hazard", "H10");
     folder_.write("protocols/live.js", resource("protocols/live.js"));
-    folder_.write("protocols/separability.js", resource("protocols/separability.js") + "\n");
+    const auto text = resource("protocols/separability.js") + "\n";
+    const auto changed = folder_.write("protocols/separability.js", text);
+    folder_.write("protocols/ours.js", text);
     const ProtocolLibrary library;
     EXPECT_EQ(originOf(library.find("live").value()), "shipped with the program");
-    const auto other = library.find("separability").value();
+    EXPECT_THAT(library.find("separability").error().message,
+                HasSubstr(changed.string() + ": separability is the name of a protocol that comes with the program"));
+    const auto other = library.find("ours").value();
     EXPECT_FALSE(other.shipped);
-    EXPECT_EQ(originOf(other), (folder_.path() / "protocols/separability.js").string());
+    EXPECT_EQ(originOf(other), (folder_.path() / "protocols/ours.js").string());
     RunOrder order;
     order.script = other;
     EXPECT_EQ(aboutSession({}, {}, shippedLimits().value(), &order).protocolFrom, originOf(other));

@@ -1,14 +1,18 @@
 // H2 end to end: another process drives an emulated massager and dies in the middle of a burst. The device lives here,
 // as hardware would: it must be sent its stop, which the dead process cannot do.
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 #include "drivers/hid_massager/HidDriver.h"
@@ -211,6 +215,46 @@ TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
     EXPECT_TRUE(pad.waitForReports(0).empty());
     pad.refuseWrites(0);
     EXPECT_EQ(pad.waitForReports(1).back(), padReport(0));
+}
+
+/// The processes that this one's threads have started.
+std::vector<pid_t> children() {
+    std::vector<pid_t> all;
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream in(thread.path() / "children");
+        for (pid_t one = 0; in >> one;) all.push_back(one);
+    }
+    return all;
+}
+
+TEST_F(WatchdogProcessTest, OneThatStandsStillIsNoWatchdog) {
+    RecordProperty("hazard", "H2");
+    const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
+    const auto before = children();
+    auto watchdog = hid::WatchdogProcess::start(hidraw());
+    ASSERT_TRUE(watchdog) << watchdog.error().message;
+    auto started = children();
+    std::erase_if(started, [&](pid_t one) { return std::find(before.begin(), before.end(), one) != before.end(); });
+    ASSERT_EQ(started.size(), 1U);
+    // How long beats are taken, at most 1.5 s.
+    const auto beats = [&] {
+        const auto begun = Steady::now();
+        while (Steady::now() - begun < milliseconds(1500)) {
+            if (!(*watchdog)->beat()) break;
+            std::this_thread::sleep_for(hid::Watchdog::kBeat);
+        }
+        return Steady::now() - begun;
+    };
+    EXPECT_GE(beats(), milliseconds(1500)) << "one that runs answers";
+    kill(started.front(), SIGSTOP);
+    const auto deaf = beats();
+    EXPECT_GE(deaf, milliseconds(300));
+    EXPECT_LE(deaf, milliseconds(800));
+    kill(started.front(), SIGCONT);
+    (*watchdog)->rest();
+    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_TRUE((*watchdog)->beat()) << "it answers again";
+    (*watchdog)->rest();
 }
 
 TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {

@@ -1,0 +1,40 @@
+// What an oscilloscope's session does when its device does what none should.
+#include <gtest/gtest.h>
+#include <new>
+
+#include "core/bench/ScopeSession.h"
+
+namespace tacto::test {
+namespace {
+
+/// One whose record does not fit into the memory that is left.
+struct LargeScope final : Oscilloscope {
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return who; }
+    [[nodiscard]] const ScopeTraits& traits() const noexcept override { return what; }
+    [[nodiscard]] Result<void> configure(const ScopeSettings&) override { return {}; }
+    [[nodiscard]] Result<void> arm() override { return {}; }
+    [[nodiscard]] Result<std::optional<Capture>> poll() override { throw std::bad_alloc(); }
+    void disarm() noexcept override { ++disarmed; }
+
+    DeviceIdentity who;
+    ScopeTraits what;
+    int disarmed = 0;
+};
+
+TEST(ScopeSession, ARecordThatDoesNotFitIntoMemoryIsAnErrorAndNoEnd) {
+    RecordProperty("hazard", "H10");
+    LargeScope scope;
+    ScopeSession session(scope);
+    session.request({}, Instant{0}, 1, {});
+    session.serve(Instant{0});
+    session.serve(Instant{1});
+    EXPECT_TRUE(session.failed());
+    EXPECT_FALSE(session.active());
+    EXPECT_GT(scope.disarmed, 1);
+    const auto taken = session.take();
+    ASSERT_FALSE(taken);
+    EXPECT_EQ(taken.error().message, "no memory left");
+}
+
+}  // namespace
+}  // namespace tacto::test
