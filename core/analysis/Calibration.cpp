@@ -252,6 +252,10 @@ Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,
         return fail(ErrorCode::InvalidArgument, "calibration: resolution {}; 0 or more was expected",
                     options.resolution);
     }
+    if (readings.size() > kMostReadings) {
+        return fail(ErrorCode::InvalidArgument, "calibration: {} readings; at most {} are expected", readings.size(),
+                    kMostReadings);
+    }
     if (auto sane = check(readings); !sane) return failure(sane);
     Calibration found;
     found.readings.assign(readings.begin(), readings.end());

@@ -83,8 +83,12 @@ struct CalibrationOptions {
     double resolution = 0;    ///< one step of the instrument, in the readings' unit; 0 = not known
 };
 
-/// Errors: InvalidArgument for a command or reading that is not finite (NaN readings apart), a negative uncertainty,
-/// fewer than two levels with a measured reading, commands that are all 0, or options that are not 0 or more.
+/// Repeats are compared pair by pair.
+inline constexpr std::size_t kMostReadings = 5000;
+
+/// Errors: InvalidArgument for more than kMostReadings, a command or reading that is not finite (NaN readings apart), a
+/// negative uncertainty, fewer than two levels with a measured reading, commands that are all 0, or options that are
+/// not 0 or more.
 [[nodiscard]] Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,
                                                  const CalibrationOptions& options = {});
 

@@ -242,6 +242,21 @@ TEST(CalibrationVerdict, SamplingCountsWhereTheScatterDoesNotShowIt) {
     EXPECT_NE(free->fullScale().budget.rows.back().name, "sampling");
 }
 
+TEST(Calibration, MoreReadingsThanAnybodyTakesAreRefusedAtOnce) {
+    RecordProperty("hazard", "H10");
+    // A repeat is compared with every other: 400 000 in one level would take the memory and the stop's time.
+    std::vector<CalibrationReading> many(kMostReadings + 1);
+    for (std::size_t i = 0; i < many.size(); ++i) {
+        many[i].commanded = 1 + static_cast<double>(i % 2);
+        many[i].measured = many[i].commanded;
+    }
+    const auto refused = fitCalibration(many, {});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "calibration: 5001 readings; at most 5000 are expected");
+    many.pop_back();
+    EXPECT_TRUE(fitCalibration(many, {}));
+}
+
 TEST(CalibrationFile, ReadsColumnsInAnyOrderAndNamesFileAndLine) {
     const auto read = parseCalibrationReadings(
         "# bench 3\n u , direction, commanded ,note, measured\n0.1,up,10,a,10.2\n,down,20,b,\n", "levels.csv");
