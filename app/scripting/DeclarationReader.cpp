@@ -89,7 +89,8 @@ Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chron
         reader.waitForFinished();
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end", fileOf(source));
     }
-    if (reader.exitStatus() != QProcess::NormalExit) {
+    // A sanitizer ends a program with a code where it would crash otherwise.
+    if (reader.exitStatus() != QProcess::NormalExit || reader.exitCode() != 0) {
         return fail(ErrorCode::ParseError, "{}:1: the lines outside run(p) made the script engine crash",
                     fileOf(source));
     }

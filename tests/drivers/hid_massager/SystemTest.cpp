@@ -67,8 +67,10 @@ TEST_P(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
     ASSERT_TRUE(vibrate(1, Seconds(1)));
     devices = {};
     const auto all = pad.waitForReports(5);
-    ASSERT_EQ(all.size(), 5u);
-    EXPECT_EQ(all.back(), kOff);
+    ASSERT_GE(all.size(), 5u);
+    EXPECT_EQ(all[3], kOn);
+    // A stop that is asked for while one is being written stands behind it.
+    for (std::size_t i = 4; i < all.size(); ++i) EXPECT_EQ(all[i], kOff) << i;
 }
 
 TEST_P(HidSystem, AShortWriteAndARefusalAreFaults) {
