@@ -12,7 +12,7 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
+void declareAnalyze(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
 
 int separability(const std::string& file, bool asJson) {
     const auto trials = readSeparabilityTrials(file);
@@ -57,7 +57,7 @@ int calibration(const std::string& file, bool asJson) {
     return kDone;
 }
 
-int run(const QCommandLineParser& parser) {
+int runAnalyze(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
     if (given.size() != 2)
         return usage("analyze: a kind and a CSV file are expected, as in analyze separability trials.csv");
@@ -75,7 +75,7 @@ const Command kAnalyze{"analyze",
                        "{calibration|separability} FILE.csv [--json]",
                        "Commanded against measured values, or whether measured trials can be told apart",
                        false,
-                       declare,
-                       run};
+                       declareAnalyze,
+                       runAnalyze};
 
 }  // namespace tacto::cli

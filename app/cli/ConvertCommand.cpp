@@ -11,13 +11,13 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareConvert(QCommandLineParser& parser) {
     parser.addOption({"out", "File to write; its suffix says the format (.csv, .wav, …).", "FILE"});
     declareCaptureOptions(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-int run(const QCommandLineParser& parser) {
+int runConvert(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "CAPTURE");
     if (!path) return usage("convert: " + path.error().message);
     if (!parser.isSet("out")) return usage("convert: --out is missing; a file to write is expected");
@@ -57,7 +57,7 @@ const Command kConvert{"convert",
                        "CAPTURE --out FILE [--format ID] [--json]",
                        "An oscilloscope record in another format: CSV, WAV, sigrok",
                        false,
-                       declare,
-                       run};
+                       declareConvert,
+                       runConvert};
 
 }  // namespace tacto::cli

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookEvery(250);
 
-void declare(QCommandLineParser& parser) {
+void declareDevices(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
     parser.addOption({"watch", "Goes on until Ctrl+C: + what is plugged in, - what is unplugged."});
 }
@@ -55,7 +55,7 @@ void watch(const Registry& registry, std::vector<DeviceIdentity> known, const Si
     }
 }
 
-int run(const QCommandLineParser& parser) {
+int runDevices(const QCommandLineParser& parser) {
     if (!parser.positionalArguments().isEmpty()) {
         return usage(fmt::format("devices takes no argument, and \"{}\" is one",
                                  parser.positionalArguments().front().toStdString()));
@@ -81,6 +81,7 @@ int run(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kDevices{"devices", "[--watch | --json]", "What can be opened, as URIs", false, declare, run};
+const Command kDevices{"devices", "[--watch | --json]", "What can be opened, as URIs",
+                       false,     declareDevices,       runDevices};
 
 }  // namespace tacto::cli

@@ -23,7 +23,7 @@ SourceTraits idealVoltageSource() {
     return source;
 }
 
-void declare(QCommandLineParser& parser) {
+void declareEncode(QCommandLineParser& parser) {
     parser.addOption({"roughness", "Roughness index, 0 to 1.", "R"});
     parser.addOption({"pressure-pa", "Contact pressure in Pa, 0 or more.", "P"});
     parser.addOption({"load", "Declared load in ohm; the limits are judged at ± 20 % of it.", "OHM"});
@@ -36,7 +36,7 @@ Result<Load> loadOption(const QCommandLineParser& parser) {
     return parseLoad(parser.value("load").toStdString());
 }
 
-int run(const QCommandLineParser& parser) {
+int runEncode(const QCommandLineParser& parser) {
     if (!parser.positionalArguments().isEmpty()) {
         return usage(fmt::format("encode takes options only, and \"{}\" is none",
                                  parser.positionalArguments().front().toStdString()));
@@ -102,7 +102,7 @@ const Command kEncode{"encode",
                       "--roughness R --pressure-pa P --load OHM [--profile F] [--json]",
                       "Amplitude and interval for a roughness and a pressure, judged against the limits",
                       false,
-                      declare,
-                      run};
+                      declareEncode,
+                      runEncode};
 
 }  // namespace tacto::cli

@@ -11,7 +11,7 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareHid(QCommandLineParser& parser) {
     parser.addOption({"intensity", "Intensity of the burst, 0 to 1.", "X"});
     parser.addOption({"length", "Length of the report in bytes, where the template accepts several.", "N"});
     parser.addOption({"json", "Prints one JSON value."});
@@ -77,7 +77,7 @@ void printAsJson(const hid::MassagerTemplate& described, const hid::VibrationRep
                {"shortest_write_s", reports.shortestWrite.count()}});
 }
 
-int run(const QCommandLineParser& parser) {
+int runHid(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
     if (given.isEmpty() || given.front() != "show-bytes") {
         return usage(given.isEmpty()
@@ -113,7 +113,7 @@ const Command kHid{"hid",
                    "show-bytes TEMPLATE --intensity X [--length N] [--json]",
                    "The bytes that a massager's template makes of an intensity",
                    false,
-                   declare,
-                   run};
+                   declareHid,
+                   runHid};
 
 }  // namespace tacto::cli

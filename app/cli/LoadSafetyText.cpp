@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/cli/ResultText.h"
 #include "app/cli/Say.h"
 #include "app/cli/Verdicts.h"
 
@@ -14,26 +15,15 @@ using nlohmann::json;
 
 json listOf(const json& results, const char* key) { return results.value(key, json::array()); }
 
-std::string text(const json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-std::string number(const json& object, const char* key) {
-    const auto found = object.find(key);
-    if (found == object.end() || !found->is_number()) return "–";
-    const auto value = found->get<double>();
-    return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
-}
-
 void printLoads(const json& loads) {
     say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V", "peak mA",
         "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0);
-        say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", text(load, "name"),
-            number(load, "measured_ohm"), number(load, "peak_v"), number(load, "peak_ma"), number(load, "rms_5s_ma"),
-            number(load, "charge_uc"), number(load, "net_charge_uc"), number(load, "energy_mj"), text(load, "verdict"),
+        say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
+            resultNumber(load, "measured_ohm"), resultNumber(load, "peak_v"), resultNumber(load, "peak_ma"),
+            resultNumber(load, "rms_5s_ma"), resultNumber(load, "charge_uc"), resultNumber(load, "net_charge_uc"),
+            resultNumber(load, "energy_mj"), resultText(load, "verdict"),
             refused > 0 ? fmt::format(" ({} refused as expected)", refused) : std::string());
     }
 }
@@ -43,9 +33,9 @@ void printDisclosed(const json& outputs) {
     say("\n  to disclose\n");
     for (const auto& output : outputs) {
         const auto bound = output.find("plus_minus_pct");
-        say("  {:<40} {:<9} {:>8} {:<7} {}\n", text(output, "output"), text(output, "load"), number(output, "value"),
-            text(output, "unit"),
-            output.contains("reason") && !text(output, "reason").empty() ? text(output, "reason")
+        say("  {:<40} {:<9} {:>8} {:<7} {}\n", resultText(output, "output"), resultText(output, "load"),
+            resultNumber(output, "value"), resultText(output, "unit"),
+            output.contains("reason") && !resultText(output, "reason").empty() ? resultText(output, "reason")
             : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
                                                           : std::string());
     }
@@ -56,14 +46,14 @@ void printRows(const json& rows, const char* heading) {
     std::size_t passed = 0;
     bool said = false;
     for (const auto& row : rows) {
-        if (text(row, "verdict") == "pass") {
+        if (resultText(row, "verdict") == "pass") {
             ++passed;
             continue;
         }
         if (!said) say("\n  {}\n", heading);
         said = true;
-        say("  {:<20} {:<27} {:<34} {} {}\n", text(row, "verdict"), text(row, "load"), text(row, "title"),
-            number(row, "value"), text(row, "unit"));
+        say("  {:<20} {:<27} {:<34} {} {}\n", resultText(row, "verdict"), resultText(row, "load"),
+            resultText(row, "title"), resultNumber(row, "value"), resultText(row, "unit"));
     }
     say("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
 }
@@ -76,8 +66,8 @@ void printLoadSafety(const json& results) {
     printRows(listOf(results, "rows"), "limits, tolerances, refusals and trips");
     const auto worst = results.value("worst_case", json::object());
     if (worst.contains("rows")) {
-        printRows(worst["rows"], fmt::format("worst case over {} to {} ohm", number(worst, "load_low_ohm"),
-                                             number(worst, "load_high_ohm"))
+        printRows(worst["rows"], fmt::format("worst case over {} to {} ohm", resultNumber(worst, "load_low_ohm"),
+                                             resultNumber(worst, "load_high_ohm"))
                                      .c_str());
     }
 }

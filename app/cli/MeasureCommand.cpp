@@ -13,7 +13,7 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareMeasure(QCommandLineParser& parser) {
     parser.addOption({"channel", "Measures only this channel.", "NAME"});
     parser.addOption(
         {"shunt", "Resistance in ohm across which the channel was measured: volts become amperes.", "OHM"});
@@ -69,7 +69,7 @@ Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
     return options;
 }
 
-int run(const QCommandLineParser& parser) {
+int runMeasure(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "CAPTURE");
     if (!path) return usage(fmt::format("measure: {}", path.error().message));
     const auto options = optionsFrom(parser);
@@ -142,7 +142,7 @@ const Command kMeasure{"measure",
                        "CAPTURE [--channel NAME] [--shunt OHM] [--format ID] [--json]",
                        "Amplitude, width and interval of the pulses in an oscilloscope record",
                        false,
-                       declare,
-                       run};
+                       declareMeasure,
+                       runMeasure};
 
 }  // namespace tacto::cli

@@ -8,7 +8,7 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareProtocols(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
     parser.addOption({"reference", "Prints what scripts may call, as Markdown."});
 }
@@ -31,7 +31,7 @@ std::string rangeOf(const nlohmann::json& parameter) {
     return text;
 }
 
-int run(const QCommandLineParser& parser) {
+int runProtocols(const QCommandLineParser& parser) {
     if (parser.isSet("reference")) {
         say("{}", lines(scriptReference()));
         return kDone;
@@ -73,7 +73,7 @@ int run(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kProtocols{
-    "protocols", "[--json] [--reference]", "Shipped and user protocols with their parameters", false, declare, run};
+const Command kProtocols{"protocols", "[--json] [--reference]", "Shipped and user protocols with their parameters",
+                         false,       declareProtocols,         runProtocols};
 
 }  // namespace tacto::cli

@@ -5,11 +5,11 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareReport(QCommandLineParser& parser) {
     parser.addOption({"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"});
 }
 
-int run(const QCommandLineParser& parser) {
+int runReport(const QCommandLineParser& parser) {
     const auto session = onlyArgument(parser, "SESSION");
     if (!session) return usage(fmt::format("report: {}", session.error().message));
     if (!parser.isSet("out")) return usage("report: --out is missing");
@@ -34,7 +34,7 @@ int run(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kReport{"report", "SESSION --out report.pdf", "The report of a session, as PDF or HTML", true, declare,
-                      run};
+const Command kReport{
+    "report", "SESSION --out report.pdf", "The report of a session, as PDF or HTML", true, declareReport, runReport};
 
 }  // namespace tacto::cli

@@ -12,7 +12,7 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) {
+void declareRoughness(QCommandLineParser& parser) {
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
     parser.addOption({"out", "Writes one row per frame to this CSV file.", "frames.csv"});
     parser.addOption({"json", "Prints one JSON value."});
@@ -34,7 +34,7 @@ bool isOf(const Recording& recording, const std::filesystem::path& out) {
     });
 }
 
-int run(const QCommandLineParser& parser) {
+int runRoughness(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
     const auto profile = profileOption(parser);
@@ -90,7 +90,7 @@ const Command kRoughness{"roughness",
                          "RECORDING [--profile F] [--out frames.csv] [--json]",
                          "Roughness R and pressure P of a fingertip recording",
                          false,
-                         declare,
-                         run};
+                         declareRoughness,
+                         runRoughness};
 
 }  // namespace tacto::cli

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-void declare(QCommandLineParser& parser) {
+void declareRun(QCommandLineParser& parser) {
     parser.addOption({"device", "A device to use; sim: fills every role that is still needed.", "URI"});
     parser.addOption({"set", "A parameter of the protocol, or an answer to one of its questions.", "KEY=VALUE"});
     parser.addOption({"seed", "Seed of everything random (1).", "N"});
@@ -203,7 +203,7 @@ json writeReports(const RunFiles& files) {
     return report;
 }
 
-int run(const QCommandLineParser& parser) {
+int runRun(const QCommandLineParser& parser) {
     const auto stops = std::make_shared<StopCounter>();
     const auto asked = stops->mark();  // the command itself is the order: every signal comes after it
     SignalStop interrupts;
@@ -261,7 +261,7 @@ const Command kRun{"run",
                    "[--out DIR] [--json]",
                    "Runs a protocol script, records it and writes its report",
                    true,
-                   declare,
-                   run};
+                   declareRun,
+                   runRun};
 
 }  // namespace tacto::cli

@@ -16,7 +16,7 @@ using nlohmann::json;
 using sciencemode::HighVoltage;
 using sciencemode::Stimulation;
 
-void declare(QCommandLineParser& parser) {
+void declareScienceMode(QCommandLineParser& parser) {
     parser.addOption({"device", "The stimulator (sciencemode:, the one that answers).", "URI"});
     declarePulse(parser);
     parser.addOption({"json", "Prints one JSON value."});
@@ -103,7 +103,7 @@ int statusOf(const QCommandLineParser& parser) {
     return kDone;
 }
 
-int run(const QCommandLineParser& parser) {
+int runScienceMode(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
     if (given.size() != 1) {
         return usage(given.isEmpty() ? std::string("sciencemode: identify, status or pulse is missing")
@@ -129,7 +129,7 @@ const Command kScienceMode{"sciencemode",
                            "[--out FILE.csv]} [--device URI] [--json]",
                            "A ScienceMode stimulator by hand: who it is, how it is, one pulse into a bench load",
                            false,
-                           declare,
-                           run};
+                           declareScienceMode,
+                           runScienceMode};
 
 }  // namespace tacto::cli

@@ -58,7 +58,7 @@ Result<Load> loadFrom(const QCommandLineParser& parser) {
 }
 
 /// The value is an exit code when something is wrong.
-tl::expected<PulseOrder, int> orderFrom(const QCommandLineParser& parser) {
+tl::expected<PulseOrder, int> pulseOrderFrom(const QCommandLineParser& parser) {
     const auto wrong = [](const Error& error) { return tl::unexpected(usage("sciencemode pulse: " + error.message)); };
     auto train = pulseFrom(parser);
     if (!train) return wrong(train.error());
@@ -140,7 +140,7 @@ Result<DeviceUri> scienceModeUri(const QCommandLineParser& parser) {
 
 int pulse(const QCommandLineParser& parser) {
     SignalStop interrupts;
-    auto order = orderFrom(parser);
+    auto order = pulseOrderFrom(parser);
     if (!order) return order.error();
     const auto uri = scienceModeUri(parser);
     if (!uri) return failWith(uri.error());

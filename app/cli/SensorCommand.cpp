@@ -19,7 +19,7 @@ constexpr double kSecondsLeast = 0.5;
 constexpr double kSecondsMost = 3600;
 constexpr double kSecondsUsual = 2;
 
-void declare(QCommandLineParser& parser) {
+void declareSensor(QCommandLineParser& parser) {
     parser.addOption(
         {"seconds", "How long to listen, 0.5 to 3600 s: the longer, the surer the clock drift (2 s).", "S"});
     parser.addOption({"json", "Prints one JSON value."});
@@ -115,7 +115,7 @@ void printText(const SensorBoard& board, const Listened& heard) {
     if (report.board.faultyStreams != 0) say("  the board says that a sensor of it does not answer\n");
 }
 
-int run(const QCommandLineParser& parser) {
+int runSensor(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
     if (given.isEmpty()) return usage("sensor: status is missing");
     if (given.front() != "status")
@@ -151,7 +151,7 @@ const Command kSensor{"sensor",
                       "status [URI] [--seconds S] [--json]",
                       "A sensor board by hand: who it is, its settings and calibration, rates, clock drift and losses",
                       false,
-                      declare,
-                      run};
+                      declareSensor,
+                      runSensor};
 
 }  // namespace tacto::cli

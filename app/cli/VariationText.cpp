@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/cli/ResultText.h"
 #include "app/cli/Say.h"
 #include "app/cli/Verdicts.h"
 
@@ -11,28 +12,18 @@ namespace {
 
 using nlohmann::json;
 
-std::string text(const json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-std::string number(const json& object, const char* key, double factor = 1) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_number() ? fmt::format("{:.4g}", factor * found->get<double>()) : "–";
-}
-
 /// "14.5 (11.2 to 19.0)": the middle, 5 and 95 % of the participants.
 std::string range(const json& object, const char* key, const char* middle = "value", double factor = 1) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_object()) return "–";
     if (!found->value(middle, json()).is_number()) return "–";
-    return fmt::format("{} ({} to {})", number(*found, middle, factor), number(*found, "low", factor),
-                       number(*found, "high", factor));
+    return fmt::format("{} ({} to {})", resultNumber(*found, middle, factor), resultNumber(*found, "low", factor),
+                       resultNumber(*found, "high", factor));
 }
 
 void printAim(const char* aim, const json& alone, const json& pooled) {
     say("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
-        number(pooled, "total"), number(pooled, "per_participant"));
+        resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"));
 }
 
 }  // namespace
@@ -43,17 +34,17 @@ void printVariation(const json& results) {
         results.value("not_felt", 0));
     say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
     for (const auto& pair : results.value("separability", json::array())) {
-        say("  {:<28} {:>26} {:>26} {:>26}\n", text(pair, "a") + " / " + text(pair, "b"), range(pair, "jnd"),
-            range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
+        say("  {:<28} {:>26} {:>26} {:>26}\n", resultText(pair, "a") + " / " + resultText(pair, "b"),
+            range(pair, "jnd"), range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
     }
     say("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
         range(results, "information_bits", "median"));
     const json needed = results.value("trials_needed", json());
     if (!needed.is_object()) return;
-    say("\n  trials, so that with {} % probability\n", number(needed, "assurance", 100));
+    say("\n  trials, so that with {} % probability\n", resultNumber(needed, "assurance", 100));
     const json& alone = needed.at("per_participant");
     const json& pooled = needed.at("pooled");
-    printAim(fmt::format("the interval is {} % wide or less", number(needed, "width", 100)).c_str(),
+    printAim(fmt::format("the interval is {} % wide or less", resultNumber(needed, "width", 100)).c_str(),
              alone.at("for_width"), pooled.at("for_width"));
     printAim("its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
 }

@@ -7,9 +7,9 @@ namespace tacto::cli {
 
 namespace {
 
-void declare(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
+void declareVerify(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
 
-int run(const QCommandLineParser& parser) {
+int runVerify(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "SESSION");
     if (!path) return usage(fmt::format("verify: {}", path.error().message));
     const auto report = verifySession(*path);
@@ -45,8 +45,7 @@ int run(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kVerify{
-    "verify", "SESSION [--json]", "Whether a session is what was recorded: integrity and hash chain", false, declare,
-    run};
+const Command kVerify{"verify", "SESSION [--json]", "Whether a session is what was recorded: integrity and hash chain",
+                      false,    declareVerify,      runVerify};
 
 }  // namespace tacto::cli

@@ -6,7 +6,7 @@
 #include "app/run/KnownCalibration.h"
 #include "core/bench/ProfileReach.h"
 #include "core/devices/ReplayedDevice.h"
-#include "core/safety/UnitRecord.h"
+#include "core/safety/UnitFolders.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "app/scripting/ShippedResources.h"
+#include "core/base/ProgramPath.h"
 
 #ifndef TACTOSCOPE_INSTALLED_RESOURCES
 #define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"
@@ -26,12 +27,6 @@ constexpr std::uintmax_t kLargestScript = 1'000'000;
 fs::path environmentPath(const char* name) {
     const char* value = std::getenv(name);
     return value == nullptr ? fs::path() : fs::path(value);
-}
-
-fs::path executableFolder() {
-    std::error_code failed;
-    const fs::path self = fs::read_symlink("/proc/self/exe", failed);
-    return failed ? fs::path() : self.parent_path();
 }
 
 /// What the shipped protocol of that name was built with; null for another name.
@@ -104,7 +99,7 @@ Result<fs::path> resourcesFolder() {
         return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
                     set.string());
     }
-    const fs::path start = executableFolder();
+    const fs::path start = programFolder();
     if (usable(start / ".." / "share" / "tactoscope"))
         return (start / ".." / "share" / "tactoscope").lexically_normal();
     fs::path folder = start;

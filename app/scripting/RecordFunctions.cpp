@@ -29,7 +29,7 @@ Result<Json> measurement(ScriptSession& session, const Json& list) {
     if (!name) return failure(name);
     auto values = arguments.object(1, "values");
     if (!values) return failure(values);
-    // What the program writes under a name of its own is its evidence, and nobody else's (hazard H9).
+    // These names hold what the program found, not what a script says (hazard H9).
     if (*name == kExposureMeasurement || *name == kCalibrationMeasurement)
         return arguments.wrong("name", *name, "a name that the program does not use itself");
     if (session.writer() == nullptr) return Json();

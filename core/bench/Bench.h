@@ -27,7 +27,7 @@
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"
-#include "core/safety/UnitRecord.h"
+#include "core/safety/UnitFolders.h"
 
 namespace tacto {
 

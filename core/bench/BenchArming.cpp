@@ -237,8 +237,8 @@ Result<void> Bench::State::askAgain(Session& session, DeviceThread* thread, Inst
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     }
-    if (!answer) return fail(ErrorCode::NotArmed, "the fault is still there: the {} does not answer", who);
-    if (!*answer) return fail(ErrorCode::NotArmed, "the fault is still there: {}", answer->error().message);
+    if (!answer) return fail(ErrorCode::NotArmed, "not reset: the {} does not answer", who);
+    if (!*answer) return fail(ErrorCode::NotArmed, "not reset: {}", answer->error().message);
     return {};
 }
 
@@ -256,7 +256,7 @@ Result<void> Bench::State::letReportsBeJudged() {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     if (loop->telemetry().steps >= begin + kSteps) return {};
-    return fail(ErrorCode::NotArmed, "the fault is still there: the control loop does not run");
+    return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
 }
 
 /// Each cause is looked at again, here or before anything else can be delivered:

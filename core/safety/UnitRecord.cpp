@@ -7,6 +7,8 @@
 #include <random>
 #include <unistd.h>
 
+#include "core/safety/UnitClaim.h"
+
 namespace tacto {
 
 namespace {

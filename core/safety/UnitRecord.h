@@ -18,7 +18,6 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -29,9 +28,11 @@
 #include "core/safety/ExposureMeter.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/LockedFile.h"
-#include "core/safety/UnitClaim.h"
+#include "core/safety/UnitFolders.h"
 
 namespace tacto {
+
+class UnitClaim;
 
 /// The most that may be left on the load, and until when it was put there.
 struct ResidualVoltage {
@@ -45,12 +46,6 @@ struct UnitFault {
     std::uint32_t causes = 0;  ///< a bit per FaultCause
     std::chrono::sys_seconds at{};
     FixedText<159> reason;
-};
-
-/// Where records are kept, and where it is noted which of them was the last.
-struct UnitFolders {
-    std::filesystem::path records;
-    std::filesystem::path claims;  ///< the same for everybody on this computer, and emptied when it starts
 };
 
 class UnitRecord {
@@ -105,8 +100,5 @@ private:
     Instant quietUntil_;
     std::uint64_t next_ = 1;  // Sequence number of the next train
 };
-
-/// The records in $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units, the claims in /run/lock.
-[[nodiscard]] UnitFolders unitFolders();
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -18,13 +19,12 @@ QString nameOf(const StimulatorId& one) {
     return one.serial.empty() ? name : QString("%1 · %2").arg(name, QString::fromStdString(one.serial));
 }
 
-QString day(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
-
 /// "oscilloscope X (serial), its own calibration due 2027-03-01".
 QString instrumentText(const CalibrationInstrument& one) {
-    const auto due = !one.due                ? QObject::tr("its own due date was not stated")
-                     : *one.due < utcToday() ? QObject::tr("⚠ its own calibration was due %1").arg(day(*one.due))
-                                             : QObject::tr("its own calibration due %1").arg(day(*one.due));
+    const auto due = !one.due ? QObject::tr("its own due date was not stated")
+                     : *one.due < utcToday()
+                         ? QObject::tr("⚠ its own calibration was due %1").arg(qtext(dateText(*one.due)))
+                         : QObject::tr("its own calibration due %1").arg(qtext(dateText(*one.due)));
     const auto name = QString::fromStdString(one.name);
     return one.serial.empty() ? QObject::tr("%1 (%2)").arg(name, due)
                               : QObject::tr("%1 %2 (%3)").arg(name, QString::fromStdString(one.serial), due);
@@ -46,7 +46,7 @@ QString factsOf(const StoredCalibration& c) {
         if (const auto& line = c.*time.line) times << QString("%1 ± %2").arg(title, within(*line));
     }
     if (!times.isEmpty()) facts << times.join(", ");
-    facts << QObject::tr("made %1, valid until %2").arg(day(c.made), day(c.validUntil));
+    facts << QObject::tr("made %1, valid until %2").arg(qtext(dateText(c.made)), qtext(dateText(c.validUntil)));
     QStringList instruments;
     for (const auto& one : c.instruments) instruments << instrumentText(one);
     if (!instruments.isEmpty()) facts << QObject::tr("with %1").arg(instruments.join(", "));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -26,12 +27,11 @@ enum Column {
     kColumns
 };
 
-QString dayText(CalibrationDate date) { return QString::fromStdString(dateText(date)); }
-
 QString instrumentsOf(const StoredCalibration& c) {
     QStringList all;
     for (const auto& one : c.instruments) {
-        const auto due = one.due ? QObject::tr("due %1").arg(dayText(*one.due)) : QObject::tr("due date not stated");
+        const auto due =
+            one.due ? QObject::tr("due %1").arg(qtext(dateText(*one.due))) : QObject::tr("due date not stated");
         all << QString("%1 %2, %3").arg(QString::fromStdString(one.name), QString::fromStdString(one.serial), due);
     }
     return all.isEmpty() ? QString("–") : all.join("; ");
@@ -97,8 +97,8 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
         if (c.simulated) state += tr(", simulated");
         const QString cells[kColumns] = {
             state,
-            dayText(c.made),
-            dayText(c.validUntil),
+            qtext(dateText(c.made)),
+            qtext(dateText(c.validUntil)),
             QString::number(c.amplitude.gain, 'f', 4),
             quantityText(c.amplitude.offset, unit, 2),
             quantityText(c.amplitude.uncertainty_pct, "%", 2),

@@ -9,7 +9,7 @@
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/bench/ArmingText.h"
 #include "core/bench/ProfileReach.h"
-#include "core/safety/UnitRecord.h"
+#include "core/safety/UnitFolders.h"
 
 namespace tacto::gui {
 

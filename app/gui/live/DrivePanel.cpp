@@ -136,9 +136,10 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     if (desk_.activity() == Activity::Running) return tr("A protocol has the bench and drives the output itself.");
     if (off_->isChecked()) return tr("Nothing drives the output.");
     if (state == InterlockState::Faulted) return tr("Nothing is delivered: there is a fault.");
-    if (state == InterlockState::Paused || telemetry.paused) return tr("Paused: nothing is delivered until resumed.");
-    if (state != InterlockState::Armed && state != InterlockState::Delivering)
-        return tr("Nothing is delivered until the output is armed.");
+    const bool armed = state == InterlockState::Armed || state == InterlockState::Delivering;
+    if (state == InterlockState::Paused || (armed && telemetry.paused))
+        return tr("Paused: nothing is delivered until resumed.");
+    if (!armed) return tr("Nothing is delivered until the output is armed.");
     if (std::isfinite(telemetry.amplitude_v)) {
         return tr("Asked for: %1 every %2.")
             .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3));

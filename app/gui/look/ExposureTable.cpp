@@ -5,6 +5,7 @@
 #include <QStyledItemDelegate>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -67,21 +68,19 @@ public:
 
 QString sectionTitle(const ExposureRow& row) {
     return row.set.empty() ? QObject::tr("shown, without a limit")
-                           : QObject::tr("limits of %1").arg(text(row.set.view()));
+                           : QObject::tr("limits of %1").arg(qtext(row.set.view()));
 }
 
 }  // namespace
 
-QString text(std::string_view utf8) { return QString::fromUtf8(utf8.data(), qsizetype(utf8.size())); }
-
 QString rowTitle(const ExposureRow& row) {
-    const auto title = text(titleOf(row.quantity));
+    const auto title = qtext(titleOf(row.quantity));
     return row.judged == JudgedAt::Ohm500 ? QObject::tr("%1 into 500 Ω").arg(title) : title;
 }
 
 QString limitText(const ExposureRow& row, bool compact) {
     if (std::isnan(row.limit)) return "–";
-    const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, text(row.unit));
+    const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, qtext(row.unit));
     if (compact) return limit;
     switch (row.action) {
         case LimitAction::Warn:
@@ -155,11 +154,11 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     const bool broken = row.evaluated && !row.within && row.action == LimitAction::Refuse;
     const auto title = rowTitle(row);
     auto* quantity = cell(line, kQuantity, title);
-    quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, text(row.set.view())));
+    quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, qtext(row.set.view())));
     quantity->setData(Qt::ForegroundRole, QVariant());
     const auto missing = compact_ ? QString("–") : tr("not evaluated");
-    auto* value = cell(line, kValue, row.evaluated ? quantityText(row.value, text(row.unit), 3) : missing);
-    value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(text(row.reason.view())));
+    auto* value = cell(line, kValue, row.evaluated ? quantityText(row.value, qtext(row.unit), 3) : missing);
+    value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
     // Else the palette's own, which follows the theme.
     value->setData(Qt::ForegroundRole, broken ? QVariant(QBrush(colours().fault)) : QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));

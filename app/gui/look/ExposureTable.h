@@ -37,6 +37,5 @@ private:
 [[nodiscard]] QString rowTitle(const ExposureRow& row);
 /// "< 10 mA", "≤ 2 mA/cm² (warning)", "–" without a limit.
 [[nodiscard]] QString limitText(const ExposureRow& row, bool compact = false);
-[[nodiscard]] QString text(std::string_view utf8);
 
 }  // namespace tacto::gui

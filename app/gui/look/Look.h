@@ -62,6 +62,9 @@ struct StateLook {
 /// `font` with digits of equal width (DejaVu Sans has them; this keeps size and weight).
 [[nodiscard]] QFont digits(QFont font, double scale = 1);
 
+/// The word that is read from two metres, times the size of text: 28 pt where text has 10.5 pt.
+constexpr double kDisplayText = 2.67;
+
 /// Quiet axes of the current theme: call again on a PaletteChange. Fonts follow the application's.
 void styleAxis(QCPAxis& axis);
 void stylePlot(QCustomPlot& plot);

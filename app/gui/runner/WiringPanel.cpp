@@ -7,6 +7,7 @@
 
 #include "app/gui/look/Dialogs.h"
 #include "app/gui/look/ExposureTable.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -122,7 +123,7 @@ void WiringPanel::addFolder(const QString& scheme, const QString& title) {
 
 void WiringPanel::show(const ProtocolDeclaration& declaration) {
     QStringList roles;
-    for (const auto role : declaration.needs) roles << text(nameOf(role));
+    for (const auto role : declaration.needs) roles << qtext(nameOf(role));
     needs_->setText(roles.isEmpty() ? tr("Needs no device.") : tr("Needs: %1.").arg(roles.join(", ")));
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 #include "core/electrode/Load.h"
 #include "core/encoding/Encoder.h"
 
@@ -36,9 +37,9 @@ Result<WorstCase> worstCase(const Profile& profile, const std::vector<LimitSet>&
     for (const auto& row : worst.rows) {
         if (row.action != LimitAction::Refuse || std::isnan(row.limit) || !row.evaluated || row.within) continue;
         worst.refused = QObject::tr("%1 would be %2; %3 allows %4 %5. Such a train will be refused.")
-                            .arg(text(titleOf(row.quantity)), quantityText(row.value, text(row.unit), 3),
-                                 text(row.set.view()), row.strict ? QObject::tr("less than") : QObject::tr("at most"),
-                                 settingText(row.limit, text(row.unit)));
+                            .arg(qtext(titleOf(row.quantity)), quantityText(row.value, qtext(row.unit), 3),
+                                 qtext(row.set.view()), row.strict ? QObject::tr("less than") : QObject::tr("at most"),
+                                 settingText(row.limit, qtext(row.unit)));
         break;
     }
     return worst;

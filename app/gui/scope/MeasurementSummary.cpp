@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 #include "app/gui/scope/CaptureStatistics.h"
 
 namespace tacto::gui {
@@ -45,11 +46,6 @@ QString whyMissing(Reading reading, const ChannelMeasurement& channel) {
         return QObject::tr("The pulses are clipped, cut off or too coarse to be measured: the oscilloscope names it.");
     }
     return QObject::tr("The record holds one train. For an interval choose a longer record in the oscilloscope.");
-}
-
-QString titled(QString name) {
-    if (!name.isEmpty()) name[0] = name[0].toUpper();
-    return name;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -65,11 +66,6 @@ QString readingText(Reading reading, double value, const QString& channelUnit) {
     const auto unit = unitOf(reading, channelUnit);
     const double shown = shownFactor(reading, channelUnit) * value;
     return unit == "%" ? percentText(shown) : quantityText(shown, unit);
-}
-
-QString channelTitle(QString name) {
-    if (!name.isEmpty()) name[0] = name[0].toUpper();
-    return name;
 }
 
 }  // namespace
@@ -143,7 +139,7 @@ void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, cons
     statistics_.add(measured);
     if (rows != statistics_.channels().size() || statistics_.captures() == 1) layRows();
     QStringList sentences;
-    for (const auto& warning : warnings) sentences << channelTitle(QString::fromStdString(warning)) + ".";
+    for (const auto& warning : warnings) sentences << titled(QString::fromStdString(warning)) + ".";
     warnings_->setText(sentences.join("\n"));
     warnings_->setVisible(!sentences.isEmpty());
     refill();
@@ -175,7 +171,7 @@ void MeasurementTable::layRows() {
             table_->setItem(row, c, item);
         }
         const auto& channel = channels[static_cast<std::size_t>(row / kStatistics)];
-        if (row % kStatistics == 0) table_->item(row, 0)->setText(channelTitle(channel.name));
+        if (row % kStatistics == 0) table_->item(row, 0)->setText(titled(channel.name));
         table_->item(row, 1)->setText(statisticName(row % kStatistics));
     }
     restyle();

@@ -6,6 +6,7 @@
 
 #include "app/gui/look/Look.h"
 #include "app/gui/look/PlotPicture.h"
+#include "app/gui/look/Text.h"
 #include "app/report/FigureDrawing.h"
 #include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
@@ -14,25 +15,23 @@ namespace tacto::gui {
 
 namespace {
 
-QString q(const std::string& text) { return QString::fromStdString(text); }
-
 constexpr std::size_t kDrawnPoints = 4000;
 
 void flatten(const nlohmann::json& value, const QString& at, QMap<QString, QString>& into) {
     if (value.is_object()) {
         for (const auto& [key, part] : value.items()) {
             if (key == "trials") continue;
-            flatten(part, at.isEmpty() ? q(key) : at + "." + q(key), into);
+            flatten(part, at.isEmpty() ? qtext(key) : at + "." + qtext(key), into);
         }
     } else if (value.is_array()) {
         int index = 0;
         for (const auto& part : value) {
             const auto named = part.is_object() && part.contains("name") && part["name"].is_string();
-            flatten(part, at + "." + (named ? q(part["name"].get<std::string>()) : QString::number(index)), into);
+            flatten(part, at + "." + (named ? qtext(part["name"].get<std::string>()) : QString::number(index)), into);
             ++index;
         }
     } else {
-        into[at] = value.is_number_float() ? QString::number(value.get<double>(), 'g', 6) : q(value.dump());
+        into[at] = value.is_number_float() ? QString::number(value.get<double>(), 'g', 6) : qtext(value.dump());
     }
 }
 
@@ -42,12 +41,13 @@ QMap<QString, QString> facts(const ReadSession& session) {
     if (const auto profile = parseJson(session.about.profileJson, "the profile")) {
         flatten(*profile, QObject::tr("profile"), all);
     }
-    for (const auto& device : session.about.devices) all[QObject::tr("device %1").arg(q(device.role))] = q(device.uri);
-    all[QObject::tr("protocol")] = q(session.about.protocol);
+    for (const auto& device : session.about.devices)
+        all[QObject::tr("device %1").arg(qtext(device.role))] = qtext(device.uri);
+    all[QObject::tr("protocol")] = qtext(session.about.protocol);
     all[QObject::tr("seed")] = QString::number(session.about.seed);
-    all[QObject::tr("program")] = q(session.about.programVersion);
+    all[QObject::tr("program")] = qtext(session.about.programVersion);
     for (const auto& verdict : session.verdicts) {
-        all[QObject::tr("verdict")] = q(verdict.verdict);
+        all[QObject::tr("verdict")] = qtext(verdict.verdict);
         flatten(verdict.results, QObject::tr("result"), all);
     }
     return all;
@@ -75,7 +75,7 @@ QList<QStringList> CompareWindow::differences(const ReadSession& first, const Re
 CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second,
                              QWidget* parent)
     : QDialog(parent), sessions_{std::move(first), std::move(second)} {
-    const QString names[] = {q(sessions_[0]->path.stem().string()), q(sessions_[1]->path.stem().string())};
+    const QString names[] = {qtext(sessions_[0]->path.stem().string()), qtext(sessions_[1]->path.stem().string())};
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(explanation(
@@ -95,7 +95,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     for (const auto& info : sessions_[0]->streams) {
         const auto same = std::any_of(sessions_[1]->streams.begin(), sessions_[1]->streams.end(),
                                       [&](const auto& other) { return other.stream == info.stream; });
-        if (same) stream_->addItem(q(info.stream.name));
+        if (same) stream_->addItem(qtext(info.stream.name));
     }
     column->addWidget(stream_);
     streams_ = new QCustomPlot(page);
@@ -128,7 +128,7 @@ void CompareWindow::drawTrials() {
     for (int s = 0; s < 2; ++s) {
         QMap<QString, QCPGraph*> graphs;
         for (const auto& trial : sessions_[s]->trials) {
-            const auto name = q(trial.condition);
+            const auto name = qtext(trial.condition);
             if (!order.contains(name)) order[name] = int(order.size());
             auto*& graph = graphs[name];
             if (graph == nullptr) {

@@ -5,14 +5,13 @@
 
 #include "app/gui/look/Look.h"
 #include "app/gui/look/PlotPicture.h"
+#include "app/gui/look/Text.h"
 #include "app/report/FigureDrawing.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
 
 namespace {
-
-QString shownText(const std::string& text) { return QString::fromStdString(text); }
 
 constexpr std::size_t kDetailPoints = 4000;
 
@@ -98,35 +97,35 @@ void SessionDetails::say(const QString& why) {
 
 QString SessionDetails::aboutHtml() const {
     const auto& about = session_->about;
-    QString html = QString("<h3>%1</h3>").arg(shownText(session_->path.filename().string()).toHtmlEscaped());
+    QString html = QString("<h3>%1</h3>").arg(qtext(session_->path.filename().string()).toHtmlEscaped());
     if (about.simulated) html += "<p><b>" + tr("SIMULATED") + "</b></p>";
     for (const auto& verdict : session_->verdicts) {
         html += QString("<p><b>%1: %2</b>")
-                    .arg(shownText(verdict.subject).toHtmlEscaped(), shownText(verdict.verdict).toHtmlEscaped());
-        for (const auto& reason : verdict.reasons) html += "<br>" + shownText(reason).toHtmlEscaped();
+                    .arg(qtext(verdict.subject).toHtmlEscaped(), qtext(verdict.verdict).toHtmlEscaped());
+        for (const auto& reason : verdict.reasons) html += "<br>" + qtext(reason).toHtmlEscaped();
         html += "</p>";
     }
     html += "<table cellpadding=\"3\">";
     const auto row = [&](const QString& name, const QString& value) {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
     };
-    row(tr("Protocol"), about.protocol.empty() ? tr("live") : shownText(about.protocol));
-    row(tr("Began"), shownText(about.wallStart));
+    row(tr("Protocol"), about.protocol.empty() ? tr("live") : qtext(about.protocol));
+    row(tr("Began"), qtext(about.wallStart));
     row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
-    if (!about.parameters.empty()) row(tr("Parameters"), shownText(about.parameters.dump()));
+    if (!about.parameters.empty()) row(tr("Parameters"), qtext(about.parameters.dump()));
     row(tr("Seed"), QString::number(about.seed));
-    row(tr("Output mode"), shownText(about.mode));
+    row(tr("Output mode"), qtext(about.mode));
     for (const auto& device : about.devices) {
-        row(shownText(device.role),
+        row(qtext(device.role),
             QString("%1 · %2%3")
-                .arg(shownText(device.name), shownText(device.uri),
-                     device.serial.empty() ? QString() : tr(" · serial %1").arg(shownText(device.serial))));
+                .arg(qtext(device.name), qtext(device.uri),
+                     device.serial.empty() ? QString() : tr(" · serial %1").arg(qtext(device.serial))));
     }
     for (const auto& set : about.limitSets)
-        row(tr("Limit set"), shownText(set.id + " · " + set.sha256.substr(0, 16) + "…"));
-    row(tr("Profile"), shownText(about.profileSha256.substr(0, 16) + "…"));
-    row(tr("Program"), shownText(about.programVersion));
-    row(tr("Chain head"), shownText(session_->head));
+        row(tr("Limit set"), qtext(set.id + " · " + set.sha256.substr(0, 16) + "…"));
+    row(tr("Profile"), qtext(about.profileSha256.substr(0, 16) + "…"));
+    row(tr("Program"), qtext(about.programVersion));
+    row(tr("Chain head"), qtext(session_->head));
     return html + "</table>";
 }
 
@@ -157,23 +156,22 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
                                 4);
         };
         rows << QStringList{QString::number(trial.number), quantityText(toSeconds(trial.at), "s", 4),
-                            shownText(trial.condition),    number("amplitude_v", "V"),
+                            qtext(trial.condition),        number("amplitude_v", "V"),
                             number("interval_s", "s"),     number("width_s", "s")};
     }
     fill(*trials_, {tr("Trial"), tr("At"), tr("Condition"), tr("Amplitude"), tr("Interval"), tr("Width")}, rows);
     rows.clear();
     for (const auto& event : session_->events)
-        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), shownText(event.name),
-                            shownText(event.body.dump())};
+        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), qtext(event.name), qtext(event.body.dump())};
     for (const auto& line : session_->log)
-        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), shownText(line.name),
-                            shownText(line.body.value("text", ""))};
+        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), qtext(line.name),
+                            qtext(line.body.value("text", ""))};
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a[0].toDouble() < b[0].toDouble(); });
     fill(*events_, {tr("At (s)"), tr("Event"), tr("Details")}, rows);
     rows.clear();
     for (const auto& stream : session_->streams) {
-        rows << QStringList{shownText(stream.stream.name), shownText(stream.stream.unit),
+        rows << QStringList{qtext(stream.stream.name), qtext(stream.stream.unit),
                             quantityText(stream.stream.rate_hz, "Hz", 4), QString::number(stream.samples),
                             QString::number(stream.stream.columns.size())};
     }
@@ -218,8 +216,8 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         graph->setPen(QPen(of[c % 4]));
     }
     plot_->yAxis->setLabel(info.stream.unit.empty()
-                               ? shownText(info.stream.name)
-                               : QString("%1 (%2)").arg(shownText(info.stream.name), shownText(info.stream.unit)));
+                               ? qtext(info.stream.name)
+                               : QString("%1 (%2)").arg(qtext(info.stream.name), qtext(info.stream.unit)));
     plot_->rescaleAxes();
     plot_->replot();
 }

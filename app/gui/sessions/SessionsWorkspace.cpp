@@ -12,6 +12,7 @@
 
 #include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/run/RunFiles.h"
@@ -21,8 +22,6 @@
 namespace tacto::gui {
 
 namespace {
-
-QString listed(const std::string& text) { return QString::fromStdString(text); }
 
 constexpr int kIndex = Qt::UserRole;
 
@@ -223,7 +222,7 @@ void SessionsWorkspace::fillList() {
         const auto cell = [&](int column, const QString& shown, const QVariant& key) {
             auto* item = new SortedItem(shown, key);
             item->setData(kIndex, i);
-            item->setToolTip(entry.problem.isEmpty() ? listed(entry.path.string()) : entry.problem);
+            item->setToolTip(entry.problem.isEmpty() ? qtext(entry.path.string()) : entry.problem);
             table_->setItem(i, column, item);
         };
         cell(0, entry.began.toString("yyyy-MM-dd HH:mm:ss"), entry.began);
@@ -232,7 +231,7 @@ void SessionsWorkspace::fillList() {
         cell(3, durationText(entry.duration_s), entry.duration_s);
         cell(4, tr("%1 MB").arg(double(entry.bytes) / 1e6, 0, 'f', 1), entry.bytes);
         cell(5, entry.devices, entry.devices);
-        cell(6, listed(entry.path.filename().string()), listed(entry.path.string()));
+        cell(6, qtext(entry.path.filename().string()), qtext(entry.path.string()));
     }
     table_->setSortingEnabled(true);
     table_->resizeColumnsToContents();
@@ -286,7 +285,7 @@ void SessionsWorkspace::chosen() {
             return {};
         },
         [this, session](const Result<void>& done) {
-            if (!done) return details_->say(listed(done.error().message));
+            if (!done) return details_->say(qtext(done.error().message));
             read_ = session;
             details_->show(session);
         });
@@ -321,7 +320,7 @@ void SessionsWorkspace::openCapture(qint64 seq) {
             return {};
         },
         [this, capture](const Result<void>& done) {
-            if (!done) return say(listed(done.error().message));
+            if (!done) return say(qtext(done.error().message));
             emit captureChosen(capture);
         });
 }
@@ -342,7 +341,7 @@ void SessionsWorkspace::drawStream(int stream) {
             return {};
         },
         [this, samples, info = *info](const Result<void>& done) {
-            if (!done) return say(listed(done.error().message));
+            if (!done) return say(qtext(done.error().message));
             details_->showStream(info, *samples);
         });
 }
@@ -359,11 +358,11 @@ void SessionsWorkspace::verify() {
             *report = std::move(*verified);
             return {};
         },
-        [this, report, name = listed(entry->path.filename().string())](const Result<void>& done) {
-            if (!done) return say(listed(done.error().message));
+        [this, report, name = qtext(entry->path.filename().string())](const Result<void>& done) {
+            if (!done) return say(qtext(done.error().message));
             QStringList words;
-            for (const auto& note : report->notes) words << listed(note);
-            for (const auto& problem : report->problems) words << listed(problem);
+            for (const auto& note : report->notes) words << qtext(note);
+            for (const auto& problem : report->problems) words << qtext(problem);
             if (report->status == SessionStatus::Intact)
                 say(tr("✔ %1 is intact: %2 rows, %3 samples. %4")
                         .arg(name)
@@ -381,17 +380,17 @@ void SessionsWorkspace::makeReport() {
     auto out = entry->path;
     out.replace_extension(".pdf");
     say(tr("Drawing the report…"));
-    reports_.make(listed(entry->path.string()), listed(out.string()));
+    reports_.make(qtext(entry->path.string()), qtext(out.string()));
 }
 
 void SessionsWorkspace::askExport() {
     const auto* entry = current();
     if (entry == nullptr) return;
     FileQuestion question;
-    question.title = tr("Export %1 into a new folder").arg(listed(entry->path.filename().string()));
+    question.title = tr("Export %1 into a new folder").arg(qtext(entry->path.filename().string()));
     question.wants = FileQuestion::Wants::NewFile;
-    question.folder = listed(entry->path.parent_path().string());
-    question.name = listed(entry->path.stem().string()) + "-csv";
+    question.folder = qtext(entry->path.parent_path().string());
+    question.name = qtext(entry->path.stem().string()) + "-csv";
     // This one, whatever is selected when the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
@@ -406,7 +405,7 @@ void SessionsWorkspace::exportSession(const std::filesystem::path& session, cons
     work_.start(
         [session, folder](const WorkPort& port) { return exportCsv(session, folder.toStdString(), port); },
         [this, folder](const Result<void>& done) {
-            say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(listed(done.error().message)));
+            say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(qtext(done.error().message)));
         });
 }
 
@@ -414,13 +413,13 @@ void SessionsWorkspace::replay() {
     const auto* entry = current();
     if (entry == nullptr) return;
     auto folder = std::make_unique<QTemporaryDir>();
-    const auto target = folder->path() + "/" + listed(entry->path.stem().string());
+    const auto target = folder->path() + "/" + qtext(entry->path.stem().string());
     replayed_ = std::move(folder);
     say(tr("Preparing the replay…"));
     work_.start([path = entry->path,
                  target](const WorkPort& port) { return exportRecording(path, target.toStdString(), port); },
                 [this, target](const Result<void>& done) {
-                    if (!done) return say(tr("Cannot be replayed: %1").arg(listed(done.error().message)));
+                    if (!done) return say(tr("Cannot be replayed: %1").arg(qtext(done.error().message)));
                     say({});
                     emit recordingReady(target);
                 });
@@ -441,14 +440,14 @@ void SessionsWorkspace::compare() {
             return {};
         },
         [this, both](const Result<void>& done) {
-            if (!done) return say(listed(done.error().message));
+            if (!done) return say(qtext(done.error().message));
             openDialog(new CompareWindow((*both)[0], (*both)[1], this));
         });
 }
 
 void SessionsWorkspace::showInFolder() {
     if (const auto* entry = current())
-        QDesktopServices::openUrl(QUrl::fromLocalFile(listed(entry->path.parent_path().string())));
+        QDesktopServices::openUrl(QUrl::fromLocalFile(qtext(entry->path.parent_path().string())));
 }
 
 void SessionsWorkspace::dragEnterEvent(QDragEnterEvent* event) {

@@ -29,15 +29,15 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
 
     auto* layout = new QVBoxLayout(this);
-    const bool massager = open && !open->source;
-    layout->addWidget(heading(check      ? tr("Check the impedance of a bench load")
-                              : massager ? tr("Arm the massager")
-                                         : tr("Arm the output on a bench load"),
+    massager_ = open && !open->source;
+    layout->addWidget(heading(check       ? tr("Check the impedance of a bench load")
+                              : massager_ ? tr("Arm the massager")
+                                          : tr("Arm the output on a bench load"),
                               this));
     layout->addWidget(explanation(
         check ? tr("One small pulse measures the load. Nothing else is delivered, and the output stays disarmed. Esc "
                    "stops at any time.")
-        : massager
+        : massager_
             ? tr("There is no load to measure. From then on it vibrates as the drive says. Esc stops at any time.")
             : tr("One small pulse measures the load first. From then on trains are delivered as the drive says, "
                  "each judged "
@@ -45,10 +45,11 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
         this));
     auto* form = new QFormLayout;
     load_ = new QLineEdit(load, this);
+    load_->setPlaceholderText(tr("what is connected, as 1 kohm"));
     load_->setToolTip(tr("What is connected, as \"1 kohm\" or \"200 ohm + 10 kohm || 50 nF\"."));
     form->addRow(tr("Declared &load"), load_);
     layout->addLayout(form);
-    form->setRowVisible(load_, !massager);
+    form->setRowVisible(load_, !massager_);
     confirmed_ = new QLabel(this);
     confirmed_->setObjectName("armingText");
     confirmed_->setWordWrap(true);
@@ -88,13 +89,18 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
     connect(load_, &QLineEdit::textChanged, this, &ArmDialog::judge);
     connect(connected_, &QCheckBox::toggled, this, &ArmDialog::judge);
-    cancel->setFocus();
+    if (load.isEmpty() && !massager_)
+        load_->setFocus();
+    else
+        cancel->setFocus();
     judge();
 }
 
 void ArmDialog::judge() {
-    const auto parsed = parseLoad(load_->text().toStdString());
-    trouble_->setText(parsed ? QString() : QString::fromStdString(parsed.error().message));
+    const auto parsed = parseLoad(massager_ ? ArmRequest().load : load_->text().toStdString());
+    trouble_->setText(parsed                    ? QString()
+                      : load_->text().isEmpty() ? tr("Which load is connected?")
+                                                : QString::fromStdString(parsed.error().message));
     trouble_->setVisible(!parsed);
     text_ = parsed ? desk_.confirmationOf(*parsed) : std::string();
     confirmed_->setText(QString::fromStdString(text_));
@@ -103,7 +109,7 @@ void ArmDialog::judge() {
 
 void ArmDialog::confirm() {
     ArmRequest request;
-    request.load = load_->text().toStdString();
+    if (!massager_) request.load = load_->text().toStdString();
     request.operatorConfirmed = true;
     request.declaredLoadConfirmed = connected_->isChecked();
     request.confirmed = text_;

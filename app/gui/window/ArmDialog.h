@@ -37,6 +37,7 @@ private:
     QCheckBox* connected_;
     QPushButton* arm_;
     bool readsBack_ = true;
+    bool massager_ = false;  // has no load
 };
 
 }  // namespace tacto::gui

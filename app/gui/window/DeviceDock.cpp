@@ -6,14 +6,13 @@
 #include <QVBoxLayout>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 #include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
 
 namespace tacto::gui {
 
 namespace {
-
-QString words(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
 
 QString sentence(QString words) {
     if (!words.isEmpty()) words[0] = words[0].toUpper();
@@ -154,7 +153,7 @@ void DeviceDock::list() {
         const bool alreadyOpen =
             open && std::ranges::any_of(open->about.devices, [&](const auto& one) { return isSame(one, device); });
         if (alreadyOpen) continue;
-        add(QString::fromStdString(device.name), words(nameOf(device.role)), QString::fromStdString(device.uri), false,
+        add(QString::fromStdString(device.name), qtext(nameOf(device.role)), QString::fromStdString(device.uri), false,
             opensByItself(device) ? &device : nullptr, QString::fromStdString(device.obstacle));
         tree_->topLevelItem(tree_->topLevelItemCount() - 1)
             ->setData(0, kSerialRole, QString::fromStdString(device.serial));

@@ -12,13 +12,12 @@
 #include <QWhatsThis>
 
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
 namespace {
-
-QString helpText(std::string_view text) { return QString::fromUtf8(text.data(), qsizetype(text.size())); }
 
 QString definitions() {
     const auto resources = resourcesFolder();
@@ -32,22 +31,22 @@ QString limitsAsHtml(const ShippedLimits& limits) {
     QString html;
     for (const auto& set : limits.sets) {
         html += QString("<h3>%1 (%2)</h3><table cellspacing=\"0\" cellpadding=\"4\">")
-                    .arg(helpText(set.title).toHtmlEscaped(), helpText(set.id).toHtmlEscaped());
+                    .arg(qtext(set.title).toHtmlEscaped(), qtext(set.id).toHtmlEscaped());
         html += QString(
                     "<tr><th align=\"left\">%1</th><th align=\"left\">%2</th><th align=\"left\">%3</th>"
                     "<th align=\"left\">%4</th></tr>")
                     .arg(QObject::tr("Quantity"), QObject::tr("Limit"), QObject::tr("Judged"), QObject::tr("Source"));
         for (const auto& row : set.rows) {
             const auto limit =
-                QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, helpText(unitOf(row.quantity))));
+                QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, qtext(unitOf(row.quantity))));
             const auto judged = row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω")
                                                                : QObject::tr("worst case over the load range");
             auto action = row.action == LimitAction::Refuse ? QString()
                           : row.action == LimitAction::Warn ? QObject::tr(" (a warning)")
                                                             : QObject::tr(" (to be stated)");
             html += QString("<tr><td>%1</td><td>%2%3</td><td>%4</td><td>%5</td></tr>")
-                        .arg(helpText(titleOf(row.quantity)), limit.toHtmlEscaped(), action, judged,
-                             helpText(row.source).toHtmlEscaped());
+                        .arg(qtext(titleOf(row.quantity)), limit.toHtmlEscaped(), action, judged,
+                             qtext(row.source).toHtmlEscaped());
         }
         html += "</table>";
     }

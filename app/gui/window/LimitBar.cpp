@@ -5,6 +5,7 @@
 
 #include "app/gui/look/ExposureTable.h"
 #include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
 
 namespace tacto::gui {
 
@@ -52,15 +53,14 @@ void LimitBar::show(const std::optional<ExposureRow>& row) {
     } else if (!evaluated_) {
         text_ = tr("not evaluated");
     } else if (limited_) {
-        text_ =
-            tr("%1 of %2")
-                .arg(quantityText(row->value, gui::text(row->unit), 3), settingText(row->limit, gui::text(row->unit)));
+        text_ = tr("%1 of %2")
+                    .arg(quantityText(row->value, qtext(row->unit), 3), settingText(row->limit, qtext(row->unit)));
     } else {
-        text_ = quantityText(row->value, gui::text(row->unit), 3);
+        text_ = quantityText(row->value, qtext(row->unit), 3);
     }
     if (text_ == before && !(share_ != shareBefore && !std::isnan(share_))) return;
     if (row) {
-        const auto name = gui::text(titleOf(row->quantity));
+        const auto name = qtext(titleOf(row->quantity));
         auto tip = tr("%1, %2: %3.").arg(name, whereJudged(*row), text_);
         if (limited_) tip += tr(" Limit of %1.").arg(QString::fromUtf8(row->set.c_str()));
         if (!evaluated_ && !row->reason.empty()) tip += " " + QString::fromUtf8(row->reason.c_str());

@@ -14,6 +14,7 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
@@ -32,6 +33,7 @@
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/Tour.h"
 #include "app/run/CaptureFormatsList.h"
+#include "core/devices/Driver.h"
 
 namespace tacto::gui {
 
@@ -44,6 +46,17 @@ constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
+
+/// What a simulated stimulator drives. What is connected to a real one only the operator can say.
+QString knownLoad(const SessionAbout& about) {
+    for (const auto& device : about.devices) {
+        const auto uri = DeviceUri::parse(device.uri);
+        if (device.role != "stimulator" || !uri || uri->scheme != "sim") continue;
+        const auto load = std::ranges::find(uri->parameters, "load", [](const auto& p) { return p.first; });
+        return QString::fromStdString(load == uri->parameters.end() ? kDefaultLoad : load->second);
+    }
+    return {};
+}
 
 /// The page, with scroll bars where there is less room than it needs: no page makes the window larger than the screen.
 QScrollArea* scrolling(QWidget* page, QWidget* parent) {
@@ -268,14 +281,7 @@ void MainWindow::noteChange() {
     if (desk_.activity() == Activity::Live && open) {
         line_->say(tr("Open. Recording to %1").arg(QString::fromStdString(open->session.filename().string())));
         banner_->hide();
-        for (const auto& device : open->about.devices) {
-            const auto uri = DeviceUri::parse(device.uri);
-            if (!uri || device.role != "stimulator") continue;
-            load_ = "1 kohm";
-            for (const auto& [key, value] : uri->parameters) {
-                if (key == "load") load_ = QString::fromStdString(value);
-            }
-        }
+        if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
     }
 }
 
@@ -441,7 +447,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::changeEvent(QEvent* event) {
     QMainWindow::changeEvent(event);
     if (event->type() != QEvent::WindowStateChange || !isMinimized()) return;
-    // Nobody reaches a STOP that is not on the screen. A simulated output may go on.
+    // A STOP that is off the screen is out of reach. A simulated output may go on.
     const auto open = desk_.open();
     const bool virtualOutput = open && (!open->output || open->output->simulated);
     if (desk_.activity() != Activity::Closed && !virtualOutput) desk_.stop("the window was minimised");

@@ -12,6 +12,7 @@
 #include <QStackedWidget>
 #include <QTimer>
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -113,10 +114,11 @@ private:
     QActionGroup* navigation_ = nullptr;
     QMenu* recent_ = nullptr;
     QTimer frame_;
-    QString load_ = "1 kohm";
-    bool saidArmed_ = false;  // and nothing since that it is over
-    int faultedFrames_ = 0;   // since the bench faulted
-    QString faultText_;       // as the banner says it
+    QString load_;                  // declared last
+    std::filesystem::path loadOf_;  // the session of its bench
+    bool saidArmed_ = false;        // and nothing since that it is over
+    int faultedFrames_ = 0;         // since the bench faulted
+    QString faultText_;             // as the banner says it
 };
 
 }  // namespace tacto::gui

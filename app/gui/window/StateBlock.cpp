@@ -10,7 +10,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kDisplay = 2.67;  // times the text's size: 28 pt where text has 10.5 pt
 constexpr double kSmallest = 1.5;
 constexpr double kStep = 0.1;
 constexpr int kPadding = 16;
@@ -40,7 +39,7 @@ StateBlock::StateBlock(QWidget* parent)
     grid->addWidget(word_, 0, 1);
     grid->addWidget(reason_, 1, 1);
     grid->setColumnStretch(1, 1);
-    fit(widthAt(kDisplay));
+    fit(widthAt(kDisplayText));
     show(state_, {}, false);
     colour();
 }
@@ -60,7 +59,7 @@ int StateBlock::widthAt(double scale) const {
 int StateBlock::smallestWidth() const { return widthAt(kSmallest); }
 
 void StateBlock::fit(int width) {
-    double scale = kDisplay;
+    double scale = kDisplayText;
     while (scale > kSmallest && widthAt(scale) > width) scale -= kStep;
     scale = std::max(scale, kSmallest);
     const auto font = wordFont(scale);

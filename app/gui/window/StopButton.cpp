@@ -11,12 +11,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kStopDisplay = 2.67;  // times the text's size: 28 pt where text has 10.5 pt
 constexpr int kStopPadding = 24;
 
 QFont wordFont() {
     auto font = QApplication::font();
-    font.setPointSizeF(font.pointSizeF() * kStopDisplay);
+    font.setPointSizeF(font.pointSizeF() * kDisplayText);
     font.setBold(true);
     return font;
 }

@@ -157,7 +157,7 @@ TEST_F(Desk, AnUnpluggedStimulatorFaultsAndTheSessionIsKept) {
     const auto session = desk.open()->session;
     desk.resetFault();
     ASSERT_TRUE(comesTrue([this] { return !complaints.isEmpty(); }));
-    EXPECT_THAT(complaints.first().toStdString(), HasSubstr("fault is still there"));
+    EXPECT_THAT(complaints.first().toStdString(), HasSubstr("not reset"));
     desk.close();
     ASSERT_TRUE(comesTrue([this] { return desk.activity() == Activity::Closed; }));
     EXPECT_TRUE(std::filesystem::exists(session));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
 #include <QTreeWidget>
@@ -108,6 +109,8 @@ protected:
         auto* second = window.findChild<QPushButton*>("armOutput");
         ASSERT_NE(second, nullptr);
         ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+        auto* load = second->window()->findChild<QLineEdit*>();
+        if (load->text().isEmpty()) QTest::keyClicks(load, "1 kohm");
         click(*second);
         ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
     }

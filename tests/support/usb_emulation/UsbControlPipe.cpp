@@ -9,8 +9,6 @@ namespace tacto::test {
 
 namespace {
 
-constexpr std::size_t kSetupBytes = 8;
-constexpr std::uint8_t kToHost = 0x80;
 constexpr std::uint8_t kTypeMask = 0x60;  // 0: a standard request
 
 UsbSetup setupFrom(std::span<const std::uint8_t> b) {
@@ -23,7 +21,7 @@ UsbSetup setupFrom(std::span<const std::uint8_t> b) {
 std::optional<UsbBytes> EmulatedUsbDevice::Emulation::answerTo(std::unique_lock<std::mutex>& lock,
                                                                const UsbSetup& setup,
                                                                std::span<const std::uint8_t> data) {
-    const bool input = (setup.type & kToHost) != 0;
+    const bool input = (setup.type & kInputBit) != 0;
     if ((setup.type & kTypeMask) == 0 && (setup.type & 0x1F) == 0) return standard(setup);
     requests.push_back(setup);
     changed.notify_all();
@@ -37,8 +35,8 @@ std::optional<UsbBytes> EmulatedUsbDevice::Emulation::answerTo(std::unique_lock<
 void EmulatedUsbDevice::Emulation::control(std::unique_lock<std::mutex>& lock, Urb urb) {
     const auto buffer = urb.buffer();
     const auto setup = setupFrom(buffer);
-    const bool input = (setup.type & kToHost) != 0;
-    const auto data = buffer.subspan(kSetupBytes, std::min<std::size_t>(buffer.size() - kSetupBytes, setup.length));
+    const bool input = (setup.type & kInputBit) != 0;
+    const auto data = buffer.subspan(kSetupSize, std::min<std::size_t>(buffer.size() - kSetupSize, setup.length));
     const auto answer = answerTo(lock, setup, data);
     if (!answer) {
         wire.finish(std::move(urb), -EPIPE, 0);
@@ -61,7 +59,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::controlNow(st
     const IoctlData data(umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr));
     const auto& asked = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
     const UsbSetup setup{asked.bRequestType, asked.bRequest, asked.wValue, asked.wIndex, asked.wLength};
-    if ((setup.type & kToHost) != 0) return refuse(ENOTTY);  // no test needs one
+    if ((setup.type & kInputBit) != 0) return refuse(ENOTTY);  // no test needs one
     if ((setup.type & kTypeMask) != kVendor && (setup.type & kRecipientMask) == 1) {
         const auto owner = claims.find(setup.index & 0xFFU);
         if (owner == claims.end() || owner->second != client) return refuse(EBUSY);
@@ -80,7 +78,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::controlNow(st
 
 std::optional<UsbBytes> EmulatedUsbDevice::Emulation::standard(const UsbSetup& setup) const {
     constexpr std::uint8_t kGetDescriptor = 6;
-    if (setup.type != kToHost || setup.request != kGetDescriptor) return std::nullopt;
+    if (setup.type != kInputBit || setup.request != kGetDescriptor) return std::nullopt;
     const auto upTo = [&](UsbBytes bytes) {
         bytes.resize(std::min<std::size_t>(bytes.size(), setup.length));
         return bytes;

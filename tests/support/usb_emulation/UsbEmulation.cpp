@@ -14,9 +14,6 @@ namespace tacto::test {
 
 namespace {
 
-constexpr std::size_t kSetupSize = 8;
-constexpr std::uint8_t kInputBit = 0x80;
-
 IoctlData resolve(UMockdevIoctlData* parent, std::size_t offset, std::size_t length) {
     return IoctlData(umockdev_ioctl_data_resolve(parent, offset, length, nullptr));
 }

@@ -15,6 +15,10 @@
 
 namespace tacto::test {
 
+// Of a control request (USB 2.0, 9.3).
+constexpr std::size_t kSetupSize = 8;
+constexpr std::uint8_t kInputBit = 0x80;
+
 struct EmulatedUsbDevice::Emulation {
     Emulation(UsbTestbed& bed, UsbDescription described, UsbBehaviour behaves, int port);
     ~Emulation() { takeOver(); }

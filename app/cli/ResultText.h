@@ -1,0 +1,27 @@
+// ResultText.h - what a protocol's results say under a key, for the tables of the command line.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tacto::cli {
+
+/// Empty where there is no text of that name.
+[[nodiscard]] inline std::string resultText(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// "–" where there is no number of that name.
+[[nodiscard]] inline std::string resultNumber(const nlohmann::json& object, const char* key, double factor = 1) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return "–";
+    const auto value = factor * found->get<double>();
+    return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+}  // namespace tacto::cli
