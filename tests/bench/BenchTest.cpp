@@ -302,7 +302,7 @@ TEST_F(BenchTest, AFaultIsLeftOnlyWhenItsCauseIsGone) {
     EXPECT_EQ(bench_->faults(), 1U);
     const auto reset = bench_->resetFault();
     ASSERT_FALSE(reset);
-    EXPECT_NE(reset.error().message.find("still there"), std::string::npos);
+    EXPECT_NE(reset.error().message.find("not reset"), std::string::npos);
     EXPECT_EQ(state(), InterlockState::Faulted);
 }
 
