@@ -1,5 +1,6 @@
 #include "app/scripting/DeclarationReader.h"
 
+#include <QDeadlineTimer>
 #include <QProcess>
 #include <QRegularExpression>
 #include <mutex>
@@ -16,6 +17,7 @@ namespace {
 
 /// For what only declares something.
 constexpr std::size_t kMostMemory = std::size_t{512} << 20;
+constexpr std::size_t kMostAnswer = 4'000'000;  // bytes
 
 /// Takes protocol() and refuses everything else: a declaration has no bench.
 class DeclarationPort final : public HostPort {
@@ -84,7 +86,21 @@ Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chron
     }
     reader.write(QByteArray::fromStdString(source.text));
     reader.closeWriteChannel();
-    if (!reader.waitForFinished(static_cast<int>((limit + kAround).count()))) {
+    const QDeadlineTimer deadline(limit + kAround);
+    std::string answer;
+    bool more = true;
+    while (more && answer.size() <= kMostAnswer) {
+        more = reader.waitForReadyRead(static_cast<int>(deadline.remainingTime()));
+        answer += reader.readAllStandardOutput().toStdString();
+    }
+    if (answer.size() > kMostAnswer) {
+        reader.kill();
+        reader.waitForFinished();
+        return fail(ErrorCode::ParseError,
+                    "{}:1: the lines outside run(p) declare more than the {} bytes that are accepted", fileOf(source),
+                    kMostAnswer);
+    }
+    if (reader.state() != QProcess::NotRunning && !reader.waitForFinished(static_cast<int>(deadline.remainingTime()))) {
         reader.kill();
         reader.waitForFinished();
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) did not end", fileOf(source));
@@ -94,7 +110,8 @@ Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chron
         return fail(ErrorCode::ParseError, "{}:1: the lines outside run(p) made the script engine crash",
                     fileOf(source));
     }
-    return readAnswer(reader.readAllStandardOutput().toStdString(), fileOf(source));
+    answer += reader.readAllStandardOutput().toStdString();
+    return readAnswer(answer, fileOf(source));
 }
 
 }  // namespace
@@ -105,7 +122,7 @@ nlohmann::json answerOf(const Result<nlohmann::json>& declared) {
 }
 
 Result<nlohmann::json> readAnswer(std::string_view answer, std::string_view from) {
-    auto read = parseJson(answer, from, {.bytes = 4'000'000, .depth = 64});
+    auto read = parseJson(answer, from, {.bytes = kMostAnswer, .depth = 64});
     if (!read) return failure(read);
     if (!read->is_object()) *read = nlohmann::json::object();
     if (read->contains("declared") && (*read)["declared"].is_array() && (*read)["declared"].size() == 3)

@@ -32,14 +32,27 @@ Result<void> onlyKeys(const Json& object, std::string_view where, const std::vec
     return {};
 }
 
-Result<std::string> textOf(const Json& object, std::string_view where, const char* key, bool required) {
+// More than one reads, and than a report or a window shows well.
+constexpr std::size_t kMostTitle = 200;
+constexpr std::size_t kMostText = 2000;
+
+Result<void> noLonger(std::string_view where, std::string_view what, const std::string& text, std::size_t most) {
+    if (text.size() <= most) return {};
+    return fail(ErrorCode::InvalidArgument, "{}: {} has {} characters, at most {} are accepted", where, what,
+                text.size(), most);
+}
+
+Result<std::string> textOf(const Json& object, std::string_view where, const char* key, bool required,
+                           std::size_t most = kMostText) {
     const auto at = object.find(key);
     if (at == object.end() && !required) return std::string();
     if (at == object.end() || !at->is_string() || (required && at->get_ref<const std::string&>().empty())) {
         return fail(ErrorCode::InvalidArgument, "{}: {} is {}, a text is expected", where, key,
                     at == object.end() ? "missing" : shown(*at));
     }
-    return at->get<std::string>();
+    auto text = at->get<std::string>();
+    if (const auto fits = noLonger(where, key, text, most); !fits) return failure(fits);
+    return text;
 }
 
 std::string rangeText(const ProtocolParameter& parameter) {
@@ -65,6 +78,16 @@ bool hasChoice(const ProtocolParameter& parameter, const std::string& key) {
                        [&](const auto& choice) { return choice.first == key; });
 }
 
+/// A double holds every whole number up to here, and not every one beyond.
+constexpr double kMostWhole = 9007199254740992;  // 2^53
+
+/// The range of `parameter`, no wider than what a whole number can be exact in.
+ProtocolParameter exactly(ProtocolParameter parameter) {
+    parameter.min = std::max(parameter.min.value_or(-kMostWhole), -kMostWhole);
+    parameter.max = std::min(parameter.max.value_or(kMostWhole), kMostWhole);
+    return parameter;
+}
+
 /// The value as the script takes it, or what would be accepted.
 Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
     const auto refuse = [&](const std::string& wanted) -> tl::unexpected<Error> {
@@ -80,8 +103,9 @@ Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
                 (parameter.max && !(x <= *parameter.max))) {
                 return refuse(rangeText(parameter));
             }
-            if (parameter.type == ParameterType::Integer) return Json(static_cast<std::int64_t>(x));
-            return value;
+            if (parameter.type == ParameterType::Number) return value;
+            if (!(std::abs(x) <= kMostWhole)) return refuse(rangeText(exactly(parameter)));
+            return Json(static_cast<std::int64_t>(x));
         }
         case ParameterType::Choice:
             if (!value.is_string() || !hasChoice(parameter, value.get<std::string>())) {
@@ -136,6 +160,12 @@ Result<void> readChoices(const Json& given, const Json& order, ProtocolParameter
         const Json text = choices.value(name, Json());
         out.choices.emplace_back(name, text.is_string() ? text.get<std::string>() : name);
     }
+    for (const auto& [key, text] : out.choices) {
+        for (const auto& one : {key, text}) {
+            if (const auto fits = noLonger("parameter " + out.name, "a choice", one, kMostText); !fits)
+                return failure(fits);
+        }
+    }
     if (out.type == ParameterType::Choice && out.choices.size() < 2) {
         return fail(ErrorCode::InvalidArgument, "parameter {}: choices is {}, at least two are expected", out.name,
                     shown(choices));
@@ -153,6 +183,7 @@ bool isName(std::string_view name) {
 }
 
 Result<ProtocolParameter> readParameter(const std::string& name, const Json& given, const Json& choiceOrder) {
+    if (const auto fits = noLonger("parameters", "a name", name, kMostTitle); !fits) return failure(fits);
     const std::string where = "parameter " + name;
     if (!isName(name)) {
         return fail(ErrorCode::InvalidArgument, "{}: a name has letters, digits and _ only, a letter first", where);
@@ -185,6 +216,10 @@ Result<ProtocolParameter> readParameter(const std::string& name, const Json& giv
     if (auto choices = readChoices(given, choiceOrder, out); !choices) return failure(choices);
     const auto value = given.find("value");
     if (value == given.end()) return fail(ErrorCode::InvalidArgument, "{} has no value, its default", where);
+    if (value->is_string()) {
+        const auto fits = noLonger(where, "value", value->get_ref<const std::string&>(), kMostText);
+        if (!fits) return failure(fits);
+    }
     auto usual = accepted(out, *value);
     if (!usual) return fail(ErrorCode::InvalidArgument, "the default of {}", usual.error().message);
     out.value = *usual;
@@ -267,7 +302,7 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
         return failure(known);
     }
     ProtocolDeclaration out;
-    auto title = textOf(given, "protocol()", "title", true);
+    auto title = textOf(given, "protocol()", "title", true, kMostTitle);
     if (!title) return failure(title);
     out.title = *title;
     auto purpose = textOf(given, "protocol()", "purpose", false);

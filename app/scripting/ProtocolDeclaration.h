@@ -77,7 +77,8 @@ struct ProtocolSettings {
                                                           std::chrono::milliseconds limit = std::chrono::seconds(1));
 
 /// Reads what protocol() was given. `order` and `choiceOrder`: the parameters' names as written, and the keys of each
-/// one's choices. Errors: InvalidArgument naming the parameter and the key.
+/// one's choices. A title has at most 200 characters, a parameter's name too, any other text 2000; a whole number lies
+/// within ±2^53. Errors: InvalidArgument naming the parameter and the key.
 [[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
                                                            const nlohmann::json& choiceOrder);
 

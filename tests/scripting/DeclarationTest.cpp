@@ -108,6 +108,39 @@ TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
     EXPECT_NE(parameterError("7"), "");
 }
 
+TEST(ProtocolDeclaration, RefusesTextsThatAreTooLong) {
+    RecordProperty("hazard", "H9");
+    const auto of = [](std::size_t count) { return "'" + std::string(count, 'x') + "'"; };
+    EXPECT_EQ(errorOf("protocol({ title: " + of(200) + ", purpose: " + of(2000) + " });"), "");
+    EXPECT_EQ(errorOf("protocol({ title: " + of(201) + " });"),
+              "/lab/probe.js:2: protocol(): title has 201 characters, at most 200 are accepted");
+    EXPECT_EQ(errorOf("protocol({ title: 'x', purpose: " + of(2001) + " });"),
+              "/lab/probe.js:2: protocol(): purpose has 2001 characters, at most 2000 are accepted");
+    for (const char* key : {"label", "unit"}) {
+        EXPECT_EQ(parameterError(fmt::format("{{ value: 5, {}: {} }}", key, of(2000))), "");
+        EXPECT_EQ(
+            parameterError(fmt::format("{{ value: 5, {}: {} }}", key, of(2001))),
+            fmt::format("/lab/probe.js:2: parameter load: {} has 2001 characters, at most 2000 are accepted", key));
+    }
+    EXPECT_EQ(parameterError("{ type: 'text', value: " + of(2001) + " }"),
+              "/lab/probe.js:2: parameter load: value has 2001 characters, at most 2000 are accepted");
+    EXPECT_EQ(parameterError("{ value: 'a', choices: { a: 'A', b: " + of(2001) + " } }"),
+              "/lab/probe.js:2: parameter load: a choice has 2001 characters, at most 2000 are accepted");
+    EXPECT_EQ(errorOf("protocol({ title: 'x', parameters: { [" + of(201) + "]: { value: 1 } } });"),
+              "/lab/probe.js:2: parameters: a name has 201 characters, at most 200 are accepted");
+}
+
+TEST(ProtocolDeclaration, EndsAReaderThatAnswersMoreThanIsAccepted) {
+    RecordProperty("hazard", "H9");
+    const auto read = readDeclaration(probe("const all = {}, text = 'x'.repeat(2000);"
+                                            "for (let i = 0; i < 3000; ++i) all['p' + i] = { value: 1, label: text };"
+                                            "protocol({ title: 'x', parameters: all });\nfunction run() {}"),
+                                      std::chrono::seconds(20));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().message,
+              "/lab/probe.js:1: the lines outside run(p) declare more than the 4000000 bytes that are accepted");
+}
+
 TEST(ProtocolDeclaration, InterruptsATopLevelThatDoesNotEnd) {
     RecordProperty("hazard", "H10");
     const auto begin = std::chrono::steady_clock::now();
@@ -180,6 +213,26 @@ TEST(ProtocolSettings, AreRefusedInOneSentenceWithKeyValueAndRange) {
     EXPECT_EQ(
         error("repaets", "5"),
         "probe has no parameter repaets; it has zeta, load, source, note, quick, wiring, room temperature, fit-load");
+}
+
+TEST(ProtocolSettings, RefuseAWholeNumberThatADoubleDoesNotHold) {
+    RecordProperty("hazard", "H9");
+    const auto declaration =
+        readDeclaration(probe("protocol({ title: 'x', parameters: { n: { type: 'integer', value: 1 }, "
+                              "k: { type: 'integer', min: 5, max: 1e300, value: 5 } } });\nfunction run() {}"))
+            .value();
+    const auto error = [&](const char* key, const char* value) {
+        auto applied = applySettings(declaration, {{key, value}});
+        return applied ? std::string() : applied.error().message;
+    };
+    EXPECT_EQ(error("n", "1e300"),
+              "n is 1e+300, a whole number from -9007199254740992 to 9007199254740992 is expected");
+    EXPECT_NE(error("n", "-1e300"), "");
+    EXPECT_NE(error("n", "9007199254740994"), "");
+    EXPECT_EQ(error("k", "1e300"), "k is 1e+300, a whole number from 5 to 9007199254740992 is expected");
+    EXPECT_EQ(error("n", "9007199254740992"), "");
+    EXPECT_EQ(error("n", "-9007199254740992"), "");
+    EXPECT_NE(parameterError("{ type: 'integer', value: 1e300 }"), "");
 }
 
 TEST(ProtocolSettings, TakeAnyKeyWhereQuestionNamesAreComputed) {
