@@ -19,12 +19,13 @@ void printLoads(const json& loads) {
     say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V", "peak mA",
         "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
     for (const auto& load : loads) {
-        const auto refused = load.value("commands_refused", 0);
+        const auto refused = load.value("commands_refused", 0.0);
         say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
             resultNumber(load, "measured_ohm"), resultNumber(load, "peak_v"), resultNumber(load, "peak_ma"),
             resultNumber(load, "rms_5s_ma"), resultNumber(load, "charge_uc"), resultNumber(load, "net_charge_uc"),
             resultNumber(load, "energy_mj"), resultText(load, "verdict"),
-            refused > 0 ? fmt::format(" ({} refused as expected)", refused) : std::string());
+            refused > 0 ? fmt::format(" ({} refused as expected)", resultNumber(load, "commands_refused"))
+                        : std::string());
     }
 }
 

@@ -30,8 +30,8 @@ void printAim(const char* aim, const json& alone, const json& pooled) {
 
 void printVariation(const json& results) {
     say("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
-        results.value("participants", 0), results.value("complete", 0), results.value("refused", 0),
-        results.value("not_felt", 0));
+        resultNumber(results, "participants"), resultNumber(results, "complete"), resultNumber(results, "refused"),
+        resultNumber(results, "not_felt"));
     say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
     for (const auto& pair : results.value("separability", json::array())) {
         say("  {:<28} {:>26} {:>26} {:>26}\n", resultText(pair, "a") + " / " + resultText(pair, "b"),

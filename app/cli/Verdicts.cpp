@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/ResultText.h"
 
 namespace tacto::cli {
 
@@ -54,7 +55,7 @@ void printSeparability(const nlohmann::json& results) {
     for (const auto& c : results.value("conditions", nlohmann::json::array())) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
-        say("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), c.value("n", 0),
+        say("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), resultNumber(c, "n"),
             at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
     }
     say("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
