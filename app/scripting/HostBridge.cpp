@@ -43,8 +43,17 @@ QJSValue HostBridge::call(int index, const QJSValue& arguments) {
     QJSValue error = engine_.newErrorObject(QJSValue::GenericError, QString::fromStdString(answer.error().message));
     error.setProperty(QStringLiteral("code"), static_cast<int>(answer.error().code));
     error.setProperty(QStringLiteral("limit"), answer.error().code == ErrorCode::LimitExceeded);
+    if (failures_.size() == kFailures) failures_.pop_front();
+    failures_.emplace_back(error, answer.error());
     engine_.throwError(error);
     return {};
+}
+
+std::optional<Error> HostBridge::failureOf(const QJSValue& thrown) const {
+    for (const auto& [object, error] : failures_) {
+        if (object.strictlyEquals(thrown)) return error;
+    }
+    return std::nullopt;
 }
 
 }  // namespace tacto

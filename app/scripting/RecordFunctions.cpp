@@ -43,7 +43,8 @@ Result<Json> event(ScriptSession& session, const Json& list) {
     auto kind = arguments.text(0, "kind");
     if (!kind) return failure(kind);
     if (session.writer() == nullptr) return Json();
-    auto written = session.writer()->event(session.now(), "script " + *kind, arguments.at(1));
+    // No event of the program begins like this: "script abandoned" is one of its own (hazard H9).
+    auto written = session.writer()->event(session.now(), "script: " + *kind, arguments.at(1));
     if (!written) return failure(written);
     return Json();
 }

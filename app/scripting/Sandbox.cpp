@@ -253,18 +253,18 @@ ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList
     }
     if (error.line == 0) error.line = thrown.property(QStringLiteral("lineNumber")).toInt();
 
+    // Its code and sentence are the program's own, whatever the script wrote on the object.
+    if (auto failed = bridge->failureOf(thrown)) {
+        error.code = failed->code;
+        error.reason = std::move(failed->message);
+        return error;
+    }
     if (!thrown.isError()) {
         error.reason = thrown.toString().toStdString();
         if (thrown.isObject() && !thrown.isCallable()) {
             if (auto plain = toJson(thrown))
                 error.reason = plain->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
         }
-        return error;
-    }
-    const QJSValue code = thrown.property(QStringLiteral("code"));
-    if (code.isNumber() && code.toInt() >= 0 && code.toInt() <= static_cast<int>(ErrorCode::Unsupported)) {
-        error.code = static_cast<ErrorCode>(code.toInt());
-        error.reason = thrown.property(QStringLiteral("message")).toString().toStdString();
         return error;
     }
     const QString name = thrown.property(QStringLiteral("name")).toString();

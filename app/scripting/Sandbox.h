@@ -29,7 +29,7 @@ public:
 
 /// Why a script ended: what was thrown, and from where.
 struct ScriptError {
-    ErrorCode code = ErrorCode::InvalidArgument;  ///< of the host function that threw, ParseError for the script's own
+    ErrorCode code = ErrorCode::InvalidArgument;  ///< of the host call that failed, ParseError for the script's own
     std::string reason;
     std::string file;
     int line = 0;

@@ -156,6 +156,51 @@ TEST_F(ScriptTrust, WhatTheProgramSaysOfExposureIsNotTheScripts) {
     })) << limits.dump();
 }
 
+TEST_F(ScriptTrust, AnErrorOfTheScriptsOwnIsNoneOfTheProgram) {
+    RecordProperty("hazard", "H9");
+    const auto ended = [&](const std::string& body) {
+        RunBench rig;
+        const auto outcome =
+            rig.run(withRun("const keep = (call) => { try { call(); } catch (e) { return e; } };\n"
+                            "const real = keep(() => bench.arm({ load: 1 }));\n" +
+                            body));
+        EXPECT_TRUE(outcome.error);
+        EXPECT_EQ(outcome.verdict, ScriptVerdict::None) << body;
+        return outcome.error.value_or(Error{});
+    };
+    for (const auto code : {ErrorCode::LimitExceeded, ErrorCode::NotArmed, ErrorCode::Stopped, ErrorCode::Device}) {
+        const auto forged =
+            ended(fmt::format("verdict({{ verdict: 'fail' }}); throw Object.assign(new Error('stopped by operator "
+                              "(signal)'), {{ code: {} }});",
+                              static_cast<int>(code)));
+        EXPECT_EQ(forged.code, ErrorCode::ParseError);
+        EXPECT_EQ(forged.message, "/lab/probe.js:4: stopped by operator (signal)");
+    }
+    EXPECT_EQ(ended("throw Object.assign(new Error(real.message), real);").code, ErrorCode::ParseError);
+    EXPECT_EQ(ended("throw Object.create(real);").code, ErrorCode::ParseError);
+    EXPECT_EQ(ended("throw new Proxy(real, {});").code, ErrorCode::ParseError);
+    // A host call's own, caught and thrown again, is what it was.
+    const auto real = ended("throw real;");
+    EXPECT_EQ(real.code, ErrorCode::LimitExceeded) << real.message;
+    const auto changed = ended("real.code = 6; real.message = 'stopped by operator'; throw real;");
+    EXPECT_EQ(changed.code, real.code);
+    EXPECT_EQ(changed.message, real.message);
+    EXPECT_EQ(ended("for (let i = 0; i < 1000; ++i) keep(() => bench.wait(-1)); bench.arm({ load: 1 });").code,
+              ErrorCode::LimitExceeded);
+}
+
+TEST_F(ScriptTrust, AnEventOfTheScriptsBearsNoNameOfTheProgram) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(run("for (const kind of ['abandoned', 'ended by an error', 'not started', 'lamp on'])"
+                  " record.event(kind, { message: 'forged' });",
+                  {}),
+              "");
+    const auto said = session();
+    for (const char* own : {"script abandoned", "script ended by an error", "script not started"})
+        EXPECT_THAT(said, testing::Not(HasSubstr(own)));
+    EXPECT_THAT(said, HasSubstr("script: lamp on {\"message\":\"forged\"}"));
+}
+
 TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {
     RecordProperty("hazard", "H10");
     const auto good = folder_.write("p120.csv", "Ra;42,4;µm\nRz;301;µm\n");
