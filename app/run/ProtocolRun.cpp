@@ -152,6 +152,7 @@ ProtocolRun::~ProtocolRun() {
 Result<void> ProtocolRun::start(RunRequest hooks) {
     if (!warning_.empty() && hooks.onLog) hooks.onLog(warning_);
     hooks.script = order_.script;
+    if (!order_.declaration.title.empty()) hooks.declaration = order_.declaration;
     hooks.parameters = order_.settings.parameters;
     hooks.operatorGave = order_.settings.given;
     hooks.seed = order_.seed;

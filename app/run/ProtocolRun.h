@@ -19,7 +19,7 @@ namespace tacto {
 /// All that somebody asks for, checked.
 struct RunOrder {
     ProtocolSource script;
-    ProtocolDeclaration declaration;
+    ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
     std::uint64_t seed = 1;
     std::vector<DeviceUri> uris;
@@ -68,9 +68,9 @@ public:
     ProtocolRun(const ProtocolRun&) = delete;
     ProtocolRun& operator=(const ProtocolRun&) = delete;
 
-    /// Fills in script, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks and operator
-    /// are the caller's, and starts the script. What is known to fail, as a profile that the stimulator cannot reach,
-    /// is said through `onLog` before. Errors: as ScriptRun::start(); finish() tells them too.
+    /// Fills in script, declaration, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks
+    /// and operator are the caller's, and starts the script. What is known to fail, as a profile that the stimulator
+    /// cannot reach, is said through `onLog` before. Errors: as ScriptRun::start(); finish() tells them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
     /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench: it is
     /// leaked on purpose, with outputs off.

@@ -328,6 +328,19 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
     return out;
 }
 
+std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now) {
+    if (now.title != before.title)
+        return fmt::format("another title ({} in place of {})", shown(now.title), shown(before.title));
+    if (now.purpose != before.purpose) return "another purpose";
+    if (now.needs != before.needs) return "other devices";
+    if (now.parameters.size() != before.parameters.size()) return "other parameters";
+    for (std::size_t i = 0; i < now.parameters.size(); ++i) {
+        if (now.parameters[i] == before.parameters[i]) continue;
+        return fmt::format("another parameter {}", shown(now.parameters[i].name));
+    }
+    return {};
+}
+
 Result<Json> parseSetting(const ProtocolParameter& parameter, std::string_view text) {
     switch (parameter.type) {
         case ParameterType::Number:

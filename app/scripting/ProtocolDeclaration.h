@@ -48,6 +48,7 @@ struct ProtocolParameter {
     std::optional<double> max;
     std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
     nlohmann::json value;                                      ///< the default, within the range
+    [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
 };
 
 struct ProtocolDeclaration {
@@ -81,6 +82,10 @@ struct ProtocolSettings {
 /// within ±2^53. Errors: InvalidArgument naming the parameter and the key.
 [[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
                                                            const nlohmann::json& choiceOrder);
+
+/// What `now` declares otherwise than `before`, as "another purpose"; empty where they declare the same. Names and
+/// questions are not compared: a script does not declare those.
+[[nodiscard]] std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now);
 
 /// Checks one value as text against its parameter. Errors: InvalidArgument naming key, value and what is accepted.
 [[nodiscard]] Result<nlohmann::json> parseSetting(const ProtocolParameter& parameter, std::string_view text);

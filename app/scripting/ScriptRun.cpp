@@ -79,7 +79,9 @@ struct ScriptRun::State final : HostPort {
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
     void stop(const char* by) noexcept;
     void execute(Sandbox& sandbox);
+    [[nodiscard]] std::optional<ScriptError> checkDeclared();
     void writeAbout();
+    [[nodiscard]] std::string file() const;  // as errors name it
     void conclude(ScriptThread::End end);
     std::uint64_t faultsBefore = 0;  // of the bench, at the start
     void writeVerdict();
@@ -134,6 +136,7 @@ void ScriptRun::State::stop(const char* by) noexcept {
 void ScriptRun::State::execute(Sandbox& sandbox) {
     line = sandbox.runLine();
     auto failed = sandbox.load();
+    if (!failed) failed = checkDeclared();
     if (!failed) {
         running = true;
         writeAbout();
@@ -152,11 +155,32 @@ void ScriptRun::State::execute(Sandbox& sandbox) {
     ended = true;
 }
 
+/// The title and the settings of a report are those that the operator saw, not what a script declares by the clock
+/// (hazard H9).
+std::optional<ScriptError> ScriptRun::State::checkDeclared() {
+    const std::lock_guard lock(access);
+    if (abandoned) return std::nullopt;
+    std::optional<ProtocolDeclaration> now;
+    if (declared.is_array()) {
+        if (auto read = parseDeclaration(declared[0], declared[1], declared[2])) now = std::move(*read);
+    }
+    if (!request.declaration) {  // nothing was read before
+        request.declaration = std::move(now);
+        return std::nullopt;
+    }
+    const auto difference = now ? differenceOf(*request.declaration, *now) : "nothing that can be read";
+    if (difference.empty()) return std::nullopt;
+    return ScriptError{ErrorCode::ParseError,
+                       fmt::format("when it runs the script declares {}; it must declare what it declared when it was "
+                                   "read before",
+                                   difference),
+                       file(), 1};
+}
+
 void ScriptRun::State::writeAbout() {
     const std::lock_guard lock(access);
-    if (abandoned || request.session == nullptr || !declared.is_array()) return;
-    auto declaration = parseDeclaration(declared[0], declared[1], declared[2]);
-    if (!declaration) return;  // the program read it before; a script that declares by the clock gets no title
+    const auto& declaration = request.declaration;
+    if (abandoned || request.session == nullptr || !declaration) return;
     nlohmann::json parameters = nlohmann::json::array();
     for (const auto& parameter : declaration->parameters) {
         parameters.push_back({{"label", parameter.label},
@@ -169,14 +193,17 @@ void ScriptRun::State::writeAbout() {
                                                       {"parameters", parameters}});
 }
 
+std::string ScriptRun::State::file() const {
+    return request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
+}
+
 std::string ScriptRun::State::stopText(int at) {
-    const std::string file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
     std::string by;
     {
         const std::lock_guard lock(control);
         by = stoppedBy;
     }
-    return fmt::format("{}:{}: stopped by {}, at this line or after it", file, at, by);
+    return fmt::format("{}:{}: stopped by {}, at this line or after it", file(), at, by);
 }
 
 void ScriptRun::State::conclude(ScriptThread::End end) {
@@ -193,7 +220,7 @@ void ScriptRun::State::conclude(ScriptThread::End end) {
     }
     session.recordExposure();
     ScriptOutcome result;
-    result.file = request.script.path.empty() ? request.script.name + ".js" : request.script.path.string();
+    result.file = file();
     if (end == ScriptThread::End::Abandoned && !ended) {
         abandoned = true;  // no host call of it does anything from here on
         request.bench->disarm();

@@ -42,6 +42,10 @@ struct ScriptProgress {
 
 struct RunRequest {
     ProtocolSource script;
+    /// What readDeclaration() gave and the operator saw: what the session says that the script is. A script that
+    /// declares something else when it runs is ended before run(p). Nothing where the script was not read before: its
+    /// own counts.
+    std::optional<ProtocolDeclaration> declaration = {};
     nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
     std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set on purpose
     /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.

@@ -245,6 +245,32 @@ TEST(Run, ResultsOfAnyShapeLeaveTheVerdictStanding) {
     }
 }
 
+TEST(Run, AScriptThatDeclaresByTheClockDoesNotRun) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto script = desk.protocol("clock.js",
+                                      "protocol({ title: 'Certified ' + Date.now(), needs: ['stimulator'] });\n"
+                                      "function run(p) { log('it ran'); return verdict({ verdict: 'pass' }); }");
+    const auto ran = desk.run({"run", script, "--device", "sim:", "--out", desk.at("out")});
+    EXPECT_EQ(ran.code, 3) << ran.out;
+    EXPECT_THAT(ran.err, HasSubstr("when it runs the script declares another title"));
+    EXPECT_THAT(ran.err, testing::Not(HasSubstr("it ran")));
+}
+
+TEST(Run, AnErrorThatAScriptMakesUpIsNoStop) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    for (const char* code : {"4", "5", "6"}) {
+        const auto script = desk.protocol(
+            "forged.js", fmt::format("protocol({{ title: 'S' }});\nfunction run(p) {{ throw Object.assign(new Error("
+                                     "'stopped by operator (signal)'), {{ code: {} }}); }}",
+                                     code));
+        const auto ran = desk.run({"run", script, "--device", "sim:", "--out", desk.at("out"), "--json"});
+        EXPECT_EQ(ran.code, 3) << ran.err;
+        EXPECT_THAT(ran.out, testing::Not(HasSubstr("stopped\"")));
+    }
+}
+
 TEST(Run, TwoThatBeginInTheSameSecondKeepTheirSessions) {
     const Desk desk;
     const auto script = desk.protocol("short.js",

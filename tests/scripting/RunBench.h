@@ -73,8 +73,10 @@ public:
     /// A shipped protocol, with what --set would give.
     [[nodiscard]] RunRequest shipped(const std::string& protocol, const std::map<std::string, std::string>& settings) {
         auto source = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find(protocol).value();
-        auto applied = applySettings(readDeclaration(source).value(), settings).value();
+        auto declaration = readDeclaration(source).value();
+        auto applied = applySettings(declaration, settings).value();
         auto out = request(std::move(source));
+        out.declaration = std::move(declaration);
         out.parameters = std::move(applied.parameters);
         out.operatorGave = std::move(applied.given);
         return out;

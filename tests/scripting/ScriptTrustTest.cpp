@@ -156,6 +156,46 @@ TEST_F(ScriptTrust, WhatTheProgramSaysOfExposureIsNotTheScripts) {
     })) << limits.dump();
 }
 
+TEST_F(ScriptTrust, WhatTheOperatorSawIsWhatTheSessionSays) {
+    RecordProperty("hazard", "H9");
+    const auto declares = [](const std::string& fields, const std::string& label = "Repeats") {
+        return probe(
+            fmt::format("protocol({{ title: 'Seen', {}, parameters: {{ n: {{ label: '{}', unit: 's', value: 5 "
+                        "}} }} }});\nfunction run(p) {{ record.event('ran'); }}",
+                        fields, label));
+    };
+    const auto seen = declares("purpose: 'Why'");
+    const auto ended = [&](const ProtocolSource& runs, bool readBefore = true) {
+        rig_ = std::make_unique<RunBench>(true, "sim:", 1, true);
+        auto request = rig_->request(runs);
+        request.parameters = {{"n", 7}};
+        if (readBefore) request.declaration = readDeclaration(seen).value();
+        const auto outcome = runProtocol(std::move(request)).value();
+        EXPECT_EQ(outcome.error.value_or(Error{ErrorCode::ParseError, ""}).code, ErrorCode::ParseError);
+        return outcome.error ? outcome.error->message : "";
+    };
+    constexpr const char* kAbout = R"("label":"Repeats","unit":"s","value":7)";
+    EXPECT_EQ(ended(seen), "");
+    EXPECT_THAT(session(), testing::AllOf(HasSubstr(R"("title":"Seen")"), HasSubstr(kAbout), HasSubstr("script: ran")));
+    EXPECT_EQ(ended(seen, false), "") << "not read before";
+    EXPECT_THAT(session(), testing::AllOf(HasSubstr(R"("title":"Seen")"), HasSubstr(kAbout), HasSubstr("script: ran")));
+
+    const std::string body = "\nfunction run(p) { record.event('ran'); }";
+    const std::vector<std::pair<ProtocolSource, std::string>> others = {
+        {probe("protocol({ title: 'Forged' });" + body), "another title (\"Forged\" in place of \"Seen\")"},
+        {declares("purpose: 'Other'"), "another purpose"},
+        {declares("purpose: 'Why', needs: ['sensor']"), "other devices"},
+        {declares("purpose: 'Why'", "Certified repeats"), "another parameter \"n\""},
+        {probe("protocol({ title: 'Seen', purpose: 'Why' });" + body), "other parameters"},
+        {probe(body), "nothing that can be read"},
+        {probe("try { protocol({ title: 5 }); } catch (e) {}" + body), "nothing that can be read"}};
+    for (const auto& [source, difference] : others) {
+        EXPECT_EQ(ended(source), "/lab/probe.js:1: when it runs the script declares " + difference +
+                                     "; it must declare what it declared when it was read before");
+        EXPECT_THAT(session(), testing::Not(testing::AnyOf(HasSubstr("script: ran"), HasSubstr("\"title\""))));
+    }
+}
+
 TEST_F(ScriptTrust, AnErrorOfTheScriptsOwnIsNoneOfTheProgram) {
     RecordProperty("hazard", "H9");
     const auto ended = [&](const std::string& body) {
