@@ -62,6 +62,7 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
     }
     if (auto configured = made->gate_.configure(made->setup_); !configured) return failure(configured);
     if (auto connected = made->interlock_.connect(); !connected) return failure(connected);
+    if (made->record_) made->interlock_.keepFaultsIn(*made->record_);
     return made;
 }
 
@@ -146,10 +147,17 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
         return fail(ErrorCode::Timeout,
                     "the approval expired before the pulse was written, and it was not sent: the machine is too busy");
     }
-    if (told.outcome != TrainOutcome::Delivered) return fail(ErrorCode::Device, "{}", told.error.view());
+    if (told.outcome != TrainOutcome::Delivered) {
+        const bool silent = told.outcome == TrainOutcome::LoopSilent;
+        interlock_.fault(silent ? FaultCause::LoopSilent : FaultCause::DeviceFault, told.error.view());
+        return fail(ErrorCode::Device, "{}", told.error.view());
+    }
     const auto judgement = judgeTrain(OutputMode::BenchLoad, readBackOf(told), told.end, told.statusAt);
     const bool isElectrode = judgement.finding == TrainFinding::Open || judgement.finding == TrainFinding::Short;
-    if (judgement.stops() && !isElectrode) return fail(ErrorCode::Device, "{}", judgement.reason.view());
+    if (judgement.stops() && !isElectrode) {
+        interlock_.fault(causeOf(judgement.finding), judgement.reason.view());
+        return fail(ErrorCode::Device, "{}", judgement.reason.view());
+    }
     auto reading = device_.lastReading();
     return PulseFinding{current, told.electrode, reading.impedance, reading.samples};
 }

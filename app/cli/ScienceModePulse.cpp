@@ -172,7 +172,10 @@ int pulse(const QCommandLineParser& parser) {
         return static_cast<int>(kStopped);
     };
     const auto made = BenchPulse::create(std::move(*order), *device, clock);
-    if (!made) return refused(made.error());
+    if (!made) {
+        const bool isOfGate = made.error().code != ErrorCode::Device && made.error().code != ErrorCode::Io;
+        return isOfGate ? refused(made.error()) : couldNotRun(made.error());
+    }
     auto& bench = **made;
     if (const auto permitted = bench.request(); !permitted) return refused(permitted.error());
     if (const auto plan = sciencemode::planPulse(bench.order().pulse); !plan) {

@@ -57,7 +57,6 @@ Result<Json> wait(ScriptSession& session, const Json& list) {
     auto seconds = Arguments("bench.wait", list).number(0, "seconds", {0, 86'400});
     if (!seconds) return failure(seconds);
     auto waited = session.bench().wait(Seconds(*seconds));
-    session.watchExposure();
     if (!waited) return failure(waited);
     return Json();
 }
@@ -127,7 +126,6 @@ Result<Json> capture(ScriptSession& session, const Json& list) {
     auto settings = scopeSettings(session, arguments, *options);
     if (!settings) return failure(settings);
     auto captures = session.bench().capture(static_cast<int>(*trains), *settings);
-    session.watchExposure();
     if (!captures) return failure(captures);
     return session.hold(std::move(*captures));
 }

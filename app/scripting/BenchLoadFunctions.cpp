@@ -166,7 +166,6 @@ Result<Json> attempt(ScriptSession& session, const Json& list) {
         waited = bench.wait(Seconds(kLook_s));
         passed_s += kLook_s;
     }
-    session.watchExposure();
     if (auto off = bench.drive(DriveSource::Off); !off) return failure(off);
     if (!waited && waited.error().code != ErrorCode::LimitExceeded) return failure(waited);
     const bool delivered = bench.telemetry().trainsDelivered != before;

@@ -42,10 +42,7 @@ Result<Json> live(ScriptSession& session, const Json&) {
                 {"gaps", now.gaps}};
 }
 
-Result<Json> exposure(ScriptSession& session, const Json&) {
-    session.watchExposure();
-    return session.worstExposure();
-}
+Result<Json> exposure(ScriptSession& session, const Json&) { return session.worstExposure(); }
 
 Result<Json> finished(ScriptSession& session, const Json&) { return Json(session.bench().sensorFinished()); }
 

@@ -77,10 +77,7 @@ Result<Json> waveforms(ScriptSession& session, const Json&) {
 
 Result<Json> exposureFigure(ScriptSession& session, const Json& list) {
     const Arguments arguments("plot.exposure", list);
-    if (arguments.at(0).is_null()) {
-        session.watchExposure();
-        return Json{{"type", "exposure"}, {"rows", session.worstExposure()}};
-    }
+    if (arguments.at(0).is_null()) return Json{{"type", "exposure"}, {"rows", session.worstExposure()}};
     auto rows = arguments.list(0, "rows");
     if (!rows) return failure(rows);
     return Json{{"type", "exposure"}, {"rows", **rows}};

@@ -218,19 +218,11 @@ Result<void> ScriptSession::store(Held& held, int trial) {
     return writeCapture(request_.captureFolder / fmt::format("trial-{:04}-{:05}.csv", trial, held.id), held.capture);
 }
 
-void ScriptSession::watchExposure() {
-    const Telemetry telemetry = bench().telemetry();
-    for (const auto& row : telemetry.exposure()) {
-        const std::string key = fmt::format("{}|{}|{}", keyOf(row.quantity), row.set.view(), nameOf(row.judged));
-        const auto [at, added] = exposure_.try_emplace(key, row);
-        // What could not be evaluated once is worse than any number.
-        if (!added && at->second.evaluated && (!row.evaluated || !(row.value <= at->second.value))) at->second = row;
-    }
-}
-
 nlohmann::json ScriptSession::worstExposure() const {
     nlohmann::json rows = nlohmann::json::array();
-    for (const auto& [key, row] : exposure_) {
+    if (request_.bench == nullptr) return rows;
+    const auto worst = request_.bench->worstExposure();
+    for (const auto& row : worst.rows()) {
         std::string name(titleOf(row.quantity));
         if (row.judged == JudgedAt::Ohm500) name += " into 500 ohm";
         nlohmann::json out = {{"name", name},
@@ -246,9 +238,9 @@ nlohmann::json ScriptSession::worstExposure() const {
 }
 
 void ScriptSession::recordExposure() {
-    watchExposure();
-    if (writer() != nullptr && !exposure_.empty())
-        (void)writer()->measurement(now(), kExposureMeasurement, {{"rows", worstExposure()}});
+    auto rows = worstExposure();
+    if (writer() != nullptr && !rows.empty())
+        (void)writer()->measurement(now(), kExposureMeasurement, {{"rows", std::move(rows)}});
 }
 
 void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {

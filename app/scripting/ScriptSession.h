@@ -80,8 +80,7 @@ public:
     };
     [[nodiscard]] std::span<const Exemplar> exemplars() const noexcept { return exemplars_; }
 
-    /// Looks at the exposure now; worstExposure() is the largest seen, row by row, as report figures take it.
-    void watchExposure();
+    /// The largest exposure of the run so far, row by row, as report figures take it.
     [[nodiscard]] nlohmann::json worstExposure() const;
     /// Writes worstExposure() into the session, once, at the end: what its report says of exposure.
     void recordExposure();
@@ -124,7 +123,6 @@ private:
     OwnReadings own_;
     std::uint64_t expectedFaults_ = 0;
     nlohmann::json partial_, partialTables_;
-    std::map<std::string, ExposureRow> exposure_;
     std::vector<std::string> log_;
     ScriptVerdict verdict_ = ScriptVerdict::None;
     std::vector<std::string> reasons_;

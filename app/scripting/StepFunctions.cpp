@@ -243,7 +243,6 @@ Result<Json> step(ScriptSession& session, const Json& list) {
     // A train that comes later than all of these has not carried the step.
     const Seconds longest = design->back().onset + 4 * profile.intervalMax + Seconds(1);
     const auto finished = watch(recording, longest, ready);
-    session.watchExposure();
     if (!finished) return failure(finished);
     const auto trains = after(seen, step_s, gain);
     return answer(session, seen, step_s, ends, respond(ends, trains), *design);

@@ -282,6 +282,11 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     s.driving.store(source, std::memory_order_release);
     s.refusalsSeen = s.loop->refusals();
     s.loop->drive({source, roughness, pressure});
+    // A stop in between has told the loop to drive nothing; what was wished before it is not kept for the next arming.
+    if (source != DriveSource::Off && s.stopped()) {
+        s.loop->drive({});
+        return fail(ErrorCode::Stopped, "stopped. Output is off.");
+    }
     return {};
 }
 
@@ -398,6 +403,8 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
 
 void Bench::listen(BenchTap* tap) { state_->loop->listen(tap); }
 bool Bench::sensorFinished() const noexcept { return state_->sensor && state_->sensor->finished(); }
+
+WorstExposure Bench::worstExposure() const noexcept { return state_->loop->worstExposure(); }
 
 Telemetry Bench::telemetry() const {
     auto seen = state_->loop->telemetry();

@@ -170,6 +170,8 @@ public:
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
 
+    /// The largest exposure since begin(), row by row. Any thread.
+    [[nodiscard]] WorstExposure worstExposure() const noexcept;
     [[nodiscard]] Telemetry telemetry() const;
     /// Faults since the bench was made. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept;

@@ -139,6 +139,7 @@ FixedText<159> ControlLoop::endedBecause() const noexcept {
 }
 
 void ControlLoop::beginOrder() noexcept {
+    anotherOrder_.store(true, std::memory_order_release);
     const std::scoped_lock lock(armedMutex_);
     endedBecause_ = {};
 }
@@ -198,10 +199,11 @@ void ControlLoop::takeCommands(Instant now) noexcept {
 void ControlLoop::noteState(Instant now) noexcept {
     const auto state = parts_.interlock.state();
     if (state == seenState_) return;
-    const bool wasConnected = std::exchange(seenState_, state) != InterlockState::Disconnected;
+    const auto before = std::exchange(seenState_, state);
+    const bool wasConnected = before != InterlockState::Disconnected;
     const auto reason = parts_.interlock.reason();
     shown_.reason = FixedText<200>(reason.view());
-    if (parts_.recorder != nullptr && state != InterlockState::Delivering) {
+    if (parts_.recorder != nullptr && (state != InterlockState::Delivering || before == InterlockState::Paused)) {
         parts_.recorder->event(now, "interlock", {},
                                fmt::format("{}{}{}", nameOf(state), reason.empty() ? "" : ": ", reason.view()));
     }
@@ -490,9 +492,9 @@ void ControlLoop::outputsOff() noexcept {
 }
 
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) noexcept {
-    parts_.interlock.fault(cause, reason);
     parts_.gate.latchStop();
     outputsOff();
+    parts_.interlock.fault(cause, reason);  // keeps it in a file, whose disk may be slow
     faults_.fetch_add(1, std::memory_order_acq_rel);
     if (parts_.recorder != nullptr) parts_.recorder->event(now, "fault", {}, reason);
     noteState(now);
@@ -511,11 +513,16 @@ void ControlLoop::publish(Instant now) noexcept {
     shown_.impedance_ohm = impedance_ ? impedance_->value() : NAN;
     shown_.impedanceAge_s = impedance_ ? toSeconds(now - impedanceAt_) : NAN;
     ++shown_.steps;
-    if (now - exposureAt_ >= kExposureEvery || exposureAt_ == Instant(0)) {
+    const bool isAnother = anotherOrder_.exchange(false, std::memory_order_acq_rel);
+    if (isAnother || now - exposureAt_ >= kExposureEvery || exposureAt_ == Instant(0)) {
         exposureAt_ = now;
         parts_.gate.exposure(exposure_);
         shown_.exposureCount = std::min(exposure_.size(), shown_.exposureRows.size());
         std::copy_n(exposure_.begin(), shown_.exposureCount, shown_.exposureRows.begin());
+        // A window is fullest when a train has just been booked, and post() asks for a look.
+        if (isAnother) worst_ = {};
+        worst_.take(exposure_);
+        latestWorst_.write(worst_);
     }
     latest_.write(shown_);
 }

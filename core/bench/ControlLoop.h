@@ -21,6 +21,7 @@
 #include "core/bench/StimulatorSession.h"
 #include "core/bench/Telemetry.h"
 #include "core/bench/TrainPlanner.h"
+#include "core/bench/WorstExposure.h"
 #include "core/devices/DeviceReport.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"
@@ -106,8 +107,10 @@ public:
     /// Why the loop itself ended the order: a sleep, an owner or a recording that stood still. Empty where it did not.
     /// Any thread.
     [[nodiscard]] FixedText<159> endedBecause() const noexcept;
-    /// What comes from now on is another order, which the loop has not ended.
+    /// What comes from now on is another order, which the loop has not ended and which has delivered nothing yet.
     void beginOrder() noexcept;
+    /// The largest exposure since then, row by row: each train counts, whoever looks when. Any thread.
+    [[nodiscard]] WorstExposure worstExposure() const noexcept { return latestWorst_.read(); }
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
@@ -172,6 +175,7 @@ private:
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
     std::atomic<Instant::rep> attendedUntil_{0};
+    std::atomic<bool> anotherOrder_{false};  // and worst_ is of the one before
 
     std::mutex inboxMutex_;  // held to move a setting in or out
     Inbox inbox_;
@@ -205,6 +209,8 @@ private:
     Telemetry shown_;
     std::vector<ExposureRow> exposure_;
     Instant exposureAt_{0};
+    WorstExposure worst_;
+    Latest<WorstExposure> latestWorst_;
     Latest<Telemetry> latest_;
 };
 

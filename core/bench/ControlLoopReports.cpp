@@ -14,26 +14,6 @@ namespace {
 /// a train that is not the one delivered, or the device does not do what it is told.
 constexpr double kMostDeviation = 0.20;
 
-FaultCause causeOf(TrainFinding finding) noexcept {
-    switch (finding) {
-        case TrainFinding::Open:
-            return FaultCause::OpenElectrode;
-        case TrainFinding::Short:
-            return FaultCause::ShortElectrode;
-        case TrainFinding::NetCharge:
-            return FaultCause::NetCharge;
-        case TrainFinding::StatusMissing:
-            return FaultCause::StatusMissing;
-        case TrainFinding::StuckOn:
-        case TrainFinding::Garbage:
-            return FaultCause::DeviceFault;
-        case TrainFinding::Pending:
-        case TrainFinding::Ok:
-            break;
-    }
-    return FaultCause::Internal;
-}
-
 ElectrodeReading readingOf(ElectrodeState state) noexcept {
     switch (state) {
         case ElectrodeState::NotMeasured:

@@ -167,10 +167,11 @@ void Interlock::fault(FaultCause cause, std::string_view reason) noexcept {
     ticket_ = 0;
     causes_ |= bitOf(cause);
     if (cause == FaultCause::DeviceLost) deviceLost_ = true;
+    if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) {
+        state_.store(InterlockState::Faulted, std::memory_order_release);
+        reason_ = FixedText<159>(reason);
+    }
     if (record_ != nullptr) record_->keepFault(cause, reason);
-    if (state_.load(std::memory_order_relaxed) == InterlockState::Faulted) return;
-    state_.store(InterlockState::Faulted, std::memory_order_release);
-    reason_ = FixedText<159>(reason);
 }
 
 void Interlock::causeGone(FaultCause cause) noexcept {

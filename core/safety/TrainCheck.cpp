@@ -112,4 +112,24 @@ TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& s
     return judgement;
 }
 
+FaultCause causeOf(TrainFinding finding) noexcept {
+    switch (finding) {
+        case TrainFinding::Open:
+            return FaultCause::OpenElectrode;
+        case TrainFinding::Short:
+            return FaultCause::ShortElectrode;
+        case TrainFinding::NetCharge:
+            return FaultCause::NetCharge;
+        case TrainFinding::StatusMissing:
+            return FaultCause::StatusMissing;
+        case TrainFinding::StuckOn:
+        case TrainFinding::Garbage:
+            return FaultCause::DeviceFault;
+        case TrainFinding::Pending:
+        case TrainFinding::Ok:
+            break;
+    }
+    return FaultCause::Internal;
+}
+
 }  // namespace tacto

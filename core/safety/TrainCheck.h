@@ -7,6 +7,7 @@
 
 #include "core/safety/FixedText.h"
 #include "core/safety/GateSetup.h"
+#include "core/safety/Interlock.h"
 
 namespace tacto {
 
@@ -57,6 +58,9 @@ inline constexpr double kNetChargeUncertainty = 0.005;  ///< above it the net ch
 /// not judged here: the bench skips the rule where there is no status.
 [[nodiscard]] TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& status, Instant trainEnd,
                                         Instant now) noexcept;
+
+/// The fault that a finding is: of one that stops.
+[[nodiscard]] FaultCause causeOf(TrainFinding finding) noexcept;
 
 /// The display alone. An uncertainty that is missing or above 0.5 % reads not evaluated.
 [[nodiscard]] ChargeBalance chargeBalance(const std::optional<double>& imbalance,

@@ -171,8 +171,8 @@ void UnitRecord::takeOver() {
             why = "its record is from before the computer was started, and the wall clock does not say how long ago";
         }
     }
-    Head head{.trainSize = sizeof(Train), .wall_s = wall, .process = ::getpid(), .id = before.content.id};
-    if (!before.sound() || head.id == 0) head.id = newId();
+    // A new name each time: a copy of the record, of a restored home say, is another one from here on.
+    Head head{.trainSize = sizeof(Train), .wall_s = wall, .process = ::getpid(), .id = newId()};
     copyText(head.boot, bootId);
     head.quietUntil_ns = !why.empty() ? (boot + kRest).count() : keep ? before.content.quietUntil_ns : 0;
     if (!why.empty() || !keep) {
@@ -181,7 +181,7 @@ void UnitRecord::takeOver() {
         for (auto& train : map_.trains) train = {};
         next_ = 1;
     }
-    const bool faultElsewhere = claim_ && !claim_->isOf(before.content.id) && claim_->faulted();
+    const bool faultElsewhere = claim_ && claim_->faulted();
     if (!map_.fault.sound() || (faultElsewhere && map_.fault.content.causes == 0)) {
         // As a fault of the device: a reset asks it again, and arming begins with a check pulse.
         Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};

@@ -99,5 +99,25 @@ TEST_F(DeliveredRows, EveryChangeOfEncodingAndAreaIsAnEvent) {
     EXPECT_GE(arming[0].body["limits"].size(), 3U);
 }
 
+TEST_F(DeliveredRows, AResumedOutputIsAnEvent) {
+    record();
+    open({});
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    bench_->pause();
+    bench_->idle(Seconds(1));
+    bench_->resume();
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    std::vector<std::string> states;
+    const auto reader = read();
+    const auto events = reader.events().value();
+    for (const auto& row : named(events, "interlock")) states.push_back(row.body["text"].get<std::string>());
+    const auto paused = std::ranges::find(states, "paused");
+    ASSERT_NE(paused, states.end());
+    ASSERT_NE(paused + 1, states.end()) << "delivered trains would follow a pause";
+    EXPECT_EQ(*(paused + 1), "delivering");
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -2,9 +2,11 @@
 #include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "drivers/sciencemode/EmulatedPty.h"
 #include "tests/cli/Shape.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -246,6 +248,26 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
         EXPECT_EQ(putOut(), std::vector<double>{0.5});
         EXPECT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.pulses(now).back().cut; }));
     }
+}
+
+TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
+    RecordProperty("hazard", "H3");
+    const OwnSerial serial;
+    auto settings = on("1 kohm");
+    settings.id = serial.text();
+    pty_.reset();
+    pty_ = *sciencemode::EmulatedPty::open(settings, clock_);
+    auto run = desk_.start({"sciencemode", "pulse", "--current", "5", "--width", "4095", "--gap", "57000", "--load",
+                            "1000", "--yes-bench-load", "--device", uri()});
+    ASSERT_TRUE(run.waitUntil(
+        [&] { return pty_->inspect([&](auto& device, Instant now) { return !device.pulses(now).empty(); }); }));
+    run.signal(SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    run.signal(SIGCONT);
+    expectRefused(run.wait(std::chrono::seconds(20)), 3, {"stood still"});
+    const auto before = putOut().size();
+    expectRefused(pulse("5", "1000"), 4, {"left in a fault", "stood still", "--reset-fault"});
+    EXPECT_EQ(putOut().size(), before);
 }
 
 TEST_F(ScienceModeCommand, WithoutATerminalNobodyIsAskedAndNothingIsDelivered) {

@@ -277,6 +277,39 @@ TEST_F(UnitRecordFile, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     drive(folder_.path() / "a new one", 0, "from another record");
 }
 
+TEST_F(UnitRecordFile, ACopyOfARecordIsAnotherRecord) {
+    RecordProperty("hazard", "H1");
+    const ScratchDir copy;
+    const auto from = [&](const std::filesystem::path& records) {
+        const VirtualClock clock;
+        SafetyGate gate(clock);
+        const auto record = UnitRecord::open({records, claims_.path()}, kUnit, clock, time_).value();
+        gate.continueFrom(*record);
+        EXPECT_TRUE(gate.configure(strongSetup()));
+        std::size_t approved = 0;
+        while (approved < 100 && gate.approve({volts(40), Seconds(10), clock.now()})) ++approved;
+        return approved;
+    };
+    EXPECT_EQ(from(folder_.path()), 4U);
+    std::filesystem::copy(folder_.path(), copy.path(), std::filesystem::copy_options::recursive);
+    time_.now += std::chrono::seconds(20);
+    EXPECT_EQ(from(folder_.path()), 4U);
+    EXPECT_EQ(from(copy.path()), 0U) << "it knows nothing of the last four";
+    time_.now += std::chrono::seconds(20);
+    EXPECT_EQ(from(copy.path()), 4U);
+    EXPECT_EQ(from(folder_.path()), 0U);
+}
+
+TEST_F(UnitRecordFile, AFaultIsFoundInAnEarlierCopyOfTheRecordToo) {
+    RecordProperty("hazard", "H3");
+    const ScratchDir copy;
+    const VirtualClock clock;
+    { const auto before = run(); }
+    std::filesystem::copy(folder_.path(), copy.path(), std::filesystem::copy_options::recursive);
+    run()->record->keepFault(FaultCause::OpenElectrode, "the electrode is open");
+    EXPECT_TRUE(UnitRecord::open({copy.path(), claims_.path()}, kUnit, clock, time_).value()->fault());
+}
+
 TEST_F(UnitRecordFile, WithoutAPlaceForClaimsAUnitAlwaysRests) {
     RecordProperty("hazard", "H1");
     const ScratchDir other;

@@ -239,6 +239,29 @@ TEST_F(ScriptTrust, AnEventOfTheScriptsBearsNoNameOfTheProgram) {
     for (const char* own : {"script abandoned", "script ended by an error", "script not started"})
         EXPECT_THAT(said, testing::Not(HasSubstr(own)));
     EXPECT_THAT(said, HasSubstr("script: lamp on {\"message\":\"forged\"}"));
+
+TEST_F(ScriptTrust, ATrainCountsAsExposureWhateverTheScriptCallsAndHoweverLongItWaits) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(run("bench.arm({ load: 1000 });"
+                  "for (let i = 0; i < 8; i++)"
+                  "  bench.present({ name: 'x', roughness: 1, pressure: 1 - (i % 2) * 0.02 },"
+                  "                { source: 'direct', tolerance: 1e-12, limit_s: 10 });"
+                  "bench.drive('off'); bench.disarm(); bench.wait(12);",
+                  {}),
+              "");
+    rig_->closeBench();
+    ASSERT_TRUE(rig_->writer().close());
+    const auto rows = SessionReader::open(rig_->folder().path() / "run.tacto").value().measurements().value();
+    ASSERT_EQ(rows.size(), 1U);
+    int seen = 0;
+    for (const auto& row : rows[0].body["rows"]) {
+        const auto name = row["name"].get<std::string>();
+        const double least = name == "commanded voltage" ? 39 : name.starts_with("RMS current over 5 s") ? 0.1 : NAN;
+        if (std::isnan(least)) continue;
+        ++seen;
+        EXPECT_GE(row["value"], least) << row.dump();
+    }
+    EXPECT_GE(seen, 2);
 }
 
 TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {

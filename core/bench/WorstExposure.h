@@ -1,0 +1,38 @@
+// WorstExposure.h - the largest value that each row of the exposure table has had during an order. Trivially copyable.
+//
+// Thread-safety: a value; the control loop adds to it and publishes it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/bench/Telemetry.h"
+
+namespace tacto {
+
+class WorstExposure {
+public:
+    /// Takes what is larger than before, and what could not be evaluated: once unknown is worse than any number.
+    void take(std::span<const ExposureRow> now) noexcept {
+        for (const auto& row : now) {
+            const auto known = std::span(rows_).first(count_);
+            const auto at = std::ranges::find_if(known, [&](const ExposureRow& r) {
+                return r.quantity == row.quantity && r.judged == row.judged && r.set.view() == row.set.view();
+            });
+            if (at != known.end()) {
+                if (at->evaluated && (!row.evaluated || !(row.value <= at->value))) *at = row;
+            } else if (count_ < rows_.size()) {
+                rows_[count_++] = row;
+            }
+        }
+    }
+    [[nodiscard]] std::span<const ExposureRow> rows() const noexcept { return std::span(rows_).first(count_); }
+
+private:
+    std::array<ExposureRow, Telemetry::kMaxExposureRows> rows_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace tacto
