@@ -273,7 +273,9 @@ Result<void> SessionStore::commitInBackground() {
     if (!committing_) committing_ = std::make_unique<CommitThread>();
     committing_->start([this] {
         auto written = writeAll(written_);
-        return written ? database_->execute("COMMIT") : written;
+        if (written) written = database_->execute("COMMIT");
+        if (written && database_->hasMoved()) written = fail(ErrorCode::Io, "its file was moved or removed");
+        return written;
     });
     return {};
 }

@@ -239,6 +239,7 @@ TEST_F(ScriptTrust, AnEventOfTheScriptsBearsNoNameOfTheProgram) {
     for (const char* own : {"script abandoned", "script ended by an error", "script not started"})
         EXPECT_THAT(said, testing::Not(HasSubstr(own)));
     EXPECT_THAT(said, HasSubstr("script: lamp on {\"message\":\"forged\"}"));
+}
 
 TEST_F(ScriptTrust, ATrainCountsAsExposureWhateverTheScriptCallsAndHoweverLongItWaits) {
     RecordProperty("hazard", "H9");

@@ -62,6 +62,24 @@ TEST(SessionFailure, AFullDiskIsSaidOnceAndForAllAndWhatWasCommittedStays) {
     EXPECT_EQ(report.trials, static_cast<std::uint64_t>(trials));
 }
 
+TEST(SessionFailure, AFileThatIsRemovedMeanwhileEndsTheRecording) {
+    RecordProperty("hazard", "H8");
+    const ScratchDir dir;
+    const auto path = dir.path() / "s.tacto";
+    test::HandClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    const int stream = writer->addStream(SessionStream{"a", "", "", {"x", "y", "z"}, 4000}).value();
+    std::filesystem::remove(path);
+    Result<void> result;
+    for (int i = 0; i < 40 && result; ++i) {
+        clock.advance(std::chrono::milliseconds(250));
+        result = writer->append(stream, test::ramp(i * 0.25, 4000, 1000, 3));
+    }
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::Io);
+    EXPECT_NE(result.error().message.find("moved or removed"), std::string::npos) << result.error().message;
+}
+
 TEST(SessionFailure, TheRecorderShowsAFullDiskToTheControlLoop) {
     const ScratchDir dir;
     SteadyClock clock;
