@@ -1,10 +1,9 @@
 #include "app/cli/Command.h"
 
-#include <QFileInfo>
-#include <QSaveFile>
 #include <cmath>
 #include <cstdio>
 
+#include "app/report/WholeFile.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {
@@ -77,10 +76,9 @@ void printJson(const nlohmann::json& value) {
 }
 
 Result<void> writeFile(const std::string& path, const std::string& content) {
-    QSaveFile file(QString::fromStdString(path));
-    if (!file.open(QIODevice::WriteOnly) || file.write(content.data(), static_cast<qint64>(content.size())) < 0 ||
-        !file.commit()) {
-        return fail(ErrorCode::Io, "cannot write {}: {}", path, file.errorString().toStdString());
+    if (const auto written = writeWholeFile(QString::fromStdString(path), QByteArray::fromStdString(content));
+        !written) {
+        return fail(ErrorCode::Io, "cannot write {}: {}", path, written.error().message);
     }
     return {};
 }

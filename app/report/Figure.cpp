@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/report/ShownText.h"
+
 namespace tacto {
 namespace {
 
@@ -21,7 +23,7 @@ public:
         if (!has(key)) return {};
         const auto value = object_.value(QLatin1String(key));
         if (!value.isString()) complain(key, "a text");
-        return value.toString();
+        return shownText(value.toString());
     }
 
     bool flag(const char* key) {
@@ -91,7 +93,7 @@ public:
         if (!value.isArray()) complain(key, "a list of texts");
         for (const auto& element : value.toArray()) {
             if (!element.isString()) complain(key, "a list of texts");
-            result << element.toString();
+            result << shownText(element.toString());
         }
         return result;
     }

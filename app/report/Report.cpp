@@ -1,10 +1,11 @@
 #include "app/report/Report.h"
 
+#include <QBuffer>
 #include <QFileInfo>
-#include <QSaveFile>
 
 #include "app/report/HtmlReport.h"
 #include "app/report/PdfReport.h"
+#include "app/report/WholeFile.h"
 
 namespace tacto {
 
@@ -21,24 +22,19 @@ Result<void> writeReport(const ReportModel& model, const QString& path, const Fo
     if (!format) return failure(format);
     if (auto fonts = requireFonts(installed); !fonts) return fonts;
 
-    QSaveFile file(path);
-    const auto refused = [&] {
-        return fail(ErrorCode::Io, "The report could not be written to \"{}\": {}. Nothing was changed there.",
-                    path.toStdString(), file.errorString().toStdString());
-    };
-    if (!file.open(QIODevice::WriteOnly)) return refused();
     const ReportContent content = contentOf(model);
+    QByteArray bytes;
     if (*format == ReportFormat::Pdf) {
-        if (auto written = writePdf(content, file); !written) {
-            file.cancelWriting();
-            return written;
-        }
+        QBuffer pages(&bytes);
+        pages.open(QIODevice::WriteOnly);
+        if (auto set = writePdf(content, pages); !set) return set;
     } else {
-        const QByteArray html = reportHtml(content);
-        if (file.write(html) != html.size()) return refused();
+        bytes = reportHtml(content);
     }
-    // A disk that filled up is noticed here; the old report is still there then.
-    if (!file.commit()) return refused();
+    if (const auto written = writeWholeFile(path, bytes); !written) {
+        return fail(ErrorCode::Io, "The report could not be written to \"{}\": {}. Nothing was changed there.",
+                    path.toStdString(), written.error().message);
+    }
     return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto {
 namespace {
@@ -76,6 +77,11 @@ VerdictBlock verdictOf(const ReportModel& model) {
     return block;
 }
 
+QString titleOf(const ReportModel& model) {
+    const QString title = model.title.isEmpty() ? model.protocol : model.title;
+    return title.isEmpty() ? QString("Session") : title;
+}
+
 QString subtitleOf(const ReportModel& model) {
     QStringList parts;
     if (!model.purpose.isEmpty()) parts << model.purpose;
@@ -142,12 +148,12 @@ TableBlock tableOf(const ReportTable& source, const QString& caption) {
             numeric = numeric || value.isDouble() || value.isObject();
         }
         const auto format = columnFormat(numbers, name.unit);
-        table.columns.push_back({name.title, numeric});
+        table.columns.push_back({shownText(name.title, kShownCell), numeric});
         for (qsizetype r = 0; r < source.rows.size(); ++r) {
             const auto value = source.rows[r].toObject().value(keys[c]);
             table.rows[static_cast<std::size_t>(r)][c] = value.isDouble() && format
                                                              ? quantityText(value.toDouble(), name.unit, *format)
-                                                             : cellText(value, name.unit);
+                                                             : shownText(cellText(value, name.unit), kShownCell);
         }
     }
     return table;
@@ -270,19 +276,19 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
 
 }  // namespace
 
-ReportContent contentOf(const ReportModel& model) {
+ReportContent contentOf(const ReportModel& whole) {
+    const ReportModel model = shownModel(whole);
     ReportContent content;
     content.simulated = model.simulated;
-    const QString title = model.title.isEmpty() ? model.protocol : model.title;
-    content.documentTitle = title.isEmpty() ? "Session" : title;
+    content.documentTitle = titleOf(model);
     content.damaged = !model.damage.isEmpty();
     content.header = QString(content.damaged ? "DAMAGED: this session is not what was recorded  ·  " : "") +
-                     "Tactoscope  ·  " + content.documentTitle +
+                     "Tactoscope  ·  " + shownText(titleOf(whole), kShownHead) +
                      (isAllSimulated(model) ? "  ·  simulated"
                       : model.simulated     ? "  ·  simulated in part"
                                             : "");
-    content.footer = "Session " + (model.session.isEmpty() ? QString("–") : model.session) + "  ·  chain head " +
-                     (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
+    content.footer = "Session " + (model.session.isEmpty() ? QString("–") : shownText(whole.session, kShownHead)) +
+                     "  ·  chain head " + (model.chainHead.isEmpty() ? QString("–") : model.chainHead.left(12) + "…");
 
     Captions captions(isAllSimulated(model));
     auto& blocks = content.blocks;

@@ -71,6 +71,7 @@ struct ReportContent {
     std::vector<ReportBlock> blocks;
 };
 
+/// Long texts are cut as ShownText.h says.
 [[nodiscard]] ReportContent contentOf(const ReportModel& model);
 
 }  // namespace tacto

@@ -1,5 +1,6 @@
 #include "core/base/StandardStreams.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 namespace tacto {
 
 void holdStandardStreams() noexcept {
+    std::signal(SIGXFSZ, SIG_IGN);
     for (;;) {
         const int file = ::open("/dev/null", O_RDWR);  // the lowest number that is free
         if (file < 0) std::_Exit(3);

@@ -1,6 +1,8 @@
 // report and verify, on sessions that this program recorded.
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
@@ -127,6 +129,22 @@ TEST(NotASession, ExitsThreeWithOneSentence) {
     }
     EXPECT_EQ(contentOf(text), "These are notes, and no session of any kind.\n");
     EXPECT_EQ(desk.files().size(), 2U);
+}
+
+TEST_F(Session, AReportForWhichTheDiskHasNoRoomIsNoSuccessAndKeepsTheEarlierOne) {
+    RecordProperty("hazard", "H8");
+    for (const auto* name : {"r.pdf", "r.html"}) {
+        const auto path = desk.at(name);
+        ASSERT_EQ(desk.run({"report", session, "--out", path}).code, 0);
+        const auto blocks = std::filesystem::file_size(path) / 512 - 1;  // all but the end
+        desk.write(name, "the earlier report");
+        const auto said = desk.at("said");
+        const auto limited = "ulimit -f " + std::to_string(blocks) + "; exec " TACTO_CLI " report '" + session +
+                             "' --out '" + path + "' 2>'" + said + "'";
+        EXPECT_EQ(WEXITSTATUS(std::system(limited.c_str())), 3) << contentOf(said);
+        EXPECT_THAT(contentOf(said), HasSubstr("File too large"));
+        EXPECT_EQ(contentOf(path), "the earlier report");
+    }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <QElapsedTimer>
+#include <QJsonArray>
 #include <QXmlStreamReader>
 #include <gtest/gtest.h>
 #include <regex>
@@ -203,6 +204,38 @@ TEST_F(Report, HoldsNoCharacterThatCommandsATerminalOrTurnsTheText) {
         EXPECT_FALSE((u < 0x20 && u != '\n' && u != '\t') || (u >= 0x7f && u < 0xa0) || u == 0x202e || u == 0x200b)
             << int{u};
     }
+}
+
+TEST_F(Report, ShowsTheBeginningOfALongTextAndSaysHowMuchTheSessionHolds) {
+    RecordProperty("hazard", "H10");
+    constexpr qsizetype kLong = 900'000;
+    const QString text(kLong, 'm');
+    auto model = separabilityModel(true, 3);
+    model.title = model.purpose = text;
+    model.reasons << text;
+    model.items.emplace_back(ReportText{text});
+    model.items.emplace_back(ReportTable{text, {}, {QJsonObject{{"name", text}, {text, 1}}}});
+    model.events.push_back({1, "remark", text, 1});
+    QJsonObject confusion = confusionJson();
+    confusion["labels"] = QJsonArray{text, "b", "c", "d"};
+    confusion.remove("columns");
+    const auto figure = parseFigure(confusion);
+    ASSERT_TRUE(figure) << figure.error().message;
+    model.items.emplace_back(ReportFigure{text, *figure});
+    QElapsedTimer timer;
+    timer.start();
+    write(model, "long.pdf");
+    const auto html = QString::fromUtf8(contentOfFile(write(model, "long.html")));
+#ifndef TACTOSCOPE_SANITIZED
+    EXPECT_LT(timer.elapsed(), 5000);
+#endif
+    EXPECT_TRUE(html.contains("… (896000 more characters in the session)"));
+    EXPECT_TRUE(html.contains("… (899000 more characters in the session)")) << "of a cell";
+    EXPECT_TRUE(html.contains(" more characters in the session) (simulated)")) << "marks are not cut off";
+    EXPECT_FALSE(html.contains(QString(4001, 'm')));
+    if (!havePoppler()) return;
+    const auto shown = pdfText(scratch_.path() / "long.pdf");
+    EXPECT_NE(shown.find("899920 more"), shown.npos) << "the running head";
 }
 
 TEST_F(Report, WritesWellFormedHtmlThatNeedsNoOtherFile) {

@@ -1,11 +1,11 @@
 #include "app/gui/live/ProfileEditor.h"
 
 #include <QFile>
-#include <QSaveFile>
 #include <cmath>
 
 #include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
+#include "app/report/WholeFile.h"
 #include "core/base/Text.h"
 
 namespace tacto::gui {
@@ -133,11 +133,11 @@ void ProfileEditor::openFile(const QString& path) {
 void ProfileEditor::saveFile(const QString& path) {
     const auto now = read();
     if (!now.profile) return;
-    QSaveFile file(path);
-    const auto text = QByteArray::fromStdString(toJson(*now.profile).dump(2) + "\n");
-    if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit())
-        return say(tr("Saved to %1.").arg(path), false);
-    say(tr("%1 was not written: %2. What was there before is untouched.").arg(path, file.errorString()), true);
+    const auto written = writeWholeFile(path, QByteArray::fromStdString(toJson(*now.profile).dump(2) + "\n"));
+    if (written) return say(tr("Saved to %1.").arg(path), false);
+    say(tr("%1 was not written: %2. What was there before is untouched.")
+            .arg(path, QString::fromStdString(written.error().message)),
+        true);
 }
 
 void ProfileEditor::chooseFile() {

@@ -5,10 +5,10 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPdfWriter>
-#include <QSaveFile>
 #include <QSvgGenerator>
 
 #include "app/gui/look/Dialogs.h"
+#include "app/report/WholeFile.h"
 
 namespace tacto::gui {
 
@@ -95,9 +95,9 @@ std::optional<QString> savePicture(QCustomPlot& plot, const QString& path) {
     } else {
         return QObject::tr("%1 was not saved: its name must end in .png, .svg or .pdf.").arg(path);
     }
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
-        return QObject::tr("%1 was not saved: %2. A file of that name is as it was.").arg(path, file.errorString());
+    if (const auto written = writeWholeFile(path, bytes); !written) {
+        return QObject::tr("%1 was not saved: %2. A file of that name is as it was.")
+            .arg(path, QString::fromStdString(written.error().message));
     }
     return {};
 }

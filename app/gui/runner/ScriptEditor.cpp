@@ -2,10 +2,10 @@
 
 #include <QDir>
 #include <QRegularExpression>
-#include <QSaveFile>
 
 #include "app/gui/look/Dialogs.h"
 #include "app/gui/look/Look.h"
+#include "app/report/WholeFile.h"
 #include "app/scripting/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -121,11 +121,11 @@ void ScriptEditor::saveAs(const QString& name) {
 
 void ScriptEditor::saveTo(const QString& path) {
     QDir().mkpath(QFileInfo(path).absolutePath());
-    QSaveFile file(path);
     const auto text = code_->toPlainText().toUtf8();
-    if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit()) {
+    if (const auto written = writeWholeFile(path, text); !written) {
         runWhenSaved_ = leaveWhenSaved_ = false;
-        return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.").arg(path, file.errorString()));
+        return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.")
+                                     .arg(path, QString::fromStdString(written.error().message)));
     }
     source_.path = path.toStdString();
     source_.name = QFileInfo(path).completeBaseName().toStdString();

@@ -1,0 +1,52 @@
+#include "app/report/ShownText.h"
+
+namespace tacto {
+namespace {
+
+void shorten(QString& text) { text = shownText(text); }
+
+void shorten(QStringList& texts) {
+    for (auto& text : texts) shorten(text);
+}
+
+void shortenEach(std::initializer_list<QString*> texts) {
+    for (auto* text : texts) shorten(*text);
+}
+
+void shortenCells(std::initializer_list<QString*> texts) {
+    for (auto* text : texts) *text = shownText(*text, kShownCell);
+}
+
+void shorten(ReportItem& item) {
+    if (auto* figure = std::get_if<ReportFigure>(&item)) {
+        shortenEach({&figure->caption, &figure->figure.note});
+    } else if (auto* table = std::get_if<ReportTable>(&item)) {
+        shorten(table->caption);
+    } else {
+        shorten(std::get<ReportText>(item).text);
+    }
+}
+
+}  // namespace
+
+QString shownText(const QString& text, qsizetype most) {
+    if (text.size() <= most) return text;
+    if (text[most - 1].isHighSurrogate()) --most;
+    return QString("%1… (%2 more characters in the session)").arg(text.left(most)).arg(text.size() - most);
+}
+
+ReportModel shownModel(ReportModel model) {
+    shortenEach({&model.title, &model.purpose, &model.protocol, &model.session, &model.started, &model.chainHead});
+    for (auto* texts : {&model.reasons, &model.marks, &model.damage, &model.reproduce}) shorten(*texts);
+    for (auto& device : model.devices)
+        shortenCells({&device.role, &device.name, &device.uri, &device.serial, &device.firmware, &device.origin});
+    for (auto* facts : {&model.settings, &model.identity}) {
+        for (auto& fact : *facts) shortenEach({&fact.name, &fact.value});
+    }
+    for (auto& item : model.items) shorten(item);
+    for (auto& row : model.exposure) shortenCells({&row.name, &row.unit, &row.source, &row.reason});
+    for (auto& event : model.events) shortenCells({&event.kind, &event.text});
+    return model;
+}
+
+}  // namespace tacto

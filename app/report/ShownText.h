@@ -1,0 +1,23 @@
+// ShownText.h - how much of one text a report shows. Scripts write texts of any length; laying out a hundred thousand
+// characters takes seconds, and nobody reads them in a report. The session keeps the whole text (hazard H10).
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <QString>
+
+#include "app/report/ReportModel.h"
+
+namespace tacto {
+
+inline constexpr qsizetype kShownText = 4000;
+inline constexpr qsizetype kShownCell = 1000;  ///< of a table, which is not broken between pages
+inline constexpr qsizetype kShownHead = 80;    ///< on every page
+
+/// The text, or its first `most` characters and how many more the session holds.
+[[nodiscard]] QString shownText(const QString& text, qsizetype most = kShownText);
+
+/// The model with its texts as they are shown, but for the cells of scripts' tables: those are shortened when worded.
+[[nodiscard]] ReportModel shownModel(ReportModel model);
+
+}  // namespace tacto
