@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "app/cli/SignalStop.h"
+#include "app/run/SignalStop.h"
 #include "core/base/Units.h"
 
 namespace tacto::cli {

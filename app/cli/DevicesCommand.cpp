@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "app/cli/Command.h"
-#include "app/cli/SignalStop.h"
 #include "app/run/AllDrivers.h"
+#include "app/run/SignalStop.h"
 
 namespace tacto::cli {
 

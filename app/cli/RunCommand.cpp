@@ -1,16 +1,17 @@
 #include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <poll.h>
 #include <unistd.h>
 
 #include "app/cli/Command.h"
 #include "app/cli/Profiles.h"
-#include "app/cli/SignalStop.h"
 #include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/ProtocolRun.h"
+#include "app/run/SignalStop.h"
 #include "app/scripting/Arming.h"
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/base/Printable.h"
@@ -186,6 +187,17 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
 
+/// At once: a report may take long, and can be made later.
+[[noreturn]] void endBeforeReports(const std::string& session) {
+    pollfd terminal{STDERR_FILENO, POLLOUT, 0};
+    if (::poll(&terminal, 1, 0) == 1)  // one that takes no more text must not hold the program
+        say(stderr,
+            "tactoscope-cli: ended by a signal before the reports were written. The session is complete: "
+            "tactoscope-cli report {} --out FILE writes one.\n",
+            session);
+    std::_Exit(kStopped);
+}
+
 /// Beside the session; the path of the PDF, or null when there is none.
 json writeReports(const RunFiles& files) {
     json report = nullptr;
@@ -229,6 +241,8 @@ int runRun(const QCommandLineParser& parser) {
     if (outcome.error) say(stderr, "tactoscope-cli: {}\n", lines(outcome.error->message));
     for (const auto& trouble : result.troubles) say(stderr, "tactoscope-cli: {}\n", lines(trouble.message));
 
+    // The output is off and the session is closed: a signal from here on ends the program.
+    interrupts.onStop([session = result.session.string()] { endBeforeReports(session); });
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();
     const json value{{"protocol", protocol},

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "app/cli/SignalStop.h"
+#include "app/run/SignalStop.h"
 #include "core/acquisition/StreamHealth.h"
 #include "drivers/sensor_board/SensorBoard.h"
 

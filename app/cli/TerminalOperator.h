@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "app/cli/SignalStop.h"
+#include "app/run/SignalStop.h"
 #include "app/scripting/Operator.h"
 
 namespace tacto::cli {

@@ -4,11 +4,14 @@
 
 #include "app/gui/look/Look.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/SignalClose.h"
 #include "app/run/AllDrivers.h"
+#include "app/run/SignalStop.h"
 #include "core/base/StandardStreams.h"
 
 int main(int argc, char** argv) {
     tacto::holdStandardStreams();
+    tacto::SignalStop stops;  // before any other thread
     QApplication application(argc, argv);
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");
@@ -16,6 +19,7 @@ int main(int argc, char** argv) {
     QApplication::setApplicationVersion(TACTOSCOPE_VERSION);
     QApplication::setDesktopFileName("io.github.tactoscope.Tactoscope");
     tacto::gui::MainWindow window(tacto::allDrivers());
+    const tacto::gui::SignalClose closesAtSignals(stops, window);
     window.show();
     if (!QSettings().value("tourDone").toBool()) window.beginTour();
     return QApplication::exec();

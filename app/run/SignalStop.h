@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace tacto::cli {
+namespace tacto {
 
 class SignalStop {
 public:
@@ -31,4 +31,4 @@ private:
     std::thread thread_;  // Last: starts when all else is ready
 };
 
-}  // namespace tacto::cli
+}  // namespace tacto

@@ -1,9 +1,9 @@
-#include "app/cli/SignalStop.h"
+#include "app/run/SignalStop.h"
 
 #include <csignal>
 #include <ctime>
 
-namespace tacto::cli {
+namespace tacto {
 
 namespace {
 sigset_t stopSignals() {
@@ -12,9 +12,17 @@ sigset_t stopSignals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&set, signal);
     return set;
 }
+
+/// A viewer that is opened from here ends by them as usual.
+void unblockInChild() {
+    const auto set = stopSignals();
+    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
 }  // namespace
 
 SignalStop::SignalStop() {
+    static const int once = pthread_atfork(nullptr, nullptr, unblockInChild);
+    static_cast<void>(once);
     const auto set = stopSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
     std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is told by what writes
@@ -42,4 +50,4 @@ void SignalStop::wait() {
     }
 }
 
-}  // namespace tacto::cli
+}  // namespace tacto

@@ -1,0 +1,40 @@
+#include "app/gui/window/SignalClose.h"
+
+#include <QCoreApplication>
+#include <cstdlib>
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kStopped = 4;  // as tactoscope-cli ends when it is stopped
+
+}  // namespace
+
+SignalClose::SignalClose(SignalStop& stops, MainWindow& window) : stops_(stops) {
+    const auto close = [&window] {
+        window.desk().stop("operator (signal)");
+        const auto inTurn = [&window] {
+            window.close();
+            QCoreApplication::exit();  // also where a dialog is open
+        };
+        QMetaObject::invokeMethod(&window, inTurn, Qt::QueuedConnection);
+    };
+    stops_.onStop([close, first = first_] {
+        close();
+        note(first);
+    });
+    if (stops_.signalled()) close();  // one came while the window was built
+}
+
+SignalClose::~SignalClose() {
+    stops_.onStop([first = first_] { note(first); });
+}
+
+void SignalClose::note(const First& first) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!*first) *first = now;
+    if (now - **first >= kGivenUp) std::_Exit(kStopped);
+}
+
+}  // namespace tacto::gui
