@@ -10,9 +10,25 @@ ConfirmButton::ConfirmButton(const QString& text, QWidget* parent) : QPushButton
     setDefault(false);
 }
 
-bool ConfirmButton::listens() const { return isVisible() && shown_.isValid() && shown_.elapsed() >= kDeaf_ms; }
+void ConfirmButton::setMeaning(const QString& text, bool confirms) {
+    if (text == meaning_) return;
+    meaning_ = text;
+    confirms_ = confirms;
+    if (confirms) {
+        setDown(false);
+        shown_.start();
+    }
+    setText(text);
+}
 
-bool ConfirmButton::event(QEvent* event) { return event->type() == QEvent::Shortcut || QPushButton::event(event); }
+bool ConfirmButton::listens() const {
+    return !confirms_ || (isVisible() && shown_.isValid() && shown_.elapsed() >= kDeaf_ms);
+}
+
+bool ConfirmButton::event(QEvent* event) {
+    const bool hasMnemonic = !meaning_.isEmpty();
+    return (event->type() == QEvent::Shortcut && !(hasMnemonic && listens())) || QPushButton::event(event);
+}
 
 void ConfirmButton::showEvent(QShowEvent* event) {
     shown_.start();
@@ -24,6 +40,9 @@ void ConfirmButton::mousePressEvent(QMouseEvent* event) {
     event->accept();
 }
 
-void ConfirmButton::mouseDoubleClickEvent(QMouseEvent* event) { event->accept(); }
+void ConfirmButton::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (!confirms_) return QPushButton::mouseDoubleClickEvent(event);
+    event->accept();
+}
 
 }  // namespace tacto::gui

@@ -3,6 +3,7 @@
 //
 // It is deaf for half a second after it is shown, so the second half of a double click does not press it, and it has no
 // mnemonic, since a held Alt+letter repeats. Return presses it through StopKeys, which takes a held key for one press.
+// A button whose meaning changes while it is shown (Pause, Resume) says so by setMeaning(), and is deaf after that.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -17,7 +18,12 @@ class ConfirmButton final : public QPushButton {
 public:
     static constexpr int kDeaf_ms = 500;
     explicit ConfirmButton(const QString& text, QWidget* parent = nullptr);
-    /// Whether it has been shown for long enough to be meant.
+    /// What a press does from now on; `text` may have a mnemonic. `confirms`: it is a second step; it is deaf for
+    /// kDeaf_ms, and a press that is under way does nothing. Otherwise it takes every press at once, as what stops,
+    /// pauses or disarms must. The same meaning again changes nothing.
+    void setMeaning(const QString& text, bool confirms);
+    /// Whether a press now is meant for what it does now. Those that act on clicked() where the meaning changes ask
+    /// this too: keys and screen readers press without the mouse.
     [[nodiscard]] bool listens() const;
 
 protected:
@@ -27,7 +33,9 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
 
 private:
-    QElapsedTimer shown_;
+    QElapsedTimer shown_;  // with this meaning
+    QString meaning_;      // of setMeaning()
+    bool confirms_ = true;
 };
 
 }  // namespace tacto::gui

@@ -74,15 +74,17 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     run_->setObjectName("runButton");
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
     setFocusProxy(run_);
-    pause_ = new QPushButton(this);
+    pause_ = new ConfirmButton({}, this);
     pause_->setObjectName("pauseButton");
     pause_->setToolTip(tr("Holds the output back; the script waits at its next step."));
-    connect(pause_, &QPushButton::clicked, this, [this] { emit pauseWanted(!paused_); });
+    connect(pause_, &QPushButton::clicked, this, [this] {
+        if (pause_->listens()) emit pauseWanted(!paused_);
+    });
     stop_ = new QPushButton(tr("&Stop"), this);
     stop_->setObjectName("stopButton");
     stop_->setToolTip(tr("Output off; what was recorded so far is kept (Shift+F5)."));
     connect(stop_, &QPushButton::clicked, this, &RunPanel::stopWanted);
-    for (auto* button : {run_, pause_, stop_}) {
+    for (auto* button : {run_, static_cast<QPushButton*>(pause_), stop_}) {
         button->setAutoDefault(false);
         row->addWidget(button);
     }
@@ -210,7 +212,7 @@ void RunPanel::end(bool early) {
 void RunPanel::showButtons() {
     run_->setEnabled(!running_ && ready_);
     pause_->setEnabled(running_);
-    pause_->setText(paused_ ? tr("&Resume") : tr("&Pause"));
+    pause_->setMeaning(paused_ ? tr("&Resume") : tr("&Pause"), paused_);
     stop_->setEnabled(running_);
 }
 

@@ -13,6 +13,8 @@
 
 namespace tacto::gui {
 
+class ConfirmButton;
+
 /// Time left from what the steps so far took: pauses and what came before the first step do not count.
 class TimeLeft {
 public:
@@ -63,7 +65,7 @@ private:
     QPushButton* arm_ = nullptr;
     QPushButton* back_ = nullptr;  // of the question, takes the focus
     QPushButton* run_;
-    QPushButton* pause_;
+    ConfirmButton* pause_;
     QPushButton* stop_;
     QProgressBar* bar_;
     QLabel* left_;

@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/ElidedLabel.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/window/LimitBarRow.h"
@@ -125,21 +126,15 @@ QWidget* SafetyBar::buildButtons() {
     auto* column = new QVBoxLayout(holder);
     column->setContentsMargins(0, 4, 0, 4);
     column->setSpacing(4);
-    action_ = new QPushButton(tr(kActions[0]), holder);
+    action_ = new ConfirmButton({}, holder);
     action_->setObjectName("armButton");
     connect(action_, &QPushButton::clicked, this, &SafetyBar::pressAction);
-    pause_ = new QPushButton(tr("&Pause"), holder);
-    pause_->setToolTip(tr("Holds the output back and keeps the run: no train is delivered until you resume."));
-    connect(pause_, &QPushButton::clicked, this, [this] {
-        if (state_ == InterlockState::Paused)
-            desk_.resume();
-        else
-            desk_.pause();
-    });
-    for (auto* button : {action_, pause_}) {
-        button->setAutoDefault(false);
-        column->addWidget(button);
-    }
+    pause_ = new ConfirmButton({}, holder);
+    pause_->setToolTip(tr(
+        "Holds the output back and keeps the run. A train that is under way ends by itself, within 2 s; no other one "
+        "is delivered until you resume. STOP ends it at once."));
+    connect(pause_, &QPushButton::clicked, this, &SafetyBar::pressPause);
+    for (auto* button : {action_, pause_}) column->addWidget(button);
     return holder;
 }
 
@@ -249,29 +244,39 @@ void SafetyBar::showButtons(InterlockState state) {
     const bool on = state == InterlockState::Armed || state == InterlockState::Delivering ||
                     state == InterlockState::Paused || state == InterlockState::Checking;
     if (state == InterlockState::Faulted) {
-        action_->setText(tr(kActions[2]));
+        action_->setMeaning(tr(kActions[2]), true);
         action_->setToolTip(
             tr("Asks the devices again; one that was unplugged is looked for. When the cause is gone the bench is "
                "disarmed, not armed."));
     } else if (on) {
-        action_->setText(tr(kActions[1]));
+        action_->setMeaning(tr(kActions[1]), false);
         action_->setToolTip(tr("Ends the output and goes back to disarmed."));
     } else {
-        action_->setText(tr(kActions[0]));
+        action_->setMeaning(tr(kActions[0]), false);
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
-    pause_->setText(state == InterlockState::Paused ? tr("Res&ume") : tr("&Pause"));
+    const bool paused = state == InterlockState::Paused;
+    pause_->setMeaning(paused ? tr("Res&ume") : tr("&Pause"), paused);
     pause_->setEnabled(state == InterlockState::Delivering || state == InterlockState::Paused);
 }
 
 void SafetyBar::pressAction() {
+    if (!action_->listens()) return;
     if (state_ == InterlockState::Faulted)
         desk_.resetFault();
     else if (state_ == InterlockState::Disarmed)
         emit armRequested();
     else
         desk_.disarm();
+}
+
+void SafetyBar::pressPause() {
+    if (!pause_->listens()) return;
+    if (state_ == InterlockState::Paused)
+        desk_.resume();
+    else
+        desk_.pause();
 }
 
 }  // namespace tacto::gui

@@ -16,6 +16,7 @@
 
 namespace tacto::gui {
 
+class ConfirmButton;
 class ElidedLabel;
 class LimitBarRow;
 class StateBlock;
@@ -46,6 +47,7 @@ private:
     void showExposure(const Telemetry& telemetry);
     void showButtons(InterlockState state);
     void pressAction();
+    void pressPause();
 
     BenchDesk& desk_;
     const CalibrationBook& calibrations_;
@@ -56,8 +58,8 @@ private:
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
     QWidget* buttons_ = nullptr;
-    QPushButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
-    QPushButton* pause_ = nullptr;
+    ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
+    ConfirmButton* pause_ = nullptr;
     StopButton* stop_ = nullptr;
     std::uint64_t trainsSeen_ = 0;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train

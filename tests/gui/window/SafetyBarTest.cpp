@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/look/ConfirmButton.h"
 #include "app/gui/look/Look.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/SafetyBar.h"
@@ -64,6 +65,17 @@ protected:
         telemetry.state = state;
         telemetry.reason = reason;
         return telemetry;
+    }
+    bool armed(const std::vector<const char*>& uris) {
+        gui::LiveOrder order;
+        for (const auto* uri : uris) order.uris.push_back(*DeviceUri::parse(uri));
+        order.profile = desk.profile();
+        desk.openLive(order);
+        if (!comesTrue([this] { return desk.activity() == gui::Activity::Live; })) return false;
+        ArmRequest request;
+        request.operatorConfirmed = true;
+        desk.arm(request);
+        return comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; });
     }
     QString word() { return bar.findChild<QLabel*>("interlockState")->text(); }
     gui::BenchDesk desk{simulatedRegistry};
@@ -199,6 +211,67 @@ TEST_F(Bar, ArmingOnlyAsks) {
     EXPECT_EQ(asked, 1);
     QTest::qWait(200);
     EXPECT_EQ(desk.telemetry().state, InterlockState::Disarmed);
+}
+
+TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
+    RecordProperty("hazard", "H2");
+    ASSERT_TRUE(armed({"sim:"}));
+    desk.drive(DriveSource::Manual, 0.5, 1);
+    const auto is = [this](InterlockState state) {
+        return comesTrue([this, state] {
+            bar.refresh(desk.telemetry());
+            return desk.telemetry().state == state;
+        });
+    };
+    ASSERT_TRUE(is(InterlockState::Delivering));
+    auto* pause = find<QPushButton>(bar, "Pause");
+    ASSERT_NE(pause, nullptr);
+    QTest::mouseClick(pause, Qt::LeftButton);
+    ASSERT_TRUE(is(InterlockState::Paused));
+    EXPECT_EQ(pause->text().remove('&'), "Resume");
+    QTest::mouseDClick(pause, Qt::LeftButton);
+    QTest::mouseClick(pause, Qt::LeftButton);
+    pause->click();
+    QTest::qWait(100);
+    EXPECT_EQ(desk.telemetry().state, InterlockState::Paused);
+    click(*pause);
+    EXPECT_TRUE(is(InterlockState::Delivering)) << "a press of its own resumes";
+    QTest::mouseClick(pause, Qt::LeftButton);
+    EXPECT_TRUE(is(InterlockState::Paused)) << "and pausing waits for nothing";
+}
+
+TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
+    RecordProperty("hazard", "H2");
+    ASSERT_TRUE(armed({"sim:stimulator?fault=unplug@1s", "sim:"}));
+    desk.drive(DriveSource::Manual, 0.5, 1);
+    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Faulted; }));
+    QStringList refused;  // what is unplugged cannot be reset
+    QObject::connect(&desk, &gui::BenchDesk::failed, [&](const QString& what) {
+        if (what.contains("ot reset")) refused << what;
+    });
+    auto* action = bar.findChild<QPushButton*>("armButton");
+    bar.refresh(in(InterlockState::Delivering));
+    bar.refresh(in(InterlockState::Faulted, "unplugged"));
+    QTest::mouseClick(action, Qt::LeftButton);
+    action->click();
+    QTest::qWait(100);
+    EXPECT_TRUE(refused.isEmpty()) << "it was Disarm a moment ago";
+
+    bar.refresh(in(InterlockState::Delivering));
+    QTest::mousePress(action, Qt::LeftButton);
+    bar.refresh(in(InterlockState::Faulted, "unplugged"));
+    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    QTest::mouseRelease(action, Qt::LeftButton);
+    QTest::qWait(100);
+    EXPECT_TRUE(refused.isEmpty()) << "it was Disarm when the press went down";
+
+    click(*action);
+    EXPECT_TRUE(comesTrue([&] { return !refused.isEmpty(); })) << "a later press resets";
+}
+
+TEST_F(Bar, SaysThatATrainUnderWayOutlastsThePause) {
+    bar.refresh(in(InterlockState::Delivering));
+    EXPECT_TRUE(find<QPushButton>(bar, "Pause")->toolTip().contains("A train that is under way ends by itself"));
 }
 
 TEST_F(Bar, SaysWhyItFaultedAndThatOutputIsOff) {
