@@ -126,7 +126,7 @@ std::vector<HostFunction> recordFunctions() {
          HostKind::Function,
          {{"kind", "text", "", "what happened, in a word or two"},
           {"details", "object", "", "anything worth keeping", true}},
-         "Records that something happened.",
+         "Records that something happened, as the event \"script: KIND\".",
          "",
          kDisk,
          event},

@@ -77,7 +77,8 @@ TEST_F(Stop, ARunWhoseSessionIsGoneHasNoVerdictAndDoesNotSucceed) {
     RecordProperty("hazard", "H8");
     auto run = desk.start(
         {"run", "live", "--device", "sim:", "--realtime", "--set", "duration=2", "--out", desk.at("out"), "--json"});
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    // Opened, not only made.
+    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun() && !desk.named("out", ".tacto-wal").empty(); }));
     std::filesystem::remove(desk.named("out", ".tacto").at(0));
     const auto ran = run.wait(std::chrono::seconds(60));
     EXPECT_EQ(ran.code, 3) << ran.err;

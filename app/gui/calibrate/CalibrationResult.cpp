@@ -97,8 +97,8 @@ void CalibrationResult::addSummary(const json& found) {
         tr("Standard deviation of repeats in the same direction, in % of the largest command."));
     add(tr("Hysteresis"), quantityText(numberIn(found, "hysteresis_pct_fs"), "% FS", 2),
         tr("The largest difference between going up and down at one level, in % of the largest command."));
-    const int outliers = found.value("outliers", 0), missing = found.value("not_measured", 0);
-    auto readings = tr("n = %1").arg(found.value("n", 0));
+    auto readings = tr("n = %1").arg(numberIn(found, "n"));
+    const double outliers = numberIn(found, "outliers"), missing = numberIn(found, "not_measured");
     if (outliers > 0) readings += tr(", marked as standing out and kept: %1").arg(outliers);
     if (missing > 0) readings += tr(", not measured: %1").arg(missing);
     add(tr("Readings"), readings, tr("A reading that stands out is marked and stays in every number."));
@@ -146,7 +146,7 @@ void CalibrationResult::addLevels(const json& levels) {
     }
     for (int row = 0; row < table->rowCount(); ++row) {
         const auto& level = levels[std::size_t(row)];
-        putText(*table, row, 1, QString::number(level.value("n", 0)), true);
+        putText(*table, row, 1, QString::number(numberIn(level, "n")), true);
         putText(*table, row, table->columnCount() - 1, verdictText(words(level, "verdict")), false);
     }
     fitToRows(*table);
