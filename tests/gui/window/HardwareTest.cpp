@@ -87,6 +87,7 @@ TEST_F(HardwareWindow, NobodyButTheOperatorSaysWhatIsConnected) {
     auto* load = second->window()->findChild<QLineEdit*>();
     EXPECT_EQ(load->text(), "");
     EXPECT_FALSE(second->isEnabled());
+    shot(*second->window(), "arm_which_load");
     QTest::keyClicks(load, "470 ohm");
     EXPECT_TRUE(second->isEnabled());
     EXPECT_THAT(second->window()->findChild<QLabel*>("armingText")->text(), Says("into 470 ohm"));
