@@ -1,5 +1,5 @@
-// ShownText.h - how much of one text a report shows. Scripts write texts of any length; laying out a hundred thousand
-// characters takes seconds, and nobody reads them in a report. The session keeps the whole text (hazard H10).
+// ShownText.h - how much of a text a report shows. A script may write any length, and laying out a hundred thousand
+// characters takes seconds. The session keeps the whole text (hazard H10).
 //
 // Thread-safety: pure functions.
 #pragma once

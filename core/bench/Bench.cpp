@@ -284,6 +284,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     s.loop->drive({source, roughness, pressure});
     // A stop in between has told the loop to drive nothing; what was wished before it is not kept for the next arming.
     if (source != DriveSource::Off && s.stopped()) {
+        s.driving.store(DriveSource::Off, std::memory_order_release);
         s.loop->drive({});
         return fail(ErrorCode::Stopped, "stopped. Output is off.");
     }

@@ -109,7 +109,7 @@ public:
     [[nodiscard]] FixedText<159> endedBecause() const noexcept;
     /// What comes from now on is another order, which the loop has not ended and which has delivered nothing yet.
     void beginOrder() noexcept;
-    /// The largest exposure since then, row by row: each train counts, whoever looks when. Any thread.
+    /// The largest exposure since then, row by row, over every train. Any thread.
     [[nodiscard]] WorstExposure worstExposure() const noexcept { return latestWorst_.read(); }
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }

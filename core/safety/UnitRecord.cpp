@@ -1,7 +1,6 @@
 #include "core/safety/UnitRecord.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -266,14 +265,6 @@ void UnitRecord::keepFault(FaultCause cause, std::string_view reason) noexcept {
 void UnitRecord::clearFault() noexcept {
     map_.fault.write({});
     if (claim_) claim_->keepFault(false);
-}
-
-UnitFolders unitFolders() {
-    constexpr const char* kClaims = "/run/lock";
-    const char* data = std::getenv("XDG_DATA_HOME");
-    if (data != nullptr && *data != '\0') return {std::filesystem::path(data) / "tactoscope" / "units", kClaims};
-    const char* home = std::getenv("HOME");
-    return {std::filesystem::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "units", kClaims};
 }
 
 }  // namespace tacto

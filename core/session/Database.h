@@ -54,8 +54,7 @@ public:
     /// One or more statements without parameters.
     [[nodiscard]] Result<void> execute(const std::string& sql);
     [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
-    /// True when the file was removed or has another name than it was opened by: what is written is lost, or nobody
-    /// finds it.
+    /// True when the file no longer has the name by which it was opened: it was moved or removed.
     [[nodiscard]] bool hasMoved() const noexcept;
     /// The first column of the first row of `sql`, as an integer; 0 without rows.
     [[nodiscard]] Result<std::int64_t> number(std::string_view sql) const;

@@ -51,10 +51,12 @@ public:
     void forceOff() noexcept override {
         ++offs;
         on = false;
+        if (onOff) onOff();
     }
 
     SourceTraits traits_;
     std::function<void()> onDeliver;
+    std::function<void()> onOff;
     bool deliverFails = false;
     bool statusFails = false;
     Instant stillOnUntil{0};  ///< a train goes on until then

@@ -27,6 +27,7 @@ protected:
         config.limits = {test::generousLimits()};
         config.stops = std::move(stops);
         config.asked = asked;
+        config.watched = watched_;
         bench_ = Bench::create(std::move(config)).value();
     }
     [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
@@ -34,6 +35,7 @@ protected:
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<Bench> bench_;
     test::FakeStimulator* device_ = nullptr;
+    std::function<bool()> watched_;
 };
 
 TEST_F(StopTest, ReachesForceOffBeforeItReturns) {
@@ -60,6 +62,46 @@ TEST_F(StopTest, DuringAWriteSwitchesOffAfterTheWrite) {
     ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
     ASSERT_TRUE(bench_->wait(Seconds(3)));
     EXPECT_EQ(device_->delivered, delivered);
+}
+
+TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
+    RecordProperty("hazard", "H2");
+    bool stops = false;
+    watched_ = [&] {  // asked before the loop is told
+        if (std::exchange(stops, false)) {
+            bench_->stop("test");
+            std::this_thread::sleep_for(20ms);  // some turns of the loop
+        }
+        return true;
+    };
+    open(true);
+    ASSERT_TRUE(arm());
+    stops = true;
+    const auto driven = bench_->drive(DriveSource::Manual, 1, 1);
+    ASSERT_FALSE(driven);
+    EXPECT_EQ(driven.error().code, ErrorCode::Stopped);
+    ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
+    ASSERT_TRUE(arm());
+    const int delivered = device_->delivered;
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    EXPECT_EQ(device_->delivered, delivered);
+}
+
+TEST_F(StopTest, AFaultIsKeptWhenTheOutputIsOffAndNotBefore) {
+    RecordProperty("hazard", "H2");
+    open(false);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(bench_->wait(Seconds(1)));
+    std::optional<InterlockState> atFirst;
+    device_->onOff = [&] {
+        if (!atFirst) atFirst = bench_->telemetry().state;
+    };
+    device_->electrode = ElectrodeState::Open;
+    EXPECT_FALSE(bench_->wait(Seconds(2)));
+    EXPECT_EQ(atFirst, InterlockState::Delivering) << "a slow disk, on which the fault is kept, would hold it up";
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
+    device_->onOff = nullptr;
 }
 
 TEST_F(StopTest, DuringTheCheckEndsArmingAndDeliversNothingMore) {

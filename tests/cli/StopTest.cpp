@@ -73,6 +73,27 @@ TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {
     }
 }
 
+TEST_F(Stop, ASignalWhileTheReportsAreDrawnEndsTheProgramAndTheSessionIsComplete) {
+    RecordProperty("hazard", "H10");
+    const auto script = desk.protocol("long.js", R"js(protocol({ title: "Long report" });
+function run(p) {
+  const rows = [];
+  for (let i = 0; i < 4000; i++) rows.push({ a: i, b: "x".repeat(900) });
+  report.table("Rows", rows);
+  return verdict({ verdict: "pass" });
+})js");
+    auto run = desk.start({"run", script, "--device", "sim:", "--out", desk.at("out")});
+    ASSERT_TRUE(run.waitUntil([&] { return !desk.named("out", ".html").empty(); })) << "the first report";
+    run.signal(SIGINT);
+    const auto signalled = Clock::now();
+    const auto ran = run.wait(std::chrono::seconds(60));
+    EXPECT_LT(secondsSince(signalled), 2);
+    EXPECT_EQ(ran.code, 4);
+    EXPECT_THAT(ran.err, HasSubstr("before the reports were written"));
+    EXPECT_TRUE(desk.named("out", ".pdf").empty());
+    EXPECT_EQ(desk.run({"verify", desk.named("out", ".tacto").at(0)}).code, 0);
+}
+
 TEST_F(Stop, ARunWhoseSessionIsGoneHasNoVerdictAndDoesNotSucceed) {
     RecordProperty("hazard", "H8");
     auto run = desk.start(

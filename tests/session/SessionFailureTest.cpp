@@ -29,13 +29,19 @@ private:
     rlimit before_{};
 };
 
+/// A session that is written, with one stream.
+struct Recording {
+    ScratchDir dir;
+    std::filesystem::path path = dir.path() / "s.tacto";
+    test::HandClock clock;
+    std::unique_ptr<SessionWriter> writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    int stream = writer->addStream(SessionStream{"a", "", "", {"x", "y", "z"}, 4000}).value();
+};
+
 TEST(SessionFailure, AFullDiskIsSaidOnceAndForAllAndWhatWasCommittedStays) {
     RecordProperty("hazard", "H8");
-    const ScratchDir dir;
-    const auto path = dir.path() / "s.tacto";
-    test::HandClock clock;
-    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
-    const int stream = writer->addStream(SessionStream{"a", "", "", {"x", "y", "z"}, 4000}).value();
+    Recording recording;
+    auto& [dir, path, clock, writer, stream] = recording;
     ASSERT_TRUE(writer->trial(clock.now(), "before", {}));
     int trials = 1;
     {
@@ -64,11 +70,8 @@ TEST(SessionFailure, AFullDiskIsSaidOnceAndForAllAndWhatWasCommittedStays) {
 
 TEST(SessionFailure, AFileThatIsRemovedMeanwhileEndsTheRecording) {
     RecordProperty("hazard", "H8");
-    const ScratchDir dir;
-    const auto path = dir.path() / "s.tacto";
-    test::HandClock clock;
-    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
-    const int stream = writer->addStream(SessionStream{"a", "", "", {"x", "y", "z"}, 4000}).value();
+    Recording recording;
+    auto& [dir, path, clock, writer, stream] = recording;
     std::filesystem::remove(path);
     Result<void> result;
     for (int i = 0; i < 40 && result; ++i) {

@@ -21,6 +21,11 @@ double numberIn(const json& in, const char* key) {
     return at != in.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
 
+QString countIn(const json& in, const char* key) {
+    const double count = numberIn(in, key);
+    return std::isnan(count) ? QString("–") : QString::number(count);
+}
+
 QString words(const json& in, const char* key) {
     const auto at = in.find(key);
     return at != in.end() && at->is_string() ? QString::fromStdString(at->get<std::string>()) : QString();
@@ -97,7 +102,7 @@ void CalibrationResult::addSummary(const json& found) {
         tr("Standard deviation of repeats in the same direction, in % of the largest command."));
     add(tr("Hysteresis"), quantityText(numberIn(found, "hysteresis_pct_fs"), "% FS", 2),
         tr("The largest difference between going up and down at one level, in % of the largest command."));
-    auto readings = tr("n = %1").arg(numberIn(found, "n"));
+    auto readings = tr("n = %1").arg(countIn(found, "n"));
     const double outliers = numberIn(found, "outliers"), missing = numberIn(found, "not_measured");
     if (outliers > 0) readings += tr(", marked as standing out and kept: %1").arg(outliers);
     if (missing > 0) readings += tr(", not measured: %1").arg(missing);
@@ -146,7 +151,7 @@ void CalibrationResult::addLevels(const json& levels) {
     }
     for (int row = 0; row < table->rowCount(); ++row) {
         const auto& level = levels[std::size_t(row)];
-        putText(*table, row, 1, QString::number(numberIn(level, "n")), true);
+        putText(*table, row, 1, countIn(level, "n"), true);
         putText(*table, row, table->columnCount() - 1, verdictText(words(level, "verdict")), false);
     }
     fitToRows(*table);
