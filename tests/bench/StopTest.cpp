@@ -66,9 +66,9 @@ TEST_F(StopTest, DuringAWriteSwitchesOffAfterTheWrite) {
 
 TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
     RecordProperty("hazard", "H2");
-    bool stops = false;
+    std::atomic<bool> stops{false};
     watched_ = [&] {  // asked before the loop is told
-        if (std::exchange(stops, false)) {
+        if (stops.exchange(false)) {
             bench_->stop("test");
             std::this_thread::sleep_for(20ms);  // some turns of the loop
         }
