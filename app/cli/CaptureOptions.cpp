@@ -59,6 +59,11 @@ void declareCaptureOptions(QCommandLineParser& parser) {
     parser.addOption({"unit", "The unit of a channel's numbers, as in CH1=mV; may be repeated.", "CH=UNIT"});
     parser.addOption(
         {"probe", "Factor that a channel's numbers are multiplied by, as in CH1=10; may be repeated.", "CH=FACTOR"});
+    parser.addOption(
+        {"range",
+         "The input range of a channel in V or A, as in CH1=-5:5, for a file that does not state it: a sample "
+         "at or beyond an end is clipped; may be repeated.",
+         "CH=LOW:HIGH"});
     parser.addOption({"sample-rate", "Samples per second, for a file without times or with wrong ones.", "HZ"});
 }
 
@@ -99,6 +104,18 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
                         text.toStdString());
         }
         options.probeFactors.insert_or_assign(probe->first, *factor);
+    }
+    for (const auto& text : parser.values("range")) {
+        const auto range = pairOf(text, "range", "-5:5");
+        if (!range) return failure(range);
+        const auto ends = split(range->second, ':');
+        const auto low = ends.size() == 2 ? parseNumber(ends[0]) : std::nullopt;
+        const auto high = low ? parseNumber(ends[1]) : std::nullopt;
+        if (!high) {
+            return fail(ErrorCode::InvalidArgument, "--range is \"{}\"; CHANNEL=-5:5, two numbers, is expected",
+                        text.toStdString());
+        }
+        options.ranges.insert_or_assign(range->first, std::pair(*low, *high));
     }
     if (parser.isSet("sample-rate")) {
         const auto rate = numberOption(parser, "sample-rate");

@@ -16,14 +16,15 @@ using nlohmann::json;
 json listOf(const json& results, const char* key) { return results.value(key, json::array()); }
 
 void printLoads(const json& loads) {
-    say("\n  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}\n", "load", "measured ohm", "peak V", "peak mA",
-        "5 s RMS mA", "charge uC", "net uC", "energy mJ", "verdict");
+    say("\n  {:<27} {:>10} {:>9} {:>10} {:>10} {:>10} {:>11} {:>10}   {}\n", "load", "measured", "peak", "peak",
+        "5 s RMS", "charge", "net charge", "energy", "verdict");
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0.0);
-        say("  {:<27} {:>12} {:>8} {:>9} {:>14} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
-            resultNumber(load, "measured_ohm"), resultNumber(load, "peak_v"), resultNumber(load, "peak_ma"),
-            resultNumber(load, "rms_5s_ma"), resultNumber(load, "charge_uc"), resultNumber(load, "net_charge_uc"),
-            resultNumber(load, "energy_mj"), resultText(load, "verdict"),
+        say("  {:<27} {:>10} {:>9} {:>10} {:>10} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
+            resultQuantity(load, "measured_ohm", "ohm"), resultQuantity(load, "peak_v", "V"),
+            resultQuantity(load, "peak_ma", "mA"), resultQuantity(load, "rms_5s_ma", "mA"),
+            resultQuantity(load, "charge_uc", "uC"), resultQuantity(load, "net_charge_uc", "uC"),
+            resultQuantity(load, "energy_mj", "mJ"), resultText(load, "verdict"),
             refused > 0 ? fmt::format(" ({} refused as expected)", resultNumber(load, "commands_refused"))
                         : std::string());
     }
@@ -34,8 +35,8 @@ void printDisclosed(const json& outputs) {
     say("\n  to disclose\n");
     for (const auto& output : outputs) {
         const auto bound = output.find("plus_minus_pct");
-        say("  {:<40} {:<9} {:>8} {:<7} {}\n", resultText(output, "output"), resultText(output, "load"),
-            resultNumber(output, "value"), resultText(output, "unit"),
+        say("  {:<40} {:<9} {:>12}  {}\n", resultText(output, "output"), resultText(output, "load"),
+            resultQuantity(output, "value", resultText(output, "unit")),
             output.contains("reason") && !resultText(output, "reason").empty() ? resultText(output, "reason")
             : bound != output.end() && bound->is_number() ? fmt::format("± {:.2g} %", bound->get<double>())
                                                           : std::string());
@@ -53,8 +54,8 @@ void printRows(const json& rows, const char* heading) {
         }
         if (!said) say("\n  {}\n", heading);
         said = true;
-        say("  {:<20} {:<27} {:<34} {} {}\n", resultText(row, "verdict"), resultText(row, "load"),
-            resultText(row, "title"), resultNumber(row, "value"), resultText(row, "unit"));
+        say("  {:<20} {:<27} {:<34} {}\n", resultText(row, "verdict"), resultText(row, "load"),
+            resultText(row, "title"), resultQuantity(row, "value", resultText(row, "unit")));
     }
     say("\n  {}: {} of {} rows passed\n", heading, passed, rows.size());
 }

@@ -5,8 +5,10 @@
 #include "app/cli/MeasureLoad.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
+#include "core/devices/StatementKeys.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
+#include "core/measure/InstrumentStatement.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto::cli {
@@ -20,6 +22,11 @@ void declareMeasure(QCommandLineParser& parser) {
     parser.addOption({"rate", "Intra-train pulse rate in Hz: pulses up to 1.5 periods apart form a train.", "HZ"});
     parser.addOption({"train-gap", "Pulses up to this many seconds apart form a train.", "S"});
     declareCaptureOptions(parser);
+    parser.addOption(
+        {"accuracy",
+         "What the instrument's data sheet states, as in gain_pct=2; may be repeated. Also fs_pct, probe_pct, "
+         "shunt_pct, timebase_ppm, lsb_v, lsb_a.",
+         "KEY=VALUE"});
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -69,6 +76,11 @@ Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
     return options;
 }
 
+/// As the capture itself says, else the folder it lies in; nothing: neither says, and the origin is not known.
+std::optional<bool> simulatedAs(const std::filesystem::path& path, const Capture& capture) {
+    return capture.simulated ? std::optional(true) : statedSimulated(path);
+}
+
 int runMeasure(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "CAPTURE");
     if (!path) return usage(fmt::format("measure: {}", path.error().message));
@@ -98,27 +110,46 @@ int runMeasure(const QCommandLineParser& parser) {
             return usage("measure: " + converted.error().message);
         }
     }
+    DeviceUri stated{.scheme = "measure", .path = *path, .parameters = {}};
+    for (const auto& text : parser.values("accuracy")) {
+        const auto pair = text.toStdString();
+        const auto equals = pair.find('=');
+        if (equals == std::string::npos)
+            return usage(fmt::format("measure: --accuracy is \"{}\"; KEY=VALUE is expected", pair));
+        stated.parameters.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+    }
+    const auto statement = takeStatement(stated);
+    if (!statement) return usage("measure: " + statement.error().message);
+    if (!stated.parameters.empty()) {
+        return usage(
+            fmt::format("measure: --accuracy {} is not known; gain_pct, fs_pct, probe_pct, shunt_pct, "
+                        "timebase_ppm, lsb_v or lsb_a is expected",
+                        stated.parameters.front().first));
+    }
+    if (*statement) applyStatement(reading->capture, **statement);
+    const auto lacking = notStatedText(reading->capture);
     const auto found = measureCapture(reading->capture, channel, *options);
     const auto load = loadIn(reading->capture, *options);
     auto warnings = reading->warnings;
     warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
     if (load) warnings.insert(warnings.end(), load->warnings.begin(), load->warnings.end());
+    const auto simulated = simulatedAs(*path, reading->capture);
     if (parser.isSet("json")) {
         auto channels = nlohmann::json::array();
         for (const auto& m : found.channels) {
             channels.push_back(toJson(m));
             addTrust(channels.back(), m);
         }
-        const auto simulated = statedSimulated(*path);
         printJson({{"format", reading->formatId},
                    {"channels", channels},
                    {"load", loadJson(load)},
                    {"simulated", simulated ? nlohmann::json(*simulated) : nlohmann::json()},
+                   {"not_stated", lacking},
                    {"warnings", warnings}});
         return kDone;
     }
     say("{}\n", reading->formatName);
-    if (statedSimulated(*path).value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
+    if (simulated.value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     for (const auto& m : found.channels) {
         say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
             m.measuredPulses);
@@ -132,6 +163,9 @@ int runMeasure(const QCommandLineParser& parser) {
         printTrust(m);
     }
     if (load) printLoad(*load);
+    if (!lacking.empty() && !found.channels.empty() && found.channels.front().measuredPulses > 0) {
+        say("What is not known rests on this: {} (--accuracy, or a file that states it).\n", lacking);
+    }
     for (const auto& warning : warnings) say(stderr, "{}\n", warning);
     return kDone;
 }

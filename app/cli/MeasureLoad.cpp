@@ -44,17 +44,21 @@ void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
                           {"truncated", countOf(m, [](const auto& f) { return f.truncated; })},
                           {"incomplete", countOf(m, [](const auto& f) { return f.incomplete; })},
                           {"under_sampled", countOf(m, [](const auto& f) { return f.underSampled; })},
-                          {"coarse", countOf(m, [](const auto& f) { return f.coarse && f.measured(); })}};
+                          {"coarse", countOf(m, [](const auto& f) { return f.coarse && f.measured(); })},
+                          {"flat_top", countOf(m, [](const auto& f) { return f.flatTop && f.measured(); })}};
 }
 
 void printTrust(const ChannelMeasurement& m) {
     if (m.measuredPulses == 0) return;
     const auto& u = m.uncertainty;
-    say("  uncertainty (k = {:.0f}): amplitude {}, width {}, interval {}", kCoverage,
-        formatQuantity(kCoverage * u.amplitude, m.unit, 2), formatQuantity(kCoverage * u.width_s, "s", 2),
-        formatQuantity(kCoverage * u.interval_s, "s", 2));
-    if (m.gap_s.n > 0) say(", gap {}", formatQuantity(kCoverage * u.gap_s, "s", 2));
-    if (m.imbalance.n > 0) say(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
+    const auto text = [](double standard, std::string_view unit) {
+        return std::isfinite(standard) ? formatQuantity(kCoverage * standard, unit, 2) : std::string("not known");
+    };
+    say("  uncertainty (k = {:.0f}): amplitude {}, width {}", kCoverage, text(u.amplitude, m.unit),
+        text(u.width_s, "s"));
+    if (m.interval_s.n > 0) say(", interval {}", text(u.interval_s, "s"));
+    if (m.gap_s.n > 0) say(", gap {}", text(u.gap_s, "s"));
+    if (m.imbalance.n > 0 && std::isfinite(u.imbalance)) say(", imbalance {:.2g} %", 100 * kCoverage * u.imbalance);
     say("\n");
     if (std::isfinite(m.quality.snr_db)) say("  {:<11} {:>9.1f} dB\n", "above noise", m.quality.snr_db);
 }
@@ -84,7 +88,9 @@ nlohmann::json loadJson(const std::optional<LoadMeasurement>& load) {
 void printLoad(const LoadMeasurement& load) {
     if (load.measuredPulses == 0) return;
     say("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current, load.measuredPulses,
-        kCoverage, formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2));
+        kCoverage,
+        std::isfinite(load.loadUncertainty_ohm) ? formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2)
+                                                : "not known");
     printFigure("load", load.load_ohm, "ohm");
     printFigure("impedance", load.impedance_ohm, "ohm");
     printFigure("charge", load.charge_c, "C");

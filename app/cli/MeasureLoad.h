@@ -3,7 +3,7 @@
 //
 // Keys: channels[].uncertainty {coverage_factor, amplitude, width_s, interval_s, gap_s, charge, imbalance},
 // channels[].quality {snr_db, averaged, averaged_second, drift, unrest, level_after, doubtful}, channels[].flagged
-// {clipped, truncated, incomplete, under_sampled, coarse}; load {voltage, current, pulses, load_ohm,
+// {clipped, truncated, incomplete, under_sampled, coarse, flat_top}; load {voltage, current, pulses, load_ohm,
 // load_uncertainty_ohm, impedance_ohm, charge_c, second_charge_c, net_charge_c, energy_j} or null.
 #pragma once
 

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+
+#include "core/base/QuantityText.h"
 
 namespace tacto::cli {
 
@@ -22,6 +25,13 @@ namespace tacto::cli {
     if (found == object.end() || !found->is_number()) return "–";
     const auto value = factor * found->get<double>();
     return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+/// With its unit, scaled: "8.705 pC" of 8.705e-6 µC; "–" where there is no number of that name.
+[[nodiscard]] inline std::string resultQuantity(const nlohmann::json& object, const char* key, std::string_view unit,
+                                                int digits = 4) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? scaledText(found->get<double>(), unit, digits) : "–";
 }
 
 }  // namespace tacto::cli

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,13 @@ bool isOf(const Recording& recording, const std::filesystem::path& out) {
     });
 }
 
+/// U of the mean R, the recording taken as one slide; NaN: not known.
+double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summary) {
+    const bool calibrated =
+        std::ranges::find(summary.flags, nameOf(RoughnessFlag::UncalibratedR)) == summary.flags.end();
+    return calibrated && settings.uncertainty ? settings.uncertainty->expanded(summary.R.mean) : std::nan("");
+}
+
 int runRoughness(const QCommandLineParser& parser) {
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
@@ -45,10 +53,11 @@ int runRoughness(const QCommandLineParser& parser) {
     if (!out.empty() && isOf(*recording, out)) {
         return usage(fmt::format("roughness: --out {} is a file of the recording itself; another is expected", out));
     }
-    const auto found =
-        analyseRoughness(recording->infos(), recording->blocks(), profile->roughness, recording->declared);
+    const auto found = analyseRoughness(recording->infos(), recording->blocks(), profile->roughness,
+                                        recording->declared, recording->fingertip);
     if (!found) return couldNotRun(found.error());
     const auto& summary = found->summary;
+    const double uncertainty = expandedR(profile->roughness, summary);
     if (parser.isSet("out")) {
         if (const auto written = writeFile(out, framesCsv(found->frames)); !written) {
             return failWith(written.error());
@@ -59,19 +68,25 @@ int runRoughness(const QCommandLineParser& parser) {
                    {"contact_frames", summary.contactFrames},
                    {"rate_hz", numberOrNull(summary.rate_hz)},
                    {"flags", summary.flags},
+                   {"simulated", recording->simulated ? nlohmann::json(*recording->simulated) : nlohmann::json()},
+                   {"known_limit", kKnownLimitOfR},
                    {"h", toJson(summary.h)},
                    {"v", toJson(summary.v)},
                    {"R", toJson(summary.R)},
+                   {"R_expanded_uncertainty", numberOrNull(uncertainty)},
                    {"pressure_pa", toJson(summary.pressure_pa)},
                    {"P", toJson(summary.P)}});
         return kDone;
     }
+    if (recording->simulated.value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     say("{}\n{} frames, {} in contact, at {:.6g} Hz\n\n", recording->title, summary.frames, summary.contactFrames,
         summary.rate_hz);
     say("  {:<12} {:>10} {:>10} {:>10} {:>10} {:>7}\n", "", "mean", "sd", "min", "max", "n");
     printRow("h", summary.h);
     printRow("v", summary.v);
     printRow("R", summary.R);
+    if (std::isfinite(uncertainty))
+        say("  {:<12} {:>10.2g} (95 %, of the mean, as one slide)\n", "U of R", uncertainty);
     printRow("pressure Pa", summary.pressure_pa);
     printRow("P", summary.P);
     if (!summary.flags.empty()) {
@@ -79,8 +94,7 @@ int runRoughness(const QCommandLineParser& parser) {
         for (std::size_t i = 0; i < summary.flags.size(); ++i) say("{}{}", i ? ", " : "", summary.flags[i]);
         say("\n");
     }
-    say("\nR is repeatable and specific to a material; that it ranks felt roughness rests on the reference "
-        "surfaces.\n");
+    say("\n{}\n", kKnownLimitOfR);
     return kDone;
 }
 

@@ -31,8 +31,22 @@ void declareRun(QCommandLineParser& parser) {
         {"reset-fault", "Resets the fault in which an earlier run left the stimulator, if its cause is gone."});
     parser.addOption({"realtime", "Runs on the real clock even where a virtual one could serve."});
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
+    parser.addOption({"operator", "Who does the run, for its report.", "NAME"});
+    parser.addOption({"reviewer", "Who checks it, for its report.", "NAME"});
+    parser.addOption({"ambient", "Ambient conditions, for its report: \"22.5 °C, 45 % RH\".", "TEXT"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
+    parser.addOption({"report", "Which report is written: none, html or pdf; both where left out.", "KIND"});
     parser.addOption({"json", "Prints one JSON value."});
+}
+
+/// The endings of the reports that are wanted. Errors: InvalidArgument for another kind.
+Result<std::vector<const char*>> reportsFrom(const QCommandLineParser& parser) {
+    if (!parser.isSet("report")) return std::vector<const char*>{".html", ".pdf"};
+    const auto kind = parser.value("report").toStdString();
+    if (kind == "none") return std::vector<const char*>{};
+    if (kind == "html") return std::vector<const char*>{".html"};
+    if (kind == "pdf") return std::vector<const char*>{".pdf"};
+    return fail(ErrorCode::InvalidArgument, "--report is \"{}\"; none, html or pdf is expected", kind);
 }
 
 Result<std::map<std::string, std::string>> settingsFrom(const QCommandLineParser& parser) {
@@ -99,6 +113,10 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
     order.limits = std::move(*limits);
     if (const auto added = addedLimitsText(order.limits); !added.empty()) say(stderr, "{}\n", added);
     order.out = parser.value("out").toStdString();
+    order.notes = {parser.value("operator").toStdString(), parser.value("reviewer").toStdString(),
+                   parser.value("ambient").toStdString()};
+    if (const auto checked = checkNotes(order.notes); !checked)
+        return tl::unexpected(usage("run: " + checked.error().message));
     return order;
 }
 
@@ -159,21 +177,25 @@ int exitFor(const RunResult& result) {
 void printAnyResults(const json& results) {
     if (!results.is_object()) return;
     try {
-        if (results.contains("trials_needed"))
-            printVariation(results);
-        else if (results.contains("confusion"))
-            printSeparability(results);
-        else if (results.contains("loads"))
-            printLoadSafety(results);
-        else if (results.contains("reference"))
-            printCalibration(results);
-        else
-            printResults(results);
+        // By what they are; a script of the user's that names no kind is printed as it is.
+        static const std::map<std::string, void (*)(const json&)> kPrinters{
+            {"variation", printVariation},
+            {"separability", printSeparability},
+            {"load-safety", printLoadSafety},
+            {"stimulator-calibration", printCalibration},
+            {"transitions", printTransitions},
+            {"encoding-comparison", printEncodingComparison},
+            {"sensor-calibration", printSensorCalibration}};
+        const auto printer = kPrinters.find(results.value("kind", ""));
+        (printer != kPrinters.end() ? printer->second : printResults)(results);
     } catch (const json::exception& problem) {
         say("\n  The results do not have the shape that is shown here ({}); the session holds them as they are.\n",
             printable(problem.what()));
     }
 }
+
+/// The reasons are the results' headline, which stands above the tables.
+bool saidFirst(const json& results) { return results.is_object() && results.contains("headline"); }
 
 void printSummary(const ScriptOutcome& outcome, const json& value) {
     printAnyResults(outcome.results);
@@ -182,7 +204,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",
-                 outcome.error ? std::vector<std::string>{} : outcome.reasons);
+                 outcome.error || saidFirst(outcome.results) ? std::vector<std::string>{} : outcome.reasons);
     say("  session  {}\n", value["session"].get<std::string>());
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
@@ -198,10 +220,10 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     std::_Exit(kStopped);
 }
 
-/// Beside the session; the path of the PDF, or null when there is none.
-json writeReports(const RunFiles& files) {
+/// Beside the session; the path of the last, or null when there is none.
+json writeReports(const RunFiles& files, const std::vector<const char*>& endings) {
     json report = nullptr;
-    for (const auto* ending : {".html", ".pdf"}) {
+    for (const auto* ending : endings) {
         const auto path = files.report(ending);
         const auto made =
             writeSessionReport(QString::fromStdString(files.session.string()), QString::fromStdString(path.string()));
@@ -221,6 +243,8 @@ int runRun(const QCommandLineParser& parser) {
     SignalStop interrupts;
     interrupts.onStop([stops] { stops->raise(); });
     if (interrupts.signalled()) stops->raise();
+    const auto reports = reportsFrom(parser);
+    if (!reports) return usage("run: " + reports.error().message);
     auto order = orderFrom(parser);
     if (!order) return order.error();
     order->stops = stops;
@@ -253,7 +277,7 @@ int runRun(const QCommandLineParser& parser) {
                      {"devices", devicesJson(result.devices)},
                      {"seed", seed},
                      {"session", result.session.string()},
-                     {"report", writeReports(running.files())},
+                     {"report", writeReports(running.files(), *reports)},
                      {"results", outcome.results},
                      {"reasons", outcome.reasons},
                      {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
@@ -272,7 +296,7 @@ int runRun(const QCommandLineParser& parser) {
 
 const Command kRun{"run",
                    "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--realtime] [--reset-fault] "
-                   "[--out DIR] [--json]",
+                   "[--out DIR] [--report none|html|pdf] [--json]",
                    "Runs a protocol script, records it and writes its report",
                    true,
                    declareRun,

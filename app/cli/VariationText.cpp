@@ -17,36 +17,86 @@ std::string range(const json& object, const char* key, const char* middle = "val
     const auto found = object.find(key);
     if (found == object.end() || !found->is_object()) return "–";
     if (!found->value(middle, json()).is_number()) return "–";
-    return fmt::format("{} ({} to {})", resultNumber(*found, middle, factor), resultNumber(*found, "low", factor),
-                       resultNumber(*found, "high", factor));
+    const auto number = [&](const char* of) {
+        const auto value = found->value(of, json());
+        return value.is_number() ? fmt::format("{:.{}f}", factor * value.get<double>(), factor == 1 ? 2 : 1) : "–";
+    };
+    return fmt::format("{} ({} to {})", number(middle), number("low"), number("high"));
 }
 
 void printAim(const char* aim, const json& alone, const json& pooled) {
-    say("  {:<34} one participant {:>6}, pooled {:>6} ({} each)\n", aim, alone.is_number() ? alone.dump() : "–",
-        resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"));
+    const bool reached = pooled.value("total", json()).is_number();
+    say("  {:<34} one participant {:>6}, pooled {}\n", aim, alone.is_number() ? alone.dump() : "–",
+        reached ? fmt::format("{:>6} ({} each)", resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"))
+                : fmt::format("not with so few: at least {} participants", resultNumber(pooled, "participants_least")));
+}
+
+/// What is too strong decides more than anything else.
+void printReadings(const json& results) {
+    const json readings = results.value("readings", json::array());
+    if (readings.empty()) return;
+    say("\n  {:<28} {:>8} {:>14} {:>17}   {}\n", "too strong from", "mA", "fixed: served", "own range: served",
+        "accuracy of these, %");
+    for (const auto& row : readings) {
+        say("  {:<28} {:>8} {:>14} {:>17}   {}\n", resultText(row, "too_strong_from"), resultNumber(row, "median_ma"),
+            resultNumber(row, "fixed_served"), resultNumber(row, "personal_served"),
+            range(row, "accuracy", "median", 100));
+    }
+}
+
+void printPilots(const json& results) {
+    const json pilots = results.value("pilots", json::array());
+    if (pilots.empty()) return;
+    const auto percent = [](const json& row, const char* key) {
+        const auto value = row.value(key, json());
+        return value.is_number() ? fmt::format("{:.0f} %", 100 * value.get<double>()) : "–";
+    };
+    say("\n  {:<8} {:>15} {:>22}   {}\n", "pilot of", "all are served", "... and above chance",
+        "then such people who can do it (95 %)");
+    for (const auto& row : pilots) {
+        say("  {:<8} {:>15} {:>22}   at least {}\n", resultNumber(row, "people"), percent(row, "all_served"),
+            percent(row, "all_above_chance"), percent(row, "prevalence_all"));
+    }
+    const json& one = pilots.front();
+    say("  One person's 95 % interval after {} trials is {} % wide; {} right answers are above chance.\n",
+        resultNumber(one, "trials"), range(one, "width", "value", 100), resultNumber(one, "right_from"));
+}
+
+void printTrials(const json& results) {
+    const json needed = results.value("trials_needed", json());
+    if (!needed.is_object()) return;
+    const json& alone = needed.at("per_participant");
+    const json& pooled = needed.at("pooled");
+    say("\n  trials of a pilot of {}, so that with {} % probability\n", resultNumber(pooled, "participants"),
+        resultNumber(needed, "assurance", 100));
+    printAim(fmt::format("the interval is {} % wide or less", resultNumber(needed, "width", 100)).c_str(),
+             alone.at("for_width"), pooled.at("for_width"));
+    printAim("its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
 }
 
 }  // namespace
 
 void printVariation(const json& results) {
-    say("\n  {} virtual participants, {} of them presented every condition; refused {}, not felt {}\n",
-        resultNumber(results, "participants"), resultNumber(results, "complete"), resultNumber(results, "refused"),
-        resultNumber(results, "not_felt"));
+    if (const auto headline = results.find("headline"); headline != results.end() && headline->is_string()) {
+        say("\n");
+        for (const auto& sentence : results.value("reasons", json::array())) {
+            if (sentence.is_string()) say("  {}\n", sentence.get<std::string>());
+        }
+    } else {
+        say("\n  {} of {} virtual participants are served; {} are refused, {} do not feel every condition\n",
+            resultNumber(results, "served"), resultNumber(results, "participants"),
+            resultNumber(results, "participants_refused"), resultNumber(results, "participants_not_feeling"));
+    }
+    printReadings(results);
     say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
     for (const auto& pair : results.value("separability", json::array())) {
         say("  {:<28} {:>26} {:>26} {:>26}\n", resultText(pair, "a") + " / " + resultText(pair, "b"),
             range(pair, "jnd"), range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
     }
-    say("\n  accuracy {} %, information {} bits\n", range(results, "accuracy", "median", 100),
+    say("\n  accuracy of the served {} %, information {} bits\n", range(results, "accuracy", "median", 100),
         range(results, "information_bits", "median"));
-    const json needed = results.value("trials_needed", json());
-    if (!needed.is_object()) return;
-    say("\n  trials, so that with {} % probability\n", resultNumber(needed, "assurance", 100));
-    const json& alone = needed.at("per_participant");
-    const json& pooled = needed.at("pooled");
-    printAim(fmt::format("the interval is {} % wide or less", resultNumber(needed, "width", 100)).c_str(),
-             alone.at("for_width"), pooled.at("for_width"));
-    printAim("its lower end lies above chance", alone.at("above_chance"), pooled.at("above_chance"));
+    printPilots(results);
+    printTrials(results);
 }
 
 }  // namespace tacto::cli

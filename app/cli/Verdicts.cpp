@@ -6,6 +6,7 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/ResultText.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto::cli {
 
@@ -37,26 +38,32 @@ void printVerdict(std::string_view verdict, const std::vector<std::string>& reas
 
 void printCalibration(const nlohmann::json& results) {
     const auto reference = results.value("reference", nlohmann::json::object());
-    say("\n  known load {:.5g} ohm, measured {:.5g} ohm\n", at(reference, "load_ohm"), at(reference, "measured_ohm"));
+    const double measured = at(reference, "measured_ohm");
+    if (std::isfinite(at(reference, "load_ohm"))) {
+        say("\n  known load {} read as {}\n", exactText(at(reference, "load_ohm"), "ohm"),
+            std::isfinite(measured) ? measuredText(measured, at(reference, "expanded_ohm"), "ohm") : "nothing");
+    }
     say("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
         "repeatability %", "hysteresis %", "U at the largest", "verdict");
     for (const char* name : {"amplitude", "interval", "width", "gap"}) {
         const auto found = results.value(name, nlohmann::json::object());
         if (!found.contains("gain")) continue;
-        say("  {:<12} {:>10.6f} {:>12.3g} {:>12.4f} {:>14.4f} {:>12.4f} {:>15.3g} {:<2}   {}\n", name,
-            at(found, "gain"), at(found, "offset"), at(found, "residual_max_pct_fs"), at(found, "repeatability_pct_fs"),
-            at(found, "hysteresis_pct_fs"), at(found, "expanded_uncertainty"), found.value("unit", ""),
-            found.value("verdict", ""));
+        const auto unit = resultText(found, "unit");
+        say("  {:<12} {:>10.6f} {:>12} {:>12.4f} {:>14.4f} {:>12.4f} {:>18}   {}\n", name, at(found, "gain"),
+            resultQuantity(found, "offset", unit, 3), at(found, "residual_max_pct_fs"),
+            at(found, "repeatability_pct_fs"), at(found, "hysteresis_pct_fs"),
+            resultQuantity(found, "expanded_uncertainty", unit, 2), resultText(found, "verdict"));
     }
 }
 
 void printSeparability(const nlohmann::json& results) {
-    say("\n  {:<14} {:>4} {:>22} {:>24}\n", "condition", "n", "amplitude (V)", "interval (s)");
+    say("\n  {:<14} {:>4} {:>12} {:>10} {:>12} {:>10}\n", "condition", "n", "amplitude", "sd", "interval", "sd");
     for (const auto& c : results.value("conditions", nlohmann::json::array())) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
-        say("  {:<14} {:>4} {:>12.3f} ± {:<7.3f} {:>13.5f} ± {:<8.5f}\n", c.value("name", ""), resultNumber(c, "n"),
-            at(amplitude, "mean"), at(amplitude, "sd"), at(interval, "mean"), at(interval, "sd"));
+        say("  {:<14} {:>4} {:>12} {:>10} {:>12} {:>10}\n", c.value("name", ""), resultNumber(c, "n"),
+            resultQuantity(amplitude, "mean", "V", 5), resultQuantity(amplitude, "sd", "V", 2),
+            resultQuantity(interval, "mean", "s", 6), resultQuantity(interval, "sd", "s", 2));
     }
     say("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
     for (const auto& p : results.value("pairs", nlohmann::json::array())) {

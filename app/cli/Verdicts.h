@@ -19,6 +19,11 @@ void printCalibration(const nlohmann::json& results);
 void printLoadSafety(const nlohmann::json& results);
 /// What analysis.variation() predicted, as tables.
 void printVariation(const nlohmann::json& results);
+/// Each change with its largest step and its time, and the latencies; each encoding beside the others; how well the
+/// references are told apart, and the scales.
+void printTransitions(const nlohmann::json& results);
+void printEncodingComparison(const nlohmann::json& results);
+void printSensorCalibration(const nlohmann::json& results);
 /// Any other protocol's results, a line each.
 void printResults(const nlohmann::json& results);
 /// The results of a separability run or analysis, as a table on stdout, without the verdict.

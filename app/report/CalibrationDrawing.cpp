@@ -1,4 +1,5 @@
-// A calibration: readings about the fitted line, or each level's error with its uncertainty inside the tolerance band.
+// A calibration: readings about the fitted line, or each level's error with its uncertainty inside the tolerance band,
+// and beside it the two sweep directions on a scale of their own.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -96,6 +97,30 @@ void addUncertainty(QCPAxisRect* axes, const CalibrationFigure& figure, QCPGraph
     bars->setData(u);
 }
 
+/// Each direction's mean, on a scale of its own: beside a tolerance of 2 % no hysteresis would be seen.
+void drawDirections(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const CalibrationFigure& figure) {
+    Reach x, y;
+    for (const auto& level : figure.levels) {
+        x.include(level.commanded);
+        y.include(level.meanUp - level.commanded);
+        y.include(level.meanDown - level.commanded);
+    }
+    const AxisUnit across = axisUnit(x.magnitude(), figure.unit), upward = axisUnit(y.magnitude(), figure.unit);
+    Points up, down;
+    for (const auto& level : figure.levels) {
+        up.add(level.commanded * across.factor, (level.meanUp - level.commanded) * upward.factor);
+        down.add(level.commanded * across.factor, (level.meanDown - level.commanded) * upward.factor);
+    }
+    addLine(axes, up, QPen(ink::kVoltage, 0.8), {});
+    addLine(axes, down, QPen(ink::kCurrent, 0.8, Qt::DashLine), {});
+    addPoints(axes, legend, up, triangle(true), "mean going up");
+    addPoints(axes, legend, down, triangle(false), "mean going down");
+    axes->axis(QCPAxis::atBottom)->setRange(padded(x.low * across.factor, x.high * across.factor, 0.04));
+    axes->axis(QCPAxis::atLeft)->setRange(padded(y.low * upward.factor, y.high * upward.factor, 0.1));
+    nameAxes(axes, figure, across, upward, "error of each direction");
+    sheet.watermark(axes);
+}
+
 void drawErrors(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const CalibrationFigure& figure) {
     Reach x, y;
     y.include(0);
@@ -105,21 +130,17 @@ void drawErrors(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const Ca
             y.include(level.error + side * (std::isfinite(level.uncertainty) ? level.uncertainty : 0));
             y.include(side * level.tolerance);
         }
-        y.include(level.meanUp - level.commanded);
-        y.include(level.meanDown - level.commanded);
     }
     for (const auto& reading : figure.readings) {
         if (reading.outlier) y.include(reading.measured - reading.commanded);
     }
     const AxisUnit across = axisUnit(x.magnitude(), figure.unit), upward = axisUnit(y.magnitude(), figure.unit);
-    Points low, high, mean, up, down, odd;
+    Points low, high, mean, odd;
     for (const auto& level : figure.levels) {
         const double at = level.commanded * across.factor;
         low.add(at, -level.tolerance * upward.factor);
         high.add(at, level.tolerance * upward.factor);
         mean.add(at, level.error * upward.factor);
-        up.add(at, (level.meanUp - level.commanded) * upward.factor);
-        down.add(at, (level.meanDown - level.commanded) * upward.factor);
     }
     for (const auto& reading : figure.readings) {
         if (!reading.outlier) continue;
@@ -133,8 +154,6 @@ void drawErrors(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const Ca
     auto* means = addPoints(axes, legend, mean, {QCPScatterStyle::ssDisc, QPen(ink::kText, 1), QBrush(ink::kText), 4},
                             "mean, ± U");
     addUncertainty(axes, figure, means, upward.factor);
-    addPoints(axes, legend, up, triangle(true), "mean going up");
-    addPoints(axes, legend, down, triangle(false), "mean going down");
     addPoints(axes, legend, odd, cross(), "reading marked as standing out");
     axes->axis(QCPAxis::atBottom)->setRange(padded(x.low * across.factor, x.high * across.factor, 0.04));
     axes->axis(QCPAxis::atLeft)->setRange(padded(y.low * upward.factor, y.high * upward.factor, 0.06));
@@ -152,11 +171,14 @@ std::unique_ptr<PlotSheet> drawCalibration(const CalibrationFigure& figure, bool
         return std::isfinite(level.commanded) && std::isfinite(level.error);
     });
     if (figure.errors ? !levels : !readings) return emptySheet("No level was measured.", simulated);
-    auto sheet = std::make_unique<PlotSheet>(kSheetWidth, 300, simulated);
+    auto sheet = std::make_unique<PlotSheet>(kSheetWidth, figure.errors ? 230 : 300, simulated);
     auto* axes = sheet->addAxes(0, 0);
-    auto* legend = sheet->addLegend(1, 0, 5);
+    auto* legend = sheet->addLegend(1, 0, 3);
     if (figure.errors) {
         drawErrors(*sheet, axes, legend, figure);
+        auto* directions = sheet->addLegend(1, 1, 3);
+        drawDirections(*sheet, sheet->addAxes(0, 1), directions, figure);
+        PlotSheet::fitLegend(directions);
     } else {
         drawMeasured(*sheet, axes, legend, figure);
     }

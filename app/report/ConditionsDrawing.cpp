@@ -140,6 +140,7 @@ private:
 
 std::unique_ptr<PlotSheet> drawConditions(const ConditionsFigure& figure, bool simulated) {
     const auto& all = figure.conditions;
+    if (figure.captured()) return drawCapturedConditions(figure, simulated);
     if (std::none_of(all.begin(), all.end(), known)) {
         return emptySheet(
             all.empty() ? "No condition was measured." : "No condition has a measured amplitude and interval.",

@@ -53,7 +53,9 @@ std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated
         const auto& curve = figure.curves[i];
         const QColor color = colors[i % colors.size()];
         addBand(axes, curve, color);
-        auto* graph = addGraph(axes, curve.x, curve.y, QPen(color, 1.4));
+        // Beyond as many as there are colours, curves are told apart by their dashes.
+        auto* graph =
+            addGraph(axes, curve.x, curve.y, QPen(color, 1.4, i < colors.size() ? Qt::SolidLine : Qt::DashLine));
         if (curve.steps) graph->setLineStyle(QCPGraph::lsStepLeft);
         if (curve.x.size() <= 40) {
             graph->setScatterStyle({QCPScatterStyle::ssDisc, QPen(color, 1), QBrush(color), 4});

@@ -156,6 +156,15 @@ ConditionsFigure readConditions(Reader& in) {
         condition.amplitude_v = item.statistic("amplitude_v");
         condition.interval_s = item.statistic("interval_s");
         condition.n = item.number("n", condition.amplitude_v.n);
+        condition.letter = item.text("letter").left(2);
+        item.objects("trains", false, [&](Reader& train) {
+            condition.trains.push_back({train.number("onset_s"), train.number("low_v"), train.number("high_v")});
+        });
+        item.object("pulse", [&](Reader& pulse) {
+            condition.pulseRate_hz = pulse.number("rate_hz");
+            condition.pulseStart_s = pulse.number("start_s", 0);
+            condition.pulse_v = pulse.numbers("voltage_v");
+        });
         figure.conditions.push_back(std::move(condition));
     });
     return figure;
@@ -324,6 +333,10 @@ bool ExposureFigure::Row::over() const {
     if (!evaluated()) return false;
     if (within && !*within) return true;
     return std::isfinite(limit) && !(std::abs(value) <= limit);
+}
+
+bool ConditionsFigure::captured() const {
+    return std::any_of(conditions.begin(), conditions.end(), [](const auto& each) { return !each.trains.empty(); });
 }
 
 Result<Figure> parseFigure(const QJsonObject& json) {

@@ -13,7 +13,10 @@
 //    "conditions": [{"name": "smooth-low",
 //                    "amplitude_v": statistic,  measured
 //                    "interval_s": statistic,   measured, onset to onset of trains
-//                    "n": 25}]}                 optional, else amplitude_v.n
+//                    "n": 25,                   optional, else amplitude_v.n
+//                    "letter": "A",             these three optional: the condition as captured, one train after the
+//                    "trains": [{"onset_s": 0, "low_v": -10.1, "high_v": 10.1}],   other, and the first of its pulses
+//                    "pulse": {"rate_hz": 1e6, "start_s": -1e-4, "voltage_v": [..]}}]}
 //
 //   {"type": "plane",                           feature scatter with centroids and 95 % ellipses
 //    "trials": [{"condition": "smooth-low", "amplitude_v": 10.0, "interval_s": 2.0}]}
@@ -105,8 +108,20 @@ struct ConditionsFigure {
         Statistic amplitude_v;
         Statistic interval_s;
         double n = kUnknown;
+        struct Train {
+            double onset_s = kUnknown;  ///< from the first train's
+            double low_v = kUnknown;    ///< the extremes of its record
+            double high_v = kUnknown;
+        };
+        QString letter;
+        std::vector<Train> trains;
+        double pulseRate_hz = kUnknown;
+        double pulseStart_s = 0;
+        std::vector<double> pulse_v;
     };
     std::vector<Condition> conditions;
+    /// At least one condition comes with its trains.
+    [[nodiscard]] bool captured() const;
 };
 
 struct PlaneFigure {

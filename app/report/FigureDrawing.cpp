@@ -16,6 +16,16 @@ template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 QString conditionsLegend(const ConditionsFigure& figure) {
+    if (figure.captured()) {
+        QString text =
+            "Every stem is a captured train, from its lowest to its highest sample; right, the first pulse of each. "
+            "Numbers are the means of all trials ± s.d.";
+        const auto& all = figure.conditions;
+        if (all.size() == 4 && all[0].name == "smooth-low" && all[3].name == "rough-high") {
+            text += " A to C: texture alone. A to B: pressure alone. A to D: both.";
+        }
+        return text;
+    }
     QString text = "Heights and spacings are the measured means ± s.d.";
     double least = kUnknown, most = kUnknown;
     for (const auto& condition : figure.conditions) {
@@ -71,20 +81,23 @@ QString figureLegend(const Figure& figure) {
                                         "Each point is a trial. Right: each condition enlarged, as deviation from "
                                         "its mean, with the ellipse that holds 95\u202f% of a normal distribution.");
                    },
-                   [](const WaveformsFigure&) {
-                       return QString("Measured. Time counts from the trigger where there was one.");
+                   [](const WaveformsFigure& content) {
+                       const auto all = content.captures.size();
+                       const QString which =
+                           all > kWaveformsShown
+                               ? QString(" The first %1 of %2; the session holds all.").arg(kWaveformsShown).arg(all)
+                               : QString();
+                       return "Measured. Time counts from the trigger where there was one." + which;
                    },
                    [](const ConfusionFigure& content) { return confusionLegend(content); },
-                   [](const ExposureFigure&) {
-                       return QString(
-                           "Share of each limit; amber from 80\u202f%. Hatched: not evaluated, and so not "
-                           "passed.");
-                   },
+                   [](const ExposureFigure& content) { return exposureLegend(content); },
                    [](const TimelineFigure&) {
                        return QString("Bars are the trains delivered, the line is what the encoder asked for.");
                    },
                    [](const CalibrationFigure& content) {
-                       return content.errors ? QString("Dashed: the tolerance. Bars: expanded uncertainty, 95\u202f%.")
+                       return content.errors ? QString(
+                                                   "Left, dashed: the tolerance; bars: expanded uncertainty, "
+                                                   "95\u202f%. Right: how far the two directions are apart.")
                                              : QString("Each point is a reading.");
                    },
                    [](const TransitionsFigure& content) {

@@ -25,10 +25,15 @@ namespace tacto {
 
 // One per type; each in the file of its name.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawConditions(const ConditionsFigure& figure, bool simulated);
+/// Conditions that come with trains: as captured, not from their means.
+[[nodiscard]] std::unique_ptr<PlotSheet> drawCapturedConditions(const ConditionsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated);
+inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would not fit on a page
 [[nodiscard]] std::unique_ptr<PlotSheet> drawWaveforms(const WaveformsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool simulated);
+/// What has a limit or was not evaluated; its legend says the rest, and why.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simulated);
+[[nodiscard]] QString exposureLegend(const ExposureFigure& figure);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawCalibration(const CalibrationFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTransitions(const TransitionsFigure& figure, bool simulated);

@@ -30,6 +30,11 @@ caption { text-align: left; font-weight: bold; margin-bottom: 6px; font-size: 15
 th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--rule); }
 thead th { border-top: 1.5px solid var(--text); border-bottom: 1px solid var(--text); }
 tbody tr:last-child td { border-bottom: 1.5px solid var(--text); }
+.matrix { font-size: 13px; } .matrix th[scope=row] { font-weight: normal; min-width: 150px; }
+.matrix td, .matrix th { padding: 4px 8px; } .matrix small { display: block; color: var(--quiet); font-size: 11px; }
+.close { background: #fcecc4; color: #222; font-weight: bold; } .broken { background: #f2cccc; color: #9c0006; font-weight: bold; }
+.open { background: repeating-linear-gradient(135deg, transparent 0 5px, var(--rule) 5px 6px); }
+.matrix .close small, .matrix .broken small { color: #444; font-weight: normal; }
 .number { text-align: right; white-space: nowrap; }
 dl { display: grid; grid-template-columns: minmax(120px, 200px) 1fr; gap: 4px 16px; margin: 0 0 16px; }
 dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
@@ -83,7 +88,8 @@ public:
         out_ += "<dl>\n";
         for (const auto& fact : block.facts) {
             const QString value = escaped(fact.value);
-            out_ += "<dt>" + escaped(fact.name) + "</dt><dd>" + (fact.isHash ? "<code>" + value + "</code>" : value) +
+            const QString shown = QString(value).replace('\n', "<br/>");
+            out_ += "<dt>" + escaped(fact.name) + "</dt><dd>" + (fact.isHash ? "<code>" + value + "</code>" : shown) +
                     "</dd>\n";
         }
         out_ += "</dl>\n";
@@ -105,6 +111,24 @@ public:
         out_ += "</tbody></table></div>\n";
     }
 
+    void operator()(const MatrixBlock& block) {
+        out_ += "<div class=\"scroll\"><table class=\"matrix\"><caption>" + escaped(block.caption) +
+                "</caption>\n<thead><tr><th></th>";
+        for (const auto& column : block.columns)
+            out_ += "<th scope=\"col\" class=\"number\">" + escaped(column) + "</th>";
+        out_ += "</tr></thead>\n<tbody>\n";
+        for (const auto& row : block.rows) {
+            out_ += "<tr><th scope=\"row\">" + escaped(row.title) + small(row.note) + "</th>";
+            for (const auto& cell : row.cells)
+                out_ += QString("<td class=\"number %1\">").arg(stateOf(cell.state)) + escaped(cell.main) +
+                        small(cell.detail) + "</td>";
+            out_ += "</tr>\n";
+        }
+        out_ += "</tbody></table>";
+        if (!block.legend.isEmpty()) out_ += "<p class=\"quiet\">" + escaped(block.legend) + "</p>";
+        out_ += "</div>\n";
+    }
+
     void operator()(const FigureBlock& block) {
         out_ += "<figure>\n" + QString::fromUtf8(sheetSvg(*block.sheet, block.caption)) + "\n<figcaption><strong>" +
                 escaped(block.caption) + "</strong>";
@@ -116,9 +140,9 @@ public:
         out_ += "<table class=\"signatures\"><thead><tr><th scope=\"col\"></th>";
         for (const auto& column : block.columns) out_ += "<th scope=\"col\">" + escaped(column) + "</th>";
         out_ += "</tr></thead>\n<tbody>\n";
-        for (const auto& role : block.roles) {
-            out_ += "<tr><th scope=\"row\">" + escaped(role) + "</th>" +
-                    QString("<td></td>").repeated(block.columns.size()) + "</tr>\n";
+        for (qsizetype r = 0; r < block.roles.size(); ++r) {
+            out_ += "<tr><th scope=\"row\">" + escaped(block.roles[r]) + "</th><td>" + escaped(block.given.value(r)) +
+                    "</td>" + QString("<td></td>").repeated(block.columns.size() - 1) + "</tr>\n";
         }
         out_ += "</tbody></table>\n";
     }
@@ -130,6 +154,23 @@ public:
     QString take() { return std::move(out_); }
 
 private:
+    static QString small(const QString& text) {
+        return text.isEmpty() ? QString() : "<small>" + escaped(text).replace('\n', "<br/>") + "</small>";
+    }
+    static QString stateOf(MatrixBlock::State state) {
+        switch (state) {
+            case MatrixBlock::State::Close:
+                return "close";
+            case MatrixBlock::State::Broken:
+                return "broken";
+            case MatrixBlock::State::Open:
+                return "open";
+            case MatrixBlock::State::Plain:
+            case MatrixBlock::State::Empty:
+                break;
+        }
+        return {};
+    }
     static QString classOf(const TableBlock::Column& column) { return column.numeric ? " class=\"number\"" : ""; }
     QString out_;
 };

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/QuantityText.h"
+
 namespace tacto {
 namespace {
 
@@ -13,12 +15,7 @@ const QString kMissing = QStringLiteral("–");
 const QString kSpace = QStringLiteral("\u202f");  // narrow and unbreakable
 const QString kMinus = QStringLiteral("−");
 
-QString shownUnit(const QString& unit) {
-    QString shown = unit;
-    shown.replace("ohm", "Ω").replace("cm2", "cm²").replace("m/s2", "m/s²");
-    if (shown.startsWith("uC") || shown.startsWith("us") || shown.startsWith("uA")) shown[0] = QChar(0x00b5);
-    return shown;
-}
+QString shownUnit(const QString& unit) { return QString::fromStdString(writtenUnit(unit.toStdString())); }
 
 struct Split {
     double factor = 1;  // from the given unit to SI
@@ -27,32 +24,8 @@ struct Split {
 
 /// "mA" → A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
 Split splitUnit(const QString& shown) {
-    static const QStringList bases{"V", "A", "s", "Ω", "Hz", "C", "J", "Pa", "N", "W", "F", "W/cm²", "A/cm²", "V/s"};
-    if (bases.contains(shown)) return {1, shown};
-    static const QString prefixes = QString::fromUtf8("pnµmkMG");
-    static constexpr std::array<double, 7> factors{1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9};
-    const auto index = shown.isEmpty() ? -1 : prefixes.indexOf(shown[0]);
-    if (index >= 0 && bases.contains(shown.mid(1))) return {factors[static_cast<std::size_t>(index)], shown.mid(1)};
-    return {};
-}
-
-int exponentOf(double value, int digits) {
-    if (value == 0) return 0;
-    // Rounded first: 999.96 with four digits is 1.000 k.
-    const QString rounded = QString::number(std::abs(value), 'e', digits - 1);
-    return rounded.mid(rounded.indexOf('e') + 1).toInt();
-}
-
-struct Prefix {
-    int exponent;
-    const char* symbol;
-};
-constexpr std::array<Prefix, 8> kPrefixes{
-    {{-12, "p"}, {-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
-
-Prefix prefixFor(int exponent) {
-    const int group = static_cast<int>(std::floor(exponent / 3.0)) * 3;
-    return kPrefixes[static_cast<std::size_t>((std::clamp(group, -12, 9) + 12) / 3)];
+    const auto parts = partsOfUnit(shown.toStdString());
+    return {parts.factor, QString::fromStdString(parts.base)};
 }
 
 QString fixed(double value, int decimals) {
@@ -65,48 +38,29 @@ QString withUnit(const QString& number, const QString& unit) {
     return unit.isEmpty() ? number : number + kSpace + unit;
 }
 
-QString plainNumber(double value, int digits) {
-    if (std::abs(value) >= 1e7 || (value != 0 && std::abs(value) < 1e-4)) {
-        QString text = QString::number(value, 'g', digits);
-        return text.replace('-', kMinus);
-    }
-    if (value == std::floor(value)) return fixed(value, 0);
-    return fixed(value, digits - 1 - exponentOf(value, digits));
+/// As it stands on a page: a true minus, and a narrow space before the unit.
+QString onPage(const std::string& text, bool hasUnit) {
+    QString shown = QString::fromStdString(text);
+    shown.replace('-', kMinus);
+    const qsizetype note = shown.indexOf(" (");
+    const qsizetype space = shown.lastIndexOf(' ', note > 0 ? note - 1 : -1);
+    if (hasUnit && space > 0) shown.replace(space, 1, kSpace);
+    return shown;
 }
 
 }  // namespace
 
 QString quantityText(double value, const QString& unit, int digits) {
-    if (!std::isfinite(value)) return kMissing;
-    const QString shown = shownUnit(unit);
-    const Split split = splitUnit(shown);
-    if (split.base.isEmpty()) return withUnit(plainNumber(value, digits), shown);
-    const double si = value * split.factor;
-    if (std::abs(si) < 5e-16) return withUnit("0", split.base);
-    const int exponent = exponentOf(si, digits);
-    const Prefix prefix = prefixFor(exponent);
-    return withUnit(fixed(si * std::pow(10.0, -prefix.exponent), digits - 1 - (exponent - prefix.exponent)),
-                    prefix.symbol + split.base);
+    return onPage(scaledText(value, unit.toStdString(), digits), !unit.isEmpty());
 }
 
 QString quantityText(double value, double uncertainty, const QString& unit) {
-    if (!std::isfinite(value)) return kMissing;
     if (!std::isfinite(uncertainty)) return quantityText(value, unit);
-    const QString shown = shownUnit(unit);
-    const Split split = splitUnit(shown);
-    const double si = split.base.isEmpty() ? value : value * split.factor;
-    const double u = std::abs(split.base.isEmpty() ? uncertainty : uncertainty * split.factor);
-    const int exponent = exponentOf(std::max(std::abs(si), u), 4);
-    const Prefix prefix = split.base.isEmpty() ? Prefix{0, ""} : prefixFor(exponent);
-    const double scale = std::pow(10.0, -prefix.exponent);
-    const int most = 3 - (exponent - prefix.exponent);
-    const int wanted = u > 0 ? 1 - exponentOf(u * scale, 2) : most;
-    const int decimals = std::clamp(std::min(wanted, most), 0, 9);
-    QString spread = fixed(u * scale, decimals);
-    const double last = std::pow(10.0, -decimals);
-    if (u > 0 && u * scale < last / 2) spread = "<" + fixed(last, decimals);
-    return withUnit(fixed(si * scale, decimals) + " ± " + spread,
-                    split.base.isEmpty() ? shown : prefix.symbol + split.base);
+    return uncertainText(value, std::abs(uncertainty), unit);
+}
+
+QString uncertainText(double value, double expanded, const QString& unit) {
+    return onPage(measuredText(value, expanded, unit.toStdString()), !unit.isEmpty());
 }
 
 QString settingText(double value, const QString& unit) {
@@ -114,9 +68,13 @@ QString settingText(double value, const QString& unit) {
     const QString shown = shownUnit(unit);
     const Split split = splitUnit(shown);
     const auto brief = [](double v) { return QString::number(v, 'g', 6).replace('-', kMinus); };
-    if (split.base.isEmpty() || value == 0) return withUnit(brief(value), shown);
+    if (split.base.isEmpty() || value == 0) {
+        const int exponent = decimalExponent(value, 6);
+        if (exponent < -4 || exponent > 14) return quantityText(value, unit, 3);
+        return withUnit(exponent < 6 ? brief(value) : QString::number(value, 'f', 0).replace('-', kMinus), shown);
+    }
     const double si = value * split.factor;
-    const Prefix prefix = prefixFor(exponentOf(si, 6));
+    const UnitPrefix prefix = prefixOf(decimalExponent(si, 6));
     return withUnit(brief(si * std::pow(10.0, -prefix.exponent)), prefix.symbol + split.base);
 }
 
@@ -131,9 +89,11 @@ QString proportionText(const Estimate& estimate) {
 }
 
 AxisUnit axisUnit(double maxAbs, const QString& unit) {
-    if (!(maxAbs > 0) || !std::isfinite(maxAbs)) return {1, shownUnit(unit)};
-    const Prefix prefix = prefixFor(exponentOf(maxAbs, 4));
-    return {std::pow(10.0, -prefix.exponent), prefix.symbol + shownUnit(unit)};
+    const QString shown = shownUnit(unit);
+    const Split split = splitUnit(shown);
+    if (!(maxAbs > 0) || !std::isfinite(maxAbs) || split.base.isEmpty()) return {1, shown};
+    const UnitPrefix prefix = prefixOf(decimalExponent(maxAbs * split.factor, 4));
+    return {split.factor * std::pow(10.0, -prefix.exponent), prefix.symbol + split.base};
 }
 
 ColumnName columnName(const QString& key) {
@@ -197,10 +157,10 @@ std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, cons
     }
     if (most == 0 || most > 1000 * least || (whole && split.base.isEmpty())) return std::nullopt;
     if (split.base.isEmpty() && (most >= 1e7 || most < 1e-3)) return std::nullopt;
-    const int exponent = exponentOf(most, 4);
-    const int prefix = split.base.isEmpty() ? 0 : prefixFor(exponent).exponent;
+    const int exponent = decimalExponent(most, 4);
+    const int prefix = split.base.isEmpty() ? 0 : prefixOf(exponent).exponent;
     // The smallest keeps two digits at the least; the largest has four.
-    const int decimals = std::max(3 - (exponent - prefix), 1 - (exponentOf(least, 2) - prefix));
+    const int decimals = std::max(3 - (exponent - prefix), 1 - (decimalExponent(least, 2) - prefix));
     return ColumnFormat{prefix, std::clamp(decimals, 0, 6)};
 }
 
@@ -210,7 +170,7 @@ QString quantityText(double value, const QString& unit, const ColumnFormat& form
     const Split split = splitUnit(shown);
     const double scaled = value * split.factor * std::pow(10.0, -format.exponent);
     return withUnit(fixed(scaled, format.decimals),
-                    split.base.isEmpty() ? shown : prefixFor(format.exponent).symbol + split.base);
+                    split.base.isEmpty() ? shown : prefixOf(format.exponent).symbol + split.base);
 }
 
 QString visible(QString text) {
@@ -237,6 +197,13 @@ QString cellText(const QJsonValue& value, const QString& unit) {
         const auto object = value.toObject();
         if (object.contains("mean")) {
             return quantityText(object["mean"].toDouble(kUnknown), object["sd"].toDouble(kUnknown), unit);
+        }
+        if (object.contains("expanded")) {
+            return uncertainText(object["value"].toDouble(kUnknown), object["expanded"].toDouble(kUnknown),
+                                 object["unit"].toString(unit));
+        }
+        if (object.contains("value") && object.contains("unit")) {
+            return quantityText(object["value"].toDouble(kUnknown), object["unit"].toString());
         }
         if (object.contains("value")) {
             QString text = quantityText(object["value"].toDouble(kUnknown), unit);

@@ -1,5 +1,5 @@
-// NumberText.h - how numbers stand in a report: engineering prefixes, three or four significant digits, a narrow space
-// before the unit, a value and its uncertainty with the same decimals, "–" for what is not known.
+// NumberText.h - how numbers stand in a report: as core/base/QuantityText.h writes them everywhere, with a narrow space
+// before the unit and a true minus; and how columns and cells of tables are written.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -16,9 +16,13 @@ namespace tacto {
 /// "2.26 mA", "10.0 kΩ"; a unit that takes no prefix ("%", "") gives "12.3 %". `unit` may be ASCII ("ohm", "uC").
 [[nodiscard]] QString quantityText(double value, const QString& unit, int digits = 4);
 
-/// "40.12 ± 0.46 V": the uncertainty with two significant digits, the value with as many decimals; never more than four
-/// significant digits of the value; an uncertainty below those reads "<0.01".
+/// A mean and its spread, "40.12 ± 0.46 V": two significant digits, the value to the same place. A spread that is not
+/// known (of one reading, say) is left out.
 [[nodiscard]] QString quantityText(double value, double uncertainty, const QString& unit);
+
+/// A value and its expanded uncertainty after GUM 7.2.6, as measuredText() of core/base/QuantityText.h: one that is not
+/// known is said to be unknown (hazard H9).
+[[nodiscard]] QString uncertainText(double value, double expanded, const QString& unit);
 
 /// What somebody set, without padding zeros: "1 kΩ", "25", "0.15 N".
 [[nodiscard]] QString settingText(double value, const QString& unit);

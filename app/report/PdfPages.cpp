@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kResolution = 1200;
 constexpr double kMargin = 68.85;  // (A4 width of 793.7 - 656) / 2
-constexpr double kTop = 76;
+constexpr double kTop = 64;
+constexpr double kLeading = 1.08;  // of a line's own height
 
 /// Lays `text` out in lines; calls `each` with a line's layout.
 double layOut(double width, const QString& text, const QFont& font, Qt::Alignment alignment, bool breakAnywhere,
@@ -26,7 +27,7 @@ double layOut(double width, const QString& text, const QFont& font, Qt::Alignmen
         for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
             line.setLineWidth(width);
             line.setPosition(QPointF(0, inner));
-            inner += line.height() * 1.15;
+            inner += line.height() * kLeading;
         }
         layout.endLayout();
         if (each) each(layout, height);

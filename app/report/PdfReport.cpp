@@ -1,6 +1,7 @@
 #include "app/report/PdfReport.h"
 
 #include "app/report/Fonts.h"
+#include "app/report/PdfMatrix.h"
 #include "app/report/PdfPages.h"
 #include "app/report/PdfTable.h"
 
@@ -10,7 +11,8 @@ namespace {
 constexpr double kGap = 12;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
-constexpr double kHalf = 316;  // two columns of facts with a gutter
+constexpr double kHalf = 316;             // two columns of facts with a gutter
+constexpr double kBriefFactColumn = 210;  // of a half: a setting's name is longer than its value
 
 class Setter {
 public:
@@ -66,22 +68,23 @@ public:
         std::vector<const ReportFact*> brief, wide;
         for (const auto& fact : block.facts) {
             const double width = QFontMetricsF(textFont(kTextSize)).horizontalAdvance(fact.value);
-            (fact.isHash || width > kHalf - kFactColumn ? wide : brief).push_back(&fact);
+            const bool isWide = block.oneColumn || fact.isHash || width > kHalf - kBriefFactColumn;
+            (isWide ? wide : brief).push_back(&fact);
         }
         const std::size_t rows = (brief.size() + 1) / 2;
         for (std::size_t r = 0; r < rows; ++r) {
             const ReportFact* right = r + rows < brief.size() ? brief[r + rows] : nullptr;
-            const double height =
-                std::max(factHeight(*brief[r], kHalf), right != nullptr ? factHeight(*right, kHalf) : 0);
+            const double height = std::max(factHeight(*brief[r], kHalf, kBriefFactColumn),
+                                           right != nullptr ? factHeight(*right, kHalf, kBriefFactColumn) : 0);
             pages_.require(height);
-            setFact(*brief[r], 0, kHalf);
-            if (right != nullptr) setFact(*right, PdfPages::kWidth - kHalf, kHalf);
+            setFact(*brief[r], 0, kHalf, kBriefFactColumn);
+            if (right != nullptr) setFact(*right, PdfPages::kWidth - kHalf, kHalf, kBriefFactColumn);
             pages_.advance(height + 3);
         }
         for (const auto* fact : wide) {
-            const double height = factHeight(*fact, PdfPages::kWidth);
+            const double height = factHeight(*fact, PdfPages::kWidth, kFactColumn);
             pages_.require(height);
-            setFact(*fact, 0, PdfPages::kWidth);
+            setFact(*fact, 0, PdfPages::kWidth, kFactColumn);
             pages_.advance(height + 3);
         }
         pages_.advance(kGap);
@@ -89,6 +92,11 @@ public:
 
     void operator()(const TableBlock& block) {
         setTable(pages_, block);
+        pages_.advance(kGap + 4);
+    }
+
+    void operator()(const MatrixBlock& block) {
+        setMatrix(pages_, block);
         pages_.advance(kGap + 4);
     }
 
@@ -111,13 +119,16 @@ public:
 
     /// A ruled line for each role, long enough to write on.
     void operator()(const SignaturesBlock& block) {
-        constexpr double kLine = 40;
+        constexpr double kLine = 34;
         constexpr double kRoleColumn = 90;
         const auto columns = static_cast<double>(block.columns.size());
         const double width = (PdfPages::kWidth - kRoleColumn) / columns;
-        for (const auto& role : block.roles) {
+        for (qsizetype r = 0; r < block.roles.size(); ++r) {
+            const QString& role = block.roles[r];
             pages_.require(kLine + 18);
-            pages_.advance(kLine);
+            pages_.advance(kLine - 18);
+            pages_.text(kRoleColumn, width - 14, block.given.value(r), textFont(kTextSize), ink::kText);
+            pages_.advance(18);
             if (auto* painter = pages_.painter()) {
                 painter->setPen(QPen(ink::kQuiet, 0.7));
                 for (int c = 0; c < block.columns.size(); ++c) {
@@ -150,13 +161,17 @@ public:
         pages_.advance(kGap);
     }
 
-    /// What must stand on the page with a heading before it.
-    static double needOf(const ReportBlock& block) {
+    /// What must stand on the page with a heading before blocks[i]: the first of it, and what a paragraph leads to.
+    static double needOf(const std::vector<ReportBlock>& blocks, std::size_t i) {
+        if (i >= blocks.size()) return 0;
+        const auto& block = blocks[i];
         if (const auto* figure = std::get_if<FigureBlock>(&block)) return figureHeight(*figure);
+        if (const auto* table = std::get_if<TableBlock>(&block)) return tableBeginning(*table);
+        if (const auto* matrix = std::get_if<MatrixBlock>(&block)) return matrixBeginning(*matrix);
         if (const auto* paragraph = std::get_if<ParagraphBlock>(&block)) {
-            return PdfPages::textHeight(PdfPages::kWidth, paragraph->text, textFont(kTextSize));
+            const double height = PdfPages::textHeight(PdfPages::kWidth, paragraph->text, textFont(kTextSize)) + kGap;
+            return std::min(PdfPages::kHeight / 2, height + (paragraph->quiet ? needOf(blocks, i + 1) : 0));
         }
-        if (std::holds_alternative<SignaturesBlock>(block)) return 150;  // all of them on one page
         return 90;
     }
     void keepWithNext(double height) { keepWithNext_ = height; }
@@ -172,15 +187,15 @@ private:
         return height;
     }
 
-    static double factHeight(const ReportFact& fact, double width) {
+    static double factHeight(const ReportFact& fact, double width, double name) {
         const QFont font = fact.isHash ? monoFont(11) : textFont(kTextSize);
-        return std::max(PdfPages::textHeight(width - kFactColumn, fact.value, font, fact.isHash),
-                        PdfPages::textHeight(kFactColumn - 10, fact.name, textFont(kTextSize)));
+        return std::max(PdfPages::textHeight(width - name, fact.value, font, fact.isHash),
+                        PdfPages::textHeight(name - 10, fact.name, textFont(kTextSize)));
     }
-    void setFact(const ReportFact& fact, double left, double width) {
-        pages_.text(left, kFactColumn - 10, fact.name, textFont(kTextSize), ink::kQuiet);
-        pages_.text(left + kFactColumn, width - kFactColumn, fact.value,
-                    fact.isHash ? monoFont(11) : textFont(kTextSize), ink::kText, Qt::AlignLeft, fact.isHash);
+    void setFact(const ReportFact& fact, double left, double width, double name) {
+        pages_.text(left, name - 10, fact.name, textFont(kTextSize), ink::kQuiet);
+        pages_.text(left + name, width - name, fact.value, fact.isHash ? monoFont(11) : textFont(kTextSize), ink::kText,
+                    Qt::AlignLeft, fact.isHash);
     }
 
     PdfPages& pages_;
@@ -190,7 +205,7 @@ private:
 void setAll(const ReportContent& content, PdfPages& pages) {
     Setter setter(pages);
     for (std::size_t i = 0; i < content.blocks.size(); ++i) {
-        setter.keepWithNext(i + 1 < content.blocks.size() ? Setter::needOf(content.blocks[i + 1]) : 0);
+        setter.keepWithNext(Setter::needOf(content.blocks, i + 1));
         std::visit(setter, content.blocks[i]);
     }
 }

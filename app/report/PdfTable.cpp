@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kSize = 11;
 constexpr double kPadX = 6;
-constexpr double kPadY = 2.3;
-constexpr double kWidestText = 330;  // longer cells wrap
+constexpr double kPadY = 2;
+constexpr double kWidestText = 420;  // longer cells wrap
 
 double widthOf(const QString& text, bool bold) {
     double widest = 0;
@@ -163,12 +163,17 @@ double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     return height;
 }
 
-void setDown(PdfPages& pages, TableSetter& setter, const QString& caption, std::size_t rows) {
-    double start = setCaption(pages, caption, false) + setter.headerHeight();
-    const double whole = start - setter.headerHeight() + setter.wholeHeight();
+/// What must fit below the table's top: a short table is kept whole, a long one begins with a few rows.
+double beginningOf(const TableSetter& setter, double caption, std::size_t rows) {
+    const double whole = caption + setter.wholeHeight();
+    if (whole < PdfPages::kHeight / 6) return whole;
+    double start = caption + setter.headerHeight();
     for (std::size_t r = 0; r < std::min(kAtLeast, rows); ++r) start += setter.rowHeight(r);
-    // A short table is kept whole, a long one begins here with a few rows.
-    pages.require(whole < PdfPages::kHeight / 3 ? whole : start);
+    return start;
+}
+
+void setDown(PdfPages& pages, TableSetter& setter, const QString& caption, std::size_t rows) {
+    pages.require(beginningOf(setter, setCaption(pages, caption, false), rows));
     setCaption(pages, caption, true);
     setter.setHeader();
     for (std::size_t r = 0; r < rows; ++r) {
@@ -209,6 +214,13 @@ void setSideBySide(PdfPages& pages, TableSetter& setter, const QString& caption,
 }
 
 }  // namespace
+
+double tableBeginning(const TableBlock& table) {
+    PdfPages none(nullptr, {}, {}, {}, 0);
+    const auto parts = partsOf(table);
+    const TableSetter setter(none, table, parts.front());
+    return beginningOf(setter, setCaption(none, table.caption, false), table.rows.size());
+}
 
 void setTable(PdfPages& pages, const TableBlock& table) {
     const auto parts = partsOf(table);

@@ -10,4 +10,7 @@ namespace tacto {
 /// page. Columns that do not fit continue in a further part with the first column repeated.
 void setTable(PdfPages& pages, const TableBlock& table);
 
+/// The height below which the table begins on the next page: a heading above it needs as much.
+[[nodiscard]] double tableBeginning(const TableBlock& table);
+
 }  // namespace tacto

@@ -4,9 +4,12 @@
 #include <initializer_list>
 #include <set>
 
+#include "app/report/Captions.h"
 #include "app/report/FigureDrawing.h"
+#include "app/report/FrontPage.h"
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto {
 namespace {
@@ -111,119 +114,13 @@ TableBlock devicesTable(const ReportModel& model) {
     return table;
 }
 
-/// Columns of a script's table in their order, and without those that no row has.
-QStringList columnsOf(const ReportTable& table) {
-    if (!table.columns.isEmpty()) return table.columns;
-    QStringList keys;
-    for (const auto& row : table.rows) {
-        const auto object = row.toObject();
-        for (const auto& key : object.keys()) {
-            if (!keys.contains(key)) keys << key;
-        }
-    }
-    // QJsonObject forgets the order: what names a row comes first.
-    static const QStringList first{"name", "condition", "load", "quantity", "subject", "a", "b", "n"};
-    std::stable_sort(keys.begin(), keys.end(), [](const QString& left, const QString& right) {
-        const auto rank = [](const QString& key) {
-            const auto index = first.indexOf(key);
-            return index < 0 ? first.size() + (key == "verdict" ? 1 : 0) : index;
-        };
-        return rank(left) < rank(right);
-    });
-    return keys;
-}
-
-TableBlock tableOf(const ReportTable& source, const QString& caption) {
-    TableBlock table;
-    table.caption = caption;
-    const QStringList keys = columnsOf(source);
-    table.rows.assign(static_cast<std::size_t>(source.rows.size()), QStringList(keys.size()));
-    for (qsizetype c = 0; c < keys.size(); ++c) {
-        const ColumnName name = columnName(keys[c]);
-        std::vector<double> numbers;
-        bool numeric = false;
-        for (const auto& row : source.rows) {
-            const auto value = row.toObject().value(keys[c]);
-            if (value.isDouble()) numbers.push_back(value.toDouble());
-            numeric = numeric || value.isDouble() || value.isObject();
-        }
-        const auto format = columnFormat(numbers, name.unit);
-        table.columns.push_back({shownText(name.title, kShownCell), numeric});
-        for (qsizetype r = 0; r < source.rows.size(); ++r) {
-            const auto value = source.rows[r].toObject().value(keys[c]);
-            table.rows[static_cast<std::size_t>(r)][c] = value.isDouble() && format
-                                                             ? quantityText(value.toDouble(), name.unit, *format)
-                                                             : shownText(cellText(value, name.unit), kShownCell);
-        }
-    }
-    return table;
-}
-
-TableBlock exposureTable(const ReportModel& model, const QString& caption) {
-    TableBlock table;
-    table.caption = caption;
-    table.columns = {{"Quantity"}, {"Value", true}, {"Limit", true}, {"Share", true}, {"Limit set"}, {"Result"}};
-    for (const auto& row : model.exposure) {
-        const bool evaluated = row.evaluated();
-        const bool limited = std::isfinite(row.limit) && row.limit > 0;
-        const double share = std::abs(row.value) / row.limit;
-        QString result;
-        if (!evaluated) {
-            result = "not evaluated" + (row.reason.isEmpty() ? QString() : ": " + row.reason);
-        } else if (!limited) {
-            result = "no limit";
-        } else if (!row.over()) {
-            result = "within";
-        } else {
-            result = row.warning ? "attention" : "over the limit";
-        }
-        table.rows.push_back({row.name, evaluated ? quantityText(row.value, row.unit, 3) : "–",
-                              limited ? settingText(row.limit, row.unit) : "–",
-                              evaluated && limited ? quantityText(100 * share, "%", 3) : "–",
-                              row.source.isEmpty() ? "–" : row.source, result});
-    }
-    return table;
-}
-
-TableBlock eventsTable(const ReportModel& model, const QString& caption) {
-    TableBlock table;
-    table.caption = caption;
-    table.columns = {{"Time", true}, {"What"}, {"Details"}};
-    for (const auto& event : model.events) {
-        QString text = event.text.isEmpty() ? QString("–") : event.text;
-        if (event.count > 1) text += QString(" (%1 times)").arg(event.count);
-        table.rows.push_back({QString::number(event.t_s, 'f', 3) + QChar(0x202f) + "s", event.kind, text});
-    }
-    return table;
-}
-
-/// Numbers headings, figures and tables, and marks the captions.
-class Captions {
-public:
-    explicit Captions(bool simulated) : simulated_(simulated) {}
-    QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
-    QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }
-    HeadingBlock heading(const QString& text) { return {QString("%1  %2").arg(++headings_).arg(text)}; }
-
-private:
-    [[nodiscard]] QString numbered(const char* kind, int number, const QString& text, bool simulated) const {
-        QString caption = QString("%1 %2. %3").arg(QLatin1String(kind)).arg(number).arg(text);
-        if (simulated) caption += " (simulated)";
-        return caption;
-    }
-    bool simulated_;
-    int figures_ = 0;
-    int tables_ = 0;
-    int headings_ = 0;
-};
-
 /// Tells two reports apart, also those of one session that has grown since.
 QString reportNumber(const ReportModel& model) {
     return model.session + (model.chainHead.isEmpty() ? QString() : "-" + model.chainHead.left(8));
 }
 
-void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
-    blocks.emplace_back(captions.heading("What was used"));
+/// What is simulated, replayed and real: on the first page.
+void addMarks(const ReportModel& model, std::vector<ReportBlock>& blocks) {
     if (model.simulated && model.devices.empty()) {
         blocks.emplace_back(
             ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
@@ -234,6 +131,10 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
             "At least one device of this session was simulated. Its numbers say what the software does, not what "
             "hardware or a person would."});
     }
+}
+
+void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    blocks.emplace_back(captions.heading("What was used"));
     if (model.devices.empty()) {
         blocks.emplace_back(ParagraphBlock{"No device took part in this session.", true});
     } else {
@@ -268,10 +169,26 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
             } else {
                 blocks.emplace_back(tableOf(*table, captions.table(table->caption)));
             }
+        } else if (const auto* matrix = std::get_if<ReportMatrix>(&item)) {
+            blocks.emplace_back(matrixOf(*matrix, captions.table(matrix->caption)));
         } else {
             blocks.emplace_back(ParagraphBlock{std::get<ReportText>(item).text});
         }
     }
+}
+
+/// What the gate computed is no measurement, and is never titled as one (science.md section 12).
+void addComputed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
+    if (model.exposure.empty()) return;
+    blocks.emplace_back(captions.heading("Computed from approved trains"));
+    blocks.emplace_back(ParagraphBlock{
+        "What the gate computed for the trains that it approved, worst case over the permitted loads. None of it was "
+        "measured; what was captured stands among the results.",
+        true});
+    const Figure figure{ExposureFigure{model.exposure}, {}};
+    blocks.emplace_back(FigureBlock{
+        captions.figure("Exposure computed from approved trains, against each limit", isSimulated(model, figure)),
+        figureLegend(figure), drawFigure(figure, isSimulated(model, figure))});
 }
 
 }  // namespace
@@ -301,32 +218,21 @@ ReportContent contentOf(const ReportModel& whole) {
                            "incomplete. Do not rely on what follows. It finds:\n" +
                            model.damage.join('\n')});
     }
-    addUsed(model, captions, blocks);
+    addMarks(model, blocks);
+    addFrontPage(model, captions, blocks);
     addItems(model, captions, blocks);
-
-    blocks.emplace_back(captions.heading("Exposure against limits"));
-    if (model.exposure.empty()) {
-        blocks.emplace_back(ParagraphBlock{
-            "Not evaluated: this session holds no exposure. Nothing here says that it was within limits."});
-    } else {
-        const Figure figure{ExposureFigure{model.exposure}, {}};
-        blocks.emplace_back(
-            FigureBlock{captions.figure("Worst exposure of the session against each limit", isSimulated(model, figure)),
-                        figureLegend(figure), drawFigure(figure, isSimulated(model, figure))});
-        blocks.emplace_back(exposureTable(model, captions.table("Exposure")));
-    }
+    addComputed(model, captions, blocks);
     blocks.emplace_back(captions.heading("Events"));
     if (model.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"No fault, refusal or stop was recorded.", true});
     } else {
         blocks.emplace_back(eventsTable(model, captions.table("Faults, refusals, stops and remarks")));
     }
+    addUsed(model, captions, blocks);
     if (!model.reproduce.isEmpty()) {
         blocks.emplace_back(captions.heading("How to reproduce"));
         blocks.emplace_back(CodeBlock{model.reproduce});
     }
-    blocks.emplace_back(captions.heading("Signatures"));
-    blocks.emplace_back(SignaturesBlock{{"Operator", "Reviewer"}, {"Name", "Date", "Signature"}});
     blocks.emplace_back(ParagraphBlock{
         "Tactoscope is a research bench, not a medical device. The chain head identifies the session's contents: "
         "“tactoscope-cli verify” must print the same one.",

@@ -1,7 +1,8 @@
 // ReportContent.h - the report as a sequence of blocks, worded once: PDF and HTML only set them.
 //
-// Order: title, verdict with its reasons, what was used, the script's figures and tables, exposure against limits,
-// events, how to reproduce, signatures. Thread-safety: the GUI thread (drawn figures are widgets).
+// Order: title, verdict with its reasons, decision rule and what the verdict rests on, signatures; then the script's
+// figures and tables, what was computed from approved trains, events, what was used, how to reproduce. Thread-safety:
+// the GUI thread (drawn figures are widgets).
 #pragma once
 
 #include <QString>
@@ -35,6 +36,7 @@ struct ParagraphBlock {
 };
 struct FactsBlock {
     std::vector<ReportFact> facts;
+    bool oneColumn = false;  ///< kept in their order, one below the other
 };
 struct TableBlock {
     struct Column {
@@ -50,17 +52,35 @@ struct FigureBlock {
     QString legend;
     std::unique_ptr<PlotSheet> sheet;
 };
+/// Rows against columns, a number in each cell and a smaller one below it; what needs attention stands out, in print
+/// without colour too.
+struct MatrixBlock {
+    enum class State { Plain, Close, Broken, Open, Empty };  ///< Open: not evaluated; Empty: nothing asked there
+    struct Cell {
+        QString main, detail;
+        State state = State::Empty;
+    };
+    struct Row {
+        QString title, note;
+        std::vector<Cell> cells;
+    };
+    QString caption;
+    QStringList columns;
+    std::vector<Row> rows;
+    QString legend;
+};
 /// Lines to be filled in by hand: who did it, who checked it.
 struct SignaturesBlock {
     QStringList roles;    ///< a line each
     QStringList columns;  ///< what is written on it
+    QStringList given;    ///< as `roles`: what stands in the first column already; may be empty
 };
 struct CodeBlock {
     QStringList lines;
 };
 
 using ReportBlock = std::variant<TitleBlock, VerdictBlock, HeadingBlock, ParagraphBlock, FactsBlock, TableBlock,
-                                 FigureBlock, SignaturesBlock, CodeBlock>;
+                                 MatrixBlock, FigureBlock, SignaturesBlock, CodeBlock>;
 
 struct ReportContent {
     QString documentTitle;

@@ -52,7 +52,36 @@ struct ReportText {
     QString text;
 };
 
-using ReportItem = std::variant<ReportFigure, ReportTable, ReportText>;
+/// What a script's `report.matrix` gives: one quantity or limit per row, one load or condition per column. A row is an
+/// object {"title", "note", "unit", "limit", "compare", "set" or "sets", "cells"}; a cell null (nothing asked there) or
+/// {"value", "expanded_uncertainty", "margin_pct", "verdict", "text"}: what is there is shown, the margin first.
+struct ReportMatrix {
+    QString caption;
+    QStringList columns;
+    QJsonArray rows;
+};
+
+using ReportItem = std::variant<ReportFigure, ReportTable, ReportMatrix, ReportText>;
+
+/// One channel of an instrument, and what is known of its accuracy.
+struct ReportInstrument {
+    QString name;
+    QString channel;
+    QString states;    ///< "gain ± 0.5 %, offset ± 0.02 V"; "unknown"
+    QString statedBy;  ///< "data sheet of …", "gain by certificate 4711 …", "digital twin"; "unknown"
+};
+
+/// What a verdict stands on; page 1 of a report.
+struct ReportBasis {
+    std::vector<ReportFact> rule;     ///< how a value, its uncertainty and a limit become a verdict
+    std::vector<ReportFact> restsOn;  ///< references, calibration
+    std::vector<ReportInstrument> instruments;
+    QString certificate;       ///< of the oscilloscope, and whether it was used; empty: none
+    QStringList notEvaluated;  ///< a sentence each; empty: nothing is known to be left out
+    QString operatorName;      ///< these three as they were entered; empty: not recorded
+    QString reviewer;
+    QString ambient;
+};
 
 /// A fault, refusal, stop or remark.
 struct ReportEvent {
@@ -72,14 +101,15 @@ struct ReportModel {
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< why that verdict; one sentence each
     bool simulated = false;  ///< any device of the session was simulated
-    QStringList marks;       ///< what is simulated, replayed and real, a sentence each
+    QStringList marks;       ///< of sessionMarks(): origin, calibration, the flags of R, its known limit
     QString chainHead;       ///< hex; empty only when there is none yet
     QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
+    ReportBasis basis;
     std::vector<ReportDevice> devices;
-    std::vector<ReportFact> settings;  ///< parameters with their units
-    std::vector<ReportFact> identity;  ///< versions, seed, hashes
-    std::vector<ReportItem> items;     ///< in the script's order
-    std::vector<ExposureFigure::Row> exposure;
+    std::vector<ReportFact> settings;           ///< parameters with their units
+    std::vector<ReportFact> identity;           ///< versions, seed, hashes
+    std::vector<ReportItem> items;              ///< in the script's order
+    std::vector<ExposureFigure::Row> exposure;  ///< as the gate computed it from the trains it approved
     std::vector<ReportEvent> events;
     QStringList reproduce;  ///< command lines
 };

@@ -7,6 +7,8 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
+#include "app/report/ReportBasis.h"
+#include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
@@ -118,11 +120,24 @@ public:
             QStringList columns;
             for (const auto& column : item["columns"].toArray()) columns << column.toString();
             model_.items.emplace_back(ReportTable{item["caption"].toString(), columns, item["rows"].toArray()});
+        } else if (kind == "matrix") {
+            QStringList columns;
+            for (const auto& column : item["columns"].toArray()) columns << column.toString();
+            model_.items.emplace_back(ReportMatrix{item["caption"].toString(), columns, item["rows"].toArray()});
+        } else if (kind == "basis") {
+            readBasis(item["results"].toObject(), model_);
+        } else if (kind == "notes") {
+            auto& basis = model_.basis;
+            for (const auto& [key, into] :
+                 {std::pair("operator", &basis.operatorName), std::pair("reviewer", &basis.reviewer),
+                  std::pair("ambient", &basis.ambient)})
+                if (item.contains(QLatin1String(key))) *into = item[QLatin1String(key)].toString();
         } else if (kind == "text") {
             model_.items.emplace_back(ReportText{item["text"].toString()});
         } else {
             model_.items.emplace_back(ReportText{
-                QString("An item of kind “%1” cannot be shown; known are about, figure, table and text.").arg(kind)});
+                QString("An item of kind “%1” cannot be shown; known are about, figure, table, matrix and text.")
+                    .arg(kind)});
         }
     }
 
@@ -142,12 +157,13 @@ private:
     }
 
     void takeFigure(const QJsonObject& item) {
-        const QString caption = item["caption"].toString();
+        QString caption = item["caption"].toString();
         auto figure = parseFigure(item["figure"].toObject());
         if (figure) {
             if (const auto* exposure = std::get_if<ExposureFigure>(&figure->content)) {
                 // What the program itself recorded has a section of its own; twice would be one too many.
                 if (recorded(*exposure)) return;
+                caption += " (computed from approved trains)";
             }
             const auto resolved = resolveCaptures(*figure, [&](qint64 id) { return reader_.capture(id); });
             if (resolved) {
@@ -188,10 +204,11 @@ ReportVerdict verdictNamed(const std::string& name) {
 
 bool isQuiet(const std::string& kind) {
     static const std::vector<std::string> quiet{
-        "arming",   "settings", "arming",      "settings", "open",      "opened",   "armed",    "arm",
-        "disarmed", "disarm",   "checking",    "check",    "started",   "start",    "finished", "closed",
-        "close",    "end",      "delivering",  "state",    "interlock", "rounding", "rounded",  "progress",
-        "paused",   "resumed",  "calibration", "drive",    "profile",   "capture"};
+        "arming",   "settings", "arming",   "settings",  "open",           "opened",      "armed",
+        "arm",      "disarmed", "disarm",   "checking",  "check",          "started",     "start",
+        "finished", "closed",   "close",    "end",       "delivering",     "state",       "interlock",
+        "rounding", "rounded",  "progress", "paused",    "resumed",        "calibration", "drive",
+        "profile",  "capture",  kMarkEvent, kMarksEvent, kCertificateEvent};
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
 }
 
@@ -229,6 +246,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
     if (!verdicts->empty()) {
         model.verdict = verdictNamed(verdicts->back().verdict);
         for (const auto& reason : verdicts->back().reasons) model.reasons << text(reason);
+        readBasis(objectOf(verdicts->back().results), model);
     } else {
         for (const auto& event : events) {
             if (!endsARun(event.name)) continue;
@@ -255,9 +273,9 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     for (const auto& problem : verified->problems) model.damage << text(problem);
     fillAbout(*reader, sessionFile, model);
 
-    const auto delivered = deliveredIn(*reader);
-    if (!delivered) return failure(delivered);
-    for (const auto& mark : originMarks(reader->about(), *delivered)) model.marks << text(mark);
+    const auto marks = sessionMarks(*reader);
+    if (!marks) return failure(marks);
+    for (const auto& mark : *marks) model.marks << text(mark);
     const auto measurements = reader->measurements();
     if (!measurements) return failure(measurements);
     for (const auto& row : *measurements) {
@@ -270,6 +288,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     }
     const auto items = reader->reportItems();
     if (!items) return failure(items);
+    readBasis({}, model);
     ItemReader itemReader(*reader, model);
     for (const auto& row : *items) itemReader.take(objectOf(row.body));
 
@@ -279,6 +298,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     QString calibration;
     for (const auto& row : *events) {
         if (row.name == "calibration") calibration = sentenceOf(objectOf(row.body));
+        if (row.name == kCertificateEvent) model.basis.certificate = sentenceOf(objectOf(row.body));
         last = std::max(last, row.at);
         if (!isQuiet(row.name)) addEvent(model, row);
     }

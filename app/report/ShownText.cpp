@@ -22,6 +22,8 @@ void shorten(ReportItem& item) {
         shortenEach({&figure->caption, &figure->figure.note});
     } else if (auto* table = std::get_if<ReportTable>(&item)) {
         shorten(table->caption);
+    } else if (auto* matrix = std::get_if<ReportMatrix>(&item)) {
+        shorten(matrix->caption);
     } else {
         shorten(std::get<ReportText>(item).text);
     }
@@ -40,7 +42,11 @@ ReportModel shownModel(ReportModel model) {
     for (auto* texts : {&model.reasons, &model.marks, &model.damage, &model.reproduce}) shorten(*texts);
     for (auto& device : model.devices)
         shortenCells({&device.role, &device.name, &device.uri, &device.serial, &device.firmware, &device.origin});
-    for (auto* facts : {&model.settings, &model.identity}) {
+    auto& basis = model.basis;
+    shorten(basis.notEvaluated);
+    shortenCells({&basis.certificate, &basis.operatorName, &basis.reviewer, &basis.ambient});
+    for (auto& each : basis.instruments) shortenCells({&each.name, &each.channel, &each.states, &each.statedBy});
+    for (auto* facts : {&model.settings, &model.identity, &basis.rule, &basis.restsOn}) {
         for (auto& fact : *facts) shortenEach({&fact.name, &fact.value});
     }
     for (auto& item : model.items) shorten(item);

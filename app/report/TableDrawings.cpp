@@ -1,7 +1,11 @@
 // Figures that are tables with a picture in each cell: the confusion matrix, and exposure against its limits.
+#include <algorithm>
+#include <iterator>
+
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
 
 namespace tacto {
 namespace {
@@ -73,10 +77,12 @@ QSharedPointer<QCPAxisTicker> labelTicker(const QStringList& labels) {
     return ticker;
 }
 
-/// The table below the figure has the whole text.
 QString shortened(const QString& text, const QFont& font, double width) {
     return QFontMetricsF(font).elidedText(text, Qt::ElideRight, width);
 }
+
+/// Not evaluated is drawn too; what has no limit is in the legend.
+bool isDrawn(const ExposureFigure::Row& row) { return !row.evaluated() || (std::isfinite(row.limit) && row.limit > 0); }
 
 QColor shade(double share) {
     // White to a deep blue in one hue, so that grey print keeps the order.
@@ -144,22 +150,25 @@ std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool sim
 }
 
 std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simulated) {
-    if (figure.rows.empty()) return emptySheet("No exposure was evaluated.", simulated);
-    constexpr int kRow = 26;
+    std::vector<ExposureFigure::Row> rows;
+    std::copy_if(figure.rows.begin(), figure.rows.end(), std::back_inserter(rows), isDrawn);
+    if (rows.empty()) return emptySheet("No exposure was evaluated against a limit.", simulated);
+    constexpr int kRow = 18;
     constexpr double kReach = 1.15;  // the axis ends a little beyond the limit
-    const auto rows = static_cast<int>(figure.rows.size());
-    auto sheet = std::make_unique<PlotSheet>(kSheetWidth, rows * kRow + 52, simulated);
+    const auto count = static_cast<int>(rows.size());
+    auto sheet = std::make_unique<PlotSheet>(kSheetWidth, count * kRow + 52, simulated);
     auto* axes = sheet->addAxes(0, 0);
     axes->setMinimumMargins(QMargins(4, 6, 4, 4));
     sheet->watermark(axes);
     auto* share = axes->axis(QCPAxis::atBottom);
     auto* names = axes->axis(QCPAxis::atLeft);
     QStringList labels;
-    for (const auto& row : figure.rows) {
-        labels << shortened(row.source.isEmpty() ? row.name : row.name + " · " + row.source, textFont(10), 230);
+    for (const auto& row : rows) {
+        const QString label = row.source.isEmpty() ? row.name : row.name + " · " + limitSetTitle(row.source);
+        labels << shortened(label, textFont(10), 290);
     }
     names->setTicker(labelTicker(labels));
-    names->setRange(-0.6, rows - 0.4);
+    names->setRange(-0.6, count - 0.4);
     names->setRangeReversed(true);
     names->setTickLength(0, 0);
     names->grid()->setVisible(false);
@@ -172,12 +181,12 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
         position->setAxes(share, names);
     }
     limit->start->setCoords(100, -0.6);
-    limit->end->setCoords(100, rows - 0.4);
+    limit->end->setCoords(100, count - 0.4);
     limit->setPen(QPen(ink::kText, 1.2));
 
     double widest = 0;
-    for (int i = 0; i < rows; ++i) {
-        const auto& row = figure.rows[static_cast<std::size_t>(i)];
+    for (int i = 0; i < count; ++i) {
+        const auto& row = rows[static_cast<std::size_t>(i)];
         const auto beside = [&](const QString& text) {
             const QString brief = shortened("  " + text, textFont(10, true), 250);
             widest = std::max(widest, QFontMetricsF(textFont(10, true)).horizontalAdvance(brief));
@@ -185,11 +194,7 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
         };
         if (!row.evaluated()) {
             new HatchedRect(*sheet, axes, QRectF(0, i - 0.32, 100, 0.64));
-            beside(row.reason.isEmpty() ? QString("not evaluated") : "not evaluated: " + row.reason);
-            continue;
-        }
-        if (!std::isfinite(row.limit) || !(row.limit > 0)) {
-            beside(quantityText(row.value, row.unit, 3) + ", no limit")->setColor(ink::kQuiet);
+            beside("not evaluated");
             continue;
         }
         const double fraction = std::abs(row.value) / row.limit;
@@ -205,6 +210,22 @@ std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simul
     }
     axes->setMinimumMargins(QMargins(4, 6, static_cast<int>(widest) + 8, 4));
     return sheet;
+}
+
+QString exposureLegend(const ExposureFigure& figure) {
+    QString legend = "Share of each limit; amber from 80\u202f%. Hatched: not evaluated, and so not passed.";
+    QStringList why, unlimited;
+    for (const auto& row : figure.rows) {
+        if (!row.evaluated() && !row.reason.isEmpty()) {
+            const QString text = row.name + ": " + row.reason;
+            if (!why.contains(text)) why << text;
+        } else if (!isDrawn(row)) {
+            unlimited << row.name + " " + quantityText(row.value, row.unit, 3);
+        }
+    }
+    if (!why.isEmpty()) legend += " Not evaluated: " + why.join("; ") + ".";
+    if (!unlimited.isEmpty()) legend += " Without a limit: " + unlimited.join(", ") + ".";
+    return legend;
 }
 
 }  // namespace tacto

@@ -55,7 +55,7 @@ public:
     WaveformsSheet(const std::vector<const Trace*>& traces, bool simulated)
         : traces_(traces), columns_(std::min(kColumns, traces.size())) {
         const std::size_t bands = (traces.size() + columns_ - 1) / columns_;
-        sheet_ = std::make_unique<PlotSheet>(kSheetWidth, static_cast<int>(bands) * 272, simulated);
+        sheet_ = std::make_unique<PlotSheet>(kSheetWidth, static_cast<int>(bands) * 216, simulated);
         sheet_->plot().plotLayout()->setColumnSpacing(0);
         fitScales();
     }
@@ -155,7 +155,7 @@ private:
 std::unique_ptr<PlotSheet> drawWaveforms(const WaveformsFigure& figure, bool simulated) {
     std::vector<const Trace*> traces;
     for (const auto& trace : figure.captures) {
-        if (measured(trace) && trace.rate_hz > 0) traces.push_back(&trace);
+        if (measured(trace) && trace.rate_hz > 0 && traces.size() < kWaveformsShown) traces.push_back(&trace);
     }
     if (traces.empty()) {
         return emptySheet(figure.captures.empty() ? "No waveform was captured." : "The captures hold no samples.",

@@ -4,9 +4,12 @@
 #include <utility>
 
 #include "app/run/KnownCalibration.h"
+#include "app/run/OpenDevices.h"
+#include "app/run/ScopeStatement.h"
 #include "core/bench/ProfileReach.h"
 #include "core/devices/ReplayedDevice.h"
 #include "core/safety/UnitFolders.h"
+#include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
@@ -87,6 +90,7 @@ std::string RunResult::verdict() const {
 Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Registry& registry, BenchTap* tap) {
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     const RunOrder& order = run->order_;
+    if (auto checked = checkNotes(order.notes); !checked) return failure(checked);
     const auto allVirtual = registry.allVirtual(order.uris);
     if (!allVirtual) return failure(allVirtual);
     if (*allVirtual && !order.realtime)
@@ -98,8 +102,9 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
                               .declaredLoad = declaredLoad(order.settings.parameters),
                               .stops = order.stops.get(),
                               .asked = order.asked};
-    auto devices = registry.open(order.uris, order.declaration.needs, context);
+    auto devices = openDevices(registry, order.uris, order.declaration.needs, context);
     if (!devices) return failure(devices);
+    const auto certificate = stateOscilloscope(*devices);
     run->about_ = aboutSession(*devices, order.profile, order.limits, &order);
     auto session = makeRunSession(order.out, order.script.name, run->about_, *run->clock_);
     if (!session) return failure(session);
@@ -113,6 +118,18 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
             run->warning_ = std::move(*beyond);
         }
     }
+    if (devices->sensor) {
+        if (auto another = madeWithAnother(order.profile, devices->sensor->identity().serial)) {
+            const auto kept =
+                run->session_->event(run->clock_->now(), "profile of another fingertip", {{"text", *another}});
+            if (!kept) return failure(kept);
+            run->warning_ += (run->warning_.empty() ? "" : "\n") + *another;
+        }
+    }
+    if (auto kept = keepCertificate(certificate, *run->session_, run->clock_->now()); !kept) return failure(kept);
+    if (!certificate.used && !certificate.text.empty())
+        run->warning_ += (run->warning_.empty() ? "" : "\n") + certificate.text;
+    if (auto kept = keepNotes(order.notes, *run->session_, run->clock_->now()); !kept) return failure(kept);
     BenchConfig config;
     config.devices = std::move(*devices);
     config.clock = run->clock_;
@@ -125,7 +142,6 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     config.watched = order.watched;
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolders();
-    run->calibrated_ = config.calibration && config.calibrationHolds;
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     run->bench_ = std::move(*bench);
@@ -213,13 +229,12 @@ RunResult ProtocolRun::finish() {
         result.troubles.erase(result.troubles.begin());
     }
     result.devices = about_.devices;
-    Delivered delivered;
-    if (const auto reader = SessionReader::open(files_.session)) {
-        if (const auto counted = deliveredIn(*reader)) delivered = *counted;
-    }
-    result.marks = originMarks(about_, delivered);
-    const bool stimulates = std::ranges::any_of(about_.devices, [](const auto& d) { return d.role == "stimulator"; });
-    if (stimulates && !calibrated_) result.marks.emplace_back("The stimulator is not calibrated.");
+    // Of what is on disk, as everything else (hazard H8). A script that was given up still holds its bench, whose marks
+    // are missing then.
+    const auto reader = SessionReader::open(files_.session);
+    auto marks = reader ? sessionMarks(*reader) : failure(reader);
+    result.marks = marks ? std::move(*marks) : originMarks(about_, {});
+    if (!marks) result.marks.push_back("The other marks cannot be read: " + marks.error().message);
     return result;
 }
 

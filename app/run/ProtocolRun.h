@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/run/RunFiles.h"
+#include "app/run/RunNotes.h"
 #include "app/run/Shipped.h"
 #include "app/scripting/ScriptRun.h"
 #include "core/bench/Bench.h"
@@ -28,6 +29,7 @@ struct RunOrder {
     Profile profile;
     ShippedLimits limits;
     std::string out;  ///< folder, as prepareRunFiles() takes it
+    RunNotes notes;
     /// Whose stops end the run, from the opening of its devices on; null: the bench's own. `asked` is when the operator
     /// asked for the run.
     std::shared_ptr<StopCounter> stops = nullptr;
@@ -47,7 +49,7 @@ struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;    ///< a fault, a refused train, an operator's stop
     bool simulated = false;          ///< any device, or a prediction; `marks` say which
-    std::vector<std::string> marks;  ///< sentences: what is simulated, replayed and real; no calibration
+    std::vector<std::string> marks;  ///< of sessionMarks(): origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;  ///< beside the outcome: closing the session
@@ -58,7 +60,7 @@ struct RunResult {
 class ProtocolRun {
 public:
     /// Opens devices, makes the session file and the bench. A stop ends the opening of devices; one that comes later is
-    /// found by start(). Errors: as Registry::open(), prepareRunFiles(),
+    /// found by start(). Errors: as openDevices(), prepareRunFiles(),
     /// SessionWriter::create() and Bench::create().
     /// `tap` may be null; else it outlives the run.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
@@ -88,7 +90,6 @@ private:
     RunFiles files_;
     SessionAbout about_;
     std::string warning_;  // of what is known before the script runs; empty: none
-    bool calibrated_ = false;
     std::shared_ptr<Clock> clock_;
     std::unique_ptr<SessionWriter> session_;
     std::unique_ptr<Bench> bench_;

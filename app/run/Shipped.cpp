@@ -88,6 +88,16 @@ Result<ShippedLimits> shippedLimits() {
     return limits;
 }
 
+Result<std::vector<InstrumentProfile>> shippedInstruments() {
+    std::vector<InstrumentProfile> profiles;
+    for (const auto& built : shippedInstrumentTexts()) {
+        auto profile = parseInstrumentProfile(built.text, built.file);
+        if (!profile) return failure(profile);
+        profiles.push_back(std::move(*profile));
+    }
+    return profiles;
+}
+
 std::string addedLimitsText(const ShippedLimits& limits) {
     std::string added;
     for (std::size_t i = 0; i < limits.sets.size(); ++i) {

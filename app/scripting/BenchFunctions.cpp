@@ -193,7 +193,10 @@ std::vector<HostFunction> benchFunctions() {
            true},
           {"options.trigger_v", "number", "V", "trigger level; a fifth of the command where left out", true}},
          "Waits for the next trains and takes one oscilloscope record of each.",
-         "List of captures { capture, start_s, trigger_s, rate_hz, samples }, for measure.train().",
+         "List of captures { capture, start_s, trigger_s, rate_hz, samples, stamp_tolerance_s, not_stated }, for "
+         "measure.train(): stamp_tolerance_s is how good trigger_s is against other records, null where the "
+         "oscilloscope "
+         "does not state it; not_stated says what else it does not, \"\" where it states all.",
          "Throws without an oscilloscope; when fewer trains came; when the run is stopped.",
          capture},
         {"bench",

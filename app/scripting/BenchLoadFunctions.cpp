@@ -6,6 +6,7 @@
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/analysis/ResultJson.h"
+#include "core/base/QuantityText.h"
 #include "core/bench/TrainPlanner.h"
 #include "core/encoding/Encoder.h"
 #include "core/safety/TrainExposure.h"
@@ -39,10 +40,10 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
     const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
     for (const auto& row : exposureTable(setup, train, interval)) {
         if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
-        return fmt::format("{} {:.3g} {} at {}, {:.3g} {} at worst within 20 % of it; {} {:g} {} are allowed ({})",
-                           titleOf(row.quantity), nominal.at(row.quantity), row.unit, setup.load.nominal.text(),
-                           row.value, row.unit, row.strict ? "less than" : "at most", row.limit, row.unit,
-                           row.set.view());
+        return fmt::format("{} {} at {}, {} at worst within 20 % of it; {} {} are allowed ({})", titleOf(row.quantity),
+                           scaledText(nominal.at(row.quantity), row.unit, 3), setup.load.nominal.text(),
+                           scaledText(row.value, row.unit, 3), row.strict ? "less than" : "at most",
+                           exactText(row.limit, row.unit), row.set.view());
     }
     return {};
 }

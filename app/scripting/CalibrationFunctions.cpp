@@ -6,6 +6,7 @@
 #include "app/scripting/HostFunction.h"
 #include "core/analysis/CalibrationJson.h"
 #include "core/analysis/ResultJson.h"
+#include "core/measure/InstrumentStatement.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto {
@@ -37,12 +38,18 @@ const CaptureChannel* channelOf(const Capture& capture, std::string_view name) {
 
 /// What the data sheet of the channel that was read states, in the reading's unit (`scale`: mA per A).
 Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
-    const auto known = [](double value) { return value > 0 ? Json(value) : Json(); };
-    return {{"gain_tolerance", known(channel.gainTolerance)},
-            {"offset_tolerance", known(channel.offsetTolerance * scale)},
-            {"resolution", known(channel.lsb * scale)},
+    const auto positive = [](double value) { return value > 0 ? Json(value) : Json(); };
+    return {{"gain_tolerance", numberOrNull(channel.gainTolerance)},
+            {"probe_tolerance", numberOrNull(channel.probeTolerance)},
+            {"linearity_tolerance", numberOrNull(channel.linearityTolerance * scale)},
+            {"offset_tolerance", numberOrNull(channel.offsetTolerance * scale)},
+            {"resolution", positive(channel.lsb * scale)},
+            {"timebase_tolerance", numberOrNull(capture.timeBaseTolerance)},
+            {"stamp_tolerance_s", numberOrNull(capture.stampTolerance_s)},
+            {"stated_by", channel.statedBy},
+            {"not_stated", notStatedText(capture)},
             {"sampling_step_s", 1 / capture.rate_hz},
-            {"full_scale", known(channel.high * scale)}};
+            {"full_scale", positive(channel.high * scale)}};
 }
 
 /// What was asked of the stimulator when the capture was taken.
@@ -53,16 +60,15 @@ Json commandJson(const CapturedCommand& command) {
             {"gap_s", numberOrNull(command.gap_s)}};
 }
 
-/// The load as V/I, with the limits that both channels state (half-width, relative; the worst case of their sum).
-void addLoad(Json& out, const Capture& capture, double volts, double amps) {
-    const auto* v = channelOf(capture, "voltage");
+/// The load as V/I with its U, from what both channels state; null where they do not.
+void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltage, const ChannelMeasurement& current) {
+    const double volts = meanOfTrains(voltage, &TrainMeasurement::amplitude);
+    const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);
     const auto* i = channelOf(capture, "current");
-    if (v == nullptr || i == nullptr || !(volts > 0) || !(amps > 0)) return;
-    const auto limit = [](const CaptureChannel& channel, double value) {
-        return channel.gainTolerance + (channel.offsetTolerance + channel.lsb / 2) / value;
-    };
+    if (i == nullptr || !(volts > 0) || !(amps > 0)) return;
+    const double relative = std::hypot(voltage.uncertainty.amplitude / volts, current.uncertainty.amplitude / amps);
     out["load_ohm"] = volts / amps;
-    out["load_limit"] = limit(*v, volts) + limit(*i, amps);
+    out["load_expanded_ohm"] = numberOrNull(kCoverage * relative * volts / amps);
     if (i->lsb > 0) out["current_lsb"] = amps / i->lsb;
 }
 
@@ -98,8 +104,7 @@ Result<Json> pulse(ScriptSession& session, const Json& list) {
                 {"instrument", instrumentOf(captures.front(), *channel, scale)},
                 {"captures", given->ids}};
     if (current) {
-        addLoad(out, captures.front(), meanOfTrains(*voltage, &TrainMeasurement::amplitude),
-                meanOfTrains(*current, &TrainMeasurement::amplitude));
+        addLoad(out, captures.front(), *voltage, *current);
     }
     OwnReading own;
     for (const auto& id : given->ids) own.captures.push_back(id.get<std::int64_t>());
@@ -107,8 +112,12 @@ Result<Json> pulse(ScriptSession& session, const Json& list) {
     for (const char* key : {"amplitude", "interval_s", "width_s", "gap_s"}) own.read[key] = out[key];
     own.unit = drivesCurrent ? "mA" : "V";
     own.gainTolerance = channel->gainTolerance;
-    own.offsetTolerance = channel->offsetTolerance * scale;
-    own.resolution = channel->lsb * scale;
+    own.probeTolerance = channel->probeTolerance;
+    own.linearityTolerance = channel->linearityTolerance * scale;
+    if (channel->lsb > 0) own.resolution = channel->lsb * scale;
+    own.timeBaseTolerance = captures.front().timeBaseTolerance;
+    own.stampTolerance_s = captures.size() > 1 ? captures.front().stampTolerance_s : 0;
+    own.statedBy = channel->statedBy;
     own.samplingStep_s = 1 / captures.front().rate_hz;
     out["reading"] = session.own().add(std::move(own));
     return out;
@@ -125,8 +134,6 @@ std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
     return numbers;
 }
 
-/// A quartz of unknown make: what a time base is taken to be off by where the operator did not state it. (choice)
-constexpr double kTimeBaseTolerance = 100e-6;
 /// Levels of a kept calibration are told apart at least this well, relative to the largest.
 constexpr double kWidestLevel = 0.05;
 
@@ -166,30 +173,26 @@ public:
         return {};
     }
 
+    /// The captures carry what the operator or else the instrument states; what neither does is not known, whatever a
+    /// script says of it.
     void widen(InstrumentErrors& errors) {
         const bool amplitude = quantity_.name == "amplitude";
-        double stated = 0;
-        const auto said = session_.operatorsNumber(amplitude ? "scope_gain_pct" : "timebase_ppm");
-        if (said && *said > 0) {
-            stated = *said * (amplitude ? 1e-2 : 1e-6);
-            made_.statedBy = "the operator";
-        } else if (amplitude) {
-            for (const auto* reading : readings_) stated = std::max(stated, reading->gainTolerance);
-            const auto silent = [](const OwnReading* reading) { return !(reading->gainTolerance > 0); };
-            if (std::any_of(readings_.begin(), readings_.end(), silent)) stated = 0;
-            if (stated > 0) made_.statedBy = "the instrument";
-        } else {
-            stated = kTimeBaseTolerance;
+        const double stated = worst(amplitude ? &OwnReading::gainTolerance : &OwnReading::timeBaseTolerance);
+        if (!std::isnan(stated)) {
+            const auto said = session_.operatorsNumber(amplitude ? "scope_gain_pct" : "timebase_ppm");
+            made_.statedBy = said && *said > 0 ? "the operator" : "the instrument";
+            made_.gainTolerance = stated;
         }
-        if (stated > 0) made_.gainTolerance = stated;
-        errors.gainTolerance = std::max(errors.gainTolerance, stated);
-        for (const auto* reading : readings_) {
-            if (amplitude) {
-                errors.offsetTolerance = std::max(errors.offsetTolerance, reading->offsetTolerance);
-                errors.resolution = std::max(errors.resolution, reading->resolution);
-            } else {
-                errors.samplingStep = std::max(errors.samplingStep, reading->samplingStep_s);
-            }
+        widenTo(errors.gainTolerance, stated);
+        errors.offsetTolerance = 0;  // levels are read from their own baseline
+        if (amplitude) {
+            widenTo(errors.probeTolerance, worst(&OwnReading::probeTolerance));
+            widenTo(errors.linearityTolerance, worst(&OwnReading::linearityTolerance));
+            widenTo(errors.resolution, worst(&OwnReading::resolution));
+        } else {
+            errors.resolution = 0;
+            if (quantity_.name == "interval") widenTo(errors.stampTolerance, worst(&OwnReading::stampTolerance_s));
+            widenTo(errors.samplingStep, worst(&OwnReading::samplingStep_s));
         }
         errors.unit = amplitude ? readings_.front()->unit : "s";
     }
@@ -200,6 +203,20 @@ public:
     }
 
 private:
+    /// The largest of the readings; NaN where one of them does not state it.
+    [[nodiscard]] double worst(double OwnReading::*member) const {
+        double most = 0;
+        for (const auto* reading : readings_) {
+            if (std::isnan(reading->*member)) return kNaN;
+            most = std::max(most, reading->*member);
+        }
+        return most;
+    }
+    /// A script's own figure may widen what is stated, and never stands for it.
+    static void widenTo(double& error, double stated) {
+        error = std::isnan(stated) || std::isnan(error) ? stated : std::max(error, stated);
+    }
+
     ScriptSession& session_;
     const OwnQuantity& quantity_;
     std::vector<const OwnReading*> readings_;
@@ -244,9 +261,9 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
     if (!rows) return failure(rows);
     auto readings = readingsFrom(arguments, **rows);
     if (!readings) return failure(readings);
-    auto options =
-        arguments.options(1, {"quantity", "unit", "tolerance_pct", "gain_tolerance", "offset_tolerance", "resolution",
-                              "load_tolerance", "load_sensitivity", "sampling_step", "same_level"});
+    auto options = arguments.options(
+        1, {"quantity", "unit", "tolerance_pct", "gain_tolerance", "probe_tolerance", "offset_tolerance", "resolution",
+            "load_tolerance", "load_sensitivity", "sampling_step", "same_level"});
     if (!options) return failure(options);
     auto quantity = arguments.text(*options, "quantity", "amplitude");
     if (!quantity) return failure(quantity);
@@ -263,9 +280,14 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
     };
     for (const auto& [key, target, least] :
          {Option{"tolerance_pct", &tolerance, 0}, Option{"gain_tolerance", &errors.gainTolerance, 0},
-          Option{"offset_tolerance", &errors.offsetTolerance, 0}, Option{"resolution", &errors.resolution, 0},
-          Option{"load_tolerance", &errors.loadTolerance, 0}, Option{"load_sensitivity", &errors.loadSensitivity, -10},
-          Option{"sampling_step", &errors.samplingStep, 0}, Option{"same_level", &fit.sameLevel, 0}}) {
+          Option{"probe_tolerance", &errors.probeTolerance, 0}, Option{"offset_tolerance", &errors.offsetTolerance, 0},
+          Option{"resolution", &errors.resolution, 0}, Option{"load_tolerance", &errors.loadTolerance, 0},
+          Option{"load_sensitivity", &errors.loadSensitivity, -10}, Option{"sampling_step", &errors.samplingStep, 0},
+          Option{"same_level", &fit.sameLevel, 0}}) {
+        if (options->contains(key) && (*options)[key].is_null()) {
+            *target = kNaN;  // not stated
+            continue;
+        }
         auto value = arguments.number(*options, key, *target, {least, 1e9});
         if (!value) return failure(value);
         *target = *value;
@@ -279,7 +301,7 @@ Result<Json> calibration(ScriptSession& session, const Json& list) {
         if (auto filled = (*own)->fill(*readings); !filled) return failure(filled);
         (*own)->widen(errors);
     }
-    fit.resolution = std::max(errors.resolution, errors.samplingStep);
+    fit.resolution = std::max(errors.samplingStep, std::isnan(errors.resolution) ? 0 : errors.resolution);
     auto found = fitCalibration(*readings, fit);
     if (!found) return failure(found);
     BudgetOptions budget;

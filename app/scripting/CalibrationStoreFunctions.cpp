@@ -115,6 +115,13 @@ Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::s
         return arguments.wrong(quantity, one,
                                fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
     }
+    if (one.value("expanded_uncertainty", Json()).is_null()) {
+        return fail(
+            ErrorCode::InvalidArgument,
+            "record.calibration: the {} has no uncertainty, since the oscilloscope does not state how good it is; "
+            "--set scope_gain_pct=... and timebase_ppm=..., from its data sheet, are expected",
+            quantity);
+    }
     if (one.value("verdict_iec", "") != "pass") {
         return fail(ErrorCode::InvalidArgument,
                     "record.calibration: the stimulator's {} is not within 20 % of what it is told, uncertainty "

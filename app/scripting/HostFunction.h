@@ -52,6 +52,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> operatorFunctions();
 [[nodiscard]] std::vector<HostFunction> recordFunctions();
 [[nodiscard]] std::vector<HostFunction> referenceFunctions();
+[[nodiscard]] std::vector<HostFunction> absoluteReferenceFunctions();
 [[nodiscard]] std::vector<HostFunction> measureFunctions();
 [[nodiscard]] std::vector<HostFunction> plotFunctions();
 [[nodiscard]] std::vector<HostFunction> generalFunctions();
@@ -59,6 +60,7 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> calibrationStoreFunctions();
 [[nodiscard]] std::vector<HostFunction> benchLoadFunctions();
 [[nodiscard]] std::vector<HostFunction> sensorCalibrationFunctions();
+[[nodiscard]] std::vector<HostFunction> sensorScaleFunctions();
 [[nodiscard]] std::vector<HostFunction> sensorProfileFunctions();
 [[nodiscard]] std::vector<HostFunction> tripFunctions();
 [[nodiscard]] std::vector<HostFunction> loadSafetyFunctions();
@@ -66,5 +68,6 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> stepFunctions();
 [[nodiscard]] std::vector<HostFunction> variationFunctions();
 [[nodiscard]] std::vector<HostFunction> latencyFunctions();
+[[nodiscard]] std::vector<HostFunction> changeFunctions();
 
 }  // namespace tacto

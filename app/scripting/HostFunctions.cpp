@@ -13,6 +13,7 @@ const std::vector<HostFunction>& hostFunctions() {
                            operatorFunctions,
                            recordFunctions,
                            referenceFunctions,
+                           absoluteReferenceFunctions,
                            measureFunctions,
                            plotFunctions,
                            benchLoadFunctions,
@@ -21,11 +22,13 @@ const std::vector<HostFunction>& hostFunctions() {
                            calibrationFunctions,
                            calibrationStoreFunctions,
                            sensorCalibrationFunctions,
+                           sensorScaleFunctions,
                            sensorProfileFunctions,
                            transitionFunctions,
                            stepFunctions,
                            variationFunctions,
-                           latencyFunctions}) {
+                           latencyFunctions,
+                           changeFunctions}) {
             auto functions = part();
             out.insert(out.end(), std::make_move_iterator(functions.begin()), std::make_move_iterator(functions.end()));
         }

@@ -4,6 +4,7 @@
 
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
+#include "app/scripting/NamedGroups.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/analysis/ResultJson.h"
 #include "core/base/Statistics.h"
@@ -74,23 +75,14 @@ Result<Json> latency(ScriptSession&, const Json& list) {
     if (!options) return failure(options);
     auto tolerance = arguments.number(*options, "tolerance_s", 0.02, {0, 60});
     if (!tolerance) return failure(tolerance);
-    std::vector<StepGroup> groups;
-    const auto groupOf = [&](const std::string& name) -> StepGroup& {
-        for (auto& group : groups) {
-            if (group.name == name) return group;
-        }
-        groups.emplace_back().name = name;
-        return groups.back();
-    };
-    for (const auto& name : options->value("names", Json::array())) {
-        if (!name.is_string()) return arguments.wrong("names", (*options)["names"], "a list of names");
-        groupOf(name.get<std::string>());
-    }
+    auto asked = groupsAsked<StepGroup>(arguments, *options);
+    if (!asked) return failure(asked);
+    auto& groups = *asked;
     for (const auto& row : **rows) {
         if (!row.is_object() || !row.value("name", Json()).is_string()) {
             return arguments.wrong("a step", row, "what bench.step() returned, with a name,");
         }
-        add(groupOf(row["name"].get<std::string>()), row);
+        add(groupNamed(groups, row["name"].get<std::string>()), row);
     }
     std::vector<std::string> reasons;
     Json out = Json::array();

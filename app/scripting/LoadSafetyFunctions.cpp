@@ -5,7 +5,9 @@
 
 #include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
+#include "core/analysis/LimitMatrix.h"
 #include "core/analysis/LoadSafetyJson.h"
+#include "core/analysis/OutputDescription.h"
 
 namespace tacto {
 
@@ -38,6 +40,10 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
     const auto& train = session.bench().profile().encoding.train;
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
+    if (!arguments.at(3).is_null()) {
+        if (arguments.at(3) != "voltage") return arguments.wrong("by", arguments.at(3), "\"voltage\"");
+        expected.drive = Drive::Voltage;
+    }
     // A calibrated stimulator is told something else than what it is to deliver.
     const auto& calibration = session.bench().calibration();
     const double settled = settledAt(session.bench().telemetry(), given->captures.size());
@@ -45,7 +51,16 @@ Result<Json> measureLoad(ScriptSession& session, const Json& list) {
         const double told = std::isnan(capture.told) ? settled : capture.told;
         expected.told.push_back(calibration ? calibration->amplitude.delivered(told) : told);
     }
-    auto reading = readLoad(given->captures, expected, fine.captures);
+    GivenCaptures rhythm;
+    if (!arguments.at(2).is_null()) {
+        auto more = capturesGiven(session, arguments, 2, "rhythm");
+        if (!more) return failure(more);
+        if (more->captures.size() != 1) return arguments.wrong("rhythm", arguments.at(2), "a list of one capture");
+        rhythm = std::move(*more);
+    }
+    expected.budget.seed = session.request().seed;
+    auto reading = readLoad(given->captures, expected, fine.captures,
+                            rhythm.captures.empty() ? nullptr : &rhythm.captures.front());
     if (!reading) return failure(reading);
     Json out = toJson(*reading);
     out["captures"] = given->ids;
@@ -72,7 +87,8 @@ Result<void> readTolerances(const Arguments& arguments, const Json& options, Loa
     if (!given.is_object()) return arguments.wrong("tolerances", given, "an object");
     for (const auto& [key, target] :
          {std::pair("load_pct", &into.load_pct), std::pair("amplitude_pct", &into.amplitude_pct),
-          std::pair("timing_pct", &into.timing_pct)}) {
+          std::pair("timing_pct", &into.timing_pct), std::pair("resistor_pct", &into.resistor_pct),
+          std::pair("area_pct", &into.area_pct)}) {
         auto value = arguments.number(given, key, *target, {0.01, 50});
         if (!value) return failure(value);
         *target = *value;
@@ -87,7 +103,7 @@ Result<Json> loadSafety(ScriptSession& session, const Json& list) {
     if (!loads) return failure(loads);
     auto trips = arguments.list(1, "trips");
     if (!trips) return failure(trips);
-    auto options = arguments.options(2, {"reference", "tolerances"});
+    auto options = arguments.options(2, {"reference", "tolerances", "open_circuit", "absolute"});
     if (!options) return failure(options);
     LoadSafetyInput input = inputFor(session.bench());
     if (auto read = readTolerances(arguments, *options, input.tolerances); !read) return failure(read);
@@ -106,7 +122,22 @@ Result<Json> loadSafety(ScriptSession& session, const Json& list) {
         if (!reference) return failure(reference);
         input.reference = judgeReference(*reference, input);
     }
-    return toJson(judgeLoadSafety(input));
+    if (options->contains("absolute")) {
+        auto row = absoluteRowFrom((*options)["absolute"]);
+        if (!row) return failure(row);
+        input.absolute = std::move(*row);
+    }
+    if (options->contains("open_circuit")) {
+        auto open = loadStepFrom((*options)["open_circuit"]);
+        if (!open) return failure(open);
+        input.openCircuit = std::move(*open);
+    }
+    const auto judged = judgeLoadSafety(input);
+    Json out = toJson(judged);
+    out["kind"] = "load-safety";
+    out["matrix"] = toJson(limitMatrixOf(judged, input.limits));
+    out["described"] = toJson(describeOutput(input));
+    return out;
 }
 
 Result<Json> tracings(ScriptSession& session, const Json& list) {
@@ -147,7 +178,7 @@ Result<Json> partial(ScriptSession& session, const Json& list) {
     auto found = arguments.object(0, "found");
     if (!found) return failure(found);
     const Json tables = arguments.at(1).is_null() ? Json::array() : arguments.at(1);
-    if (!tables.is_array()) return arguments.wrong("tables", tables, "a list of { caption, rows, columns }");
+    if (!tables.is_array()) return arguments.wrong("tables", tables, "a list of { caption, rows, columns, kind }");
     for (const auto& table : tables) {
         if (!table.is_object() || !table.value("caption", Json()).is_string() ||
             !table.value("rows", Json()).is_array()) {
@@ -167,6 +198,14 @@ std::vector<HostFunction> loadSafetyFunctions() {
          HostKind::Function,
          {{"captures", "list", "", "from bench.capture(), one per train, all with one command"},
           {"fine", "list", "", "more of them in a current range that fits the end of a phase: a spike may clip there",
+           true},
+          {"rhythm", "list", "",
+           "one capture that holds two of the trains, for the interval: for an oscilloscope that does not state how "
+           "good "
+           "the time stamps of its records are",
+           true},
+          {"by", "text", "",
+           "\"voltage\" where the voltage shows the phases of a current source's train too: into an open circuit",
            true}},
          "Measures what trains did to a load: voltage, current, charge, energy, RMS over each window.",
          "{ delivered, amplitude_v, highest_v, amplitude_ma, width_s, interval_s, impedance_ohm, peak_v, peak_ma, "
@@ -174,7 +213,10 @@ std::vector<HostFunction> loadSafetyFunctions() {
          "net_charge_uc, "
          "imbalance, energy_mj, rms_train_ma, rms_1s_ma, rms_5s_ma, rms_5s_v, dc_ma, power_1s_w, each with its "
          "standard "
-         "uncertainty in _u; trains, under_10_lsb, warnings, captures }: null what was not measured; "
+         "uncertainty in _u and its U (95 %) in _expanded; trains, under_10_lsb, not_stated, warnings, captures }: "
+         "null "
+         "what was not measured, and an uncertainty that rests on what the oscilloscope does not state (not_stated "
+         "says what); "
          "delivered is the amplitude over what each train was to have, 1 as told.",
          "Throws for captures that are held no longer, or without a channel of what the source drives and of voltage.",
          measureLoad},
@@ -187,10 +229,15 @@ std::vector<HostFunction> loadSafetyFunctions() {
            "reason }], not_applicable, problem }"},
           {"trips", "list", "", "from bench.trip...()"},
           {"options.reference", "object", "", "the load of the known-reference check, as in loads", true},
-          {"options.tolerances", "object", "%", "load_pct, amplitude_pct, timing_pct", true}},
+          {"options.tolerances", "object", "%", "load_pct, amplitude_pct, timing_pct, resistor_pct, area_pct", true},
+          {"options.absolute", "object", "", "from bench.readReference()", true},
+          {"options.open_circuit", "object", "", "{ command_v, interval_s, reading }: a train into the open circuit",
+           true}},
          "Judges everything measured against every limit set with its guard band.",
-         "{ verdict, reasons, loads, rows, disclosed, worst_case }: what is missing reads \"not evaluated\", and then "
-         "the verdict is no pass.",
+         "{ kind, verdict, reasons, loads, rows, matrix, disclosed, described, worst_case }: what is missing reads "
+         "\"not "
+         "evaluated\", and then the verdict is no pass. matrix is { loads, lines }, every limit once with a cell per "
+         "load and the margin left, the smallest first.",
          "Throws for a load that cannot be read.",
          loadSafety},
         {"plot",
@@ -206,7 +253,7 @@ std::vector<HostFunction> loadSafetyFunctions() {
          "partial",
          HostKind::Function,
          {{"found", "object", "", "results so far, as verdict() takes them"},
-          {"tables", "list", "", "{ caption, rows, columns }, for the report", true}},
+          {"tables", "list", "", "{ caption, rows, columns }, for the report; kind is \"table\" or \"matrix\"", true}},
          "Keeps what a run has come to, in case it ends early: results and tables then say that they are partial. The "
          "last one counts; a run that ends by itself uses none.",
          "",

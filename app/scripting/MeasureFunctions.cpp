@@ -1,6 +1,7 @@
 // Measuring captures, and judging what was measured.
 #include <cmath>
 
+#include "app/scripting/CaptureClock.h"
 #include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
 #include "core/analysis/ResultJson.h"
@@ -11,6 +12,24 @@ namespace tacto {
 namespace {
 
 using Json = nlohmann::json;
+
+/// NaN when one of them is unknown.
+double worstTimeBase(const std::vector<Capture>& captures) {
+    double worst = 0;
+    for (const auto& capture : captures) {
+        const double u = timeBaseUncertainty(capture);
+        if (!(u <= worst)) worst = u;
+        if (std::isnan(worst)) break;
+    }
+    return worst;
+}
+
+/// The time base is handed on by itself: it is the same in all trials.
+double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBase) {
+    const double base = timeBase * channel.interval_s.mean, all = channel.uncertainty.interval_s;
+    const double rest = all * all - base * base;
+    return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
+}
 
 Result<Json> train(ScriptSession& session, const Json& list) {
     const Arguments arguments("measure.train", list);
@@ -25,7 +44,8 @@ Result<Json> train(ScriptSession& session, const Json& list) {
     Json out = {{"amplitude_v", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
                 {"amplitude_u_v", numberOrNull(voltage->uncertainty.amplitude)},
                 {"interval_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
-                {"interval_u_s", numberOrNull(voltage->uncertainty.interval_s)},
+                {"interval_u_s", numberOrNull(intervalWithoutTimeBase(*voltage, worstTimeBase(captures)))},
+                {"time_base_u", numberOrNull(worstTimeBase(captures))},
                 {"width_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::width_s))},
                 {"trains", voltage->trains.size()},
                 {"pulses", voltage->measuredPulses},
@@ -59,9 +79,13 @@ Result<Json> separability(ScriptSession&, const Json& list) {
         trial.interval_s = value("interval_s");
         trial.amplitudeUncertainty = value("amplitude_u_v");
         trial.intervalUncertainty_s = value("interval_u_s");
+        trial.timeBase = value("time_base_u");
         features.push_back({{"condition", trial.condition},
                             {"amplitude_v", numberOrNull(trial.amplitude)},
-                            {"interval_s", numberOrNull(trial.interval_s)}});
+                            {"interval_s", numberOrNull(trial.interval_s)},
+                            {"amplitude_u_v", numberOrNull(trial.amplitudeUncertainty)},
+                            {"interval_u_s", numberOrNull(trial.intervalUncertainty_s)},
+                            {"time_base_u", numberOrNull(trial.timeBase)}});
         trials.push_back(std::move(trial));
     }
     SeparabilityOptions options;
@@ -89,15 +113,20 @@ std::vector<HostFunction> measureFunctions() {
          HostKind::Function,
          {{"captures", "list", "", "from bench.capture(), in time order"}},
          "Measures what was delivered: amplitude, width, charge of each train, and the interval from onset to onset.",
-         "{ amplitude_v, amplitude_u_v, amplitude_ma, interval_s, interval_u_s, width_s, charge_uc, imbalance, trains, "
-         "pulses, warnings, captures }: means over the trains; _u_ is the standard uncertainty of a reading; what "
+         "{ amplitude_v, amplitude_u_v, amplitude_ma, interval_s, interval_u_s, time_base_u, width_s, charge_uc, "
+         "imbalance, trains, "
+         "pulses, warnings, captures }: means over the trains; _u_ is the standard uncertainty of a reading, "
+         "time_base_u "
+         "that of the time base, relative; what "
          "could not be measured is null, the interval of a single train among it.",
          "Throws for captures that are held no longer, or without a voltage channel.",
          train},
         {"analysis",
          "separability",
          HostKind::Function,
-         {{"trials", "list", "", "objects with condition, amplitude_v, interval_s; from record.trials()"},
+         {{"trials", "list", "",
+           "objects with condition, amplitude_v, interval_s, and their uncertainties amplitude_u_v, interval_u_s, "
+           "time_base_u, without which the verdict cannot be a pass; from record.trials()"},
           {"options", "object", "", "conditions: the names that must all be there, else the verdict cannot be a pass"}},
          "Judges whether the conditions can be told apart from what was measured.",
          "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/NaN.h"
 #include "core/base/Result.h"
 
 namespace tacto {
@@ -30,10 +31,14 @@ struct OwnReading {
     std::vector<CapturedCommand> commands;  ///< of each capture
     nlohmann::json read;                    ///< amplitude, interval_s, width_s, gap_s as measured; null: not measured
     std::string unit;                       ///< of the amplitude: V or mA
-    // As the oscilloscope states it, in the amplitude's unit; 0: not stated.
-    double gainTolerance = 0;
-    double offsetTolerance = 0;
-    double resolution = 0;
+    // As the oscilloscope states it, in the amplitude's unit; NaN: not stated.
+    double gainTolerance = kNaN;
+    double probeTolerance = kNaN;
+    double linearityTolerance = 0;
+    double resolution = kNaN;
+    double timeBaseTolerance = kNaN;
+    double stampTolerance_s = kNaN;  ///< 0 where one record holds all of it
+    std::string statedBy{};
     double samplingStep_s = 0;
 };
 

@@ -1,9 +1,12 @@
 // Figures of the report, as data; app/report/Figure.h says what each holds.
+#include <algorithm>
 #include <cmath>
 
 #include "app/scripting/Arguments.h"
+#include "app/scripting/GivenCaptures.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
+#include "core/analysis/ResultJson.h"
 
 namespace tacto {
 
@@ -20,9 +23,58 @@ Result<Json> member(const Arguments& arguments, const char* key) {
     return (**found)[key];
 }
 
-Result<Json> conditionsFigure(ScriptSession&, const Json& list) {
-    auto found = member(Arguments("plot.conditions", list), "conditions");
+Json samplesOf(const CaptureChannel& channel) {
+    Json out = Json::array();
+    for (const float sample : channel.samples) {
+        out.push_back(std::isfinite(sample) ? Json(static_cast<double>(sample)) : Json());
+    }
+    return out;
+}
+
+/// The condition as captured: where its trains begin and how far each reaches, and the samples of the first.
+void addLane(Json& condition, const std::vector<Capture>& captures) {
+    Json trains = Json::array();
+    double first_s = std::nan("");
+    for (const auto& capture : captures) {
+        const auto voltage = std::ranges::find(capture.channels, "V", &CaptureChannel::unit);
+        if (voltage == capture.channels.end() || !std::isfinite(capture.trigger_s)) continue;
+        double low = std::nan(""), high = std::nan("");
+        for (const float sample : voltage->samples) {
+            low = std::fmin(low, sample);
+            high = std::fmax(high, sample);
+        }
+        if (trains.empty()) {
+            first_s = capture.trigger_s;
+            condition["pulse"] = {{"rate_hz", capture.rate_hz},
+                                  {"start_s", capture.start_s - capture.trigger_s},
+                                  {"voltage_v", samplesOf(*voltage)}};
+        }
+        trains.push_back(
+            {{"onset_s", capture.trigger_s - first_s}, {"low_v", numberOrNull(low)}, {"high_v", numberOrNull(high)}});
+    }
+    condition["trains"] = std::move(trains);
+}
+
+Result<Json> conditionsFigure(ScriptSession& session, const Json& list) {
+    const Arguments arguments("plot.conditions", list);
+    auto found = member(arguments, "conditions");
     if (!found) return found;
+    const Json lanes = arguments.at(1);
+    if (lanes.is_null()) return Json{{"type", "conditions"}, {"conditions", *found}};
+    if (!lanes.is_object()) return arguments.wrong("captures", lanes, "an object of captures by condition");
+    char letter = 'A';
+    for (auto& condition : *found) {
+        const std::string name = condition.value("name", "");
+        condition["letter"] = std::string(1, letter);
+        if (letter < 'Z') ++letter;
+        const Json handles = lanes.value(name, Json::array());
+        if (!handles.is_array()) return arguments.wrong("captures", handles, "from bench.capture()");
+        const auto held = session.held(handles);
+        if (!held) return failure(held);
+        std::vector<Capture> captures;
+        for (const auto* capture : *held) captures.push_back(*capture);
+        addLane(condition, captures);
+    }
     return Json{{"type", "conditions"}, {"conditions", *found}};
 }
 
@@ -45,14 +97,6 @@ Result<Json> confusion(ScriptSession&, const Json& list) {
                 {"labels", labels},
                 {"confusion", *counts},
                 {"accuracy", arguments.at(0).value("accuracy", Json())}};
-}
-
-Json samplesOf(const CaptureChannel& channel) {
-    Json out = Json::array();
-    for (const float sample : channel.samples) {
-        out.push_back(std::isfinite(sample) ? Json(static_cast<double>(sample)) : Json());
-    }
-    return out;
 }
 
 Result<Json> waveforms(ScriptSession& session, const Json&) {
@@ -108,8 +152,13 @@ std::vector<HostFunction> plotFunctions() {
         {"plot",
          "conditions",
          HostKind::Function,
-         {{"found", "object", "", "from analysis.separability()"}},
-         "The conditions as measured: texture alone, pressure alone, the two combined.",
+         {{"found", "object", "", "from analysis.separability()"},
+          {"captures", "object", "",
+           "lists from bench.capture(), by the condition's name: consecutive trains of each, drawn as captured in "
+           "lettered lanes; left out: drawn from the means",
+           true}},
+         "The conditions: trains as captured, a lane for each; or from the means, texture alone, pressure alone, the "
+         "two combined.",
          kFigure,
          "",
          conditionsFigure},

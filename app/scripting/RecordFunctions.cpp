@@ -1,7 +1,10 @@
 // What a protocol leaves behind: trials, measurements, events, and the report.
+#include <cmath>
+
 #include "app/scripting/Arguments.h"
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
+#include "core/base/QuantityText.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -85,6 +88,41 @@ Result<Json> table(ScriptSession& session, const Json& list) {
     return writeItem(session, item);
 }
 
+Result<Json> matrix(ScriptSession& session, const Json& list) {
+    const Arguments arguments("report.matrix", list);
+    auto caption = arguments.text(0, "caption");
+    if (!caption) return failure(caption);
+    auto columns = arguments.list(1, "columns");
+    if (!columns) return failure(columns);
+    auto rows = arguments.list(2, "rows");
+    if (!rows) return failure(rows);
+    for (const auto& row : **rows) {
+        if (!row.is_object() || !row.value("cells", Json()).is_array())
+            return arguments.wrong("a row", row, "an object with a title and a list of cells");
+    }
+    return writeItem(session, {{"kind", "matrix"}, {"caption", *caption}, {"columns", **columns}, {"rows", **rows}});
+}
+
+/// null is not known.
+Result<double> numberOrNaN(const Arguments& arguments, int at, std::string_view name) {
+    const Json& value = arguments.at(static_cast<std::size_t>(at));
+    if (value.is_null()) return std::nan("");
+    if (value.is_number()) return value.get<double>();
+    return arguments.wrong(name, value, "a number or null");
+}
+
+Result<Json> quantity(ScriptSession&, const Json& list) {
+    const Arguments arguments("report.quantity", list);
+    auto value = numberOrNaN(arguments, 0, "value");
+    if (!value) return failure(value);
+    auto unit = arguments.text(1, "unit");
+    if (!unit) return failure(unit);
+    if (list.size() < 3) return Json(scaledText(*value, *unit));
+    auto expanded = numberOrNaN(arguments, 2, "expanded");
+    if (!expanded) return failure(expanded);
+    return Json(measuredText(*value, *expanded, *unit));
+}
+
 Result<Json> text(ScriptSession& session, const Json& list) {
     auto paragraph = Arguments("report.text", list).text(0, "text");
     if (!paragraph) return failure(paragraph);
@@ -142,12 +180,35 @@ std::vector<HostFunction> recordFunctions() {
          "table",
          HostKind::Function,
          {{"caption", "text", "", "title of the table"},
-          {"rows", "list", "", "objects; their members are the columns and carry the unit"},
+          {"rows", "list", "",
+           "objects; their members are the columns and carry the unit; a member may be { value, expanded, unit }"},
           {"columns", "list", "", "names and order of the columns; as in the rows where left out", true}},
          "Adds a table to the report.",
          "",
          kDisk,
          table},
+        {"report",
+         "matrix",
+         HostKind::Function,
+         {{"caption", "text", "", "title of the matrix"},
+          {"columns", "list", "", "names, of loads or conditions"},
+          {"rows", "list", "",
+           "{ title, note, unit, limit, compare, set, cells }; a cell per column: null, or { value, "
+           "expanded_uncertainty, margin_pct, verdict, text }, as in the lines of analysis.loadSafety()'s matrix"}},
+         "Adds rows against columns to the report: limits or quantities against loads.",
+         "",
+         kDisk,
+         matrix},
+        {"report",
+         "quantity",
+         HostKind::Function,
+         {{"value", "number", "", "null where it is not known"},
+          {"unit", "text", "", "\"s\", \"mA\", \"ohm\", \"%\"; may be empty"},
+          {"expanded", "number", "", "its expanded uncertainty U; null where that is not known", true}},
+         "Writes a number as reports do: a scaled unit, U with two digits and the value to the same place.",
+         "A text: \"40.12 ± 0.46 V\", \"16.8 µs\".",
+         "",
+         quantity},
         {"report",
          "text",
          HostKind::Function,

@@ -283,9 +283,12 @@ void ScriptRun::State::writeVerdict() {
         writeEvent(outcome->abandoned ? "script abandoned" : "script ended by an error",
                    {{"message", outcome->error->message}});
     }
-    if (outcome->verdict == ScriptVerdict::None) return;
-    auto written = request.session->verdict(session.now(), request.script.name, nameOf(outcome->verdict),
-                                            outcome->reasons, outcome->results);
+    // A protocol that judges nothing may say what it found all the same: that stands where the verdict would.
+    const bool judged = outcome->verdict != ScriptVerdict::None;
+    if (!judged && (outcome->error || outcome->reasons.empty())) return session.recordBasis(outcome->results);
+    auto written =
+        request.session->verdict(session.now(), request.script.name, judged ? nameOf(outcome->verdict) : "none",
+                                 outcome->reasons, outcome->results);
     if (written || outcome->error) return;
     outcome->verdict = ScriptVerdict::None;  // a verdict that is not on disk was not given (hazard H8)
     outcome->error = written.error();

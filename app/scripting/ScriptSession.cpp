@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "app/scripting/Arguments.h"
+#include "core/analysis/ResultJson.h"
 #include "core/base/Text.h"
 #include "core/encoding/Rounding.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
+#include "core/measure/InstrumentStatement.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -56,9 +58,26 @@ tl::unexpected<Error> ScriptSession::endWith(Error error) {
     return tl::unexpected<Error>(*end_);
 }
 
+/// Of the whole way from the load to the reading; nothing where the operator did not say.
+InstrumentStatement ScriptSession::operatorsStatement() const {
+    InstrumentStatement out;
+    const Stated nothingElse{0, "the operator"};
+    if (const auto gain = operatorsNumber("scope_gain_pct"); gain && *gain > 0) {
+        for (auto* channel : {&out.voltage, &out.current}) {
+            channel->gain = {*gain * 1e-2, "the operator"};
+            channel->probe = nothingElse;
+        }
+    }
+    if (const auto base = operatorsNumber("timebase_ppm"); base && *base > 0)
+        out.timeBase = {*base * 1e-6, "the operator"};
+    return out;
+}
+
 nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
     nlohmann::json handles = nlohmann::json::array();
     for (auto& capture : captures) {
+        applyStatement(capture, operatorsStatement());
+        scopeSeen_.add(capture);
         if (request_.onCapture) request_.onCapture(capture);
         for (const auto& warning : capture.warnings) {
             if (writer() != nullptr) static_cast<void>(writer()->event(now(), "capture warning", {{"text", warning}}));
@@ -67,7 +86,9 @@ nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
                            {"start_s", capture.start_s},
                            {"trigger_s", capture.trigger_s},
                            {"rate_hz", capture.rate_hz},
-                           {"samples", capture.samples()}});
+                           {"samples", capture.samples()},
+                           {"stamp_tolerance_s", numberOrNull(capture.stampTolerance_s)},
+                           {"not_stated", notStatedText(capture)}});
         const auto command = commandOf(capture);
         captures_.push_back({nextCapture_++, std::move(capture), command, {}});
         if (captures_.size() > kHeldCaptures) captures_.pop_front();
@@ -93,7 +114,7 @@ bool toldTheSame(const Capture& capture, const Telemetry& now, const EncodingPro
     // The one at the trigger, as toldFor() finds it; a check pulse may come shortly before it.
     auto first = std::ranges::min_element(
         told, {}, [&](const ToldTrain& train) { return std::abs(toSeconds(train.onset) - capture.trigger_s); });
-    const bool inSteps = encoding.amplitudeSlew_V_per_s > 0 || encoding.intervalRatioPerTrain > 0;
+    const bool inSteps = encoding.movesInSteps();
     if (first == told.end() || !(std::abs(toSeconds(first->onset) - capture.trigger_s) < kNear_s)) return !inSteps;
     if (inSteps && first != told.begin()) --first;
     for (auto next = first + 1; next != told.end(); ++first, ++next) {
@@ -251,12 +272,13 @@ void ScriptSession::keepPartial(nlohmann::json results, nlohmann::json tables) {
 nlohmann::json ScriptSession::takePartial() {
     if (!partial_.is_object()) return {};
     auto out = std::exchange(partial_, {});
+    addBasis(out);
     out["partial"] = true;
     out["verdict"] = nullptr;  // nothing that ended early passes, whatever it had come to (hazard H9)
     if (request_.session == nullptr) return out;
     for (const auto& table : partialTables_) {
         nlohmann::json item = table;
-        item["kind"] = "table";
+        item["kind"] = table.value("kind", "") == "matrix" ? "matrix" : "table";
         item["caption"] = table.value("caption", "") + " (partial: the run ended early)";
         // The run has failed already, and says so; a table that cannot be written changes nothing.
         (void)request_.session->reportItem(now(), item);
@@ -264,10 +286,41 @@ nlohmann::json ScriptSession::takePartial() {
     return out;
 }
 
+void ScriptSession::addBasis(nlohmann::json& results) const {
+    const auto& devices = request_.bench->devices();
+    const auto& scope = devices.oscilloscope;
+    if (!results.is_object() || !scope || !scopeSeen_.any()) return;
+    auto instruments = scopeSeen_.rows(scope->identity());
+    for (const auto& device : devices.identities()) {
+        if (device.role == Role::Oscilloscope) continue;
+        instruments.push_back({{"role", nameOf(device.role)},
+                               {"name", device.name},
+                               {"serial", device.serial},
+                               {"simulated", device.simulated}});
+    }
+    results["instruments"] = std::move(instruments);
+    results["rests_on"] = scopeSeen_.restsOn();
+}
+
 void ScriptSession::judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results) {
     verdict_ = verdict;
     reasons_ = std::move(reasons);
     results_ = std::move(results);
+    // What prints and reads results goes by what they are, not by what they happen to hold. A script of the user's is
+    // of the kind of the analysis that it returns.
+    if (results_.is_object() && !results_.contains("kind") && request_.script.shipped)
+        results_["kind"] = request_.script.name;
+    addBasis(results_);
+}
+
+void ScriptSession::recordBasis(const nlohmann::json& results) {
+    if (request_.session == nullptr || !results.is_object()) return;
+    nlohmann::json basis = nlohmann::json::object();
+    for (const auto* key : {"kind", "decision_rule", "rests_on", "not_evaluated", "instruments", "reference"}) {
+        if (results.contains(key)) basis[key] = results[key];
+    }
+    // A report that lacks it says that it is not known.
+    (void)request_.session->reportItem(now(), {{"kind", "basis"}, {"results", std::move(basis)}});
 }
 
 void ScriptSession::finish(ScriptOutcome& outcome) {

@@ -19,9 +19,11 @@
 
 #include "app/scripting/Operator.h"
 #include "app/scripting/OwnReadings.h"
+#include "app/scripting/ScopeSeen.h"
 #include "app/scripting/ScriptRun.h"
 #include "core/base/Random.h"
 #include "core/bench/Bench.h"
+#include "core/measure/InstrumentStatement.h"
 
 namespace tacto {
 
@@ -33,6 +35,7 @@ public:
     explicit ScriptSession(const RunRequest& request);
 
     [[nodiscard]] Bench& bench() noexcept { return *request_.bench; }
+    [[nodiscard]] ScopeSeen& scopeSeen() noexcept { return scopeSeen_; }
     [[nodiscard]] SessionWriter* writer() noexcept { return request_.session; }
     [[nodiscard]] Random& random() noexcept { return random_; }
     [[nodiscard]] Instant now() const { return request_.bench->clock().now(); }
@@ -95,11 +98,17 @@ public:
     [[nodiscard]] nlohmann::json takePartial();
 
     void judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results);
+    /// Writes what `results` rest on into the session, for the report of a run that has no verdict.
+    void recordBasis(const nlohmann::json& results);
     /// Moves what the run has come to into `outcome`.
     void finish(ScriptOutcome& outcome);
     [[nodiscard]] std::vector<std::string> takeLog() { return std::move(log_); }
 
 private:
+    [[nodiscard]] InstrumentStatement operatorsStatement() const;
+    /// What the run's captures state, into its results.
+    void addBasis(nlohmann::json& results) const;
+    ScopeSeen scopeSeen_;
     struct Held {
         std::int64_t id;
         Capture capture;

@@ -55,6 +55,7 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
         samples.streams.push_back(info);
     }
     samples.blocks.resize(samples.streams.size());
+    samples.serial = bench.devices().sensor->identity().serial;
     if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
     Listening listening(bench);
     const double end = toSeconds(session.now()) + duration_s;
@@ -78,6 +79,19 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
         }
     }
     return samples;
+}
+
+/// The mean force as the profile in force turns it into N, and in which unit that is; null without a force sensor.
+Result<Json> forceInUse(ScriptSession& session, const SensorSamples& samples) {
+    auto chain = RoughnessChain::create(samples.streams, session.bench().profile().roughness, {}, samples.serial);
+    if (!chain) return failure(chain);
+    for (std::size_t s = 0; s < samples.streams.size(); ++s) {
+        if (samples.streams[s].kind != StreamKind::Force) continue;
+        const double mean = levelOf(samples, StreamKind::Force).mean;
+        return Json{{"mean", numberOrNull((*chain)->inUse(s, 0, mean))},
+                    {"unit", symbolOf((*chain)->streams()[s].unit)}};
+    }
+    return Json();
 }
 
 Result<Json> streams(ScriptSession& session, const Json&) {
@@ -117,6 +131,9 @@ Result<Json> measureRest(ScriptSession& session, const Json& list) {
     Json out = toJson(*rest);
     out["duration_s"] = *duration;
     out["force"] = toJson(levelOf(*samples, StreamKind::Force));
+    auto used = forceInUse(session, *samples);
+    if (!used) return failure(used);
+    out["force_in_use"] = std::move(*used);
     session.own().note(out);
     return out;
 }
@@ -176,6 +193,9 @@ Result<Json> measureWeight(ScriptSession& session, const Json& list) {
     auto samples = listenFor(session, *duration);
     if (!samples) return failure(samples);
     Json out = {{"mass_g", *mass}, {"reference_n", force}, {"force", nullptr}, {"taxels", Json::array()}};
+    auto used = forceInUse(session, *samples);
+    if (!used) return failure(used);
+    out["force_in_use"] = std::move(*used);
     if (const auto* info = streamOf(*samples, StreamKind::Force)) {
         out["force"] = numberOrNull(levelOf(*samples, StreamKind::Force).mean);
         out["force_unit"] = symbolOf(info->unit);
@@ -186,6 +206,7 @@ Result<Json> measureWeight(ScriptSession& session, const Json& list) {
             out["taxels"].push_back(numberOrNull(levelOf(*samples, StreamKind::Taxels, c).mean));
         }
     }
+    session.own().note(out);
     return out;
 }
 
@@ -278,8 +299,10 @@ std::vector<HostFunction> sensorCalibrationFunctions() {
          HostKind::Function,
          {{"options.duration_s", "number", "s", "0.5 to 600; 3 where left out", true}},
          "Disarms, lifts the finger (question rest on a rig that cannot) and reads the fingertip without contact.",
-         "{ taxel_baseline, taxel_floor, mean_square, unit, duration_s, force }: mean_square is the power of the "
-         "acceleration at rest, in unit squared, and null without acceleration; force is a statistic.",
+         "{ taxel_baseline, taxel_floor, taxel_unit, mean_square, unit, duration_s, force, force_in_use }: mean_square "
+         "is "
+         "the power of the acceleration at rest, in unit squared, and null without acceleration; force is a statistic "
+         "in the sensor's unit, force_in_use { mean, unit } as the profile scales it.",
          "Throws when something touched the fingertip, when too few samples came, or when the run is stopped.",
          measureRest},
         {"bench",
@@ -303,7 +326,9 @@ std::vector<HostFunction> sensorCalibrationFunctions() {
           {"options.duration_s", "number", "s", "0.5 to 600; 2 where left out", true}},
          "Puts a weight on the resting fingertip (question weight-MASSg on a rig that cannot) and reads force and "
          "taxels.",
-         "{ mass_g, reference_n, force, force_unit, taxels, taxel_unit }: means, in the sensor's own units.",
+         "{ mass_g, reference_n, force, force_unit, taxels, taxel_unit, force_in_use }: means, in the sensor's own "
+         "units; "
+         "force_in_use { mean, unit } as the profile scales it.",
          kThrows,
          measureWeight},
         {"analysis",

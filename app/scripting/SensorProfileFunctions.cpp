@@ -95,6 +95,11 @@ Result<Json> keepProfile(ScriptSession& session, const Json& list) {
     const auto& sensor = session.bench().devices().sensor;
     if (!sensor) return fail(ErrorCode::Unsupported, "record.sensorProfile: no sensor is connected");
     const auto& identity = sensor->identity();
+    // Scales of another fingertip, from the profile that was in force before, are not this one's.
+    if (!roughness->sensor || roughness->sensor->fingertip != identity.serial) {
+        roughness->sensor.emplace();
+        roughness->sensor->fingertip = identity.serial;
+    }
     const auto today = dateText(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
 
     Profile inForce = session.bench().profile();
@@ -106,7 +111,7 @@ Result<Json> keepProfile(ScriptSession& session, const Json& list) {
     profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, today,
                                identity.simulated ? " (simulated)" : "");
     inForce.name = profile.name;
-    if (auto replaced = session.bench().setProfile(inForce); !replaced) return failure(replaced);
+    if (auto replaced = session.bench().setProfile(inForce, RBefore::Measuring); !replaced) return failure(replaced);
     Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
     const Json store = options->value("store", Json(false));
     if (!store.is_boolean()) return arguments.wrong("store", store, "true or false");
@@ -138,7 +143,9 @@ std::vector<HostFunction> sensorProfileFunctions() {
          {{"found", "object", "", "accepted, from analysis.sensorCalibration()"},
           {"options.store", "boolean", "", "keep it as a file, in the folder profiles beside the calibrations", true},
           {"options.contact_area_cm2", "number", "cm2", "0.01 to 100; the profile's where left out", true}},
-         "The profile that the operator chose, with the scales, surfaces and rest that were found; these are in force "
+         "The profile that the operator chose, with the scales of R, force and taxels, the fingertip's serial number, "
+         "the "
+         "surfaces and the rest that were found; these are in force "
          "for the rest of the run. What the script changed besides is not kept. A file is never overwritten: a later "
          "one gets a number.",
          "{ name, file, profile }: file is null where it was not stored; what --profile takes.",

@@ -1,6 +1,6 @@
-// ShippedResources.h - what the program was built with, from resources/: the limit sets, the default profile, and what
-// the shipped protocols must read like. No file and no environment variable replaces it (hazard H1: the floor cannot be
-// moved).
+// ShippedResources.h - what the program was built with, from resources/: the limit sets, the instrument profiles, the
+// default profile, and what the shipped protocols must read like. No file and no environment variable replaces it
+// (hazard H1: the floor cannot be moved; hazard H9: nor can what an oscilloscope is said to be worth).
 //
 // Thread-safety: constant.
 #pragma once
@@ -16,6 +16,13 @@ struct ShippedLimitText {
 };
 /// In the order of their names.
 [[nodiscard]] std::span<const ShippedLimitText> shippedLimitTexts() noexcept;
+
+struct ShippedInstrumentText {
+    std::string_view file;  ///< "rigol-ds2000.json"
+    std::string_view text;
+};
+/// In the order of their names.
+[[nodiscard]] std::span<const ShippedInstrumentText> shippedInstrumentTexts() noexcept;
 
 /// resources/encodings/default.json.
 [[nodiscard]] std::string_view shippedProfileText() noexcept;

@@ -159,10 +159,15 @@ Result<Json> setReferences(ScriptSession& session, const Json& list) {
     }
     if (set == 0) return arguments.wrong("smooth", **smooth, "what bench.measureReference() returned");
     settings.calibrated = true;
+    settings.uncertainty.reset();  // each reference was slid over once: what it repeats to is not known
+    // The references are of this fingertip from now on; scales of another one are not.
+    if (const auto& sensor = session.bench().devices().sensor; sensor && settings.sensor) {
+        if (matchOf(*settings.sensor, sensor->identity().serial) == FingertipMatch::Another) settings.sensor.reset();
+    }
     settings.smoothSurface = ReferenceSurface{(*smooth)->value("material", ""), {}, {}};
     settings.roughSurface = ReferenceSurface{(*rough)->value("material", ""), {}, {}};
     if (auto valid = validate(settings); !valid) return failure(valid);
-    if (auto replaced = session.bench().setProfile(profile); !replaced) return failure(replaced);
+    if (auto replaced = session.bench().setProfile(profile, RBefore::Measuring); !replaced) return failure(replaced);
     return Json();
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// science.md section 4: wanted per train, just-noticeable differences.
-constexpr double kWanted = 2;
+constexpr double kWanted = kWantedPerTrain;
 
 Json toJson(const TransitionStep& step, double jnd) {
     return {{"jnd", jnd},
@@ -87,6 +86,7 @@ Result<Json> transitions(ScriptSession& session, const Json& list) {
                 {"lines", sweep.lines},
                 {"traverse_s", *traverse},
                 {"jumps_judged", jumps},
+                {"amplitude_ratio_per_train", encoding.amplitudeRatioPerTrain},
                 {"amplitude_slew_v_per_s", encoding.amplitudeSlew_V_per_s},
                 {"interval_ratio_per_train", encoding.intervalRatioPerTrain},
                 {"steps", report->steps.size()},
@@ -147,7 +147,8 @@ std::vector<HostFunction> transitionFunctions() {
           {"options.traverse_s", "number", "s", "from one end of the plane to the other; 5 where left out", true},
           {"options.jumps", "true or false", "",
            "whether jumps between the corners are judged too; true where left out", true}},
-         "Sweeps the R-P plane with the bench's encoding and finds the largest step from one train to the next, in "
+         "Computes the trains of a sweep of the R-P plane with the bench's encoding and finds the largest step from "
+         "one train to the next, in "
          "just-noticeable differences; at most 2 are wanted.",
          "{ verdict, reasons, wanted_jnd, gradual, abrupt, amplitude_map, interval_map, ... }; gradual and abrupt hold "
          "largest_jnd, and the worst step of amplitude and of interval { jnd, roughness, pressure, from_v, to_v, "

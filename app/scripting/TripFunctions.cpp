@@ -8,6 +8,7 @@
 #include "app/scripting/HostFunction.h"
 #include "app/scripting/ScriptSession.h"
 #include "core/analysis/ResultJson.h"
+#include "core/bench/ScopeSession.h"
 
 namespace tacto {
 
@@ -57,8 +58,9 @@ std::string commandFor(std::string_view becomes, const std::string& load) {
     return fmt::format("Output is running into {}: make and break one lead's contact, then confirm", load);
 }
 
-/// Lets trains run until two have been delivered, so that a trip ends something.
-Result<void> startTrains(ScriptSession& session, const std::string& load) {
+/// Lets trains run until two have been delivered, so that a trip ends something. `strength`: 0 the weakest amplitude to
+/// 1 the strongest, at the shortest interval.
+Result<void> startTrains(ScriptSession& session, const std::string& load, double strength = 0) {
     Bench& bench = session.bench();
     const auto request = confirmedArming(session, load);
     if (!request) return failure(request);
@@ -67,13 +69,42 @@ Result<void> startTrains(ScriptSession& session, const std::string& load) {
         return armed;
     }
     const auto before = bench.telemetry().trainsDelivered;
-    if (auto driven = bench.drive(DriveSource::Manual, 0, 1); !driven) return driven;
+    const bool texture = bench.profile().encoding.assignment == Assignment::TextureToAmplitude;
+    const double R = texture ? strength : 1, P = texture ? 1 : strength;
+    if (auto driven = bench.drive(DriveSource::Manual, R, P); !driven) return driven;
     const double longest_s = 4 * bench.profile().encoding.intervalMax.count();
     for (double t = 0; t < longest_s && bench.telemetry().trainsDelivered < before + 2; t += kLook_s) {
         if (auto waited = bench.wait(Seconds(kLook_s)); !waited) return waited;
     }
     if (bench.telemetry().trainsDelivered >= before + 2) return {};
     return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
+}
+
+/// Records of what goes into an open circuit: all trains from now on, in a range for what the source can reach there.
+Result<void> watchOpenCircuit(Bench& bench) {
+    const auto& source = bench.devices().stimulator->traits();
+    const auto& encoding = bench.profile().encoding;
+    const double reach_v = source.drive == Drive::Current ? source.compliance.value() : encoding.amplitudeMax.value();
+    const double train_s =
+        (encoding.train.pulses - 1) / encoding.train.rate.value() + encoding.train.pulseDuration().count();
+    ScopeSettings settings;
+    settings.sampleRate = std::min(Hertz(2e6), bench.devices().oscilloscope->traits().maxRate);
+    settings.samples = static_cast<std::size_t>(std::ceil((1.4 * train_s + 3e-4) * settings.sampleRate.value()));
+    settings.preTrigger = 0.15;
+    settings.triggerLevel = 0.2 * encoding.amplitudeMin.value();
+    settings.voltageRange = Volts(1.25 * reach_v);
+    return bench.requestCaptures(static_cast<int>(ScopeSession::kMaxCaptures), settings);
+}
+
+/// The last of them: the train that found the circuit open. Nothing where it was not seen.
+Result<Json> openCircuitSeen(ScriptSession& session) {
+    auto captures = session.bench().takeCaptures();
+    session.bench().cancelCaptures();
+    if (!captures) return failure(captures);
+    if (captures->empty()) return Json::array();
+    std::vector<Capture> last;
+    last.push_back(std::move(captures->back()));
+    return session.hold(std::move(last));
 }
 
 Result<Json> inChecking(ScriptSession& session, const Json& list) {
@@ -116,6 +147,12 @@ Result<Json> whileDelivering(ScriptSession& session, const Json& list) {
     if (!load) return failure(load);
     auto within = arguments.number(2, "within", {0.1, 300});
     if (!within) return failure(within);
+    double strength = 0;
+    if (!arguments.at(3).is_null()) {
+        const auto given = arguments.number(3, "strength", {0, 1});
+        if (!given) return failure(given);
+        strength = *given;
+    }
     const std::string name = *becomes == "intermittent" ? "intermittent contact" : *becomes + " while delivering";
     Bench& bench = session.bench();
     if (!canTell(bench)) return trial(name, false, false, std::nan(""), kNoReadBack);
@@ -123,7 +160,12 @@ Result<Json> whileDelivering(ScriptSession& session, const Json& list) {
     if (auto fitted = change(session, *load, fmt::format("Fit the load {}, then confirm", *load)); !fitted) {
         return failure(fitted);
     }
-    if (auto started = startTrains(session, *load); !started) return failure(started);
+    if (auto started = startTrains(session, *load, strength); !started) return failure(started);
+    const bool watched = *becomes == "open" && bench.devices().oscilloscope;
+    if (watched) {
+        if (auto asked = watchOpenCircuit(bench); !asked) return failure(asked);
+    }
+    const double command_v = bench.telemetry().amplitude_v, interval_s = bench.telemetry().interval_s;
 
     const std::string changed = *becomes == "intermittent"
                                     ? fmt::format("{}, intermittent 50 % seed {}", *load, session.request().seed)
@@ -141,12 +183,22 @@ Result<Json> whileDelivering(ScriptSession& session, const Json& list) {
         return trial(name, true, false, after_s, fmt::format("output went on for {:.1f} s", after_s));
     }
     if (waited.error().code != ErrorCode::Device || !bench.faultPersists(cause)) return failure(waited);
+    Json seenOpen = Json::array();
+    if (watched) {
+        auto shown = openCircuitSeen(session);
+        if (!shown) return failure(shown);
+        seenOpen = std::move(*shown);
+    }
     if (auto cleared = acknowledge(session, *load, fmt::format("Fit {} again, then confirm", *load)); !cleared) {
         return failure(cleared);
     }
     // One train finds the change; with contact that comes and goes some find it still good.
     const bool stopped = *becomes == "intermittent" || seen.trainsDelivered <= delivered + 1;
-    return trial(name, true, stopped, after_s, seen.reason.view());
+    Json out = trial(name, true, stopped, after_s, seen.reason.view());
+    out["command_v"] = numberOrNull(command_v);
+    out["interval_s"] = numberOrNull(interval_s);
+    out["captures"] = std::move(seenOpen);
+    return out;
 }
 
 Result<Json> bySilence(ScriptSession& session, const Json& list) {
@@ -205,9 +257,15 @@ std::vector<HostFunction> tripFunctions() {
          HostKind::Function,
          {{"becomes", "text", "", "\"open\", \"short\" or \"intermittent\""},
           {"load", "text", "", "the load before"},
-          {"within", "number", "s", "how long to wait for the trip, 0.1 to 300"}},
-         "Delivers the weakest trains and changes the load under way. Output must end before the next train.",
-         kReturns,
+          {"within", "number", "s", "how long to wait for the trip, 0.1 to 300"},
+          {"strength", "number", "", "of the trains: 0 the weakest amplitude to 1 the strongest; 0 where left out",
+           true}},
+         "Delivers trains at the shortest interval and changes the load under way. Output must end before the next "
+         "train.",
+         "{ name, evaluated, tripped, after_s, reason } for analysis.loadSafety(), and { command_v, interval_s, "
+         "captures "
+         "}: the record of the train that found the circuit open, for measure.load(); an empty list where there is "
+         "none.",
          kThrows,
          whileDelivering},
         {"bench",

@@ -31,7 +31,6 @@ SourceTraits traitsFor(Bench& bench, Drive drive) {
 }
 
 Result<void> readPopulation(const Arguments& arguments, const Json& options, PopulationModel& model) {
-    double discomfort = model.detection_ma.median * (1 + model.headroom.median);
     double skinSpread = model.series_ohm.spread, thresholdSpread = model.detection_ma.spread;
     double weberSpread = model.amplitudeWeber.spread;
     const bool spreadGiven = options.contains("skin_spread");
@@ -40,7 +39,10 @@ Result<void> readPopulation(const Arguments& arguments, const Json& options, Pop
                              {"parallel_ohm", &model.parallel_ohm.median, {1, 1e8}},
                              {"capacitance_nf", &model.capacitance_nf.median, {0.001, 1e5}},
                              {"detection_ma", &model.detection_ma.median, {0.01, 100}},
-                             {"discomfort_ma", &discomfort, {0.01, 1000}},
+                             {"attention_ma", &model.attention_ma.median, {0.01, 1000}},
+                             {"discomfort_ma", &model.discomfort_ma, {0.01, 1000}},
+                             {"intolerance_ma", &model.intolerance_ma.median, {0.01, 1000}},
+                             {"threshold_correlation", &model.thresholdCorrelation, {0, 1}},
                              {"skin_spread", &skinSpread, {1, 10}},
                              {"threshold_spread", &thresholdSpread, {1, 10}},
                              {"weber_spread", &weberSpread, {1, 10}},
@@ -49,15 +51,20 @@ Result<void> readPopulation(const Arguments& arguments, const Json& options, Pop
                              {"lapse_most", &model.lapseMost, {0, 1}},
                              {"noise_jnd", &model.noise_jnd, {0.01, 100}}});
     if (!read) return read;
-    model.headroom.median = discomfort / model.detection_ma.median - 1;
-    if (!(model.headroom.median > 0)) {
-        return arguments.wrong("discomfort_ma", discomfort,
-                               fmt::format("more than the detection threshold of {:g} mA", model.detection_ma.median));
-    }
+    const double detection = model.detection_ma.median;
+    const auto above = [&arguments](const char* key, double value, const char* other, double least) {
+        return arguments.wrong(key, value, fmt::format("more than the {} threshold of {:g} mA", other, least));
+    };
+    if (!(model.discomfort_ma > detection)) return above("discomfort_ma", model.discomfort_ma, "perception", detection);
+    const double attention = model.attention_ma.median, intolerance = model.intolerance_ma.median;
+    if (!(attention > detection)) return above("attention_ma", attention, "perception", detection);
+    if (!(intolerance > attention)) return above("intolerance_ma", intolerance, "attention", attention);
     if (spreadGiven) {
         for (auto* drawn : {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf}) drawn->spread = skinSpread;
     }
-    model.detection_ma.spread = thresholdSpread;
+    for (auto* drawn : {&model.detection_ma, &model.attention_ma, &model.intolerance_ma}) {
+        drawn->spread = thresholdSpread;
+    }
     model.amplitudeWeber.spread = model.intervalWeber.spread = weberSpread;
     return {};
 }
@@ -87,7 +94,9 @@ Result<VariationOptions> variationOptionsFrom(ScriptSession& session, const Argu
                              {"width", &out.wanted.width, {0.02, 1}},
                              {"assurance", &out.wanted.assurance, {0.5, 0.999}},
                              {"pilot", &pilot, {1, 100'000, true}},
-                             {"area_cm2", &area, {0, 1000}}});
+                             {"area_cm2", &area, {0, 1000}},
+                             {"above_detection", &to.aboveDetection, {1, 10}},
+                             {"below_discomfort", &to.belowDiscomfort, {0.01, 1}}});
     if (!read) return failure(read);
     out.participants = static_cast<std::size_t>(participants);
     out.trials = static_cast<std::size_t>(trials);

@@ -1,4 +1,5 @@
 // Predictions without a device: virtual participants, the spread of benches, and their figures.
+#include <algorithm>
 #include <cmath>
 #include <stop_token>
 
@@ -18,17 +19,33 @@ constexpr const char* kMarked = "Simulated: predicted, not measured.";
 
 Result<Json> variation(ScriptSession& session, const Json& list) {
     const Arguments arguments("analysis.variation", list);
-    auto given = arguments.options(0, {"participants",   "trials",
-                                       "levels",         "source",
-                                       "guess",          "width",
-                                       "assurance",      "pilot",
-                                       "area_cm2",       "series_ohm",
-                                       "parallel_ohm",   "capacitance_nf",
-                                       "detection_ma",   "discomfort_ma",
-                                       "skin_spread",    "threshold_spread",
-                                       "weber_spread",   "weber_amplitude",
-                                       "weber_interval", "lapse_most",
-                                       "noise_jnd",      "label"});
+    auto given = arguments.options(0, {"participants",
+                                       "trials",
+                                       "levels",
+                                       "source",
+                                       "guess",
+                                       "width",
+                                       "assurance",
+                                       "pilot",
+                                       "area_cm2",
+                                       "series_ohm",
+                                       "parallel_ohm",
+                                       "capacitance_nf",
+                                       "detection_ma",
+                                       "attention_ma",
+                                       "discomfort_ma",
+                                       "intolerance_ma",
+                                       "threshold_correlation",
+                                       "above_detection",
+                                       "below_discomfort",
+                                       "skin_spread",
+                                       "threshold_spread",
+                                       "weber_spread",
+                                       "weber_amplitude",
+                                       "weber_interval",
+                                       "lapse_most",
+                                       "noise_jnd",
+                                       "label"});
     if (!given) return failure(given);
     auto label = arguments.text(*given, "label", "Virtual participants");
     if (!label) return failure(label);
@@ -130,18 +147,54 @@ Json widthCurve(const Json& found) {
             {"note", kMarked}};
 }
 
+/// Share of participants at or below each value.
+Json shareCurve(std::string label, std::vector<double> values) {
+    std::ranges::sort(values);
+    Json x = Json::array(), y = Json::array();
+    const double n = static_cast<double>(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        x.push_back(values[i]);
+        y.push_back(100 * static_cast<double>(i + 1) / n);
+    }
+    return {{"label", std::move(label)}, {"x", std::move(x)}, {"y", std::move(y)}, {"steps", true}};
+}
+
+/// The thresholds, and the currents that the profile's smallest and largest amplitude give: those of a current source,
+/// A / |Z|, whether or not they would be withheld.
+Json thresholdCurves(const Json& found) {
+    const Json& people = found.at("people");
+    Json curves = Json::array();
+    const std::pair<const char*, const char*> thresholds[] = {
+        {"felt from", "detection_ma"}, {"too strong from", "discomfort_ma"}, {"not tolerated from", "intolerance_ma"}};
+    for (const auto& [label, key] : thresholds) curves.push_back(shareCurve(label, people.at(key)));
+    const std::vector<double> impedance = people.at("impedance_ohm");
+    for (const double volts : found.at("range_v")) {
+        std::vector<double> currents;
+        for (const double ohms : impedance) currents.push_back(1e3 * volts / ohms);
+        curves.push_back(shareCurve(fmt::format("current at {:g} V", volts), std::move(currents)));
+    }
+    return {{"type", "curves"},
+            {"x", {{"label", "Current"}, {"unit", "mA"}}},
+            {"y", {{"label", "Participants at or below"}, {"unit", "%"}}},
+            {"curves", curves},
+            {"note", kMarked}};
+}
+
 Result<Json> predicted(ScriptSession&, const Json& list) {
     const Arguments arguments("plot.predicted", list);
     auto found = arguments.object(0, "found");
     if (!found) return failure(found);
-    if (!(*found)->value("accuracies", Json()).is_array()) {
+    if (!(*found)->value("accuracies", Json()).is_array() || !(*found)->value("people", Json()).is_object()) {
         return arguments.wrong("found", **found, "what analysis.variation() returned");
     }
     auto view = arguments.text(1, "view");
     if (!view) return failure(view);
     if (*view == "accuracy") return accuracyCurve(**found);
     if (*view == "width") return widthCurve(**found);
-    if (*view != "confusion") return arguments.wrong("view", *view, "\"confusion\", \"accuracy\" or \"width\"");
+    if (*view == "thresholds") return thresholdCurves(**found);
+    if (*view != "confusion") {
+        return arguments.wrong("view", *view, "\"confusion\", \"accuracy\", \"width\" or \"thresholds\"");
+    }
     return Json{{"type", "confusion"},
                 {"labels", (**found)["labels"]},
                 {"columns", (**found)["columns"]},
@@ -159,24 +212,31 @@ std::vector<HostFunction> variationFunctions() {
          {{"options.participants", "number", "", "virtual people, 1 to 100000; 200 where left out", true},
           {"options.trials", "number", "", "per condition and participant; 25", true},
           {"options.levels", "text", "",
-           "personal: amplitudes between the participant's thresholds, as far as the profile allows; profile: the "
-           "profile's for everybody; personal",
+           "personal: from what the participant feels to what is too strong, as far as the profile allows; profile: "
+           "the profile's for everybody; personal",
            true},
           {"options.source", "text", "", "current: A / |Z|; voltage: as on the bench, refused for people; current",
            true},
           {"options.guess", "text", "", "what is said when nothing is felt: none or uniform; none", true},
           {"options.width", "number", "", "wanted width of the 95 % interval of accuracy; 0.1", true},
           {"options.assurance", "number", "", "with which a pilot is to reach it; 0.8", true},
-          {"options.pilot", "number", "", "participants of the pilot; 12", true},
-          {"options.area_cm2", "number", "cm2", "electrode area; the profile's", true},
+          {"options.pilot", "number", "", "participants of the pilot; 5", true},
+          {"options.area_cm2", "number", "cm2",
+           "electrode area: R_p falls with it and C grows; the profile's, 1 where it has none", true},
           {"options.series_ohm", "number", "ohm", "median R_s of the skin; 200", true},
-          {"options.parallel_ohm", "number", "ohm", "median R_p of the skin; 10000", true},
-          {"options.capacitance_nf", "number", "nF", "median C of the skin; 50", true},
-          {"options.detection_ma", "number", "mA", "median detection threshold at 150 us per phase; 3.5", true},
-          {"options.discomfort_ma", "number", "mA", "discomfort of the median participant; 13.8", true},
+          {"options.parallel_ohm", "number", "ohm", "median R_p of the skin under 1 cm2; 10000", true},
+          {"options.capacitance_nf", "number", "nF", "median C of the skin under 1 cm2; 50", true},
+          {"options.detection_ma", "number", "mA", "median perception threshold at 150 us per phase; 3.5", true},
+          {"options.attention_ma", "number", "mA", "median attention threshold; 6.9", true},
+          {"options.discomfort_ma", "number", "mA", "too strong from, for the median participant; 9.8", true},
+          {"options.intolerance_ma", "number", "mA", "median intolerance threshold; 13.8", true},
+          {"options.threshold_correlation", "number", "", "of the logarithms of a participant's thresholds; 0.8", true},
+          {"options.above_detection", "number", "",
+           "a personal range begins at this times the perception threshold; 1.5", true},
+          {"options.below_discomfort", "number", "", "and ends at this times what is too strong; 0.8", true},
           {"options.skin_spread", "number", "", "geometric standard deviation between people, 1 for none; 1.5 (C 1.3)",
            true},
-          {"options.threshold_spread", "number", "", "the same of the detection threshold; 1.4", true},
+          {"options.threshold_spread", "number", "", "the same of the three thresholds; 1.4", true},
           {"options.weber_spread", "number", "", "the same of the Weber fractions; 1.25", true},
           {"options.weber_amplitude", "number", "", "median Weber fraction of amplitude; 0.10", true},
           {"options.weber_interval", "number", "", "median Weber fraction of interval; 0.16", true},
@@ -185,11 +245,15 @@ std::vector<HostFunction> variationFunctions() {
           {"options.label", "text", "", "what the progress bar says", true}},
          "Predicts how virtual participants tell the conditions apart, drawn with the run's seed: no person and no "
          "device takes part. Works on all cores, with the same result whatever their number.",
-         "{ simulated, participants, seed, partial, conditions, separability: [{ a, b, jnd, amplitude_jnd, "
-         "interval_jnd "
-         "}], labels, columns, confusion, complete, accuracy: { median, low, high }, information_bits, refused, "
-         "not_felt, withheld, trials_needed: { per_participant, pooled, curve, assumptions } }: low and high are 5 and "
-         "95 % of the participants; accuracy and confusion are over those who were presented every condition.",
+         "{ simulated, participants, seed, partial, range_v, served, participants_refused, participants_not_feeling, "
+         "participants_without_range, conditions, separability: [{ a, b, jnd, amplitude_jnd, interval_jnd }], labels, "
+         "columns, confusion, complete, accuracy: { median, low, high }, presented_accuracy, information_bits, "
+         "refused, "
+         "not_felt, withheld, trials_needed: { per_participant, pooled, curve, assumptions }, pilots, premises, model, "
+         "people }: low and high are 5 and 95 % of the participants. A condition counts where it is presented, felt "
+         "and "
+         "not too strong; served are those for whom every one counts, and accuracy, confusion and pilots are theirs. "
+         "people holds the first 1000, a list per column.",
          "Throws for an option that makes no sense, and when the run is stopped; what was predicted until then is kept "
          "as partial.",
          variation},
@@ -215,7 +279,9 @@ std::vector<HostFunction> variationFunctions() {
          HostKind::Function,
          {{"found", "object", "", "from analysis.variation()"},
           {"view", "text", "",
-           "confusion; accuracy: its distribution over participants; width: of the interval against trials"}},
+           "confusion; accuracy: its distribution over participants; width: of the interval against trials; "
+           "thresholds: "
+           "of the participants, beside the currents that the lowest and the highest command give them"}},
          "A prediction's figures, marked as predicted.",
          "A figure, for report.figure().",
          "",

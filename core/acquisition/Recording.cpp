@@ -48,8 +48,9 @@ public:
             return refuse("the file holds {}; an object with \"streams\" was expected", typeOf(root));
         Recording recording;
         recording.path = file_;
-        for (auto [key, target] : {std::pair{"title", &recording.title}, std::pair{"source", &recording.source},
-                                   std::pair{"licence", &recording.licence}}) {
+        for (auto [key, target] :
+             {std::pair{"title", &recording.title}, std::pair{"source", &recording.source},
+              std::pair{"licence", &recording.licence}, std::pair{"fingertip", &recording.fingertip}}) {
             if (!root.contains(key)) continue;
             if (!root[key].is_string()) return refuse("\"{}\" is {}; a text was expected", key, typeOf(root[key]));
             *target = root[key].get<std::string>();

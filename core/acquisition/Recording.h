@@ -32,6 +32,7 @@ struct Recording {
     std::string source;
     std::string licence;
     std::optional<bool> simulated;  ///< "simulated": as the file says; nothing: its origin is unknown
+    std::string fingertip;          ///< "fingertip": serial number of the sensor that was recorded; empty: not stated
     std::filesystem::path path;     ///< the JSON file
     DeclaredIntervals declared;
     std::vector<RecordedStream> streams;  ///< at most one of each kind

@@ -50,14 +50,14 @@ json toJson(const UncertaintyBudget& budget) {
     for (const auto& row : budget.rows) {
         rows.push_back({{"name", row.name},
                         {"distribution", nameOf(row.distribution)},
-                        {"value", row.value},
+                        {"value", numberOrNull(row.value)},
                         {"divisor", row.divisor},
                         {"sensitivity", row.sensitivity},
-                        {"contribution", row.contribution()},
+                        {"contribution", numberOrNull(row.contribution())},
                         {"degrees_of_freedom", numberOrNull(row.degreesOfFreedom)}});
     }
     return {{"rows", rows},
-            {"combined", budget.combined},
+            {"combined", numberOrNull(budget.combined)},
             {"degrees_of_freedom", numberOrNull(budget.degreesOfFreedom)},
             {"coverage_factor", numberOrNull(budget.coverageFactor)},
             {"expanded_uncertainty", numberOrNull(budget.expanded)},
@@ -72,14 +72,16 @@ json toJson(const JudgedCalibration& judged) {
         row["error"] = numberOrNull(level.error);
         row["worst_error"] = numberOrNull(level.worstError);
         row["expanded_uncertainty"] = numberOrNull(level.budget.expanded);
+        row["worst_expanded_uncertainty"] = numberOrNull(level.worstBudget.expanded);
         row["tolerance"] = level.tolerance;
         row["verdict"] = nameOf(level.verdict);
     }
     const auto& top = judged.fullScale().budget;
     out["expanded_uncertainty"] = numberOrNull(top.expanded);
-    out["gain_expanded_uncertainty"] = judged.gain.expanded;
-    out["offset_expanded_uncertainty"] = judged.offset.expanded;
+    out["gain_expanded_uncertainty"] = numberOrNull(judged.gain.expanded);
+    out["offset_expanded_uncertainty"] = numberOrNull(judged.offset.expanded);
     out["budget"] = toJson(top);
+    out["budget_smallest"] = toJson(judged.smallest().budget);
     out["tolerance_pct"] = judged.tolerance_pct;
     out["verdict"] = nameOf(judged.verdict);
     out["reasons"] = judged.reasons;

@@ -10,16 +10,21 @@
 
 #include "core/analysis/Calibration.h"
 #include "core/analysis/UncertaintyBudget.h"
+#include "core/base/NaN.h"
 
 namespace tacto {
 
 /// What the measuring instrument and the load may contribute; each constant over the calibration, and unknown within
-/// limits. Half-widths of rectangular distributions unless said otherwise.
+/// limits. Half-widths of rectangular distributions unless said otherwise. NaN: not stated; the budget then has no U
+/// and the verdict is at best indeterminate (hazard H9).
 struct InstrumentErrors {
-    double gainTolerance = 0;    ///< relative (0.005 = 0.5 %): vertical gain, or the time base
-    double offsetTolerance = 0;  ///< in the readings' unit
-    double resolution = 0;       ///< one step (LSB) in the readings' unit
-    double loadTolerance = 0;    ///< relative, of the resistor
+    double gainTolerance = kNaN;    ///< relative (0.005 = 0.5 %): vertical gain, or the time base
+    double probeTolerance = 0;      ///< relative, of the probe or shunt
+    double linearityTolerance = 0;  ///< in the readings' unit, beside the gain
+    double offsetTolerance = 0;     ///< in the readings' unit; 0 where levels are read from their own baseline
+    double resolution = kNaN;       ///< one step (LSB) in the readings' unit; 0 for times
+    double stampTolerance = 0;      ///< s, of two records against each other; 0 within one record
+    double loadTolerance = 0;       ///< relative, of the resistor
     /// Relative change of the reading per relative change of the load: 0 where the voltage across the load of a
     /// voltage source is read (or any time), -1 where a current is computed from the voltage across it.
     double loadSensitivity = 0;
@@ -32,10 +37,11 @@ struct InstrumentErrors {
 
 struct JudgedLevel {
     double commanded = 0;
-    double error = 0;       ///< of the level's mean
-    double worstError = 0;  ///< of the worse direction: what is judged
-    UncertaintyBudget budget;
-    double tolerance = 0;  ///< in the readings' unit
+    double error = 0;               ///< of the level's mean
+    double worstError = 0;          ///< of the worse direction: what is judged
+    UncertaintyBudget budget;       ///< of the level's mean
+    UncertaintyBudget worstBudget;  ///< of the worse direction's mean, which has fewer readings: what is judged
+    double tolerance = 0;           ///< in the readings' unit
     Verdict verdict = Verdict::Indeterminate;
 };
 
@@ -49,6 +55,8 @@ struct JudgedCalibration {
     std::vector<std::string> reasons;  ///< what decided the verdict comes first
     /// The level of the largest command.
     [[nodiscard]] const JudgedLevel& fullScale() const noexcept;
+    /// The level of the smallest.
+    [[nodiscard]] const JudgedLevel& smallest() const noexcept;
 };
 
 /// `tolerance_pct`: in % of the command at each level. The verdict is the worst level's; fewer than 11 levels or 5

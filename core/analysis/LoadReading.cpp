@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/LoadTrace.h"
+#include "core/analysis/LoadTrain.h"
 #include "core/base/NaN.h"
-#include "core/measure/PulseMeasurement.h"
+#include "core/measure/InstrumentStatement.h"
 
 namespace tacto {
 
@@ -17,123 +17,9 @@ constexpr double kSqrt12 = 3.4641016151377544;
 constexpr double kFewestLsb = 10;
 /// An onset may jitter against the window's edge; a hundredth of a train is no further train.
 constexpr double kWindowEdge = 0.01;
-constexpr double kEndFrom = 0.80, kEndTo = 0.97;  // of the leading phase: where |Z| is read
 /// Of a straight line that is followed from there to the end: the noise of its value over that of the mean, and the
 /// share of the way that a bend may be worth.
 constexpr double kLineNoise = 2.6, kLineDoubt = 0.2;
-
-/// Of one train, from its own capture. SI units; NaN where not measured.
-struct TrainFigures {
-    double onset_s = kNaN, width_s = kNaN, plateau_v = kNaN, end_v = kNaN, end_a = kNaN;
-    double peak_v = kNaN, peak_a = kNaN, step_v = 0, step_a = 0;
-    double magnitude_v = 0, magnitude_a = 0;
-    double squares_v = kNaN, squares_a = kNaN, net_C = kNaN, phase_C = kNaN, energy_J = kNaN;
-    double line_v = 0;  ///< how far the voltage was followed from where it was read
-    double impedance = kNaN, delivered = kNaN;
-    double noise_v = 0, noise_a = 0;
-    double endSamples = 1;
-    bool biphasic = false;
-};
-
-/// The channel that the source drives.
-std::string_view drivenBy(const ExpectedTrain& expected) {
-    return expected.drive == Drive::Current ? "current" : "voltage";
-}
-
-/// The pulses of a train by what is driven; nothing, with a warning, unless all of them are measured.
-std::optional<ChannelMeasurement> pulsesOf(const Capture& capture, const ExpectedTrain& expected,
-                                           std::vector<std::string>& warnings) {
-    MeasureOptions options;
-    if (expected.pulses > 1) options.intraTrainRate = Hertz(expected.rate_hz);
-    auto measured = measureTrains({&capture, 1}, drivenBy(expected), options);
-    if (!measured) {
-        warnings.push_back(measured.error().message);
-        return std::nullopt;
-    }
-    if (measured->measuredPulses == static_cast<std::size_t>(expected.pulses) &&
-        measured->pulses.size() == measured->measuredPulses) {
-        return std::move(*measured);
-    }
-    warnings.push_back(fmt::format("a train shows {} pulses on the {} channel, {} of them measured; {} were commanded",
-                                   measured->pulses.size(), drivenBy(expected), measured->measuredPulses,
-                                   expected.pulses));
-    for (auto& why : measured->warnings) warnings.push_back(std::move(why));
-    return std::nullopt;
-}
-
-void readEnds(const LoadTrace& voltage, const LoadTrace* current, const ChannelMeasurement& pulses, Drive drive,
-              TrainFigures& out) {
-    double v = 0, a = 0, line = 0;
-    for (const auto& pulse : pulses.pulses) {
-        const double from = pulse.leading.onset_s + kEndFrom * pulse.leading.width_s;
-        const double to = pulse.leading.onset_s + kEndTo * pulse.leading.width_s;
-        const double mean = meanOf(voltage, from, to);
-        const double end = drive == Drive::Current ? lineAt(voltage, from, to, pulse.leading.end_s) : mean;
-        v += std::abs(end);
-        line += std::abs(end - mean);
-        if (current != nullptr) a += std::abs(meanOf(*current, from, to));
-        out.endSamples = std::max(1.0, (to - from) / voltage.dt);
-    }
-    const auto n = static_cast<double>(pulses.pulses.size());
-    out.end_v = v / n;
-    out.line_v = line / n;
-    if (current != nullptr) out.end_a = a / n;
-    out.impedance = out.end_v / out.end_a;
-}
-
-void readCurrent(const LoadTrace& voltage, const LoadTrace& current, const ChannelMeasurement& pulses,
-                 TrainFigures& out) {
-    const auto sums = sumsOf(current);
-    const auto n = static_cast<double>(pulses.pulses.size());
-    out.peak_a = sums.peak;
-    out.step_a = sums.step;
-    out.magnitude_a = sums.magnitude;
-    out.squares_a = sums.squares;
-    out.net_C = std::abs(sums.integral) / n;
-    out.noise_a = current.noise;
-    out.energy_J = energyOf(voltage, current) / n;
-    out.phase_C = 0;
-    for (const auto& pulse : pulses.pulses) {
-        const auto chargeOf = [&](const PhaseMeasurement& phase) {
-            return std::abs(integralOf(current, phase.onset_s, phase.end_s));
-        };
-        out.phase_C = std::max(out.phase_C, chargeOf(pulse.leading));
-        if (pulse.second) out.phase_C = std::max(out.phase_C, chargeOf(*pulse.second));
-    }
-}
-
-std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrain& expected, double told,
-                                      std::vector<std::string>& warnings) {
-    const auto pulses = pulsesOf(capture, expected, warnings);
-    if (!pulses) return std::nullopt;
-    TrainFigures out;
-    out.onset_s = pulses->trains.front().onset_s;
-    out.width_s = pulses->width_s.mean;
-    out.biphasic = std::all_of(pulses->pulses.begin(), pulses->pulses.end(),
-                               [](const auto& pulse) { return pulse.second.has_value(); });
-    const auto voltage = traceOf(capture, "voltage", out.onset_s);
-    if (!voltage || voltage->clipped) {
-        warnings.emplace_back("the voltage of a train is clipped, lacks samples or has no quiet stretch before it");
-        return std::nullopt;
-    }
-    const auto sums = sumsOf(*voltage);
-    out.peak_v = sums.peak;
-    out.step_v = sums.step;
-    out.magnitude_v = sums.magnitude;
-    out.squares_v = sums.squares;
-    out.noise_v = voltage->noise;
-    const auto current = traceOf(capture, "current", out.onset_s);
-    if (current && !current->clipped) {
-        readCurrent(*voltage, *current, *pulses, out);
-        readEnds(*voltage, &*current, *pulses, expected.drive, out);
-    } else {
-        warnings.emplace_back("the current of a train is missing, clipped or has no quiet stretch before it");
-        readEnds(*voltage, nullptr, *pulses, expected.drive, out);
-    }
-    out.plateau_v = expected.drive == Drive::Voltage ? pulses->amplitude.mean : out.end_v;
-    out.delivered = (expected.drive == Drive::Voltage ? out.plateau_v : 1e3 * out.end_a) / told;
-    return out;
-}
 
 using Trains = std::vector<TrainFigures>;
 
@@ -157,122 +43,300 @@ double largestOf(const Trains& trains, double TrainFigures::*member) {
     return most;
 }
 
-double together(std::initializer_list<double> parts) {
-    double squares = 0;
-    for (const double part : parts) squares += part * part;
-    return std::sqrt(squares);
+using Rows = std::vector<Contribution>;
+
+/// Rows of what is stated of a channel; what is not stated is NaN and makes the figure's U unknown.
+struct ChannelDoubt {
+    explicit ChannelDoubt(const CaptureChannel* channel) : channel_(channel) {}
+
+    [[nodiscard]] double gain() const { return channel_ != nullptr ? channel_->gainTolerance : kNaN; }
+    [[nodiscard]] double resolution() const { return channel_ != nullptr && channel_->lsb > 0 ? channel_->lsb : kNaN; }
+    /// Gain and probe or shunt; `sensitivity`: the figure's change per relative change of the channel.
+    void addGain(Rows& rows, double sensitivity) const {
+        add(rows, "gain of " + name(), gain(), kSqrt3, sensitivity);
+        addProbe(rows, sensitivity);
+    }
+    void addProbe(Rows& rows, double sensitivity) const {
+        add(rows, (name() == "current" ? "shunt of " : "probe of ") + name(),
+            channel_ != nullptr ? channel_->probeTolerance : kNaN, kSqrt3, sensitivity);
+    }
+    /// Of a level above the baseline: two of them, each to a step of the converter.
+    void addLevel(Rows& rows, double sensitivity) const {
+        add(rows, "resolution of " + name(), resolution(), kSqrt12 / kSqrt2, sensitivity);
+        add(rows, "linearity of " + name(), channel_ != nullptr ? channel_->linearityTolerance : 0, kSqrt3,
+            sensitivity);
+    }
+
+private:
+    [[nodiscard]] std::string name() const { return channel_ != nullptr ? channel_->name : "current"; }
+    static void add(Rows& rows, std::string what, double value, double divisor, double sensitivity) {
+        if (value == 0) return;  // stated to be nothing
+        rows.push_back({std::move(what), Distribution::Rectangular, value, divisor, sensitivity});
+    }
+    const CaptureChannel* channel_;
+};
+
+void addNormal(Rows& rows, const char* what, double u, double sensitivity = 1) {
+    rows.push_back({what, Distribution::Normal, u, 1, sensitivity});
 }
 
-/// Standard deviation of the mean of the trains; one train has none to tell.
-double spreadOf(const Trains& trains, double TrainFigures::*member) {
+/// Of the mean of the trains; one train has no spread to tell.
+void addSpread(Rows& rows, const Trains& trains, double TrainFigures::*member, double sensitivity = 1) {
     const auto s = statisticsOf(columnOf(trains, member));
-    return s.n > 1 && std::isfinite(s.sd) ? s.sd / std::sqrt(static_cast<double>(s.n)) : 0;
+    if (s.n < 2) return;
+    rows.push_back({"spread of the trains", Distribution::Student, s.sd, std::sqrt(static_cast<double>(s.n)),
+                    sensitivity, static_cast<double>(s.n - 1)});
+}
+
+Reading times(double factor, const Reading& reading) {
+    return {factor * reading.value, std::abs(factor) * reading.u, std::abs(factor) * reading.expanded};
 }
 
 Reading rootOf(const Reading& squares, double seconds, double scale) {
-    if (!squares.measured()) return {};
-    if (!(squares.value > 0)) return {0, 0};
+    if (std::isnan(squares.value) || std::isnan(seconds)) return {};
+    if (!(squares.value > 0)) return {0, 0, 0};
     const double rms = std::sqrt(squares.value / seconds) * scale;
-    return {rms, rms * 0.5 * squares.u / squares.value};
+    const double half = rms * 0.5 / squares.value;
+    return {rms, half * squares.u, half * squares.expanded};
 }
 
-Reading times(double factor, const Reading& reading) { return {factor * reading.value, factor * reading.u}; }
+/// Figures of the trains of one load, one after the other.
+class Evaluation {
+public:
+    Evaluation(const Trains& trains, const ExpectedTrain& expected, const Capture& capture)
+        : trains_(trains),
+          expected_(expected),
+          current_(channelOf(capture, "current")),
+          v_(channelOf(capture, "voltage")),
+          i_(current_),
+          dt_(1 / capture.rate_hz),
+          record_s_(static_cast<double>(capture.samples()) * dt_),
+          timeBase_(capture.timeBaseTolerance),
+          stamp_s_(capture.stampTolerance_s) {}
 
-/// What a channel's data sheet and record say, k = 1.
-struct ChannelDoubt {
-    double gain = 0;   ///< relative
-    double level = 0;  ///< of a level above the baseline: two of them, each to a step of the converter
-    explicit ChannelDoubt(const CaptureChannel* channel)
-        : gain(channel != nullptr ? channel->gainTolerance / kSqrt3 : 0),
-          level(channel != nullptr ? channel->lsb / kSqrt12 * kSqrt2 : 0) {}
+    void addVoltage(LoadReading& out) const;
+    void addInterval(LoadReading& out, const Capture* rhythm) const;
+    void addVoltageWindows(LoadReading& out) const;
+    void addCurrent(LoadReading& out) const;
+    [[nodiscard]] Reading impedanceOf(const Trains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
+                                      double currentLsb) const;
+    [[nodiscard]] Reading figure(double value, Rows rows) const {
+        return readingOf(value, std::move(rows), expected_.budget);
+    }
+
+private:
+    void addTimeBase(Rows& rows, double sensitivity) const {
+        rows.push_back({"time base", Distribution::Rectangular, timeBase_, kSqrt3, sensitivity});
+    }
+    /// Of a width, relative: what it adds to charges, energies and squares. The time base is in all of them alike.
+    void addWidth(Rows& rows, double sensitivity) const {
+        addTimeBase(rows, sensitivity);
+        addNormal(rows, "sampling of the edges", dt_ / std::sqrt(6.0) / meanOver(trains_, &TrainFigures::width_s),
+                  sensitivity);
+    }
+    void addEnd(Rows& rows, const Trains& trains, double samples, double sensitivity) const;
+    void addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member, const Rows& rows,
+                      bool driven) const;
+
+    const Trains& trains_;
+    const ExpectedTrain& expected_;
+    const CaptureChannel* current_;
+    const ChannelDoubt v_, i_;
+    const double dt_, record_s_, timeBase_, stamp_s_;
 };
 
-/// Of the voltage at the end of a phase, noise and the way there; `samples` were averaged.
-double endDoubt(const Trains& trains, double samples) {
+/// Of the voltage at the end of a phase: noise, and the way there; `samples` were averaged.
+void Evaluation::addEnd(Rows& rows, const Trains& trains, double samples, double sensitivity) const {
     const double line = meanOver(trains, &TrainFigures::line_v);
-    return together(
-        {(line > 0 ? kLineNoise : 1) * trains.front().noise_v / std::sqrt(samples), kLineDoubt * line / kSqrt3});
+    addNormal(rows, "noise of voltage", (line > 0 ? kLineNoise : 1) * trains.front().noise_v / std::sqrt(samples),
+              sensitivity);
+    if (line > 0) {
+        rows.push_back({"way to the phase's end", Distribution::Rectangular, kLineDoubt * line, kSqrt3, sensitivity});
+    }
 }
 
-Reading impedanceOf(const Trains& trains, const ChannelDoubt& v, const ChannelDoubt& i, double currentLsb) {
+Reading Evaluation::impedanceOf(const Trains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
+                                double currentLsb) const {
     const double volts = meanOver(trains, &TrainFigures::end_v), amps = meanOver(trains, &TrainFigures::end_a);
     if (!(currentLsb > 0) || !(amps >= kFewestLsb * currentLsb)) return {};
     const double samples = trains.front().endSamples * static_cast<double>(trains.size());
-    const double u_v = together({v.gain * volts, v.level, endDoubt(trains, samples)});
-    const double u_a = together({i.gain * amps, i.level, trains.front().noise_a / std::sqrt(samples)});
-    return {volts / amps, together({volts / amps * u_v / volts, volts / amps * u_a / amps,
-                                    spreadOf(trains, &TrainFigures::impedance)})};
+    const double ohms = volts / amps;
+    Rows rows;
+    v.addGain(rows, ohms);
+    i.addGain(rows, ohms);
+    v.addLevel(rows, 1 / amps);
+    i.addLevel(rows, ohms / amps);
+    addEnd(rows, trains, samples, 1 / amps);
+    addNormal(rows, "noise of current", trains.front().noise_a / std::sqrt(samples), ohms / amps);
+    addSpread(rows, trains, &TrainFigures::impedance);
+    return figure(ohms, std::move(rows));
 }
 
-/// The mean of the trains, each in doubt by `u` of it: their spread is that of what they were told as well.
-void addAmplitude(LoadReading& out, Reading& amplitude, const Trains& trains, double TrainFigures::*member, double u,
-                  bool driven) {
-    const double mean = meanOver(trains, member);
-    amplitude = {mean, together({u, spreadOf(trains, member)})};
+/// The mean of the trains, each in doubt by `rows`: their spread is that of what they were told as well.
+void Evaluation::addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member, const Rows& rows,
+                              bool driven) const {
+    const double mean = meanOver(trains_, member);
+    Rows all = rows;
+    addSpread(all, trains_, member);
+    amplitude = figure(mean, std::move(all));
     if (!driven) return;
-    const double ratio = meanOver(trains, &TrainFigures::delivered);
-    out.delivered = {ratio, together({ratio * u / mean, spreadOf(trains, &TrainFigures::delivered)})};
+    const double ratio = meanOver(trains_, &TrainFigures::delivered);
+    all = rows;
+    for (auto& row : all) row.sensitivity *= ratio / mean;
+    addSpread(all, trains_, &TrainFigures::delivered);
+    out.delivered = figure(ratio, std::move(all));
 }
 
-void addVoltage(LoadReading& out, const Trains& trains, Drive drive, const ChannelDoubt& doubt, double dt) {
-    const double v = meanOver(trains, &TrainFigures::plateau_v), w = meanOver(trains, &TrainFigures::width_s);
-    const double u = together({doubt.gain * v, doubt.level, endDoubt(trains, trains.front().endSamples)});
-    addAmplitude(out, out.amplitude_v, trains, &TrainFigures::plateau_v, u, drive == Drive::Voltage);
-    const double highest = largestOf(trains, &TrainFigures::plateau_v);
-    out.highest_v = {highest, u * highest / v};
-    out.width_s = {w, together({dt / std::sqrt(6.0), spreadOf(trains, &TrainFigures::width_s)})};
-    const double peak = largestOf(trains, &TrainFigures::peak_v);
-    out.peak_v = {peak, together({doubt.gain * peak, doubt.level, trains.front().noise_v,
-                                  largestOf(trains, &TrainFigures::step_v) / kSqrt12})};
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 1; k < trains.size(); ++k) {
-        shortest = std::min(shortest, trains[k].onset_s - trains[k - 1].onset_s);
+void Evaluation::addVoltage(LoadReading& out) const {
+    const double v = meanOver(trains_, &TrainFigures::plateau_v);
+    Rows rows;
+    v_.addGain(rows, v);
+    v_.addLevel(rows, 1);
+    addEnd(rows, trains_, trains_.front().endSamples, 1);
+    addAmplitude(out, out.amplitude_v, &TrainFigures::plateau_v, rows, expected_.drive == Drive::Voltage);
+    // Of the train with the most: what the trains differ by is no doubt about it.
+    const double highest = largestOf(trains_, &TrainFigures::plateau_v);
+    for (auto& row : rows) row.sensitivity *= highest / v;
+    out.highest_v = figure(highest, std::move(rows));
+
+    const double w = meanOver(trains_, &TrainFigures::width_s);
+    Rows width;
+    addWidth(width, w);
+    // Where the samples fall moves a width as well, and is in it already: what the trains differ by beyond that counts.
+    constexpr double kBeyond = 2;
+    const double sampling = dt_ / std::sqrt(6.0);
+    if (statisticsOf(columnOf(trains_, &TrainFigures::width_s)).sd > kBeyond * sampling) {
+        addSpread(width, trains_, &TrainFigures::width_s);
     }
-    if (std::isfinite(shortest) && shortest > 0) out.interval_s = {shortest, dt / kSqrt3};
+    out.width_s = figure(w, std::move(width));
+
+    const double peak = largestOf(trains_, &TrainFigures::peak_v);
+    Rows top;
+    v_.addGain(top, peak);
+    v_.addLevel(top, 1);
+    addNormal(top, "noise of voltage", trains_.front().noise_v);
+    addNormal(top, "between two samples", largestOf(trains_, &TrainFigures::step_v) / kSqrt12);
+    out.peak_v = figure(peak, std::move(top));
 }
 
-/// Trains that the worst window of `seconds` holds; NaN without an interval.
-double trainsIn(double seconds, const Reading& interval_s) {
-    if (!interval_s.measured()) return kNaN;
-    return std::max(1.0, std::ceil(seconds / interval_s.value - kWindowEdge));
+/// The shortest from onset to onset in one record. NaN where it does not hold two trains.
+double shortestIn(const Capture& rhythm, const ExpectedTrain& expected) {
+    MeasureOptions options;
+    if (expected.pulses > 1) options.intraTrainRate = Hertz(expected.rate_hz);
+    const auto measured = measureTrains({&rhythm, 1}, drivenBy(expected), options);
+    return measured && measured->interval_s.n > 0 ? measured->interval_s.min : kNaN;
 }
 
-void addCurrent(LoadReading& out, const Trains& trains, const ExpectedTrain& expected, const ChannelDoubt& v,
-                const ChannelDoubt& i, double dt, double record_s) {
-    const double amps = meanOver(trains, &TrainFigures::end_a);
-    const double noise = trains.front().noise_a;
-    addAmplitude(out, out.amplitude_ma, trains, &TrainFigures::end_a, together({i.gain * amps, i.level}),
-                 expected.drive == Drive::Current);
+void Evaluation::addInterval(LoadReading& out, const Capture* rhythm) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    Rows rows;
+    if (rhythm != nullptr) {
+        shortest = shortestIn(*rhythm, expected_);
+        if (std::isnan(shortest)) {
+            out.warnings.emplace_back("the record for the interval does not hold two trains");
+            return;
+        }
+        addNormal(rows, "sampling of the onsets", 1 / rhythm->rate_hz / std::sqrt(6.0));
+        rows.push_back({"time base", Distribution::Rectangular, rhythm->timeBaseTolerance, kSqrt3, shortest});
+    } else {
+        for (std::size_t k = 1; k < trains_.size(); ++k) {
+            shortest = std::min(shortest, trains_[k].onset_s - trains_[k - 1].onset_s);
+        }
+        addNormal(rows, "sampling of the onsets", dt_ / std::sqrt(6.0));
+        addTimeBase(rows, shortest);
+        rows.push_back({"time stamps", Distribution::Rectangular, stamp_s_, kSqrt3 / kSqrt2, 1});
+    }
+    if (!std::isfinite(shortest) || !(shortest > 0)) return;
+    out.interval_s = figure(shortest, std::move(rows));
+}
+
+/// Trains that the worst window of `seconds` holds at `interval_s`, which may be long by `slack_s`; NaN without one.
+double trainsIn(double seconds, double interval_s, double slack_s) {
+    if (std::isnan(interval_s)) return kNaN;
+    const double trains = seconds / interval_s;
+    return std::max(1.0, std::ceil(trains - std::max(kWindowEdge, trains * slack_s / interval_s)));
+}
+
+/// A whole number of trains, the most that `seconds` can hold at this interval. Where the interval's U leaves open
+/// whether there is one more, that one is in the window's own; without that U nothing is known.
+Reading windowOf(double seconds, const Reading& perTrain, const Reading& interval_s) {
+    const double T = interval_s.value, slack_s = interval_s.measured() ? interval_s.expanded : 0;
+    const double trains = trainsIn(seconds, T, slack_s);
+    auto out = times(trains, perTrain);
+    const double more = (trainsIn(seconds, T - slack_s, 0) - trains) * perTrain.value;
+    out.u = interval_s.measured() ? std::hypot(out.u, more / kSqrt3) : kNaN;
+    out.expanded = interval_s.measured() ? std::hypot(out.expanded, more) : kNaN;
+    return out;
+}
+
+void Evaluation::addVoltageWindows(LoadReading& out) const {
+    const double squares = largestOf(trains_, &TrainFigures::squares_v);
+    Rows rows;
+    v_.addGain(rows, 2 * squares);
+    v_.addLevel(rows, 2 * largestOf(trains_, &TrainFigures::magnitude_v));
+    addWidth(rows, squares);
+    out.rms_5s_v = rootOf(windowOf(5, figure(squares, std::move(rows)), out.interval_s), 5, 1);
+}
+
+void Evaluation::addCurrent(LoadReading& out) const {
+    const double amps = meanOver(trains_, &TrainFigures::end_a);
+    const double noise = trains_.front().noise_a;
+    Rows end;
+    i_.addGain(end, amps);
+    i_.addLevel(end, 1);
+    addAmplitude(out, out.amplitude_ma, &TrainFigures::end_a, end, expected_.drive == Drive::Current);
     out.amplitude_ma = times(1e3, out.amplitude_ma);
-    out.impedance_ohm = impedanceOf(trains, v, i, out.currentLsb);
-    const double peak = largestOf(trains, &TrainFigures::peak_a);
-    out.peak_ma = times(
-        1e3, {peak, together({i.gain * peak, i.level, noise, largestOf(trains, &TrainFigures::step_a) / kSqrt12})});
+    out.impedance_ohm = impedanceOf(trains_, v_, i_, out.currentLsb);
 
-    const double w = out.width_s.value, wide = out.width_s.u / w;
-    const double phase = largestOf(trains, &TrainFigures::phase_C);
-    const double net = largestOf(trains, &TrainFigures::net_C);
+    const double peak = largestOf(trains_, &TrainFigures::peak_a);
+    Rows top;
+    i_.addGain(top, peak);
+    i_.addLevel(top, 1);
+    addNormal(top, "noise of current", noise);
+    addNormal(top, "between two samples", largestOf(trains_, &TrainFigures::step_a) / kSqrt12);
+    out.peak_ma = times(1e3, figure(peak, std::move(top)));
+
+    const double w = out.width_s.value, pulses = expected_.pulses;
+    const double phase = largestOf(trains_, &TrainFigures::phase_C);
+    Rows charge;
+    i_.addGain(charge, phase);
+    i_.addLevel(charge, w);
+    addWidth(charge, phase);
+    out.charge_uc = times(1e6, figure(phase, std::move(charge)));
+
     // Gain is common to both phases and leaves their balance alone; what the converter's steps hide in two plateaus
     // and in the baseline under them does not.
-    const double u_net =
-        together({i.level * w * kSqrt3, noise * std::sqrt(record_s * dt), spreadOf(trains, &TrainFigures::net_C)});
-    out.charge_uc = times(1e6, {phase, together({i.gain * phase, i.level * w, phase * wide})});
-    out.net_charge_uc = times(1e6, {net, together({i.gain * net, u_net})});
-    out.imbalance = {net / phase, u_net / phase};
-    const double energy = largestOf(trains, &TrainFigures::energy_J);
-    const double pulses = expected.pulses;
-    out.energy_mj = times(1e3, {energy, together({v.gain * energy, i.gain * energy, energy * wide,
-                                                  v.level * largestOf(trains, &TrainFigures::magnitude_a) / pulses,
-                                                  i.level * largestOf(trains, &TrainFigures::magnitude_v) / pulses})});
-    const double squares = largestOf(trains, &TrainFigures::squares_a);
-    const Reading train{
-        squares,
-        together({2 * i.gain * squares, 2 * i.level * largestOf(trains, &TrainFigures::magnitude_a), squares * wide})};
-    out.rms_train_ma = rootOf(train, pulses / expected.rate_hz, 1e3);
-    out.rms_1s_ma = rootOf(times(trainsIn(1, out.interval_s), train), 1, 1e3);
-    out.rms_5s_ma = rootOf(times(trainsIn(5, out.interval_s), train), 5, 1e3);
-    out.dc_ma = times(trainsIn(5, out.interval_s) * pulses / 5 * 1e-3, out.net_charge_uc);
-    out.power_1s_w = times(trainsIn(1, out.interval_s) * pulses * 1e-3, out.energy_mj);
+    const double net = largestOf(trains_, &TrainFigures::net_C);
+    Rows balance;
+    i_.addLevel(balance, w * kSqrt3);
+    addNormal(balance, "noise of current", noise * std::sqrt(record_s_ * dt_));
+    addSpread(balance, trains_, &TrainFigures::net_C);
+    out.imbalance = times(1 / phase, figure(net, balance));
+    i_.addGain(balance, net);
+    out.net_charge_uc = times(1e6, figure(net, std::move(balance)));
+
+    // The gains of one instrument add up in a product: they may be off together.
+    const double energy = largestOf(trains_, &TrainFigures::energy_J);
+    Rows work;
+    work.push_back({"gains of voltage and current", Distribution::Rectangular, v_.gain() + i_.gain(), kSqrt3, energy});
+    v_.addProbe(work, energy);
+    i_.addProbe(work, energy);
+    addWidth(work, energy);
+    v_.addLevel(work, largestOf(trains_, &TrainFigures::magnitude_a) / pulses);
+    i_.addLevel(work, largestOf(trains_, &TrainFigures::magnitude_v) / pulses);
+    out.energy_mj = times(1e3, figure(energy, std::move(work)));
+
+    const double squares = largestOf(trains_, &TrainFigures::squares_a);
+    Rows heat;
+    i_.addGain(heat, 2 * squares);
+    i_.addLevel(heat, 2 * largestOf(trains_, &TrainFigures::magnitude_a));
+    addWidth(heat, squares);
+    const Reading train = figure(squares, std::move(heat));
+    out.rms_train_ma = rootOf(train, pulses / expected_.rate_hz, 1e3);
+    out.rms_1s_ma = rootOf(windowOf(1, train, out.interval_s), 1, 1e3);
+    out.rms_5s_ma = rootOf(windowOf(5, train, out.interval_s), 5, 1e3);
+    out.dc_ma = times(pulses / 5 * 1e-3, windowOf(5, out.net_charge_uc, out.interval_s));
+    out.power_1s_w = times(pulses * 1e-3, windowOf(1, out.energy_mj, out.interval_s));
 }
 
 /// A wide and a fine record of the same command, each known by the onset of its first pulse.
@@ -320,11 +384,12 @@ Joined joined(const TwoRanges& two) {
     return out;
 }
 
-void addFine(LoadReading& out, std::span<const Capture> captures, std::span<const Capture> fine,
-             const ExpectedTrain& expected) {
+void addFine(LoadReading& out, const Evaluation& evaluation, std::span<const Capture> captures,
+             std::span<const Capture> fine, const ExpectedTrain& expected) {
     out.impedance_ohm = out.net_charge_uc = out.imbalance = {};
     Trains ends;
-    double net = 0, u_net = 0;
+    double net = 0;
+    Rows rows;  // of the train with the most net charge
     for (std::size_t k = 0; k < fine.size(); ++k) {
         const auto two = twoRanges(captures[k % captures.size()], fine[k], expected, out.warnings);
         if (!two) return;
@@ -335,21 +400,26 @@ void addFine(LoadReading& out, std::span<const Capture> captures, std::span<cons
         if (!(figures.end_a < 0.98 * two->fine.channel->high)) return;  // the range does not fit the end either
         ends.push_back(figures);
         const auto charge = joined(*two);
-        net = std::max(net, std::abs(charge.integral) / expected.pulses);
+        const double here = std::abs(charge.integral) / expected.pulses;
+        if (!rows.empty() && !(here > net)) continue;
+        net = here;
+        rows.clear();
         // A moving level takes every step of the converter alike; what stays is that of the baseline under it.
-        const double w = out.width_s.value;
-        u_net = std::max(u_net, together({two->wide.channel->lsb / kSqrt12 * charge.wide_s / expected.pulses,
-                                          ChannelDoubt(two->fine.channel).level * w * kSqrt3,
-                                          two->fine.channel->high * two->fine.dt / kSqrt12 *
-                                              std::sqrt(static_cast<double>(charge.seams)),
-                                          two->wide.noise * std::sqrt(charge.wide_s * two->wide.dt)}));
+        rows.push_back({"resolution of current", Distribution::Rectangular,
+                        two->wide.channel->lsb > 0 ? two->wide.channel->lsb : kNaN, kSqrt12,
+                        charge.wide_s / expected.pulses});
+        ChannelDoubt(two->fine.channel).addLevel(rows, out.width_s.value * kSqrt3);
+        rows.push_back({"seams of the two ranges", Distribution::Rectangular, two->fine.channel->high * two->fine.dt,
+                        kSqrt12, std::sqrt(static_cast<double>(charge.seams))});
+        addNormal(rows, "noise of current", two->wide.noise * std::sqrt(charge.wide_s * two->wide.dt));
     }
     const auto* current = channelOf(fine.front(), "current");
-    out.impedance_ohm =
-        impedanceOf(ends, ChannelDoubt(channelOf(fine.front(), "voltage")), ChannelDoubt(current), current->lsb);
+    out.impedance_ohm = evaluation.impedanceOf(ends, ChannelDoubt(channelOf(fine.front(), "voltage")),
+                                               ChannelDoubt(current), current->lsb);
     const double phase = 1e-6 * out.charge_uc.value;
-    out.net_charge_uc = times(1e6, {net, together({ChannelDoubt(current).gain * net, u_net})});
-    out.imbalance = {net / phase, u_net / phase};
+    out.imbalance = times(1 / phase, evaluation.figure(net, rows));
+    ChannelDoubt(current).addGain(rows, net);
+    out.net_charge_uc = times(1e6, evaluation.figure(net, std::move(rows)));
 }
 
 Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& expected) {
@@ -371,10 +441,17 @@ Result<void> checked(std::span<const Capture> captures, const ExpectedTrain& exp
 
 }  // namespace
 
-bool Reading::measured() const noexcept { return std::isfinite(value) && std::isfinite(u); }
+bool Reading::measured() const noexcept { return std::isfinite(value) && std::isfinite(expanded); }
+
+Reading readingOf(double value, std::vector<Contribution> rows, const BudgetOptions& budget) {
+    if (!std::isfinite(value)) return {value, kNaN, kNaN};
+    const auto combined = combine(std::move(rows), budget);
+    if (!combined) return {value, kNaN, kNaN};
+    return {value, combined->combined, combined->expanded};
+}
 
 Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTrain& expected,
-                             std::span<const Capture> fine) {
+                             std::span<const Capture> fine, const Capture* rhythm) {
     if (const auto sane = checked(captures, expected); !sane) return failure(sane);
     LoadReading out;
     Trains trains;
@@ -386,17 +463,18 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
     // One train that cannot be read may have been the one above a limit.
     if (trains.size() != captures.size()) return out;
 
+    out.notStated = notStatedText(captures.front());
+    const bool stamped = std::isfinite(captures.front().stampTolerance_s);
+    if (out.notStated.empty() && !stamped && rhythm == nullptr) {
+        out.notStated = "the oscilloscope does not state how good the time stamps of its records are";
+    }
     const auto* current = channelOf(captures.front(), "current");
-    const ChannelDoubt v(channelOf(captures.front(), "voltage")), i(current);
-    const double dt = 1 / captures.front().rate_hz;
     out.biphasic = std::all_of(trains.begin(), trains.end(), [](const auto& train) { return train.biphasic; });
     out.currentLsb = current != nullptr ? current->lsb : 0;
-    addVoltage(out, trains, expected.drive, v, dt);
-    const double squares = largestOf(trains, &TrainFigures::squares_v);
-    const Reading train{squares,
-                        together({2 * v.gain * squares, 2 * v.level * largestOf(trains, &TrainFigures::magnitude_v),
-                                  squares * out.width_s.u / out.width_s.value})};
-    out.rms_5s_v = rootOf(times(trainsIn(5, out.interval_s), train), 5, 1);
+    const Evaluation evaluation(trains, expected, captures.front());
+    evaluation.addVoltage(out);
+    evaluation.addInterval(out, stamped ? nullptr : rhythm);
+    evaluation.addVoltageWindows(out);
 
     const double peak = largestOf(trains, &TrainFigures::peak_a);
     if (!std::isfinite(peak)) return out;
@@ -406,8 +484,8 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
                                            1e3 * peak, 1e3 * out.currentLsb));
         return out;
     }
-    addCurrent(out, trains, expected, v, i, dt, static_cast<double>(captures.front().samples()) * dt);
-    if (!fine.empty()) addFine(out, captures, fine, expected);
+    evaluation.addCurrent(out);
+    if (!fine.empty()) addFine(out, evaluation, captures, fine, expected);
     return out;
 }
 

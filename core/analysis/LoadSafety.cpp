@@ -25,8 +25,8 @@ LoadLine lineOf(const LoadRecord& record, const LoadSafetyInput& input, const st
     if (!record.steps.empty()) {
         line.measured_ohm = record.steps.front().reading.impedance_ohm;
         line.strongest = strongestOf(record);
-        line.powerDensity_w_cm2 = readingOf(line.strongest, Quantity::PowerDensity, input.area_cm2).value;
-        line.currentDensity_ma_cm2 = readingOf(line.strongest, Quantity::CurrentDensity, input.area_cm2).value;
+        line.powerDensity_w_cm2 = readingOf(line.strongest, Quantity::PowerDensity, input).value;
+        line.currentDensity_ma_cm2 = readingOf(line.strongest, Quantity::CurrentDensity, input).value;
     }
     std::vector<RowVerdict> verdicts;
     for (const auto& row : rows) verdicts.push_back(row.verdict);
@@ -51,7 +51,7 @@ void addMissingLoads(const LoadSafetyInput& input, LoadSafety& out) {
         line.name = wanted.name;
         out.loads.push_back(std::move(line));
         out.rows.push_back(missing(std::string(wanted.name), "load", "the load",
-                                   fmt::format("{} was not evaluated: it was not connected", wanted.name)));
+                                   fmt::format("{} was not evaluated: it was not reached", wanted.name)));
     }
 }
 
@@ -61,12 +61,14 @@ bool waitsForArea(const SafetyRow& row, const LoadSafetyInput& input) {
     return !input.area_cm2 && quantity && needsArea(*quantity) && row.verdict == RowVerdict::NotEvaluated;
 }
 
+bool isReference(const SafetyRow& row) { return row.item == "reference" || row.item == "absolute_reference"; }
+
 void decide(const LoadSafetyInput& input, LoadSafety& out) {
     bool areaSaid = false;
     const auto collect = [&](RowVerdict verdict) {
         for (const auto* rows : {&out.rows, &out.worstCase.rows}) {
             for (const auto& row : *rows) {
-                if (row.verdict != verdict || row.reason.empty()) continue;
+                if (row.verdict != verdict || row.reason.empty() || isReference(row)) continue;
                 if (!waitsForArea(row, input)) {
                     out.reasons.push_back(row.reason);
                 } else if (!std::exchange(areaSaid, true)) {
@@ -90,6 +92,10 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
             "{} checks on {} loads passed, each with its uncertainty inside its limit; of what must be refused "
             "all was refused ({})",
             count(RowVerdict::Pass), out.loads.size(), count(RowVerdict::RefusedAsExpected)));
+    }
+    // Without a known load that reads as what it is, nothing else was asked.
+    for (const auto& row : out.rows) {
+        if (isReference(row) && row.verdict != RowVerdict::Pass) out.reasons.push_back(row.reason);
     }
     for (const auto verdict : {RowVerdict::Fail, RowVerdict::Indeterminate, RowVerdict::NotEvaluated,
                                RowVerdict::NotApplicable, RowVerdict::Attention}) {
@@ -117,6 +123,18 @@ std::string_view nameOf(RowVerdict verdict) noexcept {
             return "attention";
     }
     return "not evaluated";
+}
+
+std::string_view nameOf(RowBasis basis) noexcept {
+    switch (basis) {
+        case RowBasis::Measured:
+            return "measured";
+        case RowBasis::Commanded:
+            return "commanded";
+        case RowBasis::Computed:
+            return "computed";
+    }
+    return "";
 }
 
 RowVerdict judgeUpper(double value, double expanded, double limit, bool strict) noexcept {
@@ -161,6 +179,8 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     } else {
         out.rows.push_back(missing("", "reference", "known-reference check", "the known-reference check was not made"));
     }
+    if (input.absolute) out.rows.push_back(*input.absolute);
+    for (auto& row : openCircuitRows(input)) out.rows.push_back(std::move(row));
     for (auto& row : tripRows(input)) out.rows.push_back(std::move(row));
     if (input.limits.empty()) {
         out.rows.push_back(missing("", "limits", "limits", "no limit set was given: nothing can be called safe"));

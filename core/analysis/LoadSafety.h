@@ -35,6 +35,11 @@ enum class RowVerdict {
 /// "pass", "fail", "indeterminate", "not evaluated", "not applicable", "refused as expected", "attention"
 [[nodiscard]] std::string_view nameOf(RowVerdict verdict) noexcept;
 
+/// What a row's value rests on: what was captured is judged, what was computed says so.
+enum class RowBasis { Measured, Commanded, Computed };
+/// "measured", "commanded", "computed"
+[[nodiscard]] std::string_view nameOf(RowBasis basis) noexcept;
+
 /// One thing judged.
 struct SafetyRow {
     std::string load;   ///< as parseLoad() reads it, or the range; empty for what is not of a load
@@ -48,6 +53,8 @@ struct SafetyRow {
     std::string source;  ///< document and clause
     RowVerdict verdict = RowVerdict::NotEvaluated;
     std::string reason;  ///< a sentence unless it passed
+    RowBasis basis = RowBasis::Measured;
+    std::string note{};  ///< what is to be known beside it, as a sentence; may be empty
 };
 
 /// A command that was delivered and measured. Commands, not measurements, apart from `reading`.
@@ -102,10 +109,12 @@ inline constexpr std::array<std::string_view, 6> kRequiredTrips = {
 
 struct LoadSafetyTolerances {
     double load_pct = 5;       ///< measured against the DMM's value, else the nominal one; a current source's voltage
+    double resistor_pct = 1;   ///< how far a resistor may lie from its nominal value, where no DMM read it; half-width
     double amplitude_pct = 2;  ///< delivered above commanded; the laboratory's figure (science.md section 9)
     double timing_pct = 1;     ///< phase wider, or interval shorter, than commanded
     double imbalance_pct = 1;  ///< net charge of phase charge (hazard H5)
     double imbalanceUncertainty_pct = 0.5;  ///< above it the net charge is not evaluated (hazard H5)
+    double area_pct = 5;                    ///< of the electrode's area, 95 %; a choice, where nobody measured it
 };
 
 struct LoadSafetyInput {
@@ -119,8 +128,11 @@ struct LoadSafetyInput {
     Ohms loadHigh{10'000};
     LoadSafetyTolerances tolerances;
     std::optional<SafetyRow> reference;  ///< the known-reference check
+    std::optional<SafetyRow> absolute;   ///< a voltage of known size, where one was read
     std::vector<LoadRecord> loads;
     std::vector<TripTrial> trips;
+    /// The strongest train that went into an open circuit, and the command that it was; not measured otherwise.
+    std::optional<LoadStep> openCircuit;
 };
 
 /// A line of the `loads` of cli.md. NaN: absent.
@@ -150,7 +162,7 @@ struct DisclosedOutput {
 
 struct LoadWorstCase {
     double low_ohm = 0, high_ohm = 0;
-    double amplitudeFactor = std::numeric_limits<double>::quiet_NaN();  ///< largest (measured + U) / commanded, ≥ 1
+    Reading amplitudeFactor;  ///< the largest measured / commanded, at least 1
     std::vector<SafetyRow> rows;
     RowVerdict verdict = RowVerdict::NotEvaluated;
 };
@@ -169,7 +181,8 @@ struct LoadSafety {
 /// The known-reference check: a load whose value is known, measured first. Passes within tolerances.load_pct.
 [[nodiscard]] SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input);
 
-/// A value against an upper limit with its guard band. NaN in value or U is not evaluated.
+/// A value against an upper limit with its guard band. NaN in value or U is not evaluated: a value without U proves
+/// nothing, on whichever side of the limit.
 [[nodiscard]] RowVerdict judgeUpper(double value, double expanded, double limit, bool strict) noexcept;
 
 /// Fail, then indeterminate, then not evaluated, then the rest: what a group of rows comes to. Rows that are not

@@ -91,7 +91,9 @@ Result<void> readTexts(const json& from, std::initializer_list<std::pair<const c
     return {};
 }
 
-Result<LoadStep> stepFrom(const json& from) {
+}  // namespace
+
+Result<LoadStep> loadStepFrom(const json& from) {
     LoadStep step;
     if (auto read = readCommand(from, step); !read) return failure(read);
     auto reading = loadReadingFrom(from.value("reading", json::object()));
@@ -99,6 +101,8 @@ Result<LoadStep> stepFrom(const json& from) {
     step.reading = std::move(*reading);
     return step;
 }
+
+namespace {
 
 Result<RefusedStep> refusalFrom(const json& from) {
     RefusedStep step;
@@ -133,20 +137,30 @@ json toJson(const LoadLine& line) {
             {"nominal_ohm", numberOrNull(line.nominal_ohm)},
             {"measured_ohm", numberOrNull(line.measured_ohm.value)},
             {"measured_u_ohm", numberOrNull(line.measured_ohm.u)},
+            {"measured_expanded_ohm", numberOrNull(line.measured_ohm.expanded)},
             {"peak_v", numberOrNull(most.peak_v.value)},
             {"peak_v_u", numberOrNull(most.peak_v.u)},
+            {"peak_v_expanded", numberOrNull(most.peak_v.expanded)},
             {"peak_ma", numberOrNull(most.peak_ma.value)},
             {"peak_ma_u", numberOrNull(most.peak_ma.u)},
+            {"peak_ma_expanded", numberOrNull(most.peak_ma.expanded)},
             {"rms_train_ma", numberOrNull(most.rms_train_ma.value)},
+            {"rms_train_ma_expanded", numberOrNull(most.rms_train_ma.expanded)},
             {"rms_1s_ma", numberOrNull(most.rms_1s_ma.value)},
+            {"rms_1s_ma_expanded", numberOrNull(most.rms_1s_ma.expanded)},
             {"rms_5s_ma", numberOrNull(most.rms_5s_ma.value)},
             {"rms_5s_ma_u", numberOrNull(most.rms_5s_ma.u)},
+            {"rms_5s_ma_expanded", numberOrNull(most.rms_5s_ma.expanded)},
             {"charge_uc", numberOrNull(most.charge_uc.value)},
+            {"charge_uc_expanded", numberOrNull(most.charge_uc.expanded)},
             {"net_charge_uc", numberOrNull(most.net_charge_uc.value)},
+            {"net_charge_uc_expanded", numberOrNull(most.net_charge_uc.expanded)},
             {"imbalance", numberOrNull(most.imbalance.value)},
             {"energy_mj", numberOrNull(most.energy_mj.value)},
+            {"energy_mj_expanded", numberOrNull(most.energy_mj.expanded)},
             {"current_density_ma_cm2", numberOrNull(line.currentDensity_ma_cm2)},
             {"power_density_w_cm2", numberOrNull(line.powerDensity_w_cm2)},
+            {"trains", most.trains},
             {"commands_delivered", line.steps},
             {"commands_refused", line.refused},
             {"verdict", nameOf(line.verdict)}};
@@ -158,10 +172,12 @@ json toJson(const LoadReading& reading) {
     json out = {{"trains", reading.trains},
                 {"biphasic", reading.biphasic},
                 {"under_10_lsb", reading.underTenLsb},
+                {"not_stated", reading.notStated},
                 {"warnings", reading.warnings}};
     for (const auto& member : kMembers) {
         out[member.key] = numberOrNull((reading.*member.reading).value);
         out[std::string(member.key) + "_u"] = numberOrNull((reading.*member.reading).u);
+        out[std::string(member.key) + "_expanded"] = numberOrNull((reading.*member.reading).expanded);
     }
     return out;
 }
@@ -177,7 +193,9 @@ json toJson(const SafetyRow& row) {
             {"set", row.set},
             {"source", row.source},
             {"verdict", nameOf(row.verdict)},
-            {"reason", row.reason}};
+            {"reason", row.reason},
+            {"basis", nameOf(row.basis)},
+            {"note", row.note}};
 }
 
 json toJson(const LoadSafety& found) {
@@ -198,7 +216,8 @@ json toJson(const LoadSafety& found) {
             {"worst_case",
              {{"load_low_ohm", found.worstCase.low_ohm},
               {"load_high_ohm", found.worstCase.high_ohm},
-              {"amplitude_factor", numberOrNull(found.worstCase.amplitudeFactor)},
+              {"amplitude_factor", numberOrNull(found.worstCase.amplitudeFactor.value)},
+              {"amplitude_factor_expanded", numberOrNull(found.worstCase.amplitudeFactor.expanded)},
               {"rows", worst},
               {"verdict", nameOf(found.worstCase.verdict)}}},
             {"rows", rows},
@@ -216,8 +235,16 @@ Result<LoadReading> loadReadingFrom(const json& from) {
         if (!value) return failure(value);
         const auto u = numberAt(from, std::string(member.key) + "_u");
         if (!u) return failure(u);
-        out.*member.reading = {*value, *u};
+        const auto expanded = numberAt(from, std::string(member.key) + "_expanded");
+        if (!expanded) return failure(expanded);
+        out.*member.reading = {*value, *u, *expanded};
     }
+    const auto trains = numberAt(from, "trains");
+    if (!trains) return failure(trains);
+    if (std::isfinite(*trains) && *trains >= 0) out.trains = static_cast<std::size_t>(std::min(*trains, 1e9));
+    auto lacking = textAt(from, "not_stated");
+    if (!lacking) return failure(lacking);
+    out.notStated = std::move(*lacking);
     const auto under = flagAt(from, "under_10_lsb");
     if (!under) return failure(under);
     out.underTenLsb = *under;
@@ -245,11 +272,11 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
     if (!dmm) return failure(dmm);
     const auto dmmU = numberAt(from, "dmm_u_ohm");
     if (!dmmU) return failure(dmmU);
-    out.dmm_ohm = {*dmm, *dmmU};
+    out.dmm_ohm = {*dmm, *dmmU, 2 * *dmmU};
     const auto steps = listAt(from, "steps");
     if (!steps) return failure(steps);
     for (const auto& item : *steps) {
-        auto step = stepFrom(item);
+        auto step = loadStepFrom(item);
         if (!step) return failure(step);
         out.steps.push_back(std::move(*step));
     }
@@ -268,6 +295,32 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
         out.undriven.push_back(std::move(*step));
     }
     return out;
+}
+
+Result<SafetyRow> absoluteRowFrom(const json& from) {
+    if (!from.is_object()) {
+        return fail(ErrorCode::InvalidArgument, "the absolute reference is {}; an object is expected", from.dump());
+    }
+    SafetyRow row;
+    row.item = "absolute_reference";
+    row.title = "absolute reference: error of the voltage";
+    row.unit = "%";
+    row.set = "laboratory";
+    row.source = "science.md section 12";
+    const auto off = numberAt(from, "deviation_pct"), expanded = numberAt(from, "expanded_uncertainty_pct");
+    const auto allowed = numberAt(from, "allowed_pct");
+    for (const auto* number : {&off, &expanded, &allowed}) {
+        if (!*number) return failure(*number);
+    }
+    row.value = std::abs(*off);
+    row.expanded = *expanded;
+    row.limit = *allowed;
+    row.verdict = judgeUpper(row.value, row.expanded, row.limit, false);
+    auto text = textAt(from, "text");
+    if (!text) return failure(text);
+    if (row.verdict != RowVerdict::Pass) row.reason = "absolute reference: " + *text;
+    row.note = std::move(*text);
+    return row;
 }
 
 Result<TripTrial> tripTrialFrom(const json& from) {

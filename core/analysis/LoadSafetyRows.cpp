@@ -4,13 +4,16 @@
 #include <cmath>
 
 #include "core/base/NaN.h"
+#include "core/base/QuantityText.h"
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
 
 namespace {
 
-Reading scaledBy(double factor, const Reading& reading) { return {factor * reading.value, factor * reading.u}; }
+Reading scaledBy(double factor, const Reading& reading) {
+    return {factor * reading.value, factor * reading.u, factor * reading.expanded};
+}
 
 SafetyRow rowOf(const LoadRecord& record, std::string item, std::string title, const Reading& reading,
                 std::string unit) {
@@ -19,7 +22,7 @@ SafetyRow rowOf(const LoadRecord& record, std::string item, std::string title, c
     row.item = std::move(item);
     row.title = std::move(title);
     row.value = reading.value;
-    row.expanded = reading.expanded();
+    row.expanded = reading.expanded;
     row.unit = std::move(unit);
     return row;
 }
@@ -28,11 +31,11 @@ void explain(SafetyRow& row, std::string_view missing) {
     if (row.verdict == RowVerdict::NotEvaluated) {
         row.reason = fmt::format("{} into {} was not evaluated: {}", row.title, row.load, missing);
     } else if (row.verdict == RowVerdict::Fail || row.verdict == RowVerdict::Attention) {
-        row.reason = fmt::format("{} into {} is {:.4g} ± {:.2g} {}, above {:.4g} {}", row.title, row.load, row.value,
-                                 row.expanded, row.unit, row.limit, row.unit);
+        row.reason = fmt::format("{} into {} is {}, above {}", row.title, row.load,
+                                 measuredText(row.value, row.expanded, row.unit), exactText(row.limit, row.unit));
     } else if (row.verdict == RowVerdict::Indeterminate) {
-        row.reason = fmt::format("{} into {} is {:.4g} ± {:.2g} {}: too close to {:.4g} {} to tell", row.title,
-                                 row.load, row.value, row.expanded, row.unit, row.limit, row.unit);
+        row.reason = fmt::format("{} into {} is {}: too close to {} to tell", row.title, row.load,
+                                 measuredText(row.value, row.expanded, row.unit), exactText(row.limit, row.unit));
     }
 }
 
@@ -40,19 +43,35 @@ std::string missingOf(const LoadRecord& record) {
     for (const auto& step : record.steps) {
         if (!step.reading.warnings.empty()) return step.reading.warnings.front();
     }
+    for (const auto& step : record.steps) {
+        if (!step.reading.notStated.empty()) return step.reading.notStated;
+    }
     if (!record.problem.empty()) return record.problem;
     return record.steps.empty() ? "nothing was delivered" : "it was not measured";
 }
 
-/// The step whose value and uncertainty come highest; one that was not measured wins, so that it is not hidden.
+/// Over the electrode's area, whose own uncertainty counts.
+Reading perArea(const Reading& reading, const LoadSafetyInput& input) {
+    if (!input.area_cm2) return {};
+    const auto out = scaledBy(1 / *input.area_cm2, reading);
+    const double area = input.tolerances.area_pct / 100 * out.value;
+    return {out.value, std::hypot(out.u, area / 2), std::hypot(out.expanded, area)};
+}
+
+/// The step whose value and uncertainty come highest; one that was not measured, or whose uncertainty is not known,
+/// wins, so that it is not hidden.
 template <class Of>
 Reading highest(const LoadRecord& record, Of of) {
     Reading most;
     bool first = true;
     for (const auto& step : record.steps) {
         const Reading reading = of(step);
-        if (!reading.measured()) return {};
-        if (first || reading.value + reading.expanded() > most.value + most.expanded()) most = reading;
+        if (std::isnan(reading.value)) return {};
+        const bool unknown = std::isnan(most.expanded), more = !reading.measured() || reading.value > most.value;
+        if (first || (unknown ? !reading.measured() && more
+                              : !reading.measured() || reading.value + reading.expanded > most.value + most.expanded)) {
+            most = reading;
+        }
         first = false;
     }
     return most;
@@ -61,23 +80,27 @@ Reading highest(const LoadRecord& record, Of of) {
 /// How far the delivered amplitude lies above the command, % of it; negative below.
 Reading amplitudeError(const LoadStep& step) {
     const Reading& got = step.reading.delivered;
-    return {100 * (got.value - 1), 100 * got.u};
+    return {100 * (got.value - 1), 100 * got.u, 100 * got.expanded};
 }
 
 Reading voltageError(const LoadStep& step) {
     const Reading& got = step.reading.highest_v;
-    return {100 * (got.value - step.command_v) / step.command_v, 100 * got.u / step.command_v};
+    const double scale = 100 / step.command_v;
+    return {scale * (got.value - step.command_v), scale * got.u, scale * got.expanded};
 }
 
 Reading widthError(const LoadStep& step, const PulseTrain& train) {
     const double wanted = Seconds(train.phaseWidth).count();
-    return {100 * (step.reading.width_s.value - wanted) / wanted, 100 * step.reading.width_s.u / wanted};
+    const auto& got = step.reading.width_s;
+    const double scale = 100 / wanted;
+    return {scale * (got.value - wanted), scale * got.u, scale * got.expanded};
 }
 
 /// Trains that follow too soon are too many: the shorter interval counts as the larger error.
 Reading rateError(const LoadStep& step) {
     const auto& got = step.reading.interval_s;
-    return {100 * (step.interval_s - got.value) / step.interval_s, 100 * got.u / step.interval_s};
+    const double scale = 100 / step.interval_s;
+    return {scale * (step.interval_s - got.value), scale * got.u, scale * got.expanded};
 }
 
 void addUpper(std::vector<SafetyRow>& rows, const LoadRecord& record, SafetyRow row, double limit, bool strict,
@@ -95,8 +118,13 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
     if (!record.steps.empty()) {
         const Reading& got = record.steps.front().reading.impedance_ohm;
         const double truth = record.dmm_ohm.measured() ? record.dmm_ohm.value : expectedOhms(record, input);
-        const double known = record.dmm_ohm.measured() ? record.dmm_ohm.u : 0;
-        error = {100 * std::abs(got.value - truth) / truth, 100 * std::hypot(got.u, known) / truth};
+        // As marked on it: a rectangle, whose 95 % are 0.95 of it and whose s is its half-width/√3.
+        const double marked = input.tolerances.resistor_pct / 100 * truth;
+        const Reading known =
+            record.dmm_ohm.measured() ? record.dmm_ohm : Reading{truth, marked / std::sqrt(3.0), 0.95 * marked};
+        const double scale = 100 / truth;
+        error = {scale * std::abs(got.value - truth), scale * std::hypot(got.u, known.u),
+                 scale * std::hypot(got.expanded, known.expanded)};
     }
     addUpper(
         rows, record,
@@ -111,7 +139,7 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
     const auto within = [](auto error) {
         return [error](const LoadStep& step) {
             const Reading e = error(step);
-            return Reading{std::abs(e.value), e.u};
+            return Reading{std::abs(e.value), e.u, e.expanded};
         };
     };
     const char* own = "the laboratory's tolerance (science.md section 9)";
@@ -159,10 +187,9 @@ void addNetCharge(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
     } else if (imbalance.measured() && !(row.expanded <= input.tolerances.imbalanceUncertainty_pct) &&
                !(row.value - row.expanded > row.limit)) {
         row.verdict = RowVerdict::NotEvaluated;
-        row.reason = fmt::format(
-            "net charge into {} was not evaluated: its uncertainty is {:.2g} %, at most {:.2g} % "
-            "can tell",
-            record.name, row.expanded, input.tolerances.imbalanceUncertainty_pct);
+        row.reason =
+            fmt::format("net charge into {} was not evaluated: its uncertainty is {}, at most {} can tell", record.name,
+                        scaledText(row.expanded, "%", 2), exactText(input.tolerances.imbalanceUncertainty_pct, "%"));
     } else {
         row.verdict = judgeUpper(row.value, row.expanded, row.limit, false);
         explain(row, missingOf(record));
@@ -174,21 +201,69 @@ bool isOhm500(const LoadRecord& record) {
     return record.load.kind == LoadKind::Resistor && std::abs(record.load.series.value() - 500) < 1e-6;
 }
 
+/// A limit on the command itself: judged on what was commanded, and what came of it said beside.
+SafetyRow commandRow(const LoadRecord& record, const LimitSet& set, const LimitRow& limit) {
+    double most = kNaN;
+    for (const auto& step : record.steps) most = std::fmax(most, step.command_v);
+    auto row = rowOf(record, std::string(keyOf(limit.quantity)), "amplitude as commanded", {most, kNaN, kNaN}, "V");
+    row.basis = RowBasis::Commanded;
+    row.limit = limit.max;
+    row.set = set.id;
+    row.source = limit.source;
+    row.verdict = judgeUpper(most, 0, limit.max, limit.strict);
+    if (row.verdict == RowVerdict::Fail) {
+        row.reason = fmt::format("{:.4g} V was commanded into {}, above {:.4g} V", most, record.name, limit.max);
+    }
+    const auto peak = highest(record, [](const LoadStep& step) { return step.reading.peak_v; });
+    if (peak.measured()) {
+        row.note = fmt::format("the highest peak measured is {}, {} beside the command",
+                               measuredText(peak.value, peak.expanded, "V"),
+                               measuredText(peak.value - most, peak.expanded, "V"));
+    }
+    return row;
+}
+
+/// Those over 1 s or 5 s, which no record is long enough for.
+bool isOverAWindow(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::RmsCurrent1s:
+        case Quantity::RmsCurrent5s:
+        case Quantity::RmsVoltage5s:
+        case Quantity::DcCurrent:
+        case Quantity::CurrentDensity:
+        case Quantity::PowerDensity:
+            return true;
+        case Quantity::CommandVoltage:
+        case Quantity::PeakVoltage:
+        case Quantity::PeakCurrent:
+        case Quantity::PhaseCharge:
+        case Quantity::NetCharge:
+        case Quantity::PulseEnergy:
+        case Quantity::RmsCurrentTrain:
+            return false;
+    }
+    return false;
+}
+
 void addLimits(std::vector<SafetyRow>& rows, const LoadRecord& record, const LoadSafetyInput& input) {
     const double hz = 1 / input.interval_s;
     for (const auto& set : input.limits) {
         for (const auto& limit : set.rows) {
             if (!limit.holdsAt(hz) || (limit.judged == JudgedAt::Ohm500 && !isOhm500(record))) continue;
-            const Reading most = highest(record, [&](const LoadStep& step) {
-                if (limit.quantity == Quantity::CommandVoltage) return Reading{step.command_v, 0};
-                return readingOf(step.reading, limit.quantity, input.area_cm2);
-            });
+            if (limit.quantity == Quantity::CommandVoltage) {
+                rows.push_back(commandRow(record, set, limit));
+                continue;
+            }
+            const Reading most =
+                highest(record, [&](const LoadStep& step) { return readingOf(step.reading, limit.quantity, input); });
             auto row = rowOf(record, std::string(keyOf(limit.quantity)), std::string(titleOf(limit.quantity)), most,
                              std::string(unitOf(limit.quantity)));
             row.limit = limit.max;
             row.set = set.id;
             row.source = limit.source;
             row.verdict = judgeUpper(row.value, row.expanded, limit.max, limit.strict);
+            if (isOverAWindow(limit.quantity) && most.measured())
+                row.note = fmt::format("from {} captured trains, repeated", strongestOf(record).trains);
             const bool breaks = row.verdict == RowVerdict::Fail || row.verdict == RowVerdict::Indeterminate;
             if (breaks && limit.action != LimitAction::Refuse) row.verdict = RowVerdict::Attention;
             explain(row, needsArea(limit.quantity) && !input.area_cm2 ? "the electrode's area is not known"
@@ -247,7 +322,7 @@ double expectedOhms(const LoadRecord& record, const LoadSafetyInput& input) {
     return effectiveImpedance(record.load, segmentsOf(train, input.source.gap).items[0]).value();
 }
 
-Reading readingOf(const LoadReading& reading, Quantity quantity, std::optional<double> area_cm2) {
+Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input) {
     switch (quantity) {
         case Quantity::CommandVoltage:
             return {};
@@ -272,9 +347,9 @@ Reading readingOf(const LoadReading& reading, Quantity quantity, std::optional<d
         case Quantity::DcCurrent:
             return reading.dc_ma;
         case Quantity::CurrentDensity:
-            return area_cm2 ? scaledBy(1 / *area_cm2, reading.rms_5s_ma) : Reading{};
+            return perArea(reading.rms_5s_ma, input);
         case Quantity::PowerDensity:
-            return area_cm2 ? scaledBy(1 / *area_cm2, reading.power_1s_w) : Reading{};
+            return perArea(reading.power_1s_w, input);
     }
     return {};
 }

@@ -14,11 +14,13 @@ namespace tacto {
 [[nodiscard]] std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input);
 
 /// What a step's reading says of a quantity; not measured for what only a command has, or without an area.
-[[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, std::optional<double> area_cm2);
+[[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input);
 
 /// Largest of the steps, quantity by quantity; not measured when one step was not.
 [[nodiscard]] LoadReading strongestOf(const LoadRecord& record);
 
+/// Limits on the voltage are judged on the open circuit, measured there, or not evaluated.
+[[nodiscard]] std::vector<SafetyRow> openCircuitRows(const LoadSafetyInput& input);
 [[nodiscard]] std::vector<SafetyRow> tripRows(const LoadSafetyInput& input);
 [[nodiscard]] LoadWorstCase worstCaseOf(const LoadSafetyInput& input);
 [[nodiscard]] std::vector<DisclosedOutput> disclosedOf(const LoadSafetyInput& input);

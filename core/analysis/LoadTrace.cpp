@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/measure/ClipLimits.h"
 
 namespace tacto {
 
@@ -13,11 +14,11 @@ std::size_t LoadTrace::indexAt(double t_s) const noexcept {
 }
 
 bool LoadTrace::clippedNear(std::size_t i, std::size_t aside) const noexcept {
-    const auto low = static_cast<float>(channel->low), high = static_cast<float>(channel->high);
-    if (!(low < high)) return false;
+    const auto limits = clipLimits(*channel);
+    if (!limits) return false;
     const std::size_t from = i > aside ? i - aside : 0, to = std::min(size(), i + aside + 1);
     for (std::size_t k = from; k < to; ++k) {
-        if (!(channel->samples[k] > low) || !(channel->samples[k] < high)) return true;
+        if (limits->reachedBy(static_cast<double>(channel->samples[k]))) return true;
     }
     return false;
 }
@@ -36,12 +37,10 @@ std::optional<LoadTrace> traceOf(const Capture& capture, std::string_view name, 
     trace.channel = channel;
     trace.dt = 1 / capture.rate_hz;
     trace.start_s = capture.start_s;
-    const bool ranged = channel->low < channel->high;
-    // In the samples' own precision: 0.12 as a float lies below 0.12.
-    const auto low = static_cast<float>(channel->low), high = static_cast<float>(channel->high);
+    const auto limits = clipLimits(*channel);
     for (const float sample : channel->samples) {
         if (!std::isfinite(sample)) return std::nullopt;
-        if (ranged && (!(sample > low) || !(sample < high))) trace.clipped = true;
+        if (limits && limits->reachedBy(static_cast<double>(sample))) trace.clipped = true;
     }
     // The last tenth before the onset is left out: an edge begins before its half height.
     const double before = 0.9 * (onset_s - capture.start_s) * capture.rate_hz;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/RoughnessRepeatability.h"
+
 namespace tacto {
 
 namespace {
@@ -173,6 +175,10 @@ Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfac
     RoughnessSettings scaled = settings;
     setScales(surfaces, found, scaled);
     scaled.calibrated = true;
+    scaled.uncertainty = roughnessRepeatability(surfaces, scaled);
+    found.uncertainty = scaled.uncertainty;
+    if (!scaled.uncertainty)
+        found.warnings.emplace_back("the uncertainty of R was not evaluated: a feature was absent");
     scaled.smoothSurface = certificate(surfaces[0]);
     scaled.roughSurface = certificate(surfaces[1]);
     if (rest.levels.slidingMeanSquare > 0) {

@@ -52,6 +52,7 @@ struct SensorCalibration {
     std::vector<std::string> reasons;   ///< why not, one sentence each
     std::vector<std::string> warnings;  ///< what limits an accepted one
     RoughnessSettings settings;         ///< with the new scales, surfaces and rest; as they were where refused
+    std::optional<RoughnessUncertainty> uncertainty;  ///< of R under the new scales; nothing: not evaluated
     std::vector<SurfaceResult> surfaces;
     std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< nothing: the rig lacks it
     std::optional<SurfaceDistance> distanceR;

@@ -29,6 +29,20 @@ tl::unexpected<Error> missing(const char* what, const char* key) {
                 what, key);
 }
 
+Json expandedR(const SensorCalibration& found, double R) {
+    return found.uncertainty ? numberOrNull(found.uncertainty->expanded(R)) : Json();
+}
+
+/// At the ends and in the middle of R, of one slide.
+Json uncertaintyJson(const SensorCalibration& found) {
+    if (!found.uncertainty) return {};
+    Json out = toJson(*found.uncertainty);
+    out["smooth"] = expandedR(found, 0);
+    out["middle"] = expandedR(found, 0.5);
+    out["rough"] = expandedR(found, 1);
+    return out;
+}
+
 std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(feature); }
 
 }  // namespace
@@ -45,6 +59,7 @@ Json toJson(const SensorCalibration& found) {
                     {"slides", surface.slides},
                     {"R", numberOrNull(surface.R.mean)},
                     {"R_sd", numberOrNull(surface.R.sd)},
+                    {"R_expanded_uncertainty", expandedR(found, surface.R.mean)},
                     {"force_n", numberOrNull(surface.force_n.mean)}};
         for (const auto feature : kSensorFeatures) {
             row[std::string(keyOf(feature))] = numberOrNull(surface.features[indexOf(feature)]);
@@ -71,6 +86,8 @@ Json toJson(const SensorCalibration& found) {
               {"R", distanceJson(found.distanceR)},
               {"all", all}}},
             {"spearman", ranking},
+            {"uncertainty_R", uncertaintyJson(found)},
+            {"known_limit", kKnownLimitOfR},
             {"accepted", found.accepted},
             {"verdict", found.accepted ? "pass" : "fail"},
             {"reasons", found.reasons},
@@ -91,6 +108,7 @@ Json toJson(const SensorScale& found) {
 Json toJson(const SensorRest& rest) {
     return {{"taxel_baseline", rest.levels.taxelBaseline},
             {"taxel_floor", rest.levels.taxelFloor},
+            {"taxel_unit", symbolOf(rest.taxelUnit)},
             {"mean_square", numberOrNull(rest.levels.slidingMeanSquare)},
             {"unit", symbolOf(rest.restUnit)}};
 }
@@ -125,6 +143,7 @@ Result<SensorRest> sensorRestFrom(const Json& json) {
     out.levels.taxelFloor = numberIn(json, "taxel_floor");
     if (!(out.levels.taxelFloor >= 0)) return missing("the rest", "taxel_floor");
     out.levels.slidingMeanSquare = numberIn(json, "mean_square");
+    if (json.value("taxel_unit", Json()) == symbolOf(StreamUnit::Count)) out.taxelUnit = StreamUnit::Count;
     const auto unit = json.find("unit");
     out.restUnit = unit != json.end() && *unit == symbolOf(StreamUnit::Count) ? StreamUnit::Count
                                                                               : StreamUnit::MetrePerSecondSquared;

@@ -29,7 +29,7 @@ Result<std::vector<RoughnessFrame>> framesOf(const SensorSamples& samples, Rough
                                              double& period_s) {
     settings.spectral = spectral;
     settings.taxel = taxel;
-    auto chain = RoughnessChain::create(samples.streams, settings);
+    auto chain = RoughnessChain::create(samples.streams, settings, {}, samples.serial);
     if (!chain) return failure(chain);
     (*chain)->presetRest(rest.levels);
     std::vector<RoughnessFrame> frames;
@@ -77,7 +77,7 @@ Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSetting
     }
     DeclaredIntervals declared;
     declared.baseline = stretch;
-    auto chain = RoughnessChain::create(samples.streams, settings, declared);
+    auto chain = RoughnessChain::create(samples.streams, settings, declared, samples.serial);
     if (!chain) return failure(chain);
     std::vector<RoughnessFrame> frames;
     (*chain)->feed(samples.blocks, frames);
@@ -97,6 +97,9 @@ Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSetting
     }
     SensorRest out;
     out.levels = *levels;
+    for (const auto& info : (*chain)->streams()) {
+        if (info.kind == StreamKind::Taxels) out.taxelUnit = info.unit;
+    }
     if (const auto* acceleration = streamOf(samples, StreamKind::Acceleration)) out.restUnit = acceleration->unit;
     return out;
 }

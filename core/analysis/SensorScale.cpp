@@ -6,11 +6,11 @@
 
 namespace tacto {
 
-Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings, double referenceTolerance,
-                                   std::string_view what) {
-    if (!(referenceTolerance >= 0) || !(referenceTolerance < 1)) {
+Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
+                                   std::optional<double> referenceTolerance, std::string_view what) {
+    if (referenceTolerance && (!(*referenceTolerance >= 0) || !(*referenceTolerance < 1))) {
         return fail(ErrorCode::InvalidArgument, "{}: a tolerance of the references of {}; 0 to below 1 is expected",
-                    what, referenceTolerance);
+                    what, *referenceTolerance);
     }
     auto fit = fitCalibration(readings);
     if (!fit) return failure(fit);
@@ -26,9 +26,12 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     }
     out.scale = 1 / gain;
     out.offset = -fit->offset / gain;
-    const double typeA = se / std::abs(gain), typeB = referenceTolerance / std::sqrt(3.0);
+    const double typeA = se / std::abs(gain);
+    const double typeB = referenceTolerance ? *referenceTolerance / std::sqrt(3.0) : std::nan("");
     const double combined = std::hypot(typeA, typeB);
-    if (typeA > 0) {
+    if (!referenceTolerance) {
+        out.scaleU = std::numeric_limits<double>::quiet_NaN();
+    } else if (typeA > 0) {
         const double effective = freedom * std::pow(combined / typeA, 4);
         out.scaleU = studentQuantile(0.975, effective) * combined * std::abs(out.scale);
     } else if (typeA == 0) {
@@ -45,7 +48,9 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     const double mean = sum / static_cast<double>(n), ratio = fit->offset / gain;
     const double variance =
         fit->offsetStandardError * fit->offsetStandardError + ratio * ratio * se * se + 2 * ratio * mean * se * se;
-    out.offsetU = k * std::sqrt(std::max(0.0, variance)) / std::abs(gain);
+    const double ownU = k * std::sqrt(std::max(0.0, variance)) / std::abs(gain);
+    out.offsetU =
+        std::hypot(ownU, studentQuantile(0.975, std::numeric_limits<double>::infinity()) * typeB * out.offset);
     out.fit = *std::move(fit);
     return out;
 }

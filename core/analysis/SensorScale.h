@@ -4,12 +4,15 @@
 // against the references (the references are what is known), by fitCalibration(), and the line is turned round:
 //   reference = scale · reading + offset, scale = 1 / gain, offset = -(fitted offset) / gain.
 // The uncertainties are type A from the repeatability, and the tolerance that all references share, rectangular, whose
-// half-width over √3 adds to the scale's; U is for 95 % with the degrees of freedom after Welch and Satterthwaite.
+// half-width over √3 adds to the scale's and, times the offset, to the offset's; U is for 95 % with the degrees of
+// freedom after Welch and Satterthwaite. Several such tolerances (of the weights, of local gravity, of the contact
+// area) are one, the root of the sum of their squares. One that is not known leaves U unknown.
 //
 // Thread-safety: pure function.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -26,10 +29,11 @@ struct SensorScale {
     Calibration fit;  ///< readings against references
 };
 
-/// `readings`: commanded is the reference, measured the sensor's reading. `referenceTolerance` is relative, half-width.
+/// `readings`: commanded is the reference, measured the sensor's reading. `referenceTolerance` is relative, half-width;
+/// nothing: not known.
 /// Errors: as fitCalibration(); InvalidArgument where the reading does not follow the reference: the slope's 95 %
 /// interval reaches 0. `what` names the sensor in that sentence.
 [[nodiscard]] Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
-                                                 double referenceTolerance, std::string_view what);
+                                                 std::optional<double> referenceTolerance, std::string_view what);
 
 }  // namespace tacto

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "core/analysis/LinearDiscriminant.h"
 #include "core/base/JustNoticeable.h"
@@ -61,21 +62,42 @@ Result<void> checkValues(std::span<const SeparabilityTrial> trials) {
     return {};
 }
 
-/// Root mean square of the stated uncertainties; 0.1 % of the pooled mean when a trial states none.
-double floorOf(std::span<const SeparabilityTrial> trials, double SeparabilityTrial::*value,
-               double SeparabilityTrial::*uncertainty) {
-    double sum = 0, squares = 0, n = 0;
+double amplitudeUncertaintyOf(const SeparabilityTrial& trial) { return trial.amplitudeUncertainty; }
+/// Reading and time base; 0 where the reading states none.
+double intervalUncertaintyOf(const SeparabilityTrial& trial) {
+    return trial.intervalUncertainty_s == 0
+               ? 0
+               : std::hypot(trial.intervalUncertainty_s, trial.timeBase * trial.interval_s);
+}
+
+/// Root mean square of the uncertainties of one condition, or of all: what readings are known to. 0.1 % of the mean
+/// over all trials when a trial comes without; NaN when one is unknown.
+double resolutionOf(std::span<const SeparabilityTrial> trials, double SeparabilityTrial::*value,
+                    double (*uncertaintyOf)(const SeparabilityTrial&), const std::string* condition = nullptr) {
+    double sum = 0, all = 0, squares = 0, n = 0;
     bool stated = true;
     for (const auto& trial : trials) {
         if (!isMeasured(trial)) continue;
-        n += 1;
         sum += trial.*value;
-        const double u = trial.*uncertainty;
-        stated = stated && u > 0 && std::isfinite(u);
+        all += 1;
+        if (condition != nullptr && trial.condition != *condition) continue;
+        const double u = uncertaintyOf(trial);
+        stated = stated && u != 0;
         squares += u * u;
+        n += 1;
     }
     if (n == 0) return std::numeric_limits<double>::quiet_NaN();
-    return stated ? std::sqrt(squares / n) : kUnstatedUncertainty * sum / n;
+    return stated ? std::sqrt(squares / n) : kUnstatedUncertainty * sum / all;
+}
+
+/// Trials are classified also where a resolution is unknown, as those that come without: a discriminant needs a floor.
+Eigen::Vector2d classifyingFloor(std::span<const SeparabilityTrial> trials, const Separability& found) {
+    const auto none = [](const SeparabilityTrial&) { return 0.0; };
+    const auto orElse = [&](double floor, double SeparabilityTrial::*value) {
+        return std::isfinite(floor) ? floor : resolutionOf(trials, value, none);
+    };
+    return {orElse(found.amplitudeFloor, &SeparabilityTrial::amplitude),
+            orElse(found.intervalFloor_s, &SeparabilityTrial::interval_s)};
 }
 
 struct Points {
@@ -107,20 +129,41 @@ Points summariseConditions(std::span<const SeparabilityTrial> trials, const std:
         summary.interval_s = statisticsOf(intervals);
         summary.amplitudeVariation = summary.amplitude.sd / summary.amplitude.mean;
         summary.intervalVariation = summary.interval_s.sd / summary.interval_s.mean;
+        summary.amplitudeVariationBounds = variationBounds(summary.amplitudeVariation, summary.n);
+        summary.intervalVariationBounds = variationBounds(summary.intervalVariation, summary.n);
         result.conditions.push_back(std::move(summary));
     }
     return points;
 }
 
-void comparePairs(const LinearDiscriminant& discriminant, Separability& result) {
+/// Just-noticeable differences between two means.
+Bounds jndBounds(const MeanReading& a, const MeanReading& b, double weberFraction) {
+    const Bounds distance = logRatioBounds(a, b);
+    return {distance.low / std::log1p(weberFraction), distance.high / std::log1p(weberFraction)};
+}
+
+void comparePairs(const LinearDiscriminant& discriminant, std::span<const SeparabilityTrial> trials,
+                  Separability& result) {
+    const bool resolved = std::isfinite(result.amplitudeFloor) && std::isfinite(result.intervalFloor_s);
+    const auto amplitudeOf = [&](const ConditionSummary& c) {
+        const double u = resolutionOf(trials, &SeparabilityTrial::amplitude, amplitudeUncertaintyOf, &c.name);
+        return MeanReading{c.amplitude.mean, c.amplitude.sd, c.n, u};
+    };
+    const auto intervalOf = [&](const ConditionSummary& c) {
+        const double u = resolutionOf(trials, &SeparabilityTrial::interval_s, intervalUncertaintyOf, &c.name);
+        return MeanReading{c.interval_s.mean, c.interval_s.sd, c.n, u};
+    };
     for (std::size_t a = 0; a < result.conditions.size(); ++a) {
         for (std::size_t b = a + 1; b < result.conditions.size(); ++b) {
             const auto& first = result.conditions[a];
             const auto& second = result.conditions[b];
             result.pairs.push_back(
-                {first.name, second.name, discriminant.distance(a, b),
+                {first.name, second.name,
+                 resolved ? discriminant.distance(a, b) : std::numeric_limits<double>::quiet_NaN(),
                  justNoticeableDifferences(first.amplitude.mean, second.amplitude.mean, kAmplitudeWeberFraction),
-                 justNoticeableDifferences(first.interval_s.mean, second.interval_s.mean, kIntervalWeberFraction)});
+                 justNoticeableDifferences(first.interval_s.mean, second.interval_s.mean, kIntervalWeberFraction),
+                 jndBounds(amplitudeOf(first), amplitudeOf(second), kAmplitudeWeberFraction),
+                 jndBounds(intervalOf(first), intervalOf(second), kIntervalWeberFraction)});
         }
     }
 }
@@ -161,36 +204,65 @@ struct Judgement {
 
 void judgePairs(const Separability& found, Judgement& judgement) {
     for (const auto& pair : found.pairs) {
-        if (pair.amplitudeJnd >= kJndNeeded || pair.intervalJnd >= kJndNeeded) continue;
+        const Bounds &amplitude = pair.amplitudeJndBounds, &interval = pair.intervalJndBounds;
+        if (amplitude.low >= kJndNeeded || interval.low >= kJndNeeded) continue;
         if (std::isnan(pair.amplitudeJnd) || std::isnan(pair.intervalJnd)) {
             judgement.open.push_back(
                 fmt::format("{} and {} cannot be compared: one was not measured.", pair.a, pair.b));
+            continue;
+        }
+        const auto difference =
+            fmt::format("{} and {} differ by {:.1f} just-noticeable differences in amplitude and {:.1f} in interval",
+                        pair.a, pair.b, pair.amplitudeJnd, pair.intervalJnd);
+        if (amplitude.high < kJndNeeded && interval.high < kJndNeeded) {
+            judgement.failures.push_back(fmt::format("{}; {} in one of them are needed.", difference, kJndNeeded));
+        } else if (std::isnan(amplitude.low) || std::isnan(interval.low)) {
+            judgement.open.push_back(fmt::format("{}; how far this is certain is unknown.", difference));
         } else {
-            judgement.failures.push_back(fmt::format(
-                "{} and {} differ by {:.1f} just-noticeable differences in amplitude and {:.1f} in interval; {} in one "
-                "of them are needed.",
-                pair.a, pair.b, pair.amplitudeJnd, pair.intervalJnd, kJndNeeded));
+            judgement.open.push_back(
+                fmt::format("{}, with 95 % confidence by {:.1f} and {:.1f} at least; whether {} in one of them are "
+                            "reached is open.",
+                            difference, amplitude.low, interval.low, kJndNeeded));
         }
     }
 }
 
 void judgeConsistency(const Separability& found, Judgement& judgement) {
     for (const auto& condition : found.conditions) {
-        for (const auto& [name, variation] : {std::pair{"amplitude", condition.amplitudeVariation},
-                                              std::pair{"interval", condition.intervalVariation}}) {
-            if (variation <= kLargestVariation) continue;
+        for (const auto& [name, variation, bounds] :
+             {std::tuple{"amplitude", condition.amplitudeVariation, condition.amplitudeVariationBounds},
+              std::tuple{"interval", condition.intervalVariation, condition.intervalVariationBounds}}) {
+            if (bounds.high <= kLargestVariation) continue;
             if (std::isnan(variation)) {
                 judgement.open.push_back(fmt::format("The {} of {} was measured {} time(s): its variation is unknown.",
                                                      name, condition.name, condition.n));
-            } else {
+            } else if (bounds.low > kLargestVariation) {
                 judgement.failures.push_back(fmt::format("The {} of {} varies by {:.1f} %; {:.0f} % is the most.", name,
                                                          condition.name, 100 * variation, 100 * kLargestVariation));
+            } else {
+                judgement.open.push_back(
+                    fmt::format("The {} of {} varies by {:.1f} % in {} trials, which leaves {:.1f} to {:.1f} % open; "
+                                "{:.0f} % is the most.",
+                                name, condition.name, 100 * variation, condition.n, 100 * bounds.low, 100 * bounds.high,
+                                100 * kLargestVariation));
             }
         }
         if (condition.notMeasured > 0) {
             judgement.open.push_back(fmt::format("{} of {} trials of {} were not measured.", condition.notMeasured,
                                                  condition.n + condition.notMeasured, condition.name));
         }
+    }
+}
+
+void judgeResolution(const Separability& found, Judgement& judgement) {
+    const bool measured = std::ranges::any_of(found.conditions, [](const auto& each) { return each.n > 0; });
+    for (const auto& [name, floor] : {std::pair{"amplitude", found.amplitudeFloor},
+                                      std::pair{"interval, with the time base,", found.intervalFloor_s}}) {
+        if (!measured || std::isfinite(floor)) continue;
+        judgement.open.push_back(fmt::format(
+            "The uncertainty of the {} is unknown: the oscilloscope does not state it. Mahalanobis distances are not "
+            "evaluated.",
+            name));
     }
 }
 
@@ -235,14 +307,15 @@ Result<Separability> judgeSeparability(std::span<const SeparabilityTrial> trials
 
     Separability result;
     const Points points = summariseConditions(trials, *names, result);
-    result.amplitudeFloor = floorOf(trials, &SeparabilityTrial::amplitude, &SeparabilityTrial::amplitudeUncertainty);
-    result.intervalFloor_s = floorOf(trials, &SeparabilityTrial::interval_s, &SeparabilityTrial::intervalUncertainty_s);
-    const Eigen::Vector2d floor(result.amplitudeFloor, result.intervalFloor_s);
-    comparePairs(LinearDiscriminant(points.all, names->size(), floor), result);
+    result.amplitudeFloor = resolutionOf(trials, &SeparabilityTrial::amplitude, amplitudeUncertaintyOf);
+    result.intervalFloor_s = resolutionOf(trials, &SeparabilityTrial::interval_s, intervalUncertaintyOf);
+    const Eigen::Vector2d floor = classifyingFloor(trials, result);
+    comparePairs(LinearDiscriminant(points.all, names->size(), floor), trials, result);
     crossValidate(points, floor, result);
 
     Judgement judgement;
     judgePairs(result, judgement);
+    judgeResolution(result, judgement);
     judgeConsistency(result, judgement);
     judgeAccuracy(result, judgement);
     result.verdict = !judgement.failures.empty() ? Verdict::Fail
@@ -252,9 +325,9 @@ Result<Separability> judgeSeparability(std::span<const SeparabilityTrial> trials
     result.reasons.insert(result.reasons.end(), judgement.open.begin(), judgement.open.end());
     if (result.verdict == Verdict::Pass) {
         result.reasons.push_back(
-            fmt::format("Every pair differs by at least {} just-noticeable differences, every condition varies by at "
-                        "most {:.0f} %, and "
-                        "conditions were recognised in {:.1f} % of trials (95 % interval from {:.1f} %).",
+            fmt::format("With 95 % confidence every pair differs by at least {} just-noticeable differences and every "
+                        "condition varies by at most {:.0f} %; conditions were recognised in {:.1f} % of trials (95 % "
+                        "interval from {:.1f} %).",
                         kJndNeeded, 100 * kLargestVariation, 100 * result.accuracy.value, 100 * result.accuracy.low));
     }
     return result;

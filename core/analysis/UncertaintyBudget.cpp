@@ -13,7 +13,7 @@ constexpr double kCoverage = 0.95;
 constexpr std::size_t kFewestDraws = 1000;
 
 Result<void> check(const Contribution& row) {
-    if (!(row.value >= 0) || !std::isfinite(row.value)) {
+    if (row.value < 0 || std::isinf(row.value)) {
         return fail(ErrorCode::InvalidArgument, "uncertainty of {}: {} was given; 0 or more was expected", row.name,
                     row.value);
     }
@@ -106,6 +106,11 @@ Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOp
         if (row.distribution == Distribution::Rectangular) widestRectangle = std::max(widestRectangle, part);
     }
     budget.combined = std::sqrt(squares);
+    if (std::isnan(budget.combined)) {
+        budget.degreesOfFreedom = budget.coverageFactor = budget.expanded = std::numeric_limits<double>::quiet_NaN();
+        budget.rows = std::move(rows);
+        return budget;
+    }
     double fourthPowers = 0;  // of (contribution / u_c), over degrees of freedom: no under- or overflow
     if (budget.combined > 0) {
         for (const auto& row : rows) {

@@ -5,7 +5,8 @@
 // coverage factor for 95 % comes from Student's t at the Welch-Satterthwaite degrees of freedom. Where one rectangular
 // contribution exceeds half of u_c the sum is not near normal and that factor is too wide: there the interval comes
 // from propagating the distributions themselves (JCGM 101, GUM Supplement 1), with 200 000 draws (its rule: 10^4 times
-// 1/(1 - p)). Contributions are taken to be independent of each other.
+// 1/(1 - p)). Contributions are taken to be independent of each other. A contribution that is not stated is NaN: the
+// budget then has no u_c and no U (science.md section 12), and lists its rows all the same.
 //
 // A verdict with a guard band (ISO 14253-1, science.md section 9) is a pass or a fail only where the uncertainty cannot
 // turn it round.
@@ -36,7 +37,8 @@ enum class Distribution {
 struct Contribution {
     std::string name;
     Distribution distribution = Distribution::Normal;
-    double value = 0;        ///< half-width, full resolution, or s of the readings, in the source's unit; ≥ 0
+    double value =
+        0;  ///< half-width, full resolution, or s of the readings, in the source's unit; ≥ 0; NaN: not stated
     double divisor = 1;      ///< √3 for a half-width, √12 for a resolution, √n for s of n readings; > 0
     double sensitivity = 1;  ///< result's unit per source's unit
     double degreesOfFreedom = std::numeric_limits<double>::infinity();  ///< ≥ 1; infinite for what is stated
@@ -51,10 +53,10 @@ enum class CoverageMethod { WelchSatterthwaite, MonteCarlo };
 
 struct UncertaintyBudget {
     std::vector<Contribution> rows;
-    double combined = 0;          ///< u_c
+    double combined = 0;          ///< u_c; NaN: a row is not stated
     double degreesOfFreedom = 0;  ///< effective; infinite when no row has finite ones
     double coverageFactor = 0;    ///< U / u_c; NaN when u_c is 0
-    double expanded = 0;          ///< U, 95 %
+    double expanded = 0;          ///< U, 95 %; NaN: a row is not stated
     CoverageMethod method = CoverageMethod::WelchSatterthwaite;
 };
 
@@ -63,7 +65,7 @@ struct BudgetOptions {
     std::size_t draws = 200'000;  ///< of the Monte Carlo; at least 1000
 };
 
-/// Errors: InvalidArgument for no rows, a value that is not finite or negative, a divisor or degrees of freedom that
+/// Errors: InvalidArgument for no rows, a value that is infinite or negative, a divisor or degrees of freedom that
 /// are not above 0, or fewer than 1000 draws.
 [[nodiscard]] Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOptions& options = {});
 

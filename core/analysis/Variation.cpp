@@ -11,6 +11,7 @@ namespace tacto {
 namespace {
 
 constexpr double kClearlySeparable_jnd = 5;  // science.md section 10
+constexpr std::size_t kPeopleKept = 1000;
 
 Result<void> check(const VariationOptions& options) {
     if (auto valid = validate(options.population); !valid) return failure(valid);
@@ -39,15 +40,25 @@ bool presents(const ParticipantPrediction& person, std::size_t condition) {
     return person.delivery.stimuli[condition].outcome == DeliveryOutcome::Presented;
 }
 
+/// Presented, felt and not too strong (which would have been withheld).
+bool counts(const ParticipantPrediction& person, std::size_t condition) {
+    return presents(person, condition) && person.delivery.stimuli[condition].felt;
+}
+
 PredictedCondition conditionOf(std::span<const ParticipantPrediction> people, const std::string& name, std::size_t i) {
     PredictedCondition out;
     out.name = name;
     for (const auto& person : people) {
         const auto& stimulus = person.delivery.stimuli[i];
         if (isRefused(stimulus.outcome)) ++out.refused;
+        if (stimulus.current.value() > 0) {
+            if (stimulus.current >= person.who.attention) ++out.drawsAttention;
+            if (stimulus.current > person.who.discomfort) ++out.tooStrong;
+            if (stimulus.current > person.who.intolerance) ++out.notTolerated;
+        }
         if (!presents(person, i)) continue;
         ++out.presented;
-        if (!stimulus.felt) ++out.notFelt;
+        ++(stimulus.felt ? out.counted : out.notFelt);
     }
     const auto presented = [&people, i](auto member) {
         return over(people, [i, member](const ParticipantPrediction& person) -> std::optional<double> {
@@ -66,21 +77,19 @@ PredictedPair pairOf(std::span<const ParticipantPrediction> people, const std::v
     PredictedPair out;
     out.a = conditions[a].name;
     out.b = conditions[b].name;
-    const auto both = [a, b](const ParticipantPrediction& person) {
-        return presents(person, a) && presents(person, b);
-    };
+    const auto both = [a, b](const ParticipantPrediction& person) { return counts(person, a) && counts(person, b); };
     out.participants = static_cast<std::size_t>(std::ranges::count_if(people, both));
-    const auto presented = [&people, &both, a, b](auto distance) {
+    const auto counted = [&people, &both, a, b](auto distance) {
         return over(people, [&both, a, b, distance](const ParticipantPrediction& person) -> std::optional<double> {
             if (!both(person)) return std::nullopt;
             return distance(person.points[a], person.points[b]);
         });
     };
-    out.jnd = presented([](const FeltPoint& x, const FeltPoint& y) { return distance_jnd(x, y); });
+    out.jnd = counted([](const FeltPoint& x, const FeltPoint& y) { return distance_jnd(x, y); });
     out.amplitude_jnd =
-        presented([](const FeltPoint& x, const FeltPoint& y) { return std::abs(x.amplitude_jnd - y.amplitude_jnd); });
+        counted([](const FeltPoint& x, const FeltPoint& y) { return std::abs(x.amplitude_jnd - y.amplitude_jnd); });
     out.interval_jnd =
-        presented([](const FeltPoint& x, const FeltPoint& y) { return std::abs(x.interval_jnd - y.interval_jnd); });
+        counted([](const FeltPoint& x, const FeltPoint& y) { return std::abs(x.interval_jnd - y.interval_jnd); });
     return out;
 }
 
@@ -98,14 +107,13 @@ bool isClearlySeparable(const ParticipantPrediction& person) {
     return true;
 }
 
-/// What was answered, over the complete participants.
+/// What was answered, over the served participants.
 void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, std::size_t conditions) {
     out.confusion.assign(conditions, std::vector<std::size_t>(conditions + 1, 0));
-    std::size_t right = 0, trials = 0, separable = 0;
+    std::size_t right = 0, trials = 0;
     for (const auto& person : people) {
-        if (!person.complete) continue;
-        ++out.complete;
-        if (isClearlySeparable(person)) ++separable;
+        if (!person.served) continue;
+        if (isClearlySeparable(person)) ++out.clearlySeparable;
         out.accuracies.push_back(person.accuracy);
         for (std::size_t i = 0; i < conditions; ++i) {
             for (std::size_t j = 0; j <= conditions; ++j) {
@@ -115,20 +123,19 @@ void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, s
             }
         }
     }
-    const auto complete = [&people](auto member) {
-        return over(people, [member](const ParticipantPrediction& person) -> std::optional<double> {
-            if (!person.complete) return std::nullopt;
+    const auto of = [&people](auto group, auto member) {
+        return over(people, [group, member](const ParticipantPrediction& person) -> std::optional<double> {
+            if (!(person.*group)) return std::nullopt;
             return person.*member;
         });
     };
-    out.accuracy = complete(&ParticipantPrediction::accuracy);
-    out.information = complete(&ParticipantPrediction::information);
+    out.accuracy = of(&ParticipantPrediction::served, &ParticipantPrediction::accuracy);
+    out.information = of(&ParticipantPrediction::served, &ParticipantPrediction::information);
+    out.presentedAccuracy = of(&ParticipantPrediction::complete, &ParticipantPrediction::accuracy);
     std::ranges::sort(out.accuracies);
 
     const double n = static_cast<double>(trials);
     out.pooledAccuracy = trials > 0 ? static_cast<double>(right) / n : std::nan("");
-    out.clearlySeparable =
-        out.complete > 0 ? static_cast<double>(separable) / static_cast<double>(out.complete) : std::nan("");
     std::vector<std::vector<double>> table;
     bool anyNone = false;
     for (const auto& row : out.confusion) {
@@ -140,6 +147,19 @@ void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, s
     const double rows = static_cast<double>(conditions);
     const double columns = rows + (anyNone ? 1 : 0);
     out.informationBias = trials > 0 ? (rows - 1) * (columns - 1) / (2 * n * std::log(2.0)) : std::nan("");
+}
+
+/// Each participant into one group of those who are served, refused, and so on.
+void addPeople(Variation& out, std::span<const ParticipantPrediction> people) {
+    for (const auto& person : people) {
+        const bool refused = std::ranges::any_of(
+            person.delivery.stimuli, [](const PredictedStimulus& stimulus) { return isRefused(stimulus.outcome); });
+        if (person.complete) ++out.complete;
+        ++(person.served     ? out.served
+           : refused         ? out.refusedPeople
+           : person.complete ? out.unfeltPeople
+                             : out.withoutRange);
+    }
 }
 
 Variation reduce(const VariationOptions& options, std::span<const ParticipantPrediction> people) {
@@ -158,13 +178,16 @@ Variation reduce(const VariationOptions& options, std::span<const ParticipantPre
         }
         for (std::size_t k = i + 1; k < conditions.size(); ++k) out.pairs.push_back(pairOf(people, conditions, i, k));
     }
+    addPeople(out, people);
     addAnswers(out, people, conditions.size());
     const auto all = [&people](auto member) {
         return over(people, [member](const ParticipantPrediction& person) { return std::optional(member(person)); });
     };
     out.impedance_ohm = all([](const ParticipantPrediction& p) { return p.delivery.impedance.value(); });
     out.detection_ma = all([](const ParticipantPrediction& p) { return p.who.detection.value(); });
+    out.attention_ma = all([](const ParticipantPrediction& p) { return p.who.attention.value(); });
     out.discomfort_ma = all([](const ParticipantPrediction& p) { return p.who.discomfort.value(); });
+    out.intolerance_ma = all([](const ParticipantPrediction& p) { return p.who.intolerance.value(); });
     return out;
 }
 
@@ -172,7 +195,8 @@ Variation reduce(const VariationOptions& options, std::span<const ParticipantPre
 
 ParticipantPrediction predictParticipant(const VariationOptions& options, std::size_t index) {
     ParticipantPrediction out;
-    out.who = drawParticipant(options.population, options.seed, index, options.stimulation.encoding.train.phaseWidth);
+    out.who = drawParticipant(options.population, options.seed, index, options.stimulation.encoding.train.phaseWidth,
+                              options.stimulation.electrodeArea);
     out.delivery = deliverTo(out.who, options.stimulation);
     const double perAmplitude = std::log1p(out.who.amplitudeWeber);
     const double perInterval = std::log1p(out.who.intervalWeber);
@@ -188,6 +212,7 @@ ParticipantPrediction predictParticipant(const VariationOptions& options, std::s
         task.given.push_back(given);
     }
     out.complete = out.presented == task.points.size();
+    out.served = std::ranges::all_of(out.delivery.stimuli, &PredictedStimulus::felt);
     const Observer observer{out.who.noise_jnd, out.who.lapse, std::log(out.who.detection.value()) / perAmplitude,
                             options.guess};
     out.responses = responseProbabilities(task, observer);
@@ -221,7 +246,15 @@ Result<Variation> predictVariation(const VariationOptions& options, std::stop_to
         auto needed = trialsNeeded(out.accuracies, wanted);
         if (!needed) return failure(needed);
         out.trials = std::move(*needed);
+        std::vector<std::size_t> sizes = {3, 4, 5};  // what the paper plans
+        if (wanted.participants < 3 || wanted.participants > 5) sizes.push_back(wanted.participants);
+        const PilotPeople group{out.accuracies, out.participants};
+        for (const auto size : sizes) {
+            out.pilots.push_back(outlookOf(group, size, options.trials * wanted.conditions, wanted.chance));
+        }
     }
+    people.resize(std::min(people.size(), kPeopleKept));
+    out.people = std::move(people);
     return out;
 }
 

@@ -5,6 +5,10 @@
 // together in the order of the numbers: the same seed gives the same bits whatever the number of threads, and the
 // first n of more participants are those of a run with n.
 //
+// A condition counts for a participant only if it is presented, felt (at or above the perception threshold) and not too
+// strong. A participant for whom every condition counts is served; distances are over conditions that count, answers
+// and accuracies over those who are served.
+//
 // Nothing of it is measured: it says what to expect if people are as the distributions state.
 //
 // Thread-safety: predictVariation() keeps its threads to itself; the rest are values.
@@ -16,6 +20,7 @@
 
 #include "core/analysis/VariationDelivery.h"
 #include "core/analysis/VariationObserver.h"
+#include "core/analysis/VariationPilot.h"
 #include "core/analysis/VariationTrials.h"
 
 namespace tacto {
@@ -39,6 +44,7 @@ struct ParticipantPrediction {
     std::vector<std::vector<std::size_t>> counts;  ///< sampled, as sampleResponses()
     std::size_t presented = 0;                     ///< conditions
     bool complete = false;                         ///< every condition was presented
+    bool served = false;                           ///< ... and is felt
     double accuracy = 0;                           ///< expected, over the presented conditions; NaN without any
     double information = 0;                        ///< expected information transfer, bits; NaN without any
 };
@@ -46,7 +52,7 @@ struct ParticipantPrediction {
 struct PredictedPair {
     std::string a;
     std::string b;
-    std::size_t participants = 0;  ///< who are presented both; the following are over them
+    std::size_t participants = 0;  ///< for whom both count; the following are over them
     Estimate jnd;                  ///< both dimensions together: median, 5 and 95 %
     Estimate amplitude_jnd;
     Estimate interval_jnd;
@@ -57,7 +63,12 @@ struct PredictedCondition {
     std::size_t presented = 0;  ///< participants
     std::size_t refused = 0;
     std::size_t notFelt = 0;  ///< of those presented: below the detection threshold
-    Estimate current_ma;      ///< over those presented
+    std::size_t counted = 0;  ///< presented and felt
+    /// Of all for whom there is a current, whether or not it is withheld:
+    std::size_t drawsAttention = 0;  ///< at or above the attention threshold
+    std::size_t tooStrong = 0;       ///< above what is too strong
+    std::size_t notTolerated = 0;    ///< above the intolerance threshold
+    Estimate current_ma;             ///< over those presented
     Estimate voltage_v;
     Estimate interval_s;
 };
@@ -75,20 +86,36 @@ struct Variation {
     std::size_t notFelt = 0;                      ///< participants times conditions presented and below detection
     std::map<std::string, std::size_t> withheld;  ///< participants times conditions not presented, by reason
 
-    std::size_t complete = 0;  ///< participants who are presented every condition; the following are over them
+    std::size_t complete = 0;    ///< participants who are presented every condition
+    Estimate presentedAccuracy;  ///< of the complete, whether or not they feel what they are presented
+
+    // Every participant is one of these:
+    std::size_t served = 0;         ///< every condition counts
+    std::size_t refusedPeople = 0;  ///< the gate would refuse at least one condition
+    std::size_t unfeltPeople = 0;   ///< presented every condition, and does not feel all of them
+    std::size_t withoutRange = 0;   ///< no range of their own, or a level that the device cannot set
+
+    std::size_t clearlySeparable = 0;  ///< served, with every pair 5 or more JND apart in a dimension
+
+    // Over the served:
     std::vector<std::vector<std::size_t>> confusion;  ///< sampled, [presented][answered], "none" last
     Estimate accuracy;                                ///< expected
     Estimate information;                             ///< expected, bits
     double pooledAccuracy = 0;                        ///< of the sampled trials; NaN without any
     double pooledInformation = 0;                     ///< of the sampled trials, bits, not corrected
     double informationBias = 0;                       ///< Miller and Madow, bits
-    double clearlySeparable = 0;         ///< share with every pair 5 or more JND apart in a dimension; NaN without any
-    std::vector<double> accuracies;      ///< sorted
-    std::optional<TrialsNeeded> trials;  ///< nothing without complete participants
+    std::vector<double> accuracies;                   ///< sorted
+    std::optional<TrialsNeeded> trials;               ///< nothing without served participants
+    std::vector<PilotOutlook> pilots;  ///< of 3, 4, 5 and options.wanted.participants people; empty likewise
 
     Estimate impedance_ohm;  ///< over all
     Estimate detection_ma;
+    Estimate attention_ma;
     Estimate discomfort_ma;
+    Estimate intolerance_ma;
+
+    /// The first 1000, for whoever computes it again.
+    std::vector<ParticipantPrediction> people;
 };
 
 /// Called about every 50 ms by the thread that called predictVariation().

@@ -42,8 +42,8 @@ DeviceGrid gridOf(const SourceTraits& source) {
             source.widthMin,      source.widthMax,     source.pulsesMax};
 }
 
-/// The profile's amplitudes as far as they lie between the thresholds; nothing when none do. Skin is taken as linear:
-/// the current per volt of command is the same at every amplitude.
+/// The profile's amplitudes as far as the participant feels them and they are not too strong; nothing when none do.
+/// Skin is taken as linear: the current per volt of command is the same at every amplitude.
 std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, const VirtualStimulation& stimulation,
                                              double milliampsPerVolt) {
     EncodingProfile personal = stimulation.encoding;
@@ -98,7 +98,8 @@ void follow(PredictedStimulus& stimulus, const VirtualParticipant& who, const Vi
     if (auto why = forbiddenBy(setup, rounded->train, stimulus.interval); !why.empty()) {
         return withhold(DeliveryOutcome::RefusedByLimits, std::move(why));
     }
-    if (stimulus.current > who.discomfort) return withhold(DeliveryOutcome::Uncomfortable, "the discomfort threshold");
+    if (stimulus.current > who.discomfort)
+        return withhold(DeliveryOutcome::Uncomfortable, "too strong for the participant");
     stimulus.outcome = DeliveryOutcome::Presented;
     stimulus.felt = stimulus.current >= who.detection;
 }
@@ -154,6 +155,9 @@ Result<void> validate(const VirtualStimulation& stimulation) {
     if (stimulation.limits.empty()) {
         return fail(ErrorCode::InvalidArgument, "no limit set is given; what would be refused cannot be told");
     }
+    if (const auto area = stimulation.electrodeArea; area && !(area->value() > 0 && area->value() <= 1e4)) {
+        return fail(ErrorCode::InvalidArgument, "an electrode of {} cm2; above 0 to 10000 is accepted", area->value());
+    }
     if (stimulation.source.drive == Drive::HighImpedance) {
         return fail(ErrorCode::InvalidArgument,
                     "a source of high impedance; a voltage or a current source is accepted");
@@ -187,7 +191,7 @@ Delivery deliverTo(const VirtualParticipant& who, const VirtualStimulation& stim
     for (const auto& condition : stimulation.encoding.conditions) {
         PredictedStimulus stimulus;
         if (!encoding) {
-            stimulus.reason = "no amplitude of the profile between the thresholds";
+            stimulus.reason = "no amplitude of the profile between felt and too strong";
         } else if (const auto command = Encoder(*encoding).encode(condition.R, condition.P); command) {
             stimulus.command = command->amplitude;
             stimulus.interval = command->interval;

@@ -24,7 +24,7 @@ namespace tacto {
 /// Which amplitudes a participant gets.
 enum class AmplitudeLevels {
     Profile,   ///< the profile's A_min to A_max, the same for everybody
-    Personal,  ///< as far as it lies in the profile's range: between the participant's own two thresholds
+    Personal,  ///< as far as it lies in the profile's range: from what the participant feels to what is too strong
 };
 [[nodiscard]] std::string_view nameOf(AmplitudeLevels levels) noexcept;  // "profile", "personal"
 [[nodiscard]] Result<AmplitudeLevels> amplitudeLevelsFrom(std::string_view name);
@@ -34,13 +34,13 @@ struct VirtualStimulation {
     SourceTraits source;
     std::vector<LimitSet> limits;
     Ceilings ceilings;
-    std::optional<SquareCentimetres> electrodeArea;
-    Ohms loadLow{500};  ///< between which a person's |Z| must lie
+    std::optional<SquareCentimetres> electrodeArea;  ///< > 0; nothing: that for which the skin is given
+    Ohms loadLow{500};                               ///< between which a person's |Z| must lie
     Ohms loadHigh{10'000};
     AmplitudeLevels levels = AmplitudeLevels::Personal;
     /// Personal: A_min is this times the detection threshold, clear of it by 4 differences of 10 % (choice) ...
     double aboveDetection = 1.5;
-    double belowDiscomfort = 0.8;  ///< ... and A_max this times the discomfort threshold (choice)
+    double belowDiscomfort = 0.8;  ///< ... and A_max this times what is too strong (choice)
 };
 /// A source without flaws of its own: continuous, far from its compliance.
 [[nodiscard]] SourceTraits idealSource(Drive drive) noexcept;
@@ -53,8 +53,8 @@ enum class DeliveryOutcome {
     ImpedanceOutOfRange,  ///< the check pulse would end it: |Z| outside the profile's range
     NotSettable,          ///< below the device's smallest step, above its range, or rounded by more than 10 %
     RefusedByLimits,      ///< a limit set or a ceiling of the profile
-    Uncomfortable,        ///< above the participant's discomfort: the gate's ceiling in person mode
-    NoRange,              ///< personal levels: nothing between the two thresholds lies in the profile's range
+    Uncomfortable,        ///< too strong for the participant: the gate's ceiling in person mode
+    NoRange,              ///< personal levels: nothing between the participant's two levels lies in the profile's range
 };
 [[nodiscard]] std::string_view nameOf(DeliveryOutcome outcome) noexcept;
 /// What the gate does: an impedance or an amplitude that is not permitted.
@@ -70,7 +70,7 @@ struct PredictedStimulus {
     Seconds interval{0};
     Milliamps current{0};  ///< mean of the leading phase, as delivered (or as refused); 0 if there was no command
     Volts voltage{0};      ///< at the end of the leading phase
-    bool felt = false;     ///< presented, and `current` reaches the detection threshold
+    bool felt = false;     ///< presented, and `current` reaches the detection threshold: it counts
 };
 
 struct Delivery {

@@ -184,6 +184,12 @@ double chanceExceeded(std::span<const double> accuracies, std::size_t n, double 
     return over(accuracies, [&](double p) { return binomialAtLeast(low, n, p); });
 }
 
+Estimate intervalWidths(std::span<const double> accuracies, std::size_t n) {
+    std::vector<double> sorted(accuracies.begin(), accuracies.end());
+    std::ranges::sort(sorted);
+    return widthsAt(grouped(std::move(sorted)), n);
+}
+
 Result<TrialsNeeded> trialsNeeded(std::span<const double> accuracies, const TrialsWanted& wanted) {
     if (auto valid = validate(wanted); !valid) return failure(valid);
     if (accuracies.empty()) return fail(ErrorCode::InvalidArgument, "no accuracy is given; at least one is needed");

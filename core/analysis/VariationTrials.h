@@ -20,12 +20,12 @@
 namespace tacto {
 
 struct TrialsWanted {
-    double width = 0.1;             ///< of the 95 % interval, upper end less lower; 0.02 to 1
-    double chance = 0.25;           ///< which the lower end must exceed; above 0, below 1
-    double assurance = 0.8;         ///< probability with which a pilot reaches what is wanted; 0.5 to 0.999
-    std::size_t conditions = 4;     ///< trials of a participant are a multiple of this
-    std::size_t participants = 12;  ///< of the pilot, for the pooled figures
-    std::size_t most = 20'000;      ///< trials beyond which the search ends
+    double width = 0.1;            ///< of the 95 % interval, upper end less lower; 0.02 to 1
+    double chance = 0.25;          ///< which the lower end must exceed; above 0, below 1
+    double assurance = 0.8;        ///< probability with which a pilot reaches what is wanted; 0.5 to 0.999
+    std::size_t conditions = 4;    ///< trials of a participant are a multiple of this
+    std::size_t participants = 5;  ///< of the pilot, for the pooled figures: the paper plans 3 to 5
+    std::size_t most = 20'000;     ///< trials beyond which the search ends
 };
 /// Errors: InvalidArgument naming the field, its value and what is accepted.
 [[nodiscard]] Result<void> validate(const TrialsWanted& wanted);
@@ -33,10 +33,17 @@ struct TrialsWanted {
 /// P(X ≥ k) for X ~ Binomial(n, p).
 [[nodiscard]] double binomialAtLeast(std::size_t k, std::size_t n, double p) noexcept;
 
+/// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.
+[[nodiscard]] double truncatedBetaQuantile(double a, double b, double from, double q) noexcept;
+
 /// Probability, over the `accuracies`, that the Wilson interval of n trials is at most `width` wide.
 [[nodiscard]] double widthReached(std::span<const double> accuracies, std::size_t n, double width) noexcept;
 /// ... that its lower end lies above `chance`.
 [[nodiscard]] double chanceExceeded(std::span<const double> accuracies, std::size_t n, double chance) noexcept;
+
+/// Width of the Wilson interval of n trials: median and 5 to 95 % over the `accuracies` (not empty) and their outcomes.
+/// Of more than 100, groups of similar ones.
+[[nodiscard]] Estimate intervalWidths(std::span<const double> accuracies, std::size_t n);
 
 /// One aim of a pilot that pools its participants.
 struct PooledTrials {

@@ -2,25 +2,17 @@
 //
 // Everything drawn is log-normal, given by its median and its geometric standard deviation (1.5: two thirds of all
 // people lie between median / 1.5 and median · 1.5), except lapses, which are uniform. What comes out is a prediction,
-// never a measurement.
+// never a measurement. VariationPremises.h says of each default where it is from and which are choices.
 //
-// Sources of the defaults, and what is a choice of ours because no source was found:
-// - Skin: the medians are the bench's skin equivalent (science.md section 6), 200 Ω + (10 kΩ ∥ 50 nF). The spread is a
-//   choice: replace it with the laboratory's own impedance readings.
-// - Thresholds: medians 3.5 mA (perceived) and 13.8 mA (not tolerated) of 81 volunteers at 150 µs, upper arm:
-// Perception
-//   thresholds and qualitative perceptions for electrocutaneous stimulation, Sci Rep 2022 (PMID 35513410). The
-//   fingertip differs and the spread between people is a choice.
-// - Strength against duration: Weiss' law with 151 µs, the time constant of fibres of the fingerpad: Kaczmarek et al.,
-//   The afferent neural response to electrotactile stimuli: preliminary results, IEEE Trans Rehabil Eng 2000.
-// - Weber fractions 0.10 and 0.16: science.md section 10. Their spread between people is a choice.
-// - Lapses: 0 to 0.06, the range that Wichmann and Hill (2001) allow when they fit psychometric functions.
+// Three thresholds are told apart, each a distribution of its own: perception (felt at all), attention (draws attention
+// to itself) and intolerance (not borne). A person's three are correlated and in this order.
 //
 // Thread-safety: values and pure functions.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "core/base/JustNoticeable.h"
@@ -36,17 +28,25 @@ struct LogNormal {
     double median = 1;  ///< > 0
     double spread = 1;  ///< geometric standard deviation, 1 (nobody differs) to 10
 
-    [[nodiscard]] double draw(Random& random) const noexcept;
+    /// `z`: a draw from the standard normal distribution.
+    [[nodiscard]] double at(double z) const noexcept;
+    [[nodiscard]] double draw(Random& random) const noexcept { return at(random.normal()); }
     bool operator==(const LogNormal&) const = default;
 };
 
 struct PopulationModel {
     LogNormal series_ohm{200, 1.5};     ///< R_s
-    LogNormal parallel_ohm{10e3, 1.5};  ///< R_p
-    LogNormal capacitance_nf{50, 1.3};  ///< C
-    LogNormal detection_ma{3.5, 1.4};   ///< smallest current felt, at `thresholdWidth` per phase
-    /// Discomfort over detection, less 1, so that discomfort is above detection in everybody: 13.8 / 3.5 - 1.
-    LogNormal headroom{2.94, 1.3};
+    LogNormal parallel_ohm{10e3, 1.5};  ///< R_p under `skinArea`: falls with the area
+    LogNormal capacitance_nf{50, 1.3};  ///< C under `skinArea`: grows with the area
+    SquareCentimetres skinArea{1};      ///< > 0
+    /// Thresholds at `thresholdWidth` per phase; the medians rise in this order.
+    LogNormal detection_ma{3.5, 1.4};     ///< perception
+    LogNormal attention_ma{6.9, 1.4};     ///< attention
+    LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance
+    double thresholdCorrelation = 0.8;    ///< of the logarithms of a person's thresholds; 0 to 1
+    /// From where stimulation is too strong for a median person, above the median of detection. 9.8: the geometric mean
+    /// of attention and intolerance.
+    double discomfort_ma = 9.8;
     LogNormal amplitudeWeber{kAmplitudeWeberFraction, 1.25};
     LogNormal intervalWeber{kIntervalWeberFraction, 1.25};
     double lapseMost = 0.06;       ///< a participant's lapse rate is uniform from 0 to this; 0 to 1
@@ -58,11 +58,19 @@ struct PopulationModel {
 /// Errors: InvalidArgument naming the field, its value and what is accepted.
 [[nodiscard]] Result<void> validate(const PopulationModel& model);
 
+/// Threshold current at `width` over that at `thresholdWidth` by Weiss' law, (1 + τ/width) / (1 + τ/thresholdWidth).
+[[nodiscard]] double thresholdScale(const PopulationModel& model, Micros width) noexcept;
+
 struct VirtualParticipant {
     std::size_t index = 0;
-    Load skin;
-    Milliamps detection{0};   ///< for pulses of `width`, as drawParticipant() was given it
-    Milliamps discomfort{0};  ///< > detection
+    Load skin;  ///< under the electrode they get
+    /// For pulses of `width`, as drawParticipant() was given it: detection < attention < intolerance.
+    Milliamps detection{0};
+    Milliamps attention{0};
+    Milliamps intolerance{0};
+    /// Too strong from here; > detection. Where the median person's lies between two of the thresholds, this one lies
+    /// in the same proportion between their own, on a logarithmic scale.
+    Milliamps discomfort{0};
     double amplitudeWeber = kAmplitudeWeberFraction;
     double intervalWeber = kIntervalWeberFraction;
     double lapse = 0;  ///< share of trials in which any answer is given
@@ -70,8 +78,9 @@ struct VirtualParticipant {
 };
 
 /// Participant `index` of the population that `seed` makes: the same whoever is drawn before or beside it. `model` has
-/// passed validate(); `width` > 0 is the phase width of the pulses they will get.
+/// passed validate(); `width` > 0 is the phase width of the pulses they will get, `area` > 0 that of each electrode
+/// (nothing: `skinArea`). Thresholds do not depend on the area.
 [[nodiscard]] VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t seed, std::size_t index,
-                                                 Micros width);
+                                                 Micros width, std::optional<SquareCentimetres> area = {});
 
 }  // namespace tacto

@@ -94,6 +94,7 @@ Result<void> Bench::State::open() {
     }
     if (config.devices.oscilloscope) {
         scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope, [this](Capture& capture) {
+            applyStatement(capture, config.devices.scopeStatement);
             const auto told = toldFor(capture, loop->telemetry());
             capture.told = told.amplitude;
             if (!stimulator) return;
@@ -137,6 +138,18 @@ void Bench::State::noteCalibration() {
                                              {"gap_gain", gap.gain},
                                              {"gap_offset_s", gap.offset},
                                              {"text", text}}));
+}
+
+/// Last of all, since counts grow until the end. Without this event the marks of a session are not known.
+void Bench::State::noteMarks() const noexcept {
+    auto calibrated = nlohmann::json();
+    if (stimulator) calibrated = hasCalibration();
+    const auto& u = config.profile.roughness.uncertainty;
+    const auto ofR = u ? nlohmann::json{u->expanded(0), u->expanded(0.5), u->expanded(1)} : nlohmann::json();
+    const nlohmann::json marks{{"flags", loop->flags().texts()},
+                               {"stimulator_calibrated", std::move(calibrated)},
+                               {"R_expanded_uncertainty", ofR}};
+    static_cast<void>(config.session->event(config.clock->now(), kMarksEvent, marks));
 }
 
 /// What the gate and the encoder are told anew is an event: by the file alone it must be known what a train was made of
@@ -291,7 +304,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     return {};
 }
 
-Result<void> Bench::setProfile(const Profile& profile) {
+Result<void> Bench::setProfile(const Profile& profile, RBefore before) {
     auto& s = *state_;
     if (const auto valid = validate(profile.encoding); !valid) return valid;
     const auto state = s.interlock.state();
@@ -305,8 +318,9 @@ Result<void> Bench::setProfile(const Profile& profile) {
     auto finger = s.makeFinger(profile);
     if (!finger) return failure(finger);
     if (const auto noted = s.noteProfile(profile); !noted) return noted;
+    if (s.config.profile.roughness == profile.roughness) before = RBefore::Measuring;  // the next one has its flags
     s.config.profile = profile;
-    if (*finger) s.loop->replaceFinger(std::move(*finger));
+    if (*finger) s.loop->replaceFinger(std::move(*finger), before);
     if (!armed) s.loop->replacePlanner(s.makePlanner(profile));
     return {};
 }
@@ -410,6 +424,7 @@ WorstExposure Bench::worstExposure() const noexcept { return state_->loop->worst
 Telemetry Bench::telemetry() const {
     auto seen = state_->loop->telemetry();
     seen.state = state_->interlock.state();  // a stop shows before the loop's next step
+    seen.uncalibratedStimulator = state_->stimulator && !state_->hasCalibration();
     if (seen.state == InterlockState::Faulted) seen.reason = FixedText<200>(state_->interlock.reason().view());
     return seen;
 }

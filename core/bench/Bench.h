@@ -132,7 +132,8 @@ public:
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
-    [[nodiscard]] Result<void> setProfile(const Profile& profile);
+    /// `before`: what R was shown for until now; see the session's marks.
+    [[nodiscard]] Result<void> setProfile(const Profile& profile, RBefore before = RBefore::Shown);
     /// The calibration that is applied now.
     [[nodiscard]] const KnownLines& calibration() const noexcept;
     /// Leaves the stimulator's calibration aside, or takes it up again: a new one must see the stimulator as it is.

@@ -86,7 +86,9 @@ struct Bench::State {
             recordReport(*recorder, config.clock->now(), reporting->deviceReport(),
                          "what the fingertip sensor and its line were like, when the bench closed");
         }
+        const bool recorded = recorder != nullptr;
         recorder.reset();
+        if (recorded && loop) noteMarks();
     }
 
     /// A stop has come since the operator gave the order that is carried out now.
@@ -154,6 +156,8 @@ struct Bench::State {
     }
     [[nodiscard]] Result<void> takeUpRecord();
     void noteCalibration();
+    void noteMarks() const noexcept;
+    [[nodiscard]] bool hasCalibration() const noexcept { return config.calibration && config.calibrationHolds; }
     [[nodiscard]] Result<void> noteProfile(const Profile& next) const;
     [[nodiscard]] Result<void> noteArming(const ArmRequest& request, const GateSetup& setup) const;
     Result<void> calibrationToday() const;

@@ -80,7 +80,10 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive
     const double scale = current ? 1e3 : 1;
     SeenAmplitude seen;
     seen.amplitude = scale * amplitude;
-    seen.uncertainty = scale * (channel.gainTolerance * amplitude + channel.offsetTolerance + channel.lsb);
+    // What the instrument does not state excuses nothing: a fault is then found sooner (hazard H3).
+    const auto stated = [](double tolerance) { return std::isfinite(tolerance) ? tolerance : 0; };
+    seen.uncertainty = scale * ((stated(channel.gainTolerance) + stated(channel.probeTolerance)) * amplitude +
+                                stated(channel.offsetTolerance) + channel.linearityTolerance + channel.lsb);
     seen.onset = toInstant(Seconds(capture.trigger_s));
     return seen;
 }

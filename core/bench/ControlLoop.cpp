@@ -45,8 +45,10 @@ void ControlLoop::drive(const DriveCommand& command) {
     inboxFull_.store(true, std::memory_order_release);
 }
 
-void ControlLoop::replaceFinger(std::unique_ptr<FingerInput> finger) {
+void ControlLoop::replaceFinger(std::unique_ptr<FingerInput> finger, RBefore before) {
     const std::scoped_lock lock(inboxMutex_);
+    // Of two in one step the first was never used.
+    if (!inbox_.finger) inbox_.before = before;
     inbox_.finger = std::move(finger);
     inboxFull_.store(true, std::memory_order_release);
 }
@@ -172,7 +174,7 @@ void ControlLoop::takeCommands(Instant now) noexcept {
         taken = std::exchange(inbox_, {});
         inboxFull_.store(false, std::memory_order_release);
     }
-    if (taken.finger) finger_ = std::move(taken.finger);
+    if (taken.finger) takeFinger(std::move(taken.finger), taken.before);
     if (taken.planner) planner_ = std::move(taken.planner);
     if (taken.drive) {
         drive_ = *taken.drive;
@@ -321,6 +323,8 @@ void ControlLoop::readFinger(Instant now) noexcept {
     shown_.samplesLost = finger_->session().samplesLost();
     shown_.sensorFinished = finger_->session().finished();
     shown_.gaps = finger_->gaps();
+    shown_.flags = flagsKept_;
+    shown_.flags.include(finger_->flags());
 }
 
 /// A sensor that is gone ends the output, whatever drives it: somebody pulled a plug at the finger.
@@ -407,10 +411,38 @@ void ControlLoop::updateWish(Instant now) noexcept {
         planner_->wantNothing();
         return;
     }
+    noteFlags(now);
     const auto pressure = std::isnan(frame.P) ? std::nullopt : std::optional(frame.P);
     if (const auto wanted = planner_->want(frame.R, pressure, now); !wanted) {
         refused(now, wanted.error().message);
     }
+}
+
+void ControlLoop::takeFinger(std::unique_ptr<FingerInput> finger, RBefore before) noexcept {
+    if (finger_) {
+        auto flags = finger_->flags();
+        if (before == RBefore::Measuring) flags.dropCalibration();
+        flagsKept_.include(flags);
+    }
+    finger_ = std::move(finger);
+}
+
+RoughnessFlags ControlLoop::flags() noexcept {
+    const std::scoped_lock lock(inboxMutex_);
+    if (inbox_.finger) takeFinger(std::move(inbox_.finger), inbox_.before);
+    auto all = flagsKept_;
+    if (finger_) all.include(finger_->flags());
+    return all;
+}
+
+/// Every flag under which R drives the output is in the session before the bench closes: it may never close.
+void ControlLoop::noteFlags(Instant now) noexcept {
+    const auto flags = finger_->flags();
+    for (std::size_t i = 0; i < flags.times.size(); ++i) {
+        if (flags.times[i] == 0 || flagsKept_.times[i] != 0 || parts_.recorder == nullptr) continue;
+        parts_.recorder->event(now, kMarkEvent, {}, nameOf(static_cast<RoughnessFlag>(i)));
+    }
+    flagsKept_.include(flags);
 }
 
 void ControlLoop::sendTrain(Instant now) noexcept {

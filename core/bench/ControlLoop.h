@@ -48,6 +48,12 @@ struct ArmCommand {
     bool confirmByCapture = false;
 };
 
+/// What R was for before another profile takes over.
+enum class RBefore {
+    Shown,     ///< that it was not calibrated is a mark of the session
+    Measuring  ///< for the references and scales of the new profile alone
+};
+
 class ControlLoop {
 public:
     /// The time from one step to the next.
@@ -80,7 +86,8 @@ public:
     [[nodiscard]] std::optional<Result<void>> armed();
     void drive(const DriveCommand& command);
     void pauseOutput(bool paused) noexcept { paused_.store(paused, std::memory_order_release); }
-    void replaceFinger(std::unique_ptr<FingerInput> finger);
+    /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
+    void replaceFinger(std::unique_ptr<FingerInput> finger, RBefore before);
     void replacePlanner(std::unique_ptr<TrainPlanner> planner);
     /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned; null ends it, and on return
     /// nothing pushes into the one before. From another thread.
@@ -111,6 +118,8 @@ public:
     void beginOrder() noexcept;
     /// The largest exposure since then, row by row, over every train. Any thread.
     [[nodiscard]] WorstExposure worstExposure() const noexcept { return latestWorst_.read(); }
+    /// See Telemetry::flags, as of the profile that was set last. For when no step runs any more.
+    [[nodiscard]] RoughnessFlags flags() noexcept;
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
@@ -119,6 +128,7 @@ private:
         std::optional<ArmCommand> arm;
         std::optional<DriveCommand> drive;
         std::unique_ptr<FingerInput> finger;
+        RBefore before = RBefore::Shown;
         std::unique_ptr<TrainPlanner> planner;
         std::optional<SeenLoad> load;
         std::optional<Result<Ohms>> confirmed;
@@ -158,6 +168,8 @@ private:
     void judgeCheck(const TrainReport& report) noexcept;
     void watchForSilence(Instant now) noexcept;
     void updateWish(Instant now) noexcept;
+    void noteFlags(Instant now) noexcept;
+    void takeFinger(std::unique_ptr<FingerInput> finger, RBefore before) noexcept;
     void sendTrain(Instant now) noexcept;
     void sendBurst(Instant now) noexcept;
     [[nodiscard]] bool beginDelivery() noexcept;
@@ -171,6 +183,7 @@ private:
     Parts parts_;
     std::unique_ptr<FingerInput> finger_;
     std::unique_ptr<TrainPlanner> planner_;
+    RoughnessFlags flagsKept_;  // of fingers before this one, and what has driven the output
     std::atomic<bool> paused_{false};
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};

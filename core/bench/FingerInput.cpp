@@ -28,7 +28,8 @@ double largestPlausible(const StreamInfo& stream) noexcept {
 }  // namespace
 
 Result<std::unique_ptr<FingerInput>> FingerInput::create(SensorSession& session, const RoughnessSettings& settings) {
-    auto chain = RoughnessChain::create(session.device().streams(), settings, session.device().declared());
+    auto chain = RoughnessChain::create(session.device().streams(), settings, session.device().declared(),
+                                        session.device().identity().serial);
     if (!chain) return failure(chain);
     return std::unique_ptr<FingerInput>(new FingerInput(session, std::move(*chain)));
 }
@@ -52,7 +53,7 @@ void FingerInput::update() {
     const auto streams = session_.device().streams();
     for (std::size_t s = 0; s < blocks_.size(); ++s) {
         health_[s].feed(blocks_[s], streams[s].channels);
-        watchRange(blocks_[s], streams[s]);
+        watchRange(s);
     }
     frames_.clear();
     chain_->feed(blocks_, frames_);
@@ -80,10 +81,13 @@ bool FingerInput::fresh(double now_s) const noexcept {
            !(std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s);
 }
 
-void FingerInput::watchRange(const SampleBlock& block, const StreamInfo& stream) noexcept {
-    const double largest = largestPlausible(stream);
+void FingerInput::watchRange(std::size_t stream) noexcept {
+    const auto& block = blocks_[stream];
+    const auto& info = chain_->streams()[stream];
+    const double largest = largestPlausible(info);
     for (std::size_t i = 0; i < block.values.size(); ++i) {
-        if (!(std::abs(block.values[i]) <= largest)) implausible_s_ = block.t_s[i / stream.channels];
+        const double value = chain_->inUse(stream, i % info.channels, block.values[i]);
+        if (!(std::abs(value) <= largest)) implausible_s_ = block.t_s[i / info.channels];
     }
 }
 

@@ -32,11 +32,11 @@ public:
     /// the future, and no value of the last 100 ms was outside what a fingertip can give (hazard H7).
     [[nodiscard]] bool fresh(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;
-    [[nodiscard]] std::vector<std::string> flags() const { return chain_->flags(); }
+    [[nodiscard]] RoughnessFlags flags() const noexcept { return chain_->flags(); }
     [[nodiscard]] SensorSession& session() const noexcept { return session_; }
 
 private:
-    void watchRange(const SampleBlock& block, const StreamInfo& stream) noexcept;
+    void watchRange(std::size_t stream) noexcept;
     FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain> chain);
 
     SensorSession& session_;

@@ -6,7 +6,8 @@
 //
 // The sections `roughness` and `encoding` are described in core/dsp/RoughnessSettings.h and
 // core/encoding/EncodingProfile.h; a ceiling's key is a quantity of core/safety/Quantity.h, its value in that
-// quantity's unit. What a file leaves out keeps the shipped value (resources/encodings/default.json).
+// quantity's unit. What a file leaves out keeps the shipped value (resources/encodings/default.json), but
+// for the limits on a step from train to train: a file that names none has none.
 //
 // Thread-safety: values; pure functions but for reading files.
 #pragma once

@@ -28,4 +28,14 @@ std::optional<std::string> beyondReach(const Profile& profile, const SourceTrait
         profile.name, low, high, device, most, how, most < low ? "all its trains" : "trains above that", most);
 }
 
+std::optional<std::string> madeWithAnother(const Profile& profile, std::string_view serial) {
+    const auto& sensor = profile.roughness.sensor;
+    if (!sensor || matchOf(*sensor, serial) != FingertipMatch::Another) return std::nullopt;
+    return fmt::format(
+        "the profile \"{}\" was made with the fingertip {}, and this one is {}: its scales of force and taxels are "
+        "left "
+        "aside, and R is uncalibrated. Calibrate this fingertip, or choose its own profile",
+        profile.name, sensor->fingertip, serial);
+}
+
 }  // namespace tacto

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/base/Units.h"
+#include "core/dsp/RoughnessFlags.h"
 #include "core/safety/Exposure.h"
 #include "core/safety/FixedText.h"
 #include "core/safety/Interlock.h"
@@ -42,6 +43,7 @@ struct Telemetry {
     double pressure_pa = NAN;
     bool contact = false;
     bool sliding = false;
+    RoughnessFlags flags;             ///< of R and P: those shown now, and those that have driven the output
     double sensorAge_s = NAN;         ///< of the newest sample
     bool sensorFinished = false;      ///< a replayed sensor has no more samples
     std::uint64_t slidingFrames = 0;  ///< frames with a spectral feature so far, and the sum of it:
@@ -59,11 +61,12 @@ struct Telemetry {
     double imbalance = NAN;             ///< of the last pulse: |net charge| / phase charge
     double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
-    double trainAmplitude = NAN;        ///< as the stimulator was told for the last train, V or mA by its drive
-    std::array<ToldTrain, 8> told{};    ///< the last trains, in no order; those that are not there have no amplitude
-    std::uint64_t trainsDelivered = 0;  ///< or bursts
-    std::uint64_t trainsRefused = 0;    ///< by the limits
-    std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data
+    bool uncalibratedStimulator = false;  ///< one is open, and no calibration of it holds
+    double trainAmplitude = NAN;          ///< as the stimulator was told for the last train, V or mA by its drive
+    std::array<ToldTrain, 8> told{};      ///< the last trains, in no order; those that are not there have no amplitude
+    std::uint64_t trainsDelivered = 0;    ///< or bursts
+    std::uint64_t trainsRefused = 0;      ///< by the limits
+    std::uint64_t trainsSkipped = 0;      ///< for stale or missing sensor data
     FixedText<200> lastRefusal;
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< found in the sensor streams

@@ -42,53 +42,36 @@ Result<void> staysNear(const PulseTrain& told, const PulseTrain& command) {
 
 TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                            const KnownLines& calibration)
-    : encoder_(profile), source_(source), calibration_(calibration), gate_(gate) {}
+    : source_(source), calibration_(calibration), gate_(gate), series_(profile, calibration) {}
 
 Result<void> TrainPlanner::want(double roughness, std::optional<double> pressure, Instant now) {
-    const auto encoded = encoder_.encode(roughness, pressure);
+    const auto encoded = encoder().encode(roughness, pressure);
     if (!encoded) {
         wantNothing();
         return failure(encoded);
     }
-    const bool starting = !wanted_;
-    wanted_ = *encoded;
-    command_ = last_ ? encoder_.limited(*last_, *wanted_, Seconds(now - lastOnset_)) : *wanted_;
-    const Seconds interval = toldFor(command_->interval, calibration_);
-    if (starting)
-        scheduler_.start(now, interval);
-    else
-        scheduler_.setInterval(interval, now);
+    series_.want(*encoded, now);
     return {};
 }
 
-void TrainPlanner::wantNothing() noexcept {
-    wanted_.reset();
-    command_.reset();
-    scheduler_.off();
-}
-
-Command TrainPlanner::begin(Instant onset) {
-    if (last_) command_ = encoder_.limited(*last_, *wanted_, Seconds(onset - lastOnset_));
-    scheduler_.trainAt(onset);
-    return *command_;
-}
+void TrainPlanner::wantNothing() noexcept { series_.wantNothing(); }
 
 Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
-    const Instant onset = std::max(scheduler_.due().value_or(now), now);
-    const Command command = begin(onset);
-    auto approved = gate_.approve(VibrationBurst{.intensity = encoder_.massagerIntensity(command.amplitude)});
+    const Instant onset = std::max(series_.due().value_or(now), now);
+    const Command command = series_.begin(onset);
+    auto approved = gate_.approve(VibrationBurst{.intensity = encoder().massagerIntensity(command.amplitude)});
     if (!approved) return failure(approved);
-    last_ = command;
-    lastOnset_ = onset;
+    series_.delivered();
     return PlannedBurst{std::move(*approved), onset, command};
 }
 
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
-    const Instant onset = std::max(scheduler_.due().value_or(now), now);
-    const Command command = begin(onset);
-    const auto held = heldAmplitude(encoder_.profile().hold, command.amplitude, armed_, impedance ? impedance : armed_);
+    const Instant onset = std::max(series_.due().value_or(now), now);
+    const Command command = series_.begin(onset);
+    const auto held =
+        heldAmplitude(encoder().profile().hold, command.amplitude, armed_, impedance ? impedance : armed_);
     if (!held) return failure(held);
-    const auto train = trainFor(source_.drive, encoder_.profile(), *held, impedance);
+    const auto train = trainFor(source_.drive, encoder().profile(), *held, impedance);
     if (!train) return failure(train);
     const PulseTrain told = toldFor(*train, calibration_);
     if (auto near = staysNear(told, *train); !near) return failure(near);
@@ -98,8 +81,7 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (!rounded) return failure(rounded);
     auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
     if (!approved) return failure(approved);
-    last_ = command;
-    lastOnset_ = onset;
+    series_.delivered();
     const double level = levelOf(rounded->train);
     return PlannedTrain{std::move(*approved),
                         onset,

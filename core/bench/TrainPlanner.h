@@ -9,7 +9,7 @@
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Rounding.h"
 #include "core/encoding/StimulatorCalibration.h"
-#include "core/encoding/TrainScheduler.h"
+#include "core/encoding/TrainSeries.h"
 #include "core/safety/SafetyGate.h"
 
 namespace tacto {
@@ -47,9 +47,9 @@ public:
     void wantNothing() noexcept;
 
     /// When the next train is due; nothing while none is wanted.
-    [[nodiscard]] std::optional<Instant> due() const noexcept { return scheduler_.due(); }
+    [[nodiscard]] std::optional<Instant> due() const noexcept { return series_.due(); }
     /// The command of the next train; nothing while none is wanted.
-    [[nodiscard]] const std::optional<Command>& command() const noexcept { return command_; }
+    [[nodiscard]] const std::optional<Command>& command() const noexcept { return series_.command(); }
 
     /// Has the due train judged, for an onset at max(due, now). Whether it is approved or refused, the next one is an
     /// interval later. Errors: as heldAmplitude(),
@@ -61,18 +61,12 @@ public:
     [[nodiscard]] Result<PlannedBurst> planBurst(Instant now);
 
 private:
-    /// The command of the train that begins now, booked in the schedule.
-    [[nodiscard]] Command begin(Instant onset);
+    [[nodiscard]] const Encoder& encoder() const noexcept { return series_.encoder(); }
 
-    const Encoder encoder_;
     const SourceTraits source_;
     const KnownLines calibration_;
     SafetyGate& gate_;
-    TrainScheduler scheduler_;
-    std::optional<Command> wanted_;
-    std::optional<Command> command_;  // wanted_ under the slew limits
-    std::optional<Command> last_;     // of the last train
-    Instant lastOnset_{0};
+    TrainSeries series_;  // what is wanted, under the limits on a step
     std::optional<Ohms> armed_;
 };
 

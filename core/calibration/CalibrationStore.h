@@ -1,8 +1,6 @@
 // CalibrationStore.h - the calibrations of a lab's stimulators: one file, a line per calibration, never overwritten.
 //
-// Each line is a JSON object that carries its number, the SHA-256 of the line before it and its own; so a line that was
-// changed, taken out or put in is found when the file is read. A newer calibration of the same serial supersedes the
-// older one, which stays. The last line may be cut short by a crash while it was written: it is left out, and said so.
+// The lines are chained (ChainedLines.h). A newer calibration of the same serial supersedes the older one, which stays.
 //
 // A calibration counts for one serial and one kind of source, until a date at most a year later, and only with its
 // provenance: the session that holds its readings, and the stated accuracy of the instrument that took them. What is
@@ -14,22 +12,17 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/ChainedLines.h"
 #include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto {
-
-/// A calendar date, UTC.
-using CalibrationDate = std::chrono::year_month_day;
-/// "2026-11-21". Nothing for another form or a day that does not exist.
-[[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
-[[nodiscard]] std::string dateText(CalibrationDate date);
 
 /// An instrument that a calibration rests on.
 struct CalibrationInstrument {
@@ -102,17 +95,14 @@ public:
                                                   bool simulated) const;
 
     [[nodiscard]] const std::vector<StoredCalibration>& all() const noexcept { return all_; }
-    [[nodiscard]] bool lastLineCut() const noexcept { return cut_; }
+    [[nodiscard]] bool lastLineCut() const noexcept { return lines_.lastLineCut(); }
 
 private:
-    explicit CalibrationStore(std::filesystem::path file) : file_(std::move(file)) {}
-    [[nodiscard]] Result<void> read(std::string_view text);
+    explicit CalibrationStore(std::filesystem::path file) : lines_(std::move(file), "calibration") {}
+    [[nodiscard]] Result<void> read();
 
-    std::filesystem::path file_;
+    ChainedLines lines_;
     std::vector<StoredCalibration> all_;
-    std::string head_;  // SHA-256 of the last line; empty before the first
-    std::size_t wholeBytes_ = 0;
-    bool cut_ = false;
 };
 
 /// $XDG_DATA_HOME/tactoscope/calibrations.jsonl, or ~/.local/share/tactoscope/calibrations.jsonl.

@@ -1,33 +1,11 @@
 #include "core/calibration/StoredCalibrationJson.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace tacto {
 
 using nlohmann::json;
-
-std::optional<CalibrationDate> parseDate(std::string_view text) {
-    if (text.size() != 10 || text[4] != '-' || text[7] != '-') return std::nullopt;
-    const auto number = [&](std::size_t from, std::size_t length) -> std::optional<int> {
-        int value = 0;
-        const char* end = text.data() + from + length;
-        const auto read = std::from_chars(text.data() + from, end, value);
-        if (read.ec != std::errc() || read.ptr != end || value < 0) return std::nullopt;
-        return value;
-    };
-    const auto year = number(0, 4), month = number(5, 2), day = number(8, 2);
-    if (!year || !month || !day) return std::nullopt;
-    const CalibrationDate date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
-                               std::chrono::day(static_cast<unsigned>(*day))};
-    return date.ok() ? std::optional(date) : std::nullopt;
-}
-
-std::string dateText(CalibrationDate date) {
-    return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                       static_cast<unsigned>(date.day()));
-}
 
 namespace {
 

@@ -14,6 +14,7 @@
 #include "core/devices/Oscilloscope.h"
 #include "core/devices/Stimulator.h"
 #include "core/devices/TactileSensor.h"
+#include "core/measure/InstrumentStatement.h"
 #include "core/safety/StopCounter.h"
 
 namespace tacto {
@@ -39,8 +40,12 @@ struct DeviceSet {
     std::unique_ptr<Stimulator> stimulator;
     std::unique_ptr<Oscilloscope> oscilloscope;
     std::unique_ptr<Massager> massager;
-    std::shared_ptr<SurfacePresenter> surface;  ///< null: the operator presents surfaces
-    std::shared_ptr<LoadFitter> load;           ///< null: the operator fits loads
+    InstrumentStatement scopeStatement;  ///< of the oscilloscope, beside what its captures state themselves
+    /// The keys of its address that said so, as they were given: part of the address that identities() gives.
+    std::vector<std::pair<std::string, std::string>> scopeKeys;
+    std::shared_ptr<SurfacePresenter> surface;    ///< null: the operator presents surfaces
+    std::shared_ptr<LoadFitter> load;             ///< null: the operator fits loads
+    std::shared_ptr<VoltageReference> reference;  ///< null: the operator connects a reference source
 
     [[nodiscard]] bool has(Role role) const noexcept;
     [[nodiscard]] std::vector<DeviceIdentity> identities() const;
@@ -68,6 +73,7 @@ public:
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
     /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
+    /// The keys of StatementKeys.h are taken from the address of the oscilloscope.
     /// A stop ends the opening as soon as the driver that is at work returns; what was opened is switched off and
     /// closed. Errors: Stopped; NotFound naming the unknown scheme and the known ones, or the role that nothing fills;
     /// as Driver::open().

@@ -40,6 +40,14 @@ public:
     virtual void disarm() noexcept = 0;
 };
 
+/// A voltage of known size that can be put on the oscilloscope's voltage input without a person; without it the
+/// operator is asked to connect a source. 0 takes it away.
+class VoltageReference {
+public:
+    virtual ~VoltageReference() = default;
+    [[nodiscard]] virtual Result<void> applyVoltage(double volts) = 0;
+};
+
 /// A bench whose load can be changed without a person; without it the operator is asked to.
 /// The text is what parseLoad() reads: "500 ohm", "open", "200 ohm + 10 kohm || 50 nF".
 class LoadFitter {

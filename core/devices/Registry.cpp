@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <iterator>
 
 #include "core/devices/Driver.h"
+#include "core/devices/StatementKeys.h"
 
 namespace tacto {
 
@@ -36,7 +38,13 @@ std::vector<DeviceIdentity> DeviceSet::identities() const {
     std::vector<DeviceIdentity> found;
     const Device* all[] = {sensor.get(), stimulator.get(), oscilloscope.get(), massager.get()};
     for (const auto* device : all) {
-        if (device != nullptr) found.push_back(device->identity());
+        if (device == nullptr) continue;
+        auto& identity = found.emplace_back(device->identity());
+        if (device != oscilloscope.get() || scopeKeys.empty()) continue;
+        auto address = DeviceUri::parse(identity.uri);
+        if (!address) continue;
+        address->parameters.insert(address->parameters.end(), scopeKeys.begin(), scopeKeys.end());
+        identity.uri = address->text();
     }
     return found;
 }
@@ -81,12 +89,24 @@ Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set
         return fail(ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered");
     };
     if (context.stopped()) return stopped();
-    for (const auto& uri : order) {
+    for (auto& uri : order) {
         const auto driver = driverFor(uri);
         if (!driver) return failure(driver);
+        const auto given = uri.parameters;
+        const auto stated = takeStatement(uri);
+        if (!stated) return failure(stated);
+        const bool hadScope = devices.has(Role::Oscilloscope);
         const auto opened = (*driver)->open(uri, needed, context, devices);
         if (context.stopped()) return stopped();
         if (!opened) return failure(opened);
+        if (!*stated) continue;
+        if (hadScope || !devices.has(Role::Oscilloscope)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "device \"{}\" is no oscilloscope; its address states how accurate one is", uri.text());
+        }
+        devices.scopeStatement = **stated;
+        std::ranges::copy_if(given, std::back_inserter(devices.scopeKeys),
+                             [](const auto& parameter) { return statesAccuracy(parameter.first); });
     }
     for (const auto role : needed) {
         if (devices.has(role)) continue;

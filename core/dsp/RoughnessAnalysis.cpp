@@ -45,17 +45,18 @@ RoughnessSummary summarise(std::span<const RoughnessFrame> frames) {
 }
 
 Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams, std::span<const SampleBlock> blocks,
-                                         const RoughnessSettings& settings, const DeclaredIntervals& declared) {
+                                         const RoughnessSettings& settings, const DeclaredIntervals& declared,
+                                         std::string_view serial) {
     if (blocks.size() != streams.size()) {
         return fail(ErrorCode::InvalidArgument, "roughness: {} streams and {} blocks of samples; as many were expected",
                     streams.size(), blocks.size());
     }
-    auto chain = RoughnessChain::create(streams, settings, declared);
+    auto chain = RoughnessChain::create(streams, settings, declared, serial);
     if (!chain) return failure(chain);
 
     RoughnessResult result;
     runWhole(**chain, blocks, result.frames);
-    auto flags = (*chain)->flags();
+    auto flags = (*chain)->flags().texts();
     if (declared.baseline) {
         // The baseline may lie behind frames that need it: the first pass was to learn it.
         if (const auto* rest = (*chain)->rest()) {

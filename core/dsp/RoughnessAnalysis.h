@@ -32,7 +32,8 @@ struct RoughnessResult {
 [[nodiscard]] Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams,
                                                        std::span<const SampleBlock> blocks,
                                                        const RoughnessSettings& settings,
-                                                       const DeclaredIntervals& declared = {});
+                                                       const DeclaredIntervals& declared = {},
+                                                       std::string_view serial = {});
 
 [[nodiscard]] RoughnessSummary summarise(std::span<const RoughnessFrame> frames);
 

@@ -12,6 +12,7 @@
 #include "core/dsp/RoughnessIndex.h"
 #include "core/dsp/SlidingRest.h"
 #include "core/dsp/StreamCheck.h"
+#include "core/dsp/StreamScaling.h"
 #include "core/dsp/TaxelTrack.h"
 
 namespace tacto {
@@ -24,7 +25,8 @@ constexpr double kSkew_s = 0.25;   // how far it may between calls, with margin
 }  // namespace
 
 struct RoughnessChain::State {
-    State(std::span<const StreamInfo> infos, const RoughnessSettings& chosen, const DeclaredIntervals& stated);
+    State(std::span<const StreamInfo> infos, const RoughnessSettings& chosen, const DeclaredIntervals& stated,
+          std::string_view serial);
 
     void feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames);
     void takeSlice(std::span<const SampleBlock> blocks);
@@ -43,7 +45,8 @@ struct RoughnessChain::State {
     void clear();
 
     // Constant after construction
-    std::vector<StreamInfo> streams;
+    StreamScaling scaling;
+    const std::vector<StreamInfo>& streams;  // in the units in use
     RoughnessSettings settings;
     DeclaredIntervals declared;
     std::optional<StreamInfo> accelerationInfo, forceInfo, taxelInfo;
@@ -69,8 +72,13 @@ struct RoughnessChain::State {
 };
 
 RoughnessChain::State::State(std::span<const StreamInfo> infos, const RoughnessSettings& chosen,
-                             const DeclaredIntervals& stated)
-    : streams(infos.begin(), infos.end()), settings(chosen), declared(stated), taken(infos.size()) {
+                             const DeclaredIntervals& stated, std::string_view serial)
+    : scaling(infos, chosen.sensor, serial),
+      streams(scaling.streams()),
+      settings(chosen),
+      declared(stated),
+      taken(infos.size()) {
+    if (!scaling.holds()) settings.calibrated = false;
     for (const auto& info : streams) {
         if (info.kind == StreamKind::Acceleration) accelerationInfo = info;
         if (info.kind == StreamKind::Force) forceInfo = info;
@@ -147,10 +155,12 @@ void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, s
             acceleration->push(std::span(block.t_s).subspan(begin, end - begin), values);
             return;
         case StreamKind::Force:
-            for (std::size_t i = begin; i < end; ++i) force->push(block.t_s[i], block.values[i]);
+            for (std::size_t i = begin; i < end; ++i)
+                force->push(block.t_s[i], scaling.inUse(stream, 0, block.values[i]));
             break;
         case StreamKind::Taxels:
-            for (std::size_t i = begin; i < end; ++i, values += info.channels) taxels->push(block.t_s[i], values);
+            for (std::size_t i = begin; i < end; ++i, values += info.channels)
+                taxels->push(block.t_s[i], scaling.scaled(stream, values));
             break;
     }
     if (!acceleration && info.kind == pacedBy) {
@@ -315,10 +325,13 @@ RoughnessChain::~RoughnessChain() = default;
 
 Result<std::unique_ptr<RoughnessChain>> RoughnessChain::create(std::span<const StreamInfo> streams,
                                                                const RoughnessSettings& settings,
-                                                               const DeclaredIntervals& declared) {
+                                                               const DeclaredIntervals& declared,
+                                                               std::string_view serial) {
     if (const auto valid = validate(settings); !valid) return failure(valid);
     if (const auto good = checkStreams(streams); !good) return failure(good);
-    return std::unique_ptr<RoughnessChain>(new RoughnessChain(std::make_unique<State>(streams, settings, declared)));
+    if (const auto fits = checkScales(streams, settings.sensor, serial); !fits) return failure(fits);
+    return std::unique_ptr<RoughnessChain>(
+        new RoughnessChain(std::make_unique<State>(streams, settings, declared, serial)));
 }
 
 void RoughnessChain::feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames) {
@@ -351,39 +364,40 @@ const RestLevels* RoughnessChain::rest() const noexcept {
 
 double RoughnessChain::framePeriod_s() const noexcept { return state_->period_s; }
 
-std::vector<std::string> RoughnessChain::flags() const {
+std::span<const StreamInfo> RoughnessChain::streams() const noexcept { return state_->streams; }
+
+double RoughnessChain::inUse(std::size_t stream, std::size_t channel, double reading) const noexcept {
+    return state_->scaling.inUse(stream, channel, reading);
+}
+
+RoughnessFlags RoughnessChain::flags() const noexcept {
+    using enum RoughnessFlag;
     const auto& s = *state_;
-    std::vector<std::string> out;
-    const auto say = [&out](bool given, std::string text) {
-        if (given) out.push_back(std::move(text));
-    };
-    say(s.acceleration && s.acceleration->bandTruncated(), "band truncated");
-    say(s.spectrumEmpty, "no spectral feature");
-    say(!s.force, "not force-normalised");
-    say(s.contactAssumed, "contact assumed");
-    say(s.sliding->assumed(), "sliding assumed");
-    say(s.taxels && s.taxels->baselineAssumed(), "baseline assumed");
-    say(!s.settings.calibrated, "uncalibrated R");
-    say(std::ranges::any_of(s.streams, [](const auto& info) { return info.unit == StreamUnit::Count; }),
-        "uncalibrated units");
-    const auto count = [&](std::size_t number, const char* what) {
-        say(number > 0, fmt::format("{}: {}", what, number));
-    };
+    RoughnessFlags out;
+    out.raise(BandTruncated, s.acceleration && s.acceleration->bandTruncated());
+    out.raise(NoSpectralFeature, s.spectrumEmpty);
+    out.raise(NotForceNormalised, !s.force);
+    out.raise(ContactAssumed, s.contactAssumed);
+    out.raise(SlidingAssumed, s.sliding->assumed());
+    out.raise(BaselineAssumed, s.taxels && s.taxels->baselineAssumed());
+    out.raise(UncalibratedR, !s.settings.calibrated);
+    out.raise(UncalibratedUnits,
+              std::ranges::any_of(s.streams, [](const auto& info) { return info.unit == StreamUnit::Count; }));
+    s.scaling.raise(out);
     if (s.force) {
-        const double end = s.horizon_s();
-        count(s.force->staleStretches(end), "force stale");
-        count(s.force->invalidSamples(), "not a number in force");
-        count(s.force->outOfOrder(), "repeats or clock steps in force");
+        out.count(ForceStale, s.force->staleStretches(s.horizon_s()));
+        out.count(ForceInvalid, s.force->invalidSamples());
+        out.count(ForceOrder, s.force->outOfOrder());
     }
     if (s.acceleration) {
         const auto& lost = s.acceleration->losses();
-        count(lost.gaps, "gaps in acceleration");
-        count(lost.repeats + lost.clockSteps, "repeats or clock steps in acceleration");
-        count(lost.invalid, "not a number in acceleration");
+        out.count(AccelerationGaps, lost.gaps);
+        out.count(AccelerationOrder, lost.repeats + lost.clockSteps);
+        out.count(AccelerationInvalid, lost.invalid);
     }
     if (s.taxels) {
-        count(s.taxels->invalidSamples(), "not a number in taxels");
-        count(s.taxels->outOfOrder(), "repeats or clock steps in taxels");
+        out.count(TaxelsInvalid, s.taxels->invalidSamples());
+        out.count(TaxelsOrder, s.taxels->outOfOrder());
     }
     return out;
 }

@@ -14,6 +14,10 @@
 // with the normalisation undone sample by sample says so too: one force for the whole window would turn the sensor's
 // noise into a vibration, and static contact must never read as rough (hazard H7).
 //
+// Force and taxels are turned into N and Pa here, by the scales that the settings hold for this fingertip; everything
+// behind, flags included, sees the units in use. Scales of another fingertip (by serial number) or for readings in
+// another unit are left aside and flagged, and R is then uncalibrated too.
+//
 // What is not finite, repeated or stepped back in time is not used; a gap or a NaN in acceleration starts the
 // filter and the windows anew behind it. All of it is counted and shows among the flags.
 //
@@ -24,10 +28,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
+#include "core/dsp/RoughnessFlags.h"
 #include "core/dsp/RoughnessSettings.h"
 
 namespace tacto {
@@ -47,7 +53,7 @@ struct RoughnessFrame {
 /// What the sensors read at rest. Measured by the chain itself; given to it where the rest lies later in a recording
 /// than the frames that need it.
 struct RestLevels {
-    std::vector<double> taxelBaseline;  ///< per taxel, in the stream's unit; empty without taxels
+    std::vector<double> taxelBaseline;  ///< per taxel, in the unit in use; empty without taxels
     double taxelFloor = 0;              ///< 3 standard deviations of the taxel mean
     double slidingMeanSquare = std::numeric_limits<double>::quiet_NaN();  ///< see RoughnessSettings; NaN = not known
 };
@@ -55,10 +61,13 @@ struct RestLevels {
 class RoughnessChain {
 public:
     /// Errors: InvalidArgument for settings that validate() refuses, two streams of a kind, no stream at all, a rate
-    /// outside 100 Hz..20 kHz for acceleration or not positive, fewer than 2 taxels, more than 3 axes.
+    /// outside 100 Hz..20 kHz for acceleration or not positive, fewer than 2 taxels, more than 3 axes, scales of
+    /// this fingertip for another number of taxels. `serial` is of the fingertip that gives the samples; empty: not
+    /// known.
     [[nodiscard]] static Result<std::unique_ptr<RoughnessChain>> create(std::span<const StreamInfo> streams,
                                                                         const RoughnessSettings& settings,
-                                                                        const DeclaredIntervals& declared = {});
+                                                                        const DeclaredIntervals& declared = {},
+                                                                        std::string_view serial = {});
     ~RoughnessChain();
     RoughnessChain(const RoughnessChain&) = delete;
     RoughnessChain& operator=(const RoughnessChain&) = delete;
@@ -77,9 +86,13 @@ public:
     /// The levels in use, once they are known.
     [[nodiscard]] const RestLevels* rest() const noexcept;
 
-    /// True when the data so far gave this flag; all of them as science.md names them, plus counts of what was not
-    /// used ("gaps in acceleration: 2"). Allocates: for reports, not for the loop.
-    [[nodiscard]] std::vector<std::string> flags() const;
+    /// As given to create(), in the units in use.
+    [[nodiscard]] std::span<const StreamInfo> streams() const noexcept;
+    /// A reading of one channel in the unit in use.
+    [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
+
+    /// What the data so far gave.
+    [[nodiscard]] RoughnessFlags flags() const noexcept;
 
     /// Time between frames where nothing is missing.
     [[nodiscard]] double framePeriod_s() const noexcept;

@@ -152,6 +152,19 @@ Result<void> readReferences(const Section& root, RoughnessSettings& into) {
         [&] { return readSurface(section, "rough", into.roughSurface); });
 }
 
+Result<void> readFingertip(const Json& root, RoughnessSettings& into) {
+    if (root.contains("sensor")) {
+        auto sensor = sensorScalesFromJson(root["sensor"]);
+        if (!sensor) return failure(sensor);
+        into.sensor = *std::move(sensor);
+    }
+    if (!root.contains("uncertainty")) return {};
+    auto uncertainty = roughnessUncertaintyFromJson(root["uncertainty"]);
+    if (!uncertainty) return failure(uncertainty);
+    into.uncertainty = *uncertainty;
+    return {};
+}
+
 }  // namespace
 
 double ReferenceScale::g(double x) const noexcept {
@@ -207,7 +220,7 @@ Result<RoughnessSettings> roughnessSettingsFromJson(const nlohmann::json& json) 
         [&] {
             return root.only({"spectral_feature", "taxel_feature", "band_low_hz", "spectral_weight", "taxel_weight",
                               "calibrated", "references", "surfaces", "smoothing_s", "contact_area_cm2",
-                              "pressure_min_pa", "pressure_max_pa", "rest"});
+                              "pressure_min_pa", "pressure_max_pa", "rest", "sensor", "uncertainty"});
         },
         [&] { return root.choice("spectral_feature", "h", "h_abs", absolute); },
         [&] { return root.choice("taxel_feature", "static", "dynamic", dynamic); },
@@ -217,7 +230,7 @@ Result<RoughnessSettings> roughnessSettingsFromJson(const nlohmann::json& json) 
         [&] { return root.boolean("calibrated", s.calibrated); }, [&] { return root.number("smoothing_s", smoothing); },
         [&] { return root.number("contact_area_cm2", area); }, [&] { return root.number("pressure_min_pa", low); },
         [&] { return root.number("pressure_max_pa", high); }, [&] { return readRest(root, s); },
-        [&] { return readReferences(root, s); });
+        [&] { return readReferences(root, s); }, [&] { return readFingertip(json, s); });
     if (!done) return failure(done);
     s.spectral = absolute ? SpectralFeature::Absolute : SpectralFeature::Relative;
     s.taxel = dynamic ? TaxelFeature::Dynamic : TaxelFeature::Static;
@@ -252,6 +265,8 @@ nlohmann::json toJson(const RoughnessSettings& s) {
              {"pressure_max_pa", s.pressureMax.value()}};
     if (s.smoothSurface) out["surfaces"]["smooth"] = surface(*s.smoothSurface);
     if (s.roughSurface) out["surfaces"]["rough"] = surface(*s.roughSurface);
+    if (s.sensor) out["sensor"] = toJson(*s.sensor);
+    if (s.uncertainty) out["uncertainty"] = toJson(*s.uncertainty);
     if (s.restMeanSquare)
         out["rest"] = {{"mean_square", *s.restMeanSquare}, {"unit", std::string(symbolOf(s.restUnit))}};
     return out;

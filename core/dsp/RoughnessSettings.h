@@ -10,6 +10,7 @@
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
 #include "core/base/Units.h"
+#include "core/dsp/SensorScales.h"
 
 namespace tacto {
 
@@ -50,7 +51,9 @@ struct RoughnessSettings {
     ReferenceScale hAbs = kSimulatedHAbs;
     ReferenceScale vStatic = kSimulatedVStatic;
     ReferenceScale vDynamic = kSimulatedVDynamic;
-    bool calibrated = false;  ///< the scales in use were measured on this rig
+    bool calibrated = false;                          ///< the scales in use were measured on this rig
+    std::optional<RoughnessUncertainty> uncertainty;  ///< of R under these scales; nothing: not known
+    std::optional<SensorScales> sensor;               ///< of the fingertip that they were measured with
     std::optional<ReferenceSurface> smoothSurface;
     std::optional<ReferenceSurface> roughSurface;
     Seconds smoothing{0.05};           ///< τ of R's first-order smoother, > 0
@@ -83,7 +86,7 @@ struct RoughnessSettings {
 ///    "references": {"h": {"smooth": x, "rough": x}, "h_abs": …, "v_static": …, "v_dynamic": …},
 ///    "surfaces": {"smooth": {"name": "…", "ra_um": x, "rz_um": x}, "rough": …},
 ///    "smoothing_s": 0.05, "contact_area_cm2": 1, "pressure_min_pa": 2000, "pressure_max_pa": 50000,
-///    "rest": {"mean_square": x, "unit": "m/s2"|"count"}}
+///    "rest": {"mean_square": x, "unit": "m/s2"|"count"}, "sensor": {…}, "uncertainty": {…} (SensorScales.h)}
 /// Errors: InvalidArgument naming an unknown key and the known ones; ParseError for a value of the wrong type; as
 /// validate().
 [[nodiscard]] Result<RoughnessSettings> roughnessSettingsFromJson(const nlohmann::json& section);

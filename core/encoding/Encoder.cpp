@@ -29,11 +29,11 @@ Command Encoder::limited(const Command& last, const Command& wanted, Seconds sin
         result.amplitude =
             Volts(std::clamp(wanted.amplitude.value(), last.amplitude.value() - most, last.amplitude.value() + most));
     }
-    if (profile_.intervalRatioPerTrain > 1 && last.interval.count() > 0) {
-        const double ratio = profile_.intervalRatioPerTrain;
-        result.interval =
-            Seconds(std::clamp(wanted.interval.count(), last.interval.count() / ratio, last.interval.count() * ratio));
-    }
+    const auto within = [](double value, double before, double ratio) {
+        return ratio > 1 && before > 0 ? std::clamp(value, before / ratio, before * ratio) : value;
+    };
+    result.amplitude = Volts(within(result.amplitude.value(), last.amplitude.value(), profile_.amplitudeRatioPerTrain));
+    result.interval = Seconds(within(wanted.interval.count(), last.interval.count(), profile_.intervalRatioPerTrain));
     return result;
 }
 

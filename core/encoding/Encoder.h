@@ -28,7 +28,8 @@ public:
     /// Errors: InvalidArgument outside 0..1 or NaN.
     [[nodiscard]] Result<Command> encode(double roughness, std::optional<double> pressure) const;
 
-    /// What the next train may be, `sinceLast` after a train with `last`, under the profile's slew limits.
+    /// What the next train may be, `sinceLast` after a train with `last`, under the profile's limits on a step: the
+    /// nearest to `wanted` that keeps all of them. TrainSeries applies it.
     [[nodiscard]] Command limited(const Command& last, const Command& wanted, Seconds sinceLast) const noexcept;
 
     /// Vibration strength in 0..1 for a massager: A / A_max, so that R = 0 is still felt.

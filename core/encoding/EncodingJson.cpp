@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 20> kKeys{"amplitude_min_v",
+constexpr std::array<std::string_view, 21> kKeys{"amplitude_min_v",
                                                  "amplitude_max_v",
                                                  "interval_min_s",
                                                  "interval_max_s",
@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, 20> kKeys{"amplitude_min_v",
                                                  "pulses",
                                                  "rate_hz",
                                                  "amplitude_slew_v_per_s",
+                                                 "amplitude_ratio_per_train",
                                                  "interval_ratio_per_train",
                                                  "hold",
                                                  "conditions"};
@@ -149,6 +150,7 @@ Result<EncodingProfile> encodingProfileFrom(const json& section) {
     read.integer("pulses", p.train.pulses);
     read.number("rate_hz", [&](double x) { p.train.rate = Hertz(x); });
     read.number("amplitude_slew_v_per_s", [&](double x) { p.amplitudeSlew_V_per_s = x; });
+    read.number("amplitude_ratio_per_train", [&](double x) { p.amplitudeRatioPerTrain = x; });
     read.number("interval_ratio_per_train", [&](double x) { p.intervalRatioPerTrain = x; });
     read.word("hold", kHolds, p.hold);
     read.conditions(p.conditions);
@@ -177,6 +179,7 @@ json toJson(const EncodingProfile& p) {
             {"pulses", p.train.pulses},
             {"rate_hz", p.train.rate.value()},
             {"amplitude_slew_v_per_s", p.amplitudeSlew_V_per_s},
+            {"amplitude_ratio_per_train", p.amplitudeRatioPerTrain},
             {"interval_ratio_per_train", p.intervalRatioPerTrain},
             {"hold", nameOf(p.hold)},
             {"conditions", conditions}};

@@ -115,10 +115,11 @@ Result<void> validate(const EncodingProfile& p) {
          }) {
         if (!checked) return checked;
     }
-    const double ratio = p.intervalRatioPerTrain;
-    if (ratio != 0 && !(ratio > 1 && ratio <= 1000)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "interval_ratio_per_train {} is neither 0 (no limit) nor above 1 to 1000", ratio);
+    for (const auto& [key, ratio] : {std::pair{"amplitude_ratio_per_train", p.amplitudeRatioPerTrain},
+                                     std::pair{"interval_ratio_per_train", p.intervalRatioPerTrain}}) {
+        if (ratio != 0 && !(ratio > 1 && ratio <= 1000)) {
+            return fail(ErrorCode::InvalidArgument, "{} {} is neither 0 (no limit) nor above 1 to 1000", key, ratio);
+        }
     }
     const double duration = p.train.duration().count();
     if (!(duration < tMin)) {

@@ -58,10 +58,12 @@ struct EncodingProfile {
     Curve amplitudeCurve;
     Curve intervalCurve;
     Assignment assignment = Assignment::TextureToAmplitude;
-    PulseTrain train;                  ///< everything but its amplitude
-    double amplitudeSlew_V_per_s = 0;  ///< largest change of the amplitude; 0 = no limit
-    double intervalRatioPerTrain =
-        0;  ///< an interval is at most this times (or 1/this of) the one before; 0 = no limit, else > 1
+    PulseTrain train;  ///< everything but its amplitude
+    /// Limits on the step from a train to the next; 0 = no limit. The shipped profile has the two ratios, just below
+    /// two just-noticeable differences each (resources/encodings/default.json); a profile that names none has none.
+    double amplitudeRatioPerTrain = 0;  ///< at most this times (or 1/this of) the amplitude before; else > 1
+    double intervalRatioPerTrain = 0;   ///< the same of the interval
+    double amplitudeSlew_V_per_s = 0;   ///< largest change of the amplitude over the time between the trains
     Hold hold = Hold::Voltage;
     std::vector<Condition> conditions = fourConditions(0, 1);
 
@@ -69,6 +71,10 @@ struct EncodingProfile {
     [[nodiscard]] static std::vector<Condition> fourConditions(double low, double high);
     /// Null when there is none of that name.
     [[nodiscard]] const Condition* condition(std::string_view name) const noexcept;
+    /// The step to the next train has a limit.
+    [[nodiscard]] bool movesInSteps() const noexcept {
+        return amplitudeRatioPerTrain > 0 || intervalRatioPerTrain > 0 || amplitudeSlew_V_per_s > 0;
+    }
     bool operator==(const EncodingProfile&) const = default;
 };
 
@@ -78,7 +84,7 @@ struct EncodingProfile {
 /// Reads the `encoding` section; a missing key keeps its default. Keys: amplitude_min_v, amplitude_max_v,
 /// interval_min_s, interval_max_s, amplitude_curve, amplitude_beta, interval_curve, interval_beta, assignment,
 /// shape (symmetric, asymmetric, monophasic), polarity (positive, negative), phase_width_us, inter_phase_gap_us,
-/// recharge_ratio, pulses, rate_hz, amplitude_slew_v_per_s, interval_ratio_per_train,
+/// recharge_ratio, pulses, rate_hz, amplitude_slew_v_per_s, amplitude_ratio_per_train, interval_ratio_per_train,
 /// hold (voltage, charge, energy), conditions [{name, R, P}].
 /// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument as validate().
 [[nodiscard]] Result<EncodingProfile> encodingProfileFrom(const nlohmann::json& section);

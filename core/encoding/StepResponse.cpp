@@ -1,11 +1,12 @@
 #include "core/encoding/StepResponse.h"
 
-#include "core/encoding/TrainScheduler.h"
+#include "core/encoding/TrainSeries.h"
 #include "core/encoding/Transitions.h"
 
 namespace tacto {
 
 StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, double carried) noexcept {
+    constexpr Seconds kAtOnce{0.05};  // what a control loop and a stimulator take
     StepResponse found;
     // What was not measured, NaN, is neither near nor far.
     const auto near = [carried](double distance) { return distance <= carried; };
@@ -22,11 +23,12 @@ StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, do
         }
         if (found.trains || k + 1 >= trains.size()) continue;
         // The first may come late and yet at once: more than the new interval had passed when the finger pressed.
-        const bool inTime =
-            near(intervalDistance(interval, ends.after.interval)) || (k == 0 && interval > ends.after.interval);
+        const bool inTime = near(intervalDistance(interval, ends.after.interval)) ||
+                            (k == 0 && ends.sinceOnset >= ends.after.interval && interval - ends.sinceOnset <= kAtOnce);
         if (inTime && near(amplitudeDistance(amplitude, ends.after.amplitude)) &&
             near(intervalDistance(intervalBefore(k + 1), ends.after.interval))) {
             found.trains = static_cast<int>(k) + 1;
+            found.complete = trains[k].onset;
         }
     }
     return found;
@@ -37,7 +39,7 @@ ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed)
     const StepResponse early = respond(ends, designed, (1 - kOff) * kCarried);
     const StepResponse late = respond(ends, designed, (1 + kOff) * kCarried);
     // What leaves sooner under a small threshold arrives later under it.
-    return {{early.latency, late.trains}, {late.latency, early.trains}};
+    return {{early.latency, late.trains, late.complete}, {late.latency, early.trains, early.complete}};
 }
 
 Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, const StepEnds& ends) {
@@ -49,28 +51,28 @@ Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, co
         return fail(ErrorCode::InvalidArgument, "a step {} s after an onset; 0 to {} s, the interval, is expected",
                     since, ends.before.interval.count());
     }
-    const Encoder encoder(profile);
-    TrainScheduler scheduler;
-    scheduler.start(Instant(0), ends.before.interval);
-    scheduler.trainAt(Instant(0));
+    TrainSeries series(profile);
+    series.want(ends.before, Instant(0));
+    static_cast<void>(series.begin(Instant(0)));
+    series.delivered();
     const Instant step = toInstant(ends.sinceOnset);
-    Instant now = step, lastOnset{0};
-    Command last = ends.before;
+    Instant now = step;
     std::vector<StepTrain> trains;
     std::size_t left = kAfterArrival + 1;
     while (left > 0) {
         if (trains.size() == kMost) {
             return fail(ErrorCode::InvalidArgument,
-                        "the slew limits of {} V/s and {} per train let a step take more than {} trains",
-                        profile.amplitudeSlew_V_per_s, profile.intervalRatioPerTrain, kMost);
+                        "limits of {} times and {} V/s of amplitude and {} times of interval per train let a step "
+                        "take more than {} trains",
+                        profile.amplitudeRatioPerTrain, profile.amplitudeSlew_V_per_s, profile.intervalRatioPerTrain,
+                        kMost);
         }
-        scheduler.setInterval(encoder.limited(last, ends.after, Seconds(now - lastOnset)).interval, now);
-        now = *scheduler.due();
-        last = encoder.limited(last, ends.after, Seconds(now - lastOnset));
-        lastOnset = now;
-        scheduler.trainAt(now);
-        trains.push_back({Seconds(now - step), last.amplitude});
-        if (last == ends.after) --left;
+        series.want(ends.after, now);
+        now = *series.due();
+        const Command train = series.begin(now);
+        series.delivered();
+        trains.push_back({Seconds(now - step), train.amplitude});
+        if (train == ends.after) --left;
     }
     return trains;
 }

@@ -34,8 +34,9 @@ struct StepEnds {
 };
 
 struct StepResponse {
-    std::optional<Seconds> latency;  ///< to the onset of the first train that carries the step; none did: empty
-    std::optional<int> trains;       ///< after the step until it has arrived, 1 being at once; it did not: empty
+    std::optional<Seconds> latency;   ///< to the onset of the first train that carries the step; none did: empty
+    std::optional<int> trains;        ///< after the step until it has arrived, 1 being at once; it did not: empty
+    std::optional<Seconds> complete;  ///< to the onset of the train with which it has arrived
 };
 
 /// `trains` in time order; `carried` in just-noticeable differences, above 0.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/JustNoticeable.h"
-#include "core/encoding/TrainScheduler.h"
+#include "core/encoding/TrainSeries.h"
 
 namespace tacto {
 namespace {
@@ -15,29 +15,28 @@ constexpr Instant kStep = std::chrono::milliseconds(1);
 /// A finger moving through the plane, and the trains that go out meanwhile.
 class Walk {
 public:
-    explicit Walk(const Encoder& encoder) : encoder_(encoder) {}
+    explicit Walk(const EncodingProfile& profile) : profile_(profile) {}
 
     /// Begins at a point with a train that has been felt long enough to count as the one before.
     void rest(double R, double P) {
-        last_ = *encoder_.encode(R, P);
+        series_.emplace(profile_);
+        last_ = *series_->encoder().encode(R, P);
         way_ = {R, R, P, P};
         started_ = now_;
-        scheduler_.off();
-        scheduler_ = {};
-        scheduler_.start(now_, last_.interval);
-        scheduler_.trainAt(now_);
+        series_->want(last_, now_);
+        static_cast<void>(series_->begin(now_));
+        series_->delivered();
     }
 
     /// One control step at (R, P). A train that goes out is handed to `found`.
     void step(double R, double P, const auto& found) {
         now_ += kStep;
         way_ = {std::min(way_.lowR, R), std::max(way_.highR, R), std::min(way_.lowP, P), std::max(way_.highP, P)};
-        const Command wanted = *encoder_.encode(R, P);
-        const Seconds since = Seconds(now_ - *scheduler_.lastOnset());
-        const Command next = encoder_.limited(last_, wanted, since);
-        scheduler_.setInterval(next.interval, now_);
-        if (!scheduler_.isDue(now_)) return;
-        scheduler_.trainAt(now_);
+        series_->want(*series_->encoder().encode(R, P), now_);
+        if (*series_->due() > now_) return;
+        static_cast<void>(series_->begin(now_));
+        series_->delivered();
+        const Command next = *series_->last();
         found(TransitionStep{R, P, way_, last_, next, amplitudeDistance(last_.amplitude, next.amplitude),
                              intervalDistance(last_.interval, next.interval)});
         last_ = next;
@@ -47,8 +46,8 @@ public:
     [[nodiscard]] Instant elapsed() const noexcept { return now_ - started_; }
 
 private:
-    const Encoder& encoder_;
-    TrainScheduler scheduler_;
+    const EncodingProfile& profile_;
+    std::optional<TrainSeries> series_;
     Instant now_{0};
     Instant started_{0};
     Command last_;
@@ -76,13 +75,12 @@ Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const 
     if (!(traverse >= 0.1 && traverse <= 600)) {
         return fail(ErrorCode::InvalidArgument, "a traverse of {} s is outside 0.1 to 600 s", traverse);
     }
-    const Encoder encoder(profile);
     TransitionReport report;
     const auto keepLargest = [](LargestSteps& largest, const TransitionStep& step) {
         if (step.amplitude > largest.amplitude.amplitude) largest.amplitude = step;
         if (step.interval > largest.interval.interval) largest.interval = step;
     };
-    Walk walk(encoder);
+    Walk walk(profile);
     for (const bool alongR : {true, false}) {
         for (int line = 0; line < sweep.lines; ++line) {
             const double fixed = static_cast<double>(line) / (sweep.lines - 1);

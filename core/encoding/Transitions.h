@@ -13,6 +13,9 @@
 
 namespace tacto {
 
+/// Just-noticeable differences from a train to the next, at most: what is wanted.
+inline constexpr double kWantedPerTrain = 2;
+
 /// Both above 0.
 [[nodiscard]] double amplitudeDistance(Volts a, Volts b) noexcept;
 [[nodiscard]] double intervalDistance(Seconds a, Seconds b) noexcept;
@@ -33,7 +36,7 @@ struct TransitionStep {
     double R = 0;  ///< at the later train
     double P = 0;
     PlaneExtent way;  ///< since the earlier
-    Command from;
+    Command from;     ///< as delivered: the interval is the one that passed
     Command to;
     double amplitude = 0;  ///< just-noticeable differences
     double interval = 0;

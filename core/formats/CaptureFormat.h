@@ -15,6 +15,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/Result.h"
@@ -33,7 +34,10 @@ struct ReadOptions {
     std::string timeColumn{};                      ///< the column that holds the times
     std::map<std::string, std::string> units{};    ///< channel -> the unit of its numbers: "mV", "A"
     std::map<std::string, double> probeFactors{};  ///< channel -> its numbers are multiplied by this
-    std::optional<Hertz> rate{};                   ///< for files without times; replaces a rate that the file states
+    /// Channel -> the instrument's input range in V or A, for files that do not state it: a sample at or beyond an end
+    /// is clipped.
+    std::map<std::string, std::pair<double, double>> ranges{};
+    std::optional<Hertz> rate{};  ///< for files without times; replaces a rate that the file states
 };
 
 /// How a long reading is watched and ended.

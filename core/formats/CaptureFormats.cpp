@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/formats/ByteFile.h"
+#include "core/formats/Utf16.h"
 
 namespace tacto {
 
@@ -65,7 +66,8 @@ Result<const CaptureFormat*> CaptureFormats::formatOf(const std::filesystem::pat
     }
     const auto head = readHead(path);
     if (!head) return failure(head);
-    const auto looked = behindLines(*head, options.skipRows);
+    const auto text = asUtf8(*head);
+    const auto looked = behindLines(text, options.skipRows);
     for (const auto& format : formats_) {
         if (format->recognises(path, looked)) return format.get();
     }

@@ -16,13 +16,42 @@ struct KnownUnit {
     std::string_view spelled;  // lower case
     SpelledUnit means;
 };
-constexpr std::array<KnownUnit, 27> kUnits{
-    {{"", {"", 1}},       {"s", {"s", 1}},     {"sec", {"s", 1}},   {"second", {"s", 1}}, {"seconds", {"s", 1}},
-     {"ms", {"s", 1e-3}}, {"us", {"s", 1e-6}}, {"ns", {"s", 1e-9}}, {"ps", {"s", 1e-12}}, {"v", {"V", 1}},
-     {"volt", {"V", 1}},  {"volts", {"V", 1}}, {"mv", {"V", 1e-3}}, {"uv", {"V", 1e-6}},  {"kv", {"V", 1e3}},
-     {"a", {"A", 1}},     {"amp", {"A", 1}},   {"amps", {"A", 1}},  {"ampere", {"A", 1}}, {"amperes", {"A", 1}},
-     {"ma", {"A", 1e-3}}, {"ua", {"A", 1e-6}}, {"na", {"A", 1e-9}}, {"ka", {"A", 1e3}},   {"value", {"", 1}},
-     {"logic", {"", 1}},  {"none", {"", 1}}}};
+constexpr std::array<KnownUnit, 36> kUnits{{{"", {"", 1}},
+                                            {"s", {"s", 1}},
+                                            {"sec", {"s", 1}},
+                                            {"second", {"s", 1}},
+                                            {"seconds", {"s", 1}},
+                                            {"ms", {"s", 1e-3}},
+                                            {"us", {"s", 1e-6}},
+                                            {"ns", {"s", 1e-9}},
+                                            {"ps", {"s", 1e-12}},
+                                            {"v", {"V", 1}},
+                                            {"volt", {"V", 1}},
+                                            {"volts", {"V", 1}},
+                                            {"mv", {"V", 1e-3}},
+                                            {"uv", {"V", 1e-6}},
+                                            {"kv", {"V", 1e3}},
+                                            {"a", {"A", 1}},
+                                            {"amp", {"A", 1}},
+                                            {"amps", {"A", 1}},
+                                            {"ampere", {"A", 1}},
+                                            {"amperes", {"A", 1}},
+                                            {"ma", {"A", 1e-3}},
+                                            {"ua", {"A", 1e-6}},
+                                            {"na", {"A", 1e-9}},
+                                            {"ka", {"A", 1e3}},
+                                            {"value", {"", 1}},
+                                            {"logic", {"", 1}},
+                                            {"none", {"", 1}},
+                                            {"msec", {"s", 1e-3}},
+                                            {"usec", {"s", 1e-6}},
+                                            {"nsec", {"s", 1e-9}},
+                                            {"milliseconds", {"s", 1e-3}},
+                                            {"microseconds", {"s", 1e-6}},
+                                            {"nanoseconds", {"s", 1e-9}},
+                                            {"picoseconds", {"s", 1e-12}},
+                                            {"v dc", {"V", 1}},
+                                            {"a dc", {"A", 1}}}};
 
 std::string namesOf(const std::vector<ChannelPlan>& channels) {
     std::vector<std::string> names;
@@ -93,6 +122,18 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         }
         channels[*index].factor *= factor;
     }
+    for (const auto& [name, range] : options.ranges) {
+        const auto index = indexOf(channels, name);
+        if (!index) return noChannel(channels, "the range", name, file);
+        const auto& [low, high] = range;
+        if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
+            return fail(ErrorCode::InvalidArgument,
+                        "the range of channel '{}' is {} to {}; two finite numbers, the lower first, were expected",
+                        name, low, high);
+        }
+        channels[*index].low = low;
+        channels[*index].high = high;
+    }
     std::vector<ChannelPlan> kept;
     for (const auto& name : options.columns) {
         const auto index = indexOf(channels, name);
@@ -129,6 +170,11 @@ Result<void> applyChannelOptions(Capture& capture, std::vector<ChannelPlan> plan
             if (channel.low > channel.high) std::swap(channel.low, channel.high);
             channel.lsb *= std::abs(ratio);
             channel.offsetTolerance *= std::abs(ratio);
+            channel.linearityTolerance *= std::abs(ratio);
+        }
+        if (plan.low < plan.high) {
+            channel.low = plan.low;
+            channel.high = plan.high;
         }
         kept.push_back(std::move(channel));
     }

@@ -22,11 +22,14 @@ struct ChannelPlan {
     std::string unit;         ///< "V", "A" or ""
     double factor = 1;        ///< the file's numbers times this are in `unit`
     std::string unknownUnit;  ///< what the file says and nobody understands; empty once an option says better
+    double low = 0;           ///< the input range by the options, in `unit`; equal = as the file says
+    double high = 0;
 };
 
 /// Keeps and orders the channels by options.columns, replaces units and multiplies by probe factors.
 /// Errors: InvalidArgument naming the option, its value and the channels there are: a channel that is not there, one
-/// named twice, an unknown unit, a probe factor that is 0 or not finite. ParseError for a unit that stays unknown.
+/// named twice, an unknown unit, a probe factor that is 0 or not finite, a range whose ends are not finite or not
+/// rising. ParseError for a unit that stays unknown.
 [[nodiscard]] Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
                                                             const ReadOptions& options, std::string_view file);
 

@@ -1,4 +1,5 @@
-// CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", and lines of units below them.
+// CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", "C1 in V", "t / s", "CH2V", and
+// lines of units below them; and what lines of keys say.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -25,10 +26,25 @@ struct CsvColumn {
 /// The unit in a field of such a line.
 [[nodiscard]] std::optional<SpelledUnit> unitField(std::string_view field);
 
-/// The header line whose first field is `key`, capitals and a colon at its end ignored.
+/// Whether a column counts rows: "index", "Sample".
+[[nodiscard]] bool isIndexColumn(const CsvColumn& column);
+
+/// The header line whose first field is `key`, capitals and a colon or equals sign at its end ignored.
 [[nodiscard]] const CsvLine* lineCalled(const CsvHead& head, std::string_view key);
-/// The number in the second field of that line, also behind a colon ("Analog:2e-9").
+/// The second field of that line; empty where there is none.
+[[nodiscard]] std::string_view wordCalled(const CsvHead& head, std::string_view key);
+/// The number in it, also behind a colon ("Analog:2e-9").
 [[nodiscard]] std::optional<double> numberCalled(const CsvHead& head, std::string_view key);
+/// What stands behind `key` and a colon or equals sign in one of the comments.
+[[nodiscard]] std::optional<std::string_view> remarkCalled(const CsvHead& head, std::string_view key);
+
+/// "20.0uS", "-25 s" or a bare number, in seconds; nothing for another unit.
+[[nodiscard]] std::optional<double> secondsIn(std::string_view text, char point);
+/// "50 MHz", "1e+06Hz", "2.5 GSa/s" or a bare number, in Hz.
+[[nodiscard]] std::optional<double> hertzIn(std::string_view text, char point);
+
+/// How many fields a line has without the empty ones at its end.
+[[nodiscard]] std::size_t filled(const CsvLine& line);
 
 /// The names that end a header, without empty ones at the end.
 /// Errors: ParseError where a column has no name or two have the same.

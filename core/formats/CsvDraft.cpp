@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
+#include <ranges>
 
 #include "core/base/Text.h"
 #include "core/formats/CsvColumns.h"
@@ -19,16 +20,55 @@ bool hasTimeAndChannel(const CsvLine& line) {
            std::ranges::any_of(line.fields, [](const auto& field) { return isTimeColumn(columnNamed(field)); });
 }
 
-/// The line that names the columns: the first that names a time; with options that give it, the last of the header.
+/// The line that names the columns: the one nearest to the rows that names a time (keys above it may be called so too,
+/// units below it are); with options that give it, the last of the header.
 const CsvLine* lineOfNames(const CsvHead& head, const ReadOptions& options) {
-    const auto found = std::ranges::find_if(head.header, hasTimeAndChannel);
-    if (found != head.header.end()) return &*found;
+    const CsvLine* units = nullptr;
+    for (const auto& line : std::views::reverse(head.header)) {
+        if (!hasTimeAndChannel(line)) continue;
+        if (!isLineOfUnits(line)) return &line;
+        units = &line;
+    }
+    if (units != nullptr) return units;
     if (head.header.empty() || !optionsGiveTheTime(options)) return nullptr;
     const auto* last = &head.header.back();
     return isLineOfUnits(*last) && head.header.size() > 1 ? last - 1 : last;
 }
 
 }  // namespace
+
+void CsvDraft::addChannel(std::string name, std::string_view spelled) {
+    if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos) {
+        name.insert(0, "CH");  // "1" would be the number of a column
+    }
+    const auto unit = unitField(spelled);
+    layout.names.push_back(name);
+    columns.push_back({std::move(name), layout.names.size(), unit ? std::string(unit->unit) : "",
+                       unit ? unit->factor : 1, unit ? "" : std::string(spelled)});
+}
+
+Result<void> CsvDraft::countRows(std::optional<double> interval_s, double start_s, std::string_view stated,
+                                 std::string_view file) {
+    if (!interval_s || !(*interval_s > 0) || !std::isfinite(*interval_s) || !std::isfinite(start_s)) {
+        return fail(ErrorCode::ParseError, "{}: the time between samples is '{}'; a finite one above 0 was expected",
+                    file, stated);
+    }
+    layout.times = RowTimes::Counted;
+    layout.interval_s = *interval_s;
+    layout.start_s = start_s;
+    return {};
+}
+
+CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t width) {
+    CsvDraft draft(names, units);
+    const auto time = unitField(units.fields.front());
+    draft.layout.timeFactor = time ? time->factor : 1;
+    draft.addOther(names.fields.front().empty() ? "time" : names.fields.front());
+    for (std::size_t c = 1; c < width; ++c) {
+        draft.addChannel(names.fields[c], c < units.fields.size() ? units.fields[c] : "");
+    }
+    return draft;
+}
 
 std::optional<std::size_t> columnCalled(const std::vector<std::string>& names, std::string_view wanted) {
     for (std::size_t c = 0; c < names.size(); ++c) {
@@ -43,7 +83,9 @@ std::optional<std::size_t> columnCalled(const std::vector<std::string>& names, s
 
 Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std::string_view file) {
     if (head.header.empty() && !optionsGiveTheTime(options)) {
-        return fail(ErrorCode::ParseError, "{}:{}: a header line naming the columns was expected before the numbers",
+        return fail(ErrorCode::ParseError,
+                    "{}:{}: a header line naming the columns was expected before the numbers; a time column or a "
+                    "sampling rate, given as an option, reads a table without one",
                     file, head.firstRow->number);
     }
     std::vector<std::string> names;
@@ -81,6 +123,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
             if (const auto unit = unitField(last->fields[c])) {
                 column.unit = unit->unit;
                 column.factor = unit->factor;
+                column.unknownUnit.clear();
             }
         }
         const bool chosen = !options.timeColumn.empty() && columnCalled(names, options.timeColumn) == c;
@@ -93,6 +136,14 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
         }
     }
     draft.layout.names = std::move(names);
+    // The number of a row is no signal, unless the user asks for it.
+    if (draft.layout.times == RowTimes::Column && draft.layout.timeColumn > 0 && options.columns.empty() &&
+        !draft.columns.empty() && draft.columns.front().number == 1 &&
+        isIndexColumn(columnNamed(draft.layout.names.front()))) {
+        draft.layout.warnings.push_back(fmt::format("{}:{}: column '{}' counts the rows and was left out", file,
+                                                    draft.layout.headerLine, draft.layout.names.front()));
+        draft.columns.erase(draft.columns.begin());
+    }
     return draft;
 }
 

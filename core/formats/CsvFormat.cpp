@@ -1,9 +1,8 @@
 #include "core/formats/CsvFormat.h"
 
-#include <algorithm>
-#include <array>
-
+#include "core/formats/CsvMakers.h"
 #include "core/formats/CsvTable.h"
+#include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
 
 namespace tacto {
@@ -15,15 +14,21 @@ struct Known {
     std::string_view id;
     std::string_view name;
 };
-/// In the order of the question; Plain takes any text and is the last.
-constexpr std::array<Known, 6> kKnown{{{CsvDialect::Rigol, "csv-rigol", "Rigol CSV"},
-                                       {CsvDialect::Siglent, "csv-siglent", "Siglent CSV"},
-                                       {CsvDialect::Tektronix, "csv-tektronix", "Tektronix CSV"},
-                                       {CsvDialect::Keysight, "csv-keysight", "Keysight CSV"},
-                                       {CsvDialect::PicoScope, "csv-picoscope", "PicoScope CSV"},
-                                       {CsvDialect::Plain, "csv", "CSV"}}};
 
-const Known& known(CsvDialect dialect) { return *std::ranges::find(kKnown, dialect, &Known::dialect); }
+Known known(CsvDialect dialect) {
+    for (const auto& maker : csvMakers()) {
+        if (maker.dialect == dialect) return {dialect, maker.id, maker.name};
+    }
+    return {CsvDialect::Plain, "csv", "CSV"};
+}
+
+/// Plain takes any text and is the last.
+CsvDialect dialectOf(const CsvHead& head) {
+    for (const auto& maker : csvMakers()) {
+        if (isOfDialect(maker.dialect, head)) return maker.dialect;
+    }
+    return CsvDialect::Plain;
+}
 
 /// The part of a first block that a header is looked for in: whole lines.
 std::string_view headOf(std::string_view text) {
@@ -40,18 +45,22 @@ Result<CaptureReading> readTable(TextBlocks blocks, std::optional<CsvDialect> di
     if (!block) return failure(block);
     const auto text = headOf(*block);
     if (!isText(text)) {
-        return fail(ErrorCode::ParseError, "{}: not a text in UTF-8 or ASCII; a table of numbers was expected",
+        return fail(ErrorCode::ParseError,
+                    "{}: not a text in UTF-8, in UTF-16 with its mark, or in ASCII; a table of numbers was expected",
                     blocks.name());
     }
     const auto head = readCsvHead(text, options.skipRows);
-    if (!dialect) {
-        dialect = std::ranges::find_if(kKnown, [&](const Known& k) { return isOfDialect(k.dialect, head); })->dialect;
-    }
+    if (!dialect) dialect = dialectOf(head);
     const auto layout = layOut(*dialect, head, options, blocks.name());
     if (!layout) return failure(layout);
+    // The numbers of columns that were chosen, scaled or timed by hand are not those that the header is about.
+    const bool asWritten =
+        options.columns.empty() && options.units.empty() && options.probeFactors.empty() && !options.rate;
+    const auto header = asWritten ? headerIn(text) : std::nullopt;
     if (auto back = blocks.rewind(); !back) return failure(back);
     auto reading = readCsvTable(blocks, head, *layout, watch);
     if (reading) {
+        if (header) takeHeader(reading->capture, *header);
         reading->formatId = known(*dialect).id;
         reading->formatName = known(*dialect).name;
     }

@@ -29,7 +29,8 @@ private:
 };
 
 /// A table in whichever dialect it is. Everything becomes V and A; the input range, resolution and trigger moment are
-/// not in such files and stay unknown, so clipping is then judged from the samples alone (see PulseMeasurement.h).
+/// not in such files and stay unknown, so that no sample is known to be clipped (see core/measure/Clipping.h),
+/// unless the options state a range.
 /// A field that is empty or says nan is a missing sample: dropped (with a warning) at the end of the record, NaN in its
 /// middle, where pulses that touch it are not measured.
 /// Errors: NotFound, Io; ParseError naming file, line and what was expected: a field that is no number, a row of the

@@ -2,31 +2,53 @@
 
 #include <algorithm>
 #include <fast_float/fast_float.h>
+#include <iterator>
 #include <limits>
 #include <span>
 
 #include "core/base/Csv.h"
 #include "core/base/Text.h"
+#include "core/formats/Utf16.h"
 
 namespace tacto {
 
 namespace {
 
-/// What most of the first lines hold: a title line in front of a table may hold anything. A semicolon goes before a
-/// comma, which beside it is the decimal point of another country.
+/// Whether every comma stands between digits, as a decimal comma does.
+bool commasAreDecimal(std::string_view line) {
+    const auto isDigit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
+    for (auto at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
+        if (at == 0 || !isDigit(at - 1) || !isDigit(at + 1)) return false;
+    }
+    return true;
+}
+
+/// What most of the first lines hold: a title line in front of a table may hold anything. A semicolon or a tab goes
+/// before a comma, which beside it is the decimal point of another country.
 char separatorOf(const std::vector<std::string_view>& lines) {
     constexpr std::size_t kLooked = 40;
     std::size_t tabs = 0;
     std::size_t semicolons = 0;
     const auto seen = std::min(lines.size(), kLooked);
     for (const auto line : std::span(lines).first(seen)) {
-        const bool comma = line.find(',') != std::string_view::npos;
-        tabs += line.find('\t') != std::string_view::npos && !comma ? 1U : 0U;
+        tabs += line.find('\t') != std::string_view::npos && commasAreDecimal(line) ? 1U : 0U;
         semicolons += line.find(';') != std::string_view::npos ? 1U : 0U;
     }
     if (2 * tabs > seen) return '\t';
     return 2 * semicolons > seen ? ';' : ',';
 }
+
+/// The same of the lines that a `;` may not make a comment.
+char separatorWithout(const std::vector<std::string_view>& lines) {
+    std::vector<std::string_view> others;
+    std::ranges::copy_if(lines, std::back_inserter(others), [](auto line) { return !line.starts_with(';'); });
+    return separatorOf(others.empty() ? lines : others);
+}
+
+struct Remark {
+    std::size_t number;  // of its line
+    std::string_view words;
+};
 
 bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
     bool any = false;
@@ -63,23 +85,43 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     std::vector<Seen> seen;
     std::vector<std::string_view> lines;
     std::size_t number = 0;
+    std::vector<Remark> remarks;
     for (std::size_t at = 0; at < text.size();) {
         const auto end = std::min(text.find('\n', at), text.size());
         const auto behind = std::min(end + 1, text.size());
         const auto line = text.substr(at, end - at);
         ++number;
-        if (number > skipRows && !isBlankOrComment(line)) {
-            seen.push_back({number, at, behind});
-            lines.push_back(line);
+        if (number > skipRows) {
+            if (!isBlankOrComment(line)) {
+                seen.push_back({number, at, behind});
+                lines.push_back(line);
+            } else if (const auto words = trimmed(line); !words.empty()) {
+                remarks.push_back({number, words});
+            }
         }
         at = behind;
     }
     CsvHead head;
-    head.separator = separatorOf(lines);
+    head.separator = separatorWithout(lines);
+    if (head.separator != ';') {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (lines[i].starts_with(';')) {
+                remarks.push_back({seen[i].number, trimmed(lines[i])});
+            } else {
+                lines[kept] = lines[i];
+                seen[kept++] = seen[i];
+            }
+        }
+        lines.resize(kept);
+        seen.resize(kept);
+    }
     std::vector<std::string_view> fields;
     const auto lineAt = [&](std::size_t i) {
         cutLine(lines[i], head.separator, fields);
-        return CsvLine{seen[i].number, seen[i].offset, seen[i].behind, {fields.begin(), fields.end()}};
+        CsvLine line{seen[i].number, seen[i].offset, seen[i].behind, {}};
+        for (const auto field : fields) line.fields.push_back(latin1AsUtf8(field));
+        return line;
     };
     const auto firstRow = [&](char point) -> std::optional<std::size_t> {
         for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -98,6 +140,12 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     }
     for (std::size_t i = 0; i < row.value_or(lines.size()); ++i) head.header.push_back(lineAt(i));
     if (row) head.firstRow = lineAt(*row);
+    std::ranges::sort(remarks, {}, &Remark::number);
+    for (auto [line, words] : remarks) {
+        if (row && line > seen[*row].number) break;
+        while (!words.empty() && (words.front() == '#' || words.front() == ';')) words.remove_prefix(1);
+        head.remarks.push_back(latin1AsUtf8(trimmed(words)));
+    }
     return head;
 }
 

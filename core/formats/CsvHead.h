@@ -1,8 +1,8 @@
 // CsvHead.h - the beginning of a table: where its header ends and its numbers begin, what separates them.
 //
 // Tolerated, as in core/base/Csv.h: CR LF, blank lines, `#` comment lines, quoted fields, trailing separators; comma,
-// semicolon or tab between fields. A decimal comma is taken where fields are separated by something else and hold
-// numbers only so.
+// semicolon or tab between fields. Lines that begin with `;` are comments too where fields are separated by something
+// else. A decimal comma is taken where fields are separated by something else and hold numbers only so.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -20,12 +20,13 @@ struct CsvLine {
     std::size_t number = 0;           ///< in the file, from 1
     std::size_t offset = 0;           ///< of its first byte from the beginning of the text
     std::size_t behind = 0;           ///< of the line after it
-    std::vector<std::string> fields;  ///< trimmed, without quotes
+    std::vector<std::string> fields;  ///< trimmed, without quotes, in UTF-8
 };
 
 struct CsvHead {
-    std::vector<CsvLine> header;      ///< the lines before the first row of numbers; all that were seen where none is
-    std::optional<CsvLine> firstRow;  ///< the first line whose fields are numbers or empty
+    std::vector<std::string> remarks;  ///< the comments before the first row of numbers, without their marks
+    std::vector<CsvLine> header;       ///< the lines before the first row of numbers; all that were seen where none is
+    std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers or empty
     char separator = ',';
     char point = '.';
 };

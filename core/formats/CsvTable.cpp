@@ -36,6 +36,8 @@ public:
             CaptureChannel channel;
             channel.name = plan.name;
             channel.unit = plan.unit;
+            channel.low = plan.low;
+            channel.high = plan.high;
             channels_.push_back(std::move(channel));
         }
     }
@@ -151,6 +153,10 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
     if (rows.sawInfinite()) {
         reading.warnings.push_back(fmt::format(
             "{}: some values are infinite, which means beyond the range; they are missing samples", blocks.name()));
+    }
+    if (layout.rows && !layout.otherRows.empty() && *layout.rows != static_cast<double>(found)) {
+        return fail(ErrorCode::ParseError, "{}: {} rows, where the header announces {}: {}", blocks.name(), found,
+                    *layout.rows, layout.otherRows);
     }
     if (layout.rows && *layout.rows != static_cast<double>(found)) {
         reading.warnings.push_back(

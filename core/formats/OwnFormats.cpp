@@ -1,5 +1,6 @@
 #include "core/formats/CaptureFormats.h"
 #include "core/formats/CsvFormat.h"
+#include "core/formats/CsvMakers.h"
 #include "core/formats/IsfFormat.h"
 #include "core/formats/WavFormat.h"
 
@@ -8,10 +9,8 @@ namespace tacto {
 void addOwnFormats(CaptureFormats& formats) {
     formats.add(std::make_unique<WavFormat>());
     formats.add(std::make_unique<IsfFormat>());
-    for (const auto dialect : {CsvDialect::Rigol, CsvDialect::Siglent, CsvDialect::Tektronix, CsvDialect::Keysight,
-                               CsvDialect::PicoScope, CsvDialect::Plain}) {
-        formats.add(std::make_unique<CsvFormat>(dialect));
-    }
+    for (const auto& maker : csvMakers()) formats.add(std::make_unique<CsvFormat>(maker.dialect));
+    formats.add(std::make_unique<CsvFormat>(CsvDialect::Plain));
 }
 
 std::shared_ptr<const CaptureFormats> ownCaptureFormats() {

@@ -23,10 +23,37 @@ TextBlocks TextBlocks::ofText(std::string_view text, std::string_view name) {
     return TextBlocks(std::nullopt, text, std::string(name));
 }
 
-Result<std::size_t> TextBlocks::fill(char* into, std::size_t count) {
-    if (file_) return file_->read(into, count);
-    const auto got = text_.copy(into, count, static_cast<std::size_t>(taken_));
+Result<std::size_t> TextBlocks::fillRaw(char* into, std::size_t count) {
+    auto got = file_ ? file_->read(into, count)
+                     : Result<std::size_t>(text_.copy(into, count, static_cast<std::size_t>(taken_)));
+    if (got) taken_ += *got;
     return got;
+}
+
+Result<std::size_t> TextBlocks::fillFromUtf16(char* into, std::size_t count) {
+    const std::size_t wanted = count / kUtf8PerUtf16 * 2;
+    if (raw_.size() < wanted) {
+        const auto had = raw_.size();
+        raw_.resize(wanted);
+        const auto got = fillRaw(raw_.data() + had, wanted - had);
+        if (!got) return got;
+        raw_.resize(had + *got);
+    }
+    std::string text;
+    const auto used = appendAsUtf8(std::string_view(raw_).substr(0, wanted), *order_, text);
+    raw_.erase(0, used);
+    return text.copy(into, count);
+}
+
+Result<std::size_t> TextBlocks::fill(char* into, std::size_t count) {
+    if (order_) return fillFromUtf16(into, count);
+    const bool first = taken_ == 0;
+    auto got = fillRaw(into, count);
+    if (!got || !first) return got;
+    order_ = utf16OrderOf({into, *got});
+    if (!order_) return got;
+    raw_.assign(into + 2, *got - 2);
+    return fillFromUtf16(into, count);
 }
 
 Result<std::string_view> TextBlocks::next() {
@@ -34,11 +61,11 @@ Result<std::string_view> TextBlocks::next() {
     std::memmove(begin, begin + used_, held_ - used_);
     held_ -= used_;
     used_ = 0;
-    while (!ended_ && held_ < kBlockBytes) {
+    constexpr std::size_t kRoom = 2 * kUtf8PerUtf16;  // for a pair of UTF-16
+    while (!ended_ && kBlockBytes - held_ >= kRoom) {
+        const bool first = taken_ == 0;
         const auto got = fill(begin + held_, kBlockBytes - held_);
         if (!got) return failure(got);
-        const bool first = taken_ == 0;
-        taken_ += *got;
         held_ += *got;
         if (*got == 0) ended_ = true;
         constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -66,6 +93,8 @@ Result<void> TextBlocks::rewind() {
     held_ = used_ = 0;
     taken_ = 0;
     ended_ = false;
+    order_.reset();
+    raw_.clear();
     return file_ ? file_->seek(0) : Result<void>{};
 }
 

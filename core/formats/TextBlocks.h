@@ -1,4 +1,4 @@
-// TextBlocks.h - a text in blocks of whole lines, from a file or from memory.
+// TextBlocks.h - a text in blocks of whole lines, from a file or from memory; UTF-16 with its mark becomes UTF-8.
 //
 // Thread-safety: none; one owner. A block is valid until the next one is asked for.
 #pragma once
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/formats/ByteFile.h"
+#include "core/formats/Utf16.h"
 
 namespace tacto {
 
@@ -36,7 +37,10 @@ public:
 
 private:
     TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name);
+    /// UTF-8, whatever the text is written in; 0 at the end.
     [[nodiscard]] Result<std::size_t> fill(char* into, std::size_t count);
+    [[nodiscard]] Result<std::size_t> fillRaw(char* into, std::size_t count);
+    [[nodiscard]] Result<std::size_t> fillFromUtf16(char* into, std::size_t count);
 
     std::optional<ByteFile> file_;
     std::string_view text_;
@@ -46,6 +50,8 @@ private:
     std::size_t used_ = 0;  // of them, given away in the last block
     std::uint64_t taken_ = 0;
     bool ended_ = false;
+    std::optional<Utf16Order> order_;  // of a text in UTF-16
+    std::string raw_;                  // of it, read and not yet turned into UTF-8
 };
 
 }  // namespace tacto

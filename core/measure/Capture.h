@@ -2,21 +2,27 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/base/NaN.h"
+
 namespace tacto {
 
+/// Tolerances are half-widths. NaN: not stated, and what is computed from it is not known either (science.md
+/// section 12, hazard H9); 0 is a statement too.
 struct CaptureChannel {
     std::string name;  ///< "voltage", "current", or the instrument's own
     std::string unit;  ///< "V", "A", or "" for logic
     std::vector<float> samples;
     double low = 0;  ///< the input range: at or beyond low/high a sample is clipped; equal = unknown
     double high = 0;
-    double lsb = 0;              ///< resolution, 0 = unknown
-    double gainTolerance = 0;    ///< half-width, relative (0.01 = 1 %); 0 = unknown
-    double offsetTolerance = 0;  ///< half-width, in the channel's unit
+    double lsb = 0;                 ///< resolution, 0 = unknown
+    double gainTolerance = kNaN;    ///< relative (0.01 = 1 %)
+    double offsetTolerance = kNaN;  ///< in the channel's unit
+    double linearityTolerance = 0;  ///< in the channel's unit, of a difference of two levels, beside the gain
+    double probeTolerance = kNaN;   ///< relative, of the probe or shunt before the input; 0: there is none
+    std::string statedBy{};         ///< who states the tolerances: "the data sheet of ..."; empty: nobody
 };
 
 struct Capture {
@@ -24,7 +30,9 @@ struct Capture {
     double start_s = 0;    ///< time of sample 0 on the session's time base
     double trigger_s = 0;  ///< time stamp of the trigger; NaN for a record without one
     /// Amplitude that the stimulator was told for the train it shows, V or mA by its drive; NaN = not known.
-    double told = std::numeric_limits<double>::quiet_NaN();
+    double told = kNaN;
+    double timeBaseTolerance = kNaN;  ///< relative half-width (50e-6 = 50 ppm); NaN = not stated
+    double stampTolerance_s = kNaN;   ///< half-width of start_s and trigger_s against other captures'; NaN = not stated
     bool simulated = false;
     bool untriggered = false;  ///< taken because no trigger came: it shows the signal, not an event; trigger_s is NaN
     std::vector<CaptureChannel> channels;  ///< equally long

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "core/base/Text.h"
+#include "core/measure/CaptureDescription.h"
 
 namespace tacto {
 
@@ -81,7 +82,7 @@ Result<void> writeCapture(const std::filesystem::path& path, const Capture& capt
     auto out = std::back_inserter(text);
     fmt::format_to(out, "time_s");
     for (const auto& channel : capture.channels) fmt::format_to(out, ",{}", columnNameOf(channel));
-    fmt::format_to(out, "\n");
+    fmt::format_to(out, "\n{}", captureHeader(capture));
     const int decimals = std::clamp(static_cast<int>(std::ceil(std::log10(1000 * capture.rate_hz))), 3, 12);
     for (std::size_t i = 0; i < capture.samples() && stream; ++i) {
         appendTime(text, capture.start_s + static_cast<double>(i) / capture.rate_hz, decimals);
@@ -140,7 +141,8 @@ Result<void> convertShunt(Capture& capture, std::optional<std::string_view> chan
     }
     target.unit.assign(1, 'A');
     for (float& sample : target.samples) sample = static_cast<float>(static_cast<double>(sample) / ohms);
-    for (double* scaled : {&target.low, &target.high, &target.lsb, &target.offsetTolerance}) *scaled /= ohms;
+    for (double* scaled : {&target.low, &target.high, &target.lsb, &target.offsetTolerance, &target.linearityTolerance})
+        *scaled /= ohms;
     return {};
 }
 

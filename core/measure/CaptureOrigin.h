@@ -1,5 +1,5 @@
-// CaptureOrigin.h - whether the captures of a folder were measured or simulated: origin.json beside them, since their
-// columns are plain numbers that any program reads (hazard H9).
+// CaptureOrigin.h - whether a capture file was measured or simulated: by its own header, and by origin.json beside it,
+// for the formats whose columns are plain numbers (hazard H9).
 //
 // Thread-safety: pure functions on files.
 #pragma once
@@ -15,7 +15,8 @@ namespace tacto {
 /// "simulated" when it does not. Errors: Io.
 [[nodiscard]] Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simulated);
 
-/// What the folder of `file` says of it. Nothing: it says nothing that can be read, so the origin is unknown.
+/// What the header of `file` (CaptureDescription.h) or its folder says of it. Nothing: neither says anything that can
+/// be read, so the origin is unknown.
 [[nodiscard]] std::optional<bool> statedSimulated(const std::filesystem::path& file);
 
 }  // namespace tacto

@@ -1,40 +1,23 @@
 #include "core/measure/Clipping.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <span>
+#include <limits>
+#include <vector>
 
 namespace tacto {
 
 namespace {
 
-constexpr std::size_t kFewestSamples = 10;  // that can show a record's extreme repeating
-
-/// At or beyond which a sample is suspect.
-struct Limits {
-    double low;
-    double high;
-};
-
-bool reaches(std::span<const float> samples, const Limits& limits) {
-    return std::any_of(samples.begin(), samples.end(), [&](float sample) {
-        const auto x = static_cast<double>(sample);
-        return x >= limits.high || x <= limits.low;
-    });
-}
-
-/// True when neighbouring samples differ nearly always, so that a stretch of equal ones is no accident. Asked of a
-/// hundred thousand pairs.
-bool isRestless(std::span<const float> samples) {
-    const std::size_t stride = std::max<std::size_t>(1, samples.size() / 100'000);
-    std::size_t moves = 0;
-    std::size_t pairs = 0;
-    for (std::size_t i = 1; i < samples.size(); i += stride) {
-        moves += samples[i] != samples[i - 1] ? 1 : 0;
-        ++pairs;
-    }
-    return static_cast<double>(moves) > 0.6 * static_cast<double>(pairs);
-}
+constexpr std::size_t kFewestFlat = 10;          // samples that keep the extreme, where the noise says enough
+constexpr std::size_t kManyFlat = 50;            // where it does not
+constexpr double kKeeps = 0.95;                  // of the samples between the first and the last at the extreme
+constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
+constexpr std::size_t kFewestTriples = 50;       // of them
+constexpr double kEdge = 0.05;                   // of the record's span: a larger step is an edge and no noise
+constexpr double kJitters = 0.01;                // of the triples: noise of at least three codes
+constexpr double kMoves = 0.2;                   // of the steps: noise at all
 
 /// First and end of a phase's samples as recorded.
 struct Stretch {
@@ -44,50 +27,109 @@ struct Stretch {
     explicit Stretch(const PhaseSpan& phase)
         : first(phase.begin * phase.view->mean),
           end(std::min(phase.end * phase.view->mean, phase.view->channel->samples.size())) {}
+    [[nodiscard]] std::size_t size() const noexcept { return end - first; }
     [[nodiscard]] std::span<const float> of(const CaptureChannel& channel) const {
-        return std::span<const float>(channel.samples).subspan(first, end - first);
+        return std::span<const float>(channel.samples).subspan(first, size());
     }
 };
 
 /// `recorded`: blocks of the samples as recorded, if there are any.
-void markAtRange(PhaseSpans& phases, const CaptureChannel& channel, const SampleBlocks* recorded) {
-    const double margin = 1.001 * channel.lsb;
-    const Limits limits{channel.low + margin, channel.high - margin};
+void markAtRange(PhaseSpans& phases, const CaptureChannel& channel, const ClipLimits& limits,
+                 const SampleBlocks* recorded) {
     for (auto& phase : phases) {
         const Stretch own(phase);
         // Most phases end far from the limits, and the blocks say so without the samples.
         if (recorded != nullptr && !recorded->mayReach(own.first, own.end, limits.low, limits.high)) continue;
-        phase.clipped = reaches(own.of(channel), limits);
+        phase.clipped =
+            std::ranges::any_of(own.of(channel), [&](float x) { return limits.reachedBy(static_cast<double>(x)); });
     }
 }
 
-void markRepeating(PhaseSpans& phases, const CaptureChannel& channel, const SampleBlocks& recorded) {
-    const Limits limits{static_cast<double>(recorded.lowest()), static_cast<double>(recorded.highest())};
+/// How much the signal moves where it rests.
+enum class Rest { Still, Moves, Jitters };
+
+/// Judged on three neighbours at a time, away from the phases. Noise turns back from one sample to the next; what
+/// settles slowly does not.
+Rest restBetween(const PhaseSpans& phases, const CaptureChannel& channel, double span) {
+    const auto& x = channel.samples;
+    if (x.size() < 3) return Rest::Still;
+    struct Steps {
+        double before;
+        double after;
+    };
+    std::vector<Steps> judged;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t moves = 0;
+    auto phase = phases.begin();
+    const std::size_t stride = std::max<std::size_t>(1, x.size() / kJudgedTriples);
+    const auto quietAgain = [](const PhaseSpan& one) {
+        const Stretch own(one);
+        return own.end + own.size() / 4 + 2;
+    };
+    for (std::size_t i = 1; i + 1 < x.size(); i += stride) {
+        while (phase != phases.end() && i >= quietAgain(*phase)) ++phase;
+        if (phase != phases.end()) {
+            const Stretch own(*phase);
+            if (i + own.size() / 4 + 2 >= own.first) {
+                const auto next = quietAgain(*phase);
+                i += (next - i) / stride * stride;
+                continue;
+            }
+        }
+        const Steps steps{static_cast<double>(x[i]) - static_cast<double>(x[i - 1]),
+                          static_cast<double>(x[i + 1]) - static_cast<double>(x[i])};
+        const double larger = std::max(std::abs(steps.before), std::abs(steps.after));
+        if (!(larger <= kEdge * span)) continue;
+        if (steps.before != 0) {
+            ++moves;
+            least = std::min(least, std::abs(steps.before));
+        }
+        judged.push_back(steps);
+    }
+    const auto n = static_cast<double>(judged.size());
+    if (judged.size() < kFewestTriples || static_cast<double>(moves) < kMoves * n) return Rest::Still;
+    const auto turns = std::ranges::count_if(judged, [&](const Steps& s) {
+        return s.before * s.after < 0 && std::max(std::abs(s.before), std::abs(s.after)) > 1.5 * least;
+    });
+    return static_cast<double>(turns) >= kJitters * n ? Rest::Jitters : Rest::Moves;
+}
+
+bool isFlat(std::span<const float> samples, float extreme, Rest rest) {
+    const auto first = std::ranges::find(samples, extreme);
+    if (first == samples.end()) return false;
+    auto end = samples.end();
+    while (*(end - 1) != extreme) --end;
+    const auto length = static_cast<std::size_t>(end - first);
+    if (length < kFewestFlat || 2 * length < samples.size()) return false;
+    const auto kept = static_cast<std::size_t>(std::count(first, end, extreme));
+    if (rest == Rest::Moves) return kept == length && length >= kManyFlat;
+    return static_cast<double>(kept) >= kKeeps * static_cast<double>(length);
+}
+
+void markFlatTops(PhaseSpans& phases, const CaptureChannel& channel, const SampleBlocks& recorded) {
+    const auto lowest = recorded.lowest();
+    const auto highest = recorded.highest();
+    const auto rest = restBetween(phases, channel, static_cast<double>(highest) - static_cast<double>(lowest));
+    if (rest == Rest::Still) return;
     for (auto& phase : phases) {
         const Stretch own(phase);
-        if (phase.end - phase.begin < kFewestSamples) continue;
-        if (!recorded.mayReach(own.first, own.end, limits.low, limits.high)) continue;
-        const auto samples = own.of(channel);
-        const float extreme = phase.sign > 0 ? recorded.highest() : recorded.lowest();
-        phase.clipped =
-            2 * static_cast<std::size_t>(std::count(samples.begin(), samples.end(), extreme)) > samples.size();
+        if (!recorded.mayReach(own.first, own.end, static_cast<double>(lowest), static_cast<double>(highest))) continue;
+        phase.flatTop = isFlat(own.of(channel), phase.sign > 0 ? highest : lowest, rest);
     }
 }
 
 }  // namespace
 
 void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks& blocks) {
+    if (phases.empty()) return;
     const auto& channel = *view.channel;
     const bool isRecord = view.own.empty();
-    if (channel.high > channel.low) {
-        markAtRange(phases, channel, isRecord ? &blocks : nullptr);
-        return;
-    }
-    if (phases.empty() || !isRestless(channel.samples)) return;
-    if (isRecord) {
-        markRepeating(phases, channel, blocks);
+    if (const auto limits = clipLimits(channel)) {
+        markAtRange(phases, channel, *limits, isRecord ? &blocks : nullptr);
+    } else if (isRecord) {
+        markFlatTops(phases, channel, blocks);
     } else {
-        markRepeating(phases, channel, SampleBlocks(channel.samples));
+        markFlatTops(phases, channel, SampleBlocks(channel.samples));
     }
 }
 

@@ -1,18 +1,31 @@
-// Clipping.h - which phases lost their tops to the oscilloscope's input range. Private to core/measure.
+// Clipping.h - which phases lost their tops to the oscilloscope's input range, and which may have. Private to
+// core/measure.
 //
-// With a declared range: a sample at or beyond its last step. Without: samples that repeat the record's extreme exactly
-// all along a plateau, in a record that otherwise never stays still. Judged on the samples as recorded.
+// Clipping is known from the channel's range alone: a sample that stands at either end of it, which is where the
+// full-scale codes are. Without a range nothing is called clipped, for the highest value of a record may be the
+// signal's own. Where a top then keeps the record's extreme from sample to sample although the signal is noisy where it
+// rests, the noise was cut off: such a phase is flat-topped, is measured, and the reader is told.
 //
-// Thread-safety: pure function.
+// A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
+// resting signal jitters over three codes or more: noise that does so leaves one code 95 % of the time nowhere. Noise
+// of two codes is seen or not by where the level lies between them, so that the top must then keep the extreme in every
+// one of at least 50 samples. From 0.4 codes (s.d.) on every clipped record is so found, with less noise some; of clean
+// ones none from 0.3 codes on, with less noise about one in ten. Judged on the samples as recorded.
+//
+// Thread-safety: pure functions.
 #pragma once
 
+#include <optional>
+#include <span>
+
+#include "core/measure/ClipLimits.h"
 #include "core/measure/FoundPhase.h"
 #include "core/measure/SampleBlocks.h"
 #include "core/measure/SampleView.h"
 
 namespace tacto {
 
-/// `phases` were found in `view`, whose samples are those of `blocks`.
+/// Sets `clipped` and `flatTop` of `phases`, which were found in `view`, whose samples are those of `blocks`.
 void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks& blocks);
 
 }  // namespace tacto

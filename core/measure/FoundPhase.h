@@ -19,6 +19,7 @@ struct PhaseSpan {
     bool truncated = false;
     bool incomplete = false;
     bool clipped = false;
+    bool flatTop = false;  ///< see Clipping.h
 
     [[nodiscard]] double from_s() const noexcept { return view->timeOf(static_cast<double>(begin)); }
     [[nodiscard]] double to_s() const noexcept { return view->timeOf(static_cast<double>(end)); }

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <span>
 
+#include "core/measure/Clipping.h"
+
 namespace tacto {
 
 namespace {
@@ -66,12 +68,10 @@ private:
         return {at(from_s), at(to_s)};
     }
     [[nodiscard]] bool isUsable(const Range& range) const {
-        const double margin = 1.001 * voltage_.lsb;
         for (std::size_t i = range.first; i < range.end; ++i) {
             const double v = static_cast<double>(voltage_.samples[i]);
             if (!std::isfinite(v) || !std::isfinite(current_.samples[i])) return false;
-            if (voltage_.high > voltage_.low && (v >= voltage_.high - margin || v <= voltage_.low + margin))
-                return false;
+            if (limits_ && limits_->reachedBy(v)) return false;
         }
         return range.size() > 0;
     }
@@ -117,6 +117,7 @@ private:
     double start_s_;
     const CaptureChannel& voltage_;
     const CaptureChannel& current_;
+    std::optional<ClipLimits> limits_ = clipLimits(voltage_);
 };
 
 template <class Value>
@@ -133,9 +134,10 @@ Statistics statisticsOver(const std::vector<PulseLoad>& pulses, Value value) {
 /// One reading's standard uncertainty of a level at the end of the line, relative to the level.
 double relativeUncertainty(const CaptureChannel& channel, double noise, double samples, double level) {
     const double random = kEndOfLine * noise / std::sqrt(std::max(2.0, samples));
-    const double offset = channel.offsetTolerance / std::sqrt(3.0);
-    const double absolute = std::hypot(std::hypot(random, channel.lsb / std::sqrt(12.0)), offset);
-    return std::hypot(absolute / std::abs(level), channel.gainTolerance / std::sqrt(3.0));
+    const double step = (channel.lsb > 0 ? channel.lsb : kNotMeasured) / std::sqrt(6.0);
+    const double absolute = std::hypot(std::hypot(random, step), channel.linearityTolerance / std::sqrt(3.0));
+    return std::hypot(absolute / std::abs(level),
+                      std::hypot(channel.gainTolerance, channel.probeTolerance) / std::sqrt(3.0));
 }
 
 void summariseLoad(const CaptureChannel& voltage, const CaptureChannel& current, const ChannelMeasurement& pulses,
@@ -159,6 +161,17 @@ void summariseLoad(const CaptureChannel& voltage, const CaptureChannel& current,
     const double amperes = relativeUncertainty(current, pulses.states.noise, samples,
                                                magnitude([](const auto& p) { return p.current_a; }));
     result.loadUncertainty_ohm = std::hypot(volts, amperes) * std::abs(result.load_ohm.mean);
+}
+
+/// A voltage without a range whose tops look cut off makes the load too small; nothing else would say so.
+void warnOfFlatVoltage(const Capture& capture, std::size_t voltage, const MeasureOptions& options,
+                       LoadMeasurement& result) {
+    if (result.measuredPulses == 0 || clipLimits(capture.channels[voltage])) return;
+    const auto pulses = measureChannel(capture, voltage, options).pulses;
+    if (std::ranges::none_of(pulses, [](const auto& pulse) { return pulse.flags.flatTop; })) return;
+    result.warnings.push_back(fmt::format(
+        "the tops of '{}' look clipped and no input range is stated that would tell: the load may be larger",
+        result.voltage));
 }
 
 void warnOfLoad(const ChannelMeasurement& pulses, LoadMeasurement& result) {
@@ -209,6 +222,7 @@ Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage,
     }
     summariseLoad(volts, amperes, pulses, voltageNoise, result);
     warnOfLoad(pulses, result);
+    warnOfFlatVoltage(capture, voltage, options, result);
     return result;
 }
 

@@ -51,6 +51,7 @@ void flagPhase(const FoundPhase& phase, PulseFlags& flags) {
     flags.incomplete = flags.incomplete || phase.incomplete;
     flags.underSampled = flags.underSampled || phase.measured.samples < kFewestPhaseSamples;
     flags.coarse = flags.coarse || phase.measured.samples < kAmplePhaseSamples;
+    flags.flatTop = flags.flatTop || phase.flatTop;
 }
 
 }  // namespace

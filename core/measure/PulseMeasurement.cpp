@@ -38,7 +38,7 @@ ChannelMeasurement measureChannel(const Capture& capture, std::size_t channel, c
     if (result.states.count != StateCount::None && found.pulses.empty()) {
         result.warnings.push_back(fmt::format("channel '{}' has states but no pulse between them", result.name));
     }
-    summarise(std::move(found.pulses), {}, samples, options, result);
+    summarise(std::move(found.pulses), {}, samples, {capture.timeBaseTolerance, 0}, options, result);
     return result;
 }
 
@@ -121,7 +121,9 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
                         result.name, disordered, captures.size()));
     }
     assert(described != nullptr);  // there is at least one capture
-    summarise(std::move(pulses), breaks, *described, options, result);
+    const TimeTolerance time{captures.front().timeBaseTolerance,
+                             captures.size() > 1 ? captures.front().stampTolerance_s : 0};
+    summarise(std::move(pulses), breaks, *described, time, options, result);
     return result;
 }
 

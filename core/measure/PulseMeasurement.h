@@ -57,6 +57,9 @@ struct PulseFlags {
     bool incomplete = false;    ///< samples are missing in it
     bool underSampled = false;  ///< fewer than 10 samples in a phase
     bool coarse = false;        ///< 10 to 40 samples in a phase: measured, with the uncertainty that follows
+    /// A top keeps the record's extreme although the signal is noisy, and no range is stated that would say whether it
+    /// is clipped: measured, with a warning.
+    bool flatTop = false;
     [[nodiscard]] bool measured() const noexcept { return !(clipped || truncated || incomplete || underSampled); }
 };
 
@@ -105,15 +108,17 @@ struct SignalQuality {
     bool doubtful = false;         ///< too much noise: pulses may be missing or invented
 };
 
-/// Standard uncertainties (k = 1) of one reading, from what the channel declares and the record shows.
+/// Standard uncertainties (k = 1) of one reading, from what the instrument states and the record shows. NaN where the
+/// instrument does not state what it takes (Capture.h), and for a channel without pulses.
 struct MeasurementUncertainty {
-    double amplitude = kNotMeasured;  ///< of a plateau: lsb/√12, gain and offset tolerance /√3, noise over the plateau
-    double width_s = kNotMeasured;     ///< sampling step/√6, and the noise on the edges
-    double interval_s = kNotMeasured;  ///< the same
-    double gap_s = kNotMeasured;       ///< the same; biphasic only
-    double charge =
-        kNotMeasured;  ///< of the leading phase: gain, offset and noise over the width, step/√6 of its edges
-    double imbalance = kNotMeasured;  ///< of both charges, without what they share; biphasic only
+    /// Of a plateau above its baseline: lsb/√6, gain and probe tolerance /√3, noise over the plateau. An offset
+    /// cancels.
+    double amplitude = kNotMeasured;
+    double width_s = kNotMeasured;     ///< sampling step/√6, the noise on the edges, and the time base
+    double interval_s = kNotMeasured;  ///< the same, and the time stamps of separate records
+    double gap_s = kNotMeasured;       ///< as of a width; biphasic only
+    double charge = kNotMeasured;      ///< of the leading phase: gain and noise over the width, step/√6 of its edges
+    double imbalance = kNotMeasured;   ///< of both charges, without what they share; biphasic only
 };
 
 /// A reading lies within this many standard uncertainties of the truth in 95 of 100 cases.

@@ -53,6 +53,7 @@ private:
 /// How many pulses are what a warning may be about.
 struct PulseCounts {
     std::size_t measured = 0, clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
+    std::size_t flatTop = 0;
 
     void add(const PulseMeasurement& pulse) {
         const auto& flags = pulse.flags;
@@ -63,6 +64,7 @@ struct PulseCounts {
         incomplete += flags.incomplete ? 1 : 0;
         underSampled += flags.underSampled && !flags.truncated && !flags.incomplete ? 1 : 0;
         coarse += flags.coarse && isMeasured ? 1 : 0;
+        flatTop += flags.flatTop && isMeasured ? 1 : 0;
         single += isMeasured && !pulse.second ? 1 : 0;
     }
 };
@@ -85,8 +87,8 @@ double groupingGap(const MeasureOptions& options) {
     return 0;
 }
 
-/// Gap and imbalance. `random`: of the leading charge; `offset` and `resolution`: of any level; `step`: s per sample.
-void addSecondPhase(const ChannelMeasurement& result, double step, double random, double offset, double resolution,
+/// Gap and imbalance. `random`: of the leading charge; `level`: of any level; `step`: s per sample.
+void addSecondPhase(const ChannelMeasurement& result, double step, double random, double level,
                     const SecondPhases& seconds, MeasurementUncertainty& u) {
     const double charge = result.charge.mean;
     if (!(seconds.n > 0) || !(charge > 0) || !(seconds.height > 0)) return;
@@ -97,38 +99,46 @@ void addSecondPhase(const ChannelMeasurement& result, double step, double random
     // White noise: the mean of more samples has less of it.
     const double jitter = result.states.noise * std::sqrt(step / ownStep) * ownStep / height;
     u.gap_s = std::hypot(u.width_s, std::hypot(ownStep > step ? ownStep / std::sqrt(6.0) : 0, jitter));
-    // A gain is the same for both charges and divides out; an offset adds to one what it takes from the other. Edges
+    // A gain is the same for both charges and divides out; a baseline adds to one what it takes from the other. Edges
     // that fall between samples are the same for both where the phases are.
     const double second = std::hypot(result.states.noise * std::sqrt(step * width), height * ownStep / std::sqrt(6.0));
     const double baseline = result.states.noise * std::sqrt(step / width) * width;
-    const double shared = std::hypot(offset, resolution) * (result.width_s.mean + width);
+    const double shared = level * (result.width_s.mean + width);
     u.imbalance = std::hypot(std::hypot(random, std::hypot(second, baseline)), shared) / charge;
 }
 
 MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const CaptureChannel& channel,
-                                     const SecondPhases& seconds) {
+                                     const SecondPhases& seconds, const TimeTolerance& time) {
     MeasurementUncertainty u;
     if (result.measuredPulses == 0) return u;
     const double amplitude = result.amplitude.mean;
     const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // of what was measured
     const double width = result.width_s.mean;
     const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
-    const double resolution = channel.lsb / std::sqrt(12.0);
-    const double gain = channel.gainTolerance * amplitude / std::sqrt(3.0);
-    const double offset = std::hypot(channel.offsetTolerance / std::sqrt(3.0), result.quality.unrest);
-    u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, offset));
+    // What is not stated is NaN, and so is all that needs it.
+    // A level is the difference of two, each to a step; an offset is in both and cancels.
+    const double resolution = (channel.lsb > 0 ? channel.lsb : kNotMeasured) / std::sqrt(6.0);
+    const double gain =
+        std::hypot(std::hypot(channel.gainTolerance, channel.probeTolerance) * amplitude, channel.linearityTolerance) /
+        std::sqrt(3.0);
+    const double unrest = result.quality.unrest;
+    u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, unrest));
     // Two edges, each somewhere within a step; and noise moves each by itself over the edge's steepness.
     const double edge = std::max(std::isfinite(result.rise_s.mean) ? result.rise_s.mean / 0.8 : 0, step);
     const double jitter = amplitude > 0 ? std::sqrt(2.0) * result.states.noise * edge / amplitude : 0;
-    u.width_s = u.interval_s = std::hypot(step / std::sqrt(6.0), jitter);
+    const double edges = std::hypot(step / std::sqrt(6.0), jitter);
+    u.width_s = std::hypot(edges, time.base * width / std::sqrt(3.0));
+    u.interval_s = std::hypot(std::hypot(edges, time.base * result.interval_s.mean / std::sqrt(3.0)),
+                              std::sqrt(2.0 / 3.0) * time.stamp_s);
     // Over the width, the edges, and the baseline that is subtracted all along.
     const auto chargeNoise = [&](double length, double height, double sampling) {
         const double samples = result.states.noise * std::sqrt(sampling * (length + 4 * edge));
         return std::hypot(std::hypot(samples, noise * length), height * sampling / std::sqrt(6.0));
     };
     const double random = chargeNoise(width, amplitude, step);
-    u.charge = std::hypot(std::hypot(random, resolution * width), std::hypot(gain, offset) * width);
-    if (result.states.count == StateCount::Three) addSecondPhase(result, step, random, offset, resolution, seconds, u);
+    u.charge = std::hypot(std::hypot(random, resolution * width), std::hypot(gain, unrest) * width);
+    if (result.states.count == StateCount::Three)
+        addSecondPhase(result, step, random, std::hypot(unrest, resolution), seconds, u);
     return u;
 }
 
@@ -170,15 +180,19 @@ void warnOfPulses(const PulseCounts& counts, ChannelMeasurement& result) {
     warn(counts.truncated, "cut off by the record's ends: not measured");
     warn(counts.incomplete, "with missing samples: not measured");
     warn(counts.underSampled, "with fewer than 10 samples in a phase: not measured");
-    warn(counts.coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.)",
-                                    formatQuantity(result.uncertainty.width_s, "s", 2)));
+    const double step = static_cast<double>(result.quality.mean) / result.rate_hz;
+    warn(counts.coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.) or more",
+                                    formatQuantity(step / std::sqrt(6.0), "s", 2)));
+    warn(counts.flatTop,
+         "with a flat top at the record's own extreme in spite of the noise: it may be clipped, so that the signal may "
+         "be larger; no input range is stated that would tell");
     if (result.states.count == StateCount::Three) warn(counts.single, "without a second phase");
 }
 
 }  // namespace
 
 void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t> breaks, const CaptureChannel& channel,
-               const MeasureOptions& options, ChannelMeasurement& result) {
+               const TimeTolerance& time, const MeasureOptions& options, ChannelMeasurement& result) {
     result.pulses = std::move(pulses);
     const std::size_t n = result.pulses.size();
     TrainGrouping trains(groupingGap(options), breaks, n);
@@ -197,7 +211,7 @@ void summarise(std::vector<PulseMeasurement> pulses, std::span<const std::size_t
     Readings intervals(result.trains.size());
     for (const auto& train : result.trains) intervals.add(train.interval_s);
     result.interval_s = intervals.statistics();
-    result.uncertainty = uncertaintyOf(result, channel, seconds);
+    result.uncertainty = uncertaintyOf(result, channel, seconds, time);
     warnOfQuality(result);
     warnOfPulses(counts, result);
 }

@@ -1,6 +1,6 @@
 #include "core/session/AboutJson.h"
 
-#include "core/session/JsonFields.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto {
 

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "core/session/JsonFields.h"
+#include "core/base/JsonFields.h"
+#include "core/measure/CaptureDescription.h"
 
 namespace tacto {
 
@@ -59,43 +60,17 @@ PackedCapture packSamples(const Capture& capture) {
 }
 
 nlohmann::json describe(const Capture& capture, const PackedCapture& packed) {
-    auto channels = nlohmann::json::array();
-    for (const auto& channel : capture.channels) {
-        channels.push_back({{"name", channel.name},
-                            {"unit", channel.unit},
-                            {"low", channel.low},
-                            {"high", channel.high},
-                            {"lsb", channel.lsb},
-                            {"gain_tolerance", channel.gainTolerance},
-                            {"offset_tolerance", channel.offsetTolerance}});
-    }
-    return {{"rate_hz", capture.rate_hz},     {"start_s", capture.start_s},   {"trigger_s", capture.trigger_s},
-            {"simulated", capture.simulated}, {"samples", capture.samples()}, {"deflated", packed.deflated},
-            {"channels", std::move(channels)}};
+    auto description = describeCapture(capture);
+    description["samples"] = capture.samples();
+    description["deflated"] = packed.deflated;
+    return description;
 }
 
 Result<Capture> unpackCapture(const nlohmann::json& description, std::span<const std::byte> data) {
-    Capture capture;
-    capture.rate_hz = numberOr(description, "rate_hz");
-    capture.start_s = numberOr(description, "start_s");
-    capture.trigger_s = numberOr(description, "trigger_s");
-    capture.simulated = flagOr(description, "simulated");
+    auto described = captureDescribed(description);
+    if (!described) return fail(ErrorCode::ParseError, "a capture has no list of channels");
+    Capture& capture = *described;
     const auto samples = static_cast<std::size_t>(countOr(description, "samples"));
-    const auto channels = description.find("channels");
-    if (channels == description.end() || !channels->is_array()) {
-        return fail(ErrorCode::ParseError, "a capture has no list of channels");
-    }
-    for (const auto& each : *channels) {
-        CaptureChannel channel;
-        channel.name = textOr(each, "name");
-        channel.unit = textOr(each, "unit");
-        channel.low = numberOr(each, "low");
-        channel.high = numberOr(each, "high");
-        channel.lsb = numberOr(each, "lsb");
-        channel.gainTolerance = numberOr(each, "gain_tolerance");
-        channel.offsetTolerance = numberOr(each, "offset_tolerance");
-        capture.channels.push_back(std::move(channel));
-    }
     const bool deflated = flagOr(description, "deflated");
     const std::size_t values = deflated ? data.size() * kLargestRatio / kWidth : data.size() / kWidth;
     if (capture.channels.empty() ? samples != 0 : samples > values / capture.channels.size()) {
@@ -115,7 +90,7 @@ Result<Capture> unpackCapture(const nlohmann::json& description, std::span<const
         return fail(ErrorCode::ParseError, "a capture says {} samples and holds {} bytes", samples, data.size());
     }
     fromPlanes(data, capture, samples);
-    return capture;
+    return std::move(capture);
 }
 
 }  // namespace tacto

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "core/session/JsonFields.h"
+#include "core/base/JsonFields.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto {

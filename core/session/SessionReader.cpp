@@ -2,12 +2,12 @@
 
 #include <limits>
 
+#include "core/base/JsonFields.h"
 #include "core/base/JsonText.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
-#include "core/session/JsonFields.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionSource.h"
 

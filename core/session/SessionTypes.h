@@ -15,6 +15,13 @@ namespace tacto {
 inline constexpr const char* kExposureMeasurement = "exposure";
 inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
 
+/// Events that hold the session's marks (core/session/Marks.h): all of them when the bench closes, and each flag of R
+/// at once when it first drives the output.
+inline constexpr const char* kMarksEvent = "marks";
+inline constexpr const char* kMarkEvent = "mark";
+/// How the oscilloscope's calibration certificate stood when the session began, a sentence.
+inline constexpr const char* kCertificateEvent = "oscilloscope certificate";
+
 /// One device of the session.
 struct SessionDevice {
     std::string uri;
@@ -92,7 +99,7 @@ struct SessionVerdict {
     std::int64_t seq = 0;
     Instant at{0};
     std::string subject;
-    std::string verdict;  ///< "pass", "fail", "indeterminate", "stopped"
+    std::string verdict;  ///< "pass", "fail", "indeterminate", "stopped"; "none": found, and not judged
     std::vector<std::string> reasons;
     nlohmann::json results;
 };

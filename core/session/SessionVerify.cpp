@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "core/base/JsonFields.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chain.h"
 #include "core/session/Chunk.h"
-#include "core/session/JsonFields.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionSource.h"
 #include "core/session/WalScan.h"

@@ -3,9 +3,9 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonFields.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
-#include "core/session/JsonFields.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionStore.h"
 

@@ -128,7 +128,12 @@ public:
             return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files {} were expected", uri.text(),
                         uri.path, fmt::join(formats_->suffixes(), ", "));
         }
-        const auto simulated = statedSimulated(files.front());
+        // One that is simulated makes the instrument so; one that says nothing leaves its origin unknown.
+        std::optional<bool> simulated = false;
+        for (const auto& file : files) {
+            const auto stated = statedSimulated(file);
+            if (simulated != true) simulated = stated == false ? simulated : stated;
+        }
         std::vector<Capture> captures;
         for (const auto& file : files) {
             auto reading = formats_->read(file);

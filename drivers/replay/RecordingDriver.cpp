@@ -113,8 +113,8 @@ public:
         }
         auto recording = Recording::open(uri.path);
         if (!recording) return failure(recording);
-        DeviceIdentity identity{uri.text(), Role::Sensor, "recording: " + recording->title,
-                                "",         "",           recording->simulated.value_or(false)};
+        DeviceIdentity identity{uri.text(),           Role::Sensor, "recording: " + recording->title,
+                                recording->fingertip, "",           recording->simulated.value_or(false)};
         into.sensor =
             std::make_unique<ReplayedRecording>(std::move(*recording), std::move(identity), speed, context.clock);
         return {};

@@ -8,8 +8,9 @@
 
 namespace tacto::sigrok_driver {
 
-EmulatedRigol::EmulatedRigol(std::shared_ptr<ScopeInput> input, const Clock& clock, std::uint64_t seed)
-    : input_(std::move(input)), clock_(clock), noise_(seed, "oscilloscope noise") {}
+EmulatedRigol::EmulatedRigol(std::shared_ptr<ScopeInput> input, const Clock& clock, std::uint64_t seed,
+                             std::string model)
+    : input_(std::move(input)), clock_(clock), model_(std::move(model)), noise_(seed, "oscilloscope noise") {}
 
 void EmulatedRigol::advance() {
     const double now_s = toSeconds(clock_.now());
@@ -50,7 +51,7 @@ std::string EmulatedRigol::take(std::string_view command) {
 std::string EmulatedRigol::ask(std::string_view what) {
     const auto answer = [](const auto& value) { return fmt::format("{}\n", value); };
     const auto number = [](double value) { return fmt::format("{:.6e}\n", value); };
-    if (what == "*IDN") return "Rigol Technologies,DS2072A,DS2D0000000032,00.03.05\n";
+    if (what == "*IDN") return fmt::format("Rigol Technologies,{},DS2D0000000032,00.03.05\n", model_);
     if (what == "*OPC") return "1\n";
     if (what == "*ESR") return memory_ && !trigger_s_ ? "16\n" : "0\n";
     if (what.starts_with(":CHAN") && what.size() > 7 && (what[5] == '1' || what[5] == '2')) {

@@ -34,7 +34,9 @@ public:
 
 class EmulatedRigol {
 public:
-    EmulatedRigol(std::shared_ptr<ScopeInput> input, const Clock& clock, std::uint64_t seed = 1);
+    /// `model`: as it names itself; every one answers as a DS2072A does.
+    EmulatedRigol(std::shared_ptr<ScopeInput> input, const Clock& clock, std::uint64_t seed = 1,
+                  std::string model = "DS2072A");
 
     /// Takes one command, without its end of line. The answer with its own; empty where none is due.
     [[nodiscard]] std::string take(std::string_view command);
@@ -71,6 +73,7 @@ private:
 
     const std::shared_ptr<ScopeInput> input_;
     const Clock& clock_;
+    const std::string model_;
     sim::FastNoise noise_;
     std::array<Channel, 2> channels_;
     double timebase_s_ = 1e-3;

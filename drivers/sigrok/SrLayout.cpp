@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -52,6 +53,18 @@ std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key
     const auto read = std::from_chars(found->second.data(), end, number);
     if (read.ec != std::errc() || read.ptr != end || number > most) return std::nullopt;
     return number;
+}
+
+/// Whether libsigrok understands `text` as the frequency that a reader would: "1 MHz", "2.5 kHz", "44100".
+bool isFrequency(std::string_view text) {
+    double value = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec != std::errc() || !(value >= 0 && value <= 1e18) || std::signbit(value)) return false;
+    auto unit = trimmed(std::string_view(read.ptr, text.data() + text.size()));
+    if (!unit.empty() && std::string_view("kKmMgGtT").find(unit.front()) != std::string_view::npos) {
+        unit.remove_prefix(1);
+    }
+    return unit.empty() || unit == "Hz" || unit == "hz" || unit == "HZ";
 }
 
 class Reader {
@@ -111,6 +124,10 @@ Result<SrLayout> layoutFrom(const Reader& reader, const Values& device) {
             return reader.broken("unitsize is {}; at least {} were expected for {} logic channels", layout.unitSize,
                                  (layout.logicChannels + 7) / 8, layout.logicChannels);
         }
+    }
+    if (const auto rate = device.find("samplerate"); rate != device.end()) {
+        layout.samplerate = rate->second;
+        layout.samplerateIsSensible = isFrequency(layout.samplerate);
     }
     layout.bytes = SrLayout::sum(layout.logic);
     for (const auto& pieces : layout.analog) layout.bytes += SrLayout::sum(pieces);

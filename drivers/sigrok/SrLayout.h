@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/base/Result.h"
@@ -29,6 +30,9 @@ struct SrLayout {
     std::vector<SrPiece> logic;
     std::vector<std::vector<SrPiece>> analog;  ///< of each channel
     std::uint64_t bytes = 0;                   ///< of all samples
+    /// As the metadata has it; empty where it is not stated. libsigrok reads a minus sign as a huge rate.
+    std::string samplerate;
+    bool samplerateIsSensible = true;  ///< not stated, or a frequency of 0 or above
 
     [[nodiscard]] static std::uint64_t sum(const std::vector<SrPiece>& pieces) noexcept;
 };

@@ -239,6 +239,11 @@ Result<CaptureReading> SigrokFormat::read(const std::filesystem::path& path, con
                                           const ReadWatch& watch) const {
     const auto layout = sigrok_driver::readSrLayout(path);
     if (!layout) return failure(layout);
+    if (!layout->samplerateIsSensible && !options.rate) {
+        return fail(ErrorCode::ParseError,
+                    "{}: its sampling rate is '{}'; a frequency above 0 was expected, as in 1 MHz, or --sample-rate",
+                    path.string(), layout->samplerate.substr(0, 40));
+    }
     auto capture = sigrok_driver::SrReader(*layout, watch, path.string()).read();
     if (!capture) return failure(capture);
     CaptureReading reading;

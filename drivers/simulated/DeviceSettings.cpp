@@ -37,6 +37,9 @@ Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
     sensor.noise_m_s2 = from.quantity("noise", "m/s2", sensor.noise_m_s2, 0, 10);
     sensor.taxelNoise_Pa = from.quantity("taxelnoise", "Pa", sensor.taxelNoise_Pa, 0, 1e4);
     sensor.forceNoise_N = from.quantity("forcenoise", "N", sensor.forceNoise_N, 0, 1);
+    sensor.taxelGain = from.quantity("taxelgain", "", sensor.taxelGain, 0.1, 10);
+    sensor.forceGain = from.quantity("forcegain", "", sensor.forceGain, 0.1, 10);
+    sensor.taxelsInCounts = from.choice("taxelunit", "Pa", {"Pa", "count"}) == "count";
     sensor.dropouts = from.quantity("dropouts", "", 0, 0, 0.9);
     sensor.faults = from.faults({Fault::Unplug, Fault::Stale, Fault::Dropout, Fault::Nan, Fault::Garbage, Fault::Drift,
                                  Fault::Stuck, Fault::Late});
@@ -63,21 +66,34 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     traits.gap = zero ? GapState::HoldsZero : GapState::HighImpedance;
     traits.deadMan = Seconds(from.quantity("deadman", "s", 2, 0, 60));
     traits.readsBack = from.choice("readback", "yes", {"yes", "no"}) == "yes";
-    settings.gain = from.quantity("gain", "", 1, 0.1, 10);
-    settings.offset = from.quantity("offset", unit, 0, current ? -0.01 : -10, current ? 0.01 : 10);
+    settings.seed = seed;
+    const bool drawn = from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn";
+    if (drawn) settings = drawnFlaws(settings);
+    const StimulatorSettings before = settings;
+    // What is asked for by name stands in place of what was drawn.
+    settings.gain = from.quantity("gain", "", settings.gain, 0.1, 10);
+    settings.offset = from.quantity("offset", unit, settings.offset, current ? -0.01 : -10, current ? 0.01 : 10);
+    settings.droop = from.quantity("droop", "", settings.droop, 0, 0.5);
+    settings.overshoot = from.quantity("overshoot", "", settings.overshoot, 0, 0.5);
+    settings.coldGain = from.quantity("coldgain", "", settings.coldGain, -0.2, 0.2);
+    settings.sourceOhm = from.quantity("sourceohm", "ohm", settings.sourceOhm, 0, 1e4);
     settings.imbalance = from.quantity("imbalance", "", 0, -1, 1);
     settings.widthGain = from.quantity("widthgain", "", 1, 0.8, 1.25);
-    settings.widthError = Seconds(from.quantity("widtherror", "s", 0, -1e-4, 1e-4));
-    settings.gapError = Seconds(from.quantity("gaperror", "s", 0, -1e-4, 1e-4));
-    // The twin states what it is off by, unless that is out of order: such a device does not know it. Its onsets jitter
-    // around the rhythm that the computer keeps.
-    const double off = std::abs(settings.gain - 1);
-    traits.accuracy = {.amplitude = off <= kLargestMiscalibration
-                                        ? std::optional(Spread{off, std::abs(settings.offset) * scale})
-                                        : std::nullopt,
-                       .phaseWidth = Spread{std::abs(settings.widthGain - 1), std::abs(settings.widthError.count())},
-                       .gap = Spread{0, std::abs(settings.gapError.count())},
-                       .interval = Spread{}};
+    settings.widthError = Seconds(from.quantity("widtherror", "s", settings.widthError.count(), -1e-4, 1e-4));
+    settings.gapError = Seconds(from.quantity("gaperror", "s", settings.gapError.count(), -1e-4, 1e-4));
+    // The twin states what it is off by at most, unless that is out of order: such a device does not know it. Its
+    // onsets jitter around the rhythm that the computer keeps.
+    const StimulatorStatement stated;
+    const double off = settings.gain == before.gain && drawn ? stated.gain : std::abs(settings.gain - 1);
+    const double offset = settings.offset == before.offset && drawn ? (current ? stated.offset_ma : stated.offset_v)
+                                                                    : std::abs(settings.offset) * scale;
+    const double timing = drawn ? stated.timing.count() : 0;
+    const double cold = settings.coldGain == before.coldGain && drawn ? stated.coldGain : std::abs(settings.coldGain);
+    traits.accuracy = {
+        .amplitude = off <= kLargestMiscalibration ? std::optional(Spread{off + cold, offset}) : std::nullopt,
+        .phaseWidth = Spread{std::abs(settings.widthGain - 1), std::max(timing, std::abs(settings.widthError.count()))},
+        .gap = Spread{0, std::max(timing, std::abs(settings.gapError.count()))},
+        .interval = Spread{}};
     settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
     settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));
     settings.jitter = Seconds(from.quantity("jitter", "s", settings.jitter.count(), 0, 0.01));
@@ -93,7 +109,6 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     settings.faults = from.faults({Fault::Unplug, Fault::StuckOn, Fault::Open, Fault::Short, Fault::Drift,
                                    Fault::Garbage, Fault::Late, Fault::Nan});
     if (const auto read = from.finish(); !read) return failure(read);
-    settings.seed = seed;
     return out;
 }
 
@@ -105,14 +120,21 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
     out.traits.bits = from.integer("bits", 12, 6, 16);
     out.traits.bandwidth = Hertz(from.quantity("bandwidth", "Hz", 20e6, 1e3, 1e9));
     auto& flaws = out.flaws;
+    auto& stated = flaws.stated;
+    stated.states = from.choice("accuracy", "stated", {"stated", "unknown"}) == "stated";
+    stated.gain = from.quantity("gaintolerance", "", stated.gain, 0, 0.5);
+    stated.offset = from.quantity("offsettolerance", "", stated.offset, 0, 0.5);
+    stated.linearity = from.quantity("linearitytolerance", "", stated.linearity, 0, 0.5);
+    stated.shunt = from.quantity("shunttolerance", "", stated.shunt, 0, 0.5);
+    stated.timeBase = from.quantity("timebasetolerance", "", stated.timeBase, 0, 0.1);
+    if (from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn") flaws = drawnFlaws(flaws, seed);
+    // What is asked for by name stands in place of what was drawn.
     flaws.noise = from.quantity("noise", "", flaws.noise, 0, 0.1);
-    flaws.gain = from.quantity("gain", "", 1, 0.5, 2);
+    flaws.gain = from.quantity("gain", "", flaws.gain, 0.5, 2);
     flaws.offset = from.quantity("offset", "V", 0, -10, 10);
-    flaws.currentGain = from.quantity("currentgain", "", 1, 0.5, 2);
+    flaws.currentGain = from.quantity("currentgain", "", flaws.currentGain, 0.5, 2);
     flaws.currentOffset = from.quantity("currentoffset", "A", 0, -1, 1);
-    flaws.timeBase = from.quantity("timebase", "", 1, 0.8, 1.25);
-    flaws.gainTolerance = from.quantity("gaintolerance", "", flaws.gainTolerance, 0, 0.5);
-    flaws.offsetTolerance = from.quantity("offsettolerance", "", flaws.offsetTolerance, 0, 0.5);
+    flaws.timeBase = from.quantity("timebase", "", flaws.timeBase, 0.8, 1.25);
     flaws.faults = from.faults({Fault::Unplug, Fault::Garbage, Fault::Late, Fault::Stale, Fault::Nan});
     if (const auto read = from.finish(); !read) return failure(read);
     flaws.seed = seed;

@@ -134,6 +134,15 @@ void SimulatedCircuit::begin(double onset_s, double end_s) {
     next.onset_s = onset_s;
     next.cut = false;
     last_ = {train_->pulse, train_->limits, circuitAtOnset(onset_s, train_->pulse, train_->limits), residual, 0};
+    if (const double ohm = last_.circuit.seriesOhm + last_.circuit.parallelOhm;
+        train_->sourceOhm > 0 && !last_.circuit.open) {
+        for (std::size_t i = 0; i < last_.pulse.count; ++i) {
+            auto& drive = last_.pulse.steps[i].drive;
+            if (drive.drive != Drive::Voltage) continue;
+            drive.start *= ohm / (ohm + train_->sourceOhm);
+            drive.end *= ohm / (ohm + train_->sourceOhm);
+        }
+    }
     loadChanged_ = false;
     pulses_.push_back(std::move(next));
     compute(pulses_.back(), end_s);

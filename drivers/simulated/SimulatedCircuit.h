@@ -31,7 +31,7 @@ struct DrivenPulse {
         DriveSegment drive;
         PulsePart part = PulsePart::LeadingPhase;
     };
-    static constexpr std::size_t kMaxSteps = 8;
+    static constexpr std::size_t kMaxSteps = 12;
     std::array<Step, kMaxSteps> steps{};
     std::size_t count = 0;
     DriveSegment rest;  ///< what the source does afterwards; its duration is ignored
@@ -47,6 +47,7 @@ struct DrivenTrain {
     int pulses = 1;
     double period_s = 0.01;    ///< between pulses of the train
     double repeatEvery_s = 0;  ///< onset to onset of trains; 0 = once
+    double sourceOhm = 0;      ///< of a voltage source: its level sags by what the load's d.c. resistance draws
     SourceLimits limits;
 };
 

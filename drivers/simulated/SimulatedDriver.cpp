@@ -30,12 +30,14 @@ const std::array<Kind, 4>& kinds() {
         {Role::Stimulator,
          "stimulator",
          "simulated stimulator",
-         {"mode", "load", "max", "step", "compliance", "limit", "gap", "deadman", "readback", "imbalance", "widthgain",
-          "widtherror", "gaperror", "rise", "latency", "jitter", "readbacknoise"}},
+         {"mode",      "load",     "max",       "step",      "compliance", "limit",    "gap",
+          "deadman",   "readback", "imbalance", "widthgain", "widtherror", "gaperror", "droop",
+          "overshoot", "coldgain", "sourceohm", "rise",      "latency",    "jitter",   "readbacknoise"}},
         {Role::Oscilloscope,
          "oscilloscope",
          "simulated oscilloscope",
-         {"memory", "bandwidth", "currentgain", "currentoffset", "timebase", "gaintolerance", "offsettolerance"}},
+         {"memory", "bandwidth", "currentgain", "currentoffset", "timebase", "accuracy", "gaintolerance",
+          "offsettolerance", "linearitytolerance", "shunttolerance", "timebasetolerance"}},
         {Role::Massager, "massager", "simulated massager", {"spinup", "frequency", "acceleration"}},
     }};
     return all;
@@ -92,6 +94,14 @@ private:
                                    DeviceSet& into) {
         std::array<DeviceUri, 4> parts;
         for (const auto& [key, value] : uri.parameters) {
+            if (key == "flaws") {  // of all that have any
+                for (std::size_t i = 0; i < parts.size(); ++i) {
+                    if (kinds()[i].role == Role::Stimulator || kinds()[i].role == Role::Oscilloscope) {
+                        parts[i].parameters.emplace_back(key, value);
+                    }
+                }
+                continue;
+            }
             const auto owner = std::ranges::find_if(
                 kinds(), [&](const Kind& kind) { return std::ranges::find(kind.ownKeys, key) != kind.ownKeys.end(); });
             if (owner == kinds().end()) {
@@ -129,6 +139,7 @@ private:
             case Role::Oscilloscope: {
                 const auto read = readOscilloscope(uri, context.seed);
                 if (!read) return failure(read);
+                into.reference = std::make_shared<WorldReference>(world);
                 into.oscilloscope = std::make_unique<SimulatedOscilloscope>(std::move(identity), std::move(world),
                                                                             read->traits, read->flaws);
                 return {};

@@ -2,9 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/base/NaN.h"
+#include "core/base/Random.h"
 
 namespace tacto::sim {
+
+ScopeFlaws drawnFlaws(const ScopeFlaws& otherwise, std::uint64_t seed) {
+    Random random(seed, "oscilloscope flaws");
+    const auto within = [&random](double halfWidth) { return halfWidth * (2 * random.uniform() - 1); };
+    ScopeFlaws out = otherwise;
+    const auto& stated = otherwise.stated;
+    const double gain = 1 + within(stated.gain);
+    out.gain = gain;
+    out.currentGain = gain * (1 + within(stated.shunt));
+    out.rangeOffset = within(stated.offset);
+    out.bow = within(stated.linearity);
+    out.timeBase = 1 + within(stated.timeBase);
+    return out;
+}
 
 SimulatedOscilloscope::SimulatedOscilloscope(DeviceIdentity identity, std::shared_ptr<World> world,
                                              const ScopeTraits& traits, const ScopeFlaws& flaws)
@@ -69,7 +85,7 @@ Result<void> SimulatedOscilloscope::arm() {
     trigger_s_.reset();
     forced_s_.reset();
     armed_ = true;
-    searchFrom_s_ = toSeconds(now);
+    searchFrom_s_ = armed_s_ = toSeconds(now);
     return {};
 }
 
@@ -125,14 +141,18 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
 Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered) {
     const double rate = settings_.sampleRate.value();
     const double before = settings_.preTrigger * static_cast<double>(settings_.samples);
-    const double stated_s = middle_s * flaws_.timeBase;
+    const double stated = stated_s(middle_s);
     Capture capture;
     capture.rate_hz = rate;
-    capture.start_s = std::ceil(stated_s * rate - before) / rate;  // the sample clock's own grid
-    capture.trigger_s = untriggered ? std::numeric_limits<double>::quiet_NaN() : stated_s;
+    capture.start_s = std::ceil(stated * rate - before) / rate;  // the sample clock's own grid
+    capture.trigger_s = untriggered ? kNaN : stated;
+    if (flaws_.stated.states) {
+        capture.timeBaseTolerance = flaws_.stated.timeBase;
+        capture.stampTolerance_s = 0;  // all records are of one clock
+    }
     capture.untriggered = untriggered;
     capture.simulated = true;
-    const double start = capture.start_s / flaws_.timeBase;
+    const double start = true_s(capture.start_s);
     const double end = start + static_cast<double>(settings_.samples) * step_s();
     const double bandwidth = traits_.bandwidth.value();
     const auto add = [&](const char* name, const char* unit, double range, FilteredTrace::Channel which, double gain,
@@ -143,8 +163,13 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
         channel.high = range;
         channel.low = -range;
         channel.lsb = 2 * range / std::pow(2.0, traits_.bits);
-        channel.gainTolerance = flaws_.gainTolerance;
-        channel.offsetTolerance = flaws_.offsetTolerance * range;
+        if (flaws_.stated.states) {
+            channel.gainTolerance = flaws_.stated.gain;
+            channel.offsetTolerance = flaws_.stated.offset * range;
+            channel.linearityTolerance = flaws_.stated.linearity * range;
+            channel.probeTolerance = *unit == 'A' ? flaws_.stated.shunt : 0;
+            channel.statedBy = "the simulated oscilloscope";
+        }
         digitise(channel, FilteredTrace(pulses, which, bandwidth, start, end), start, gain, offset);
     };
     add("voltage", "V", settings_.voltageRange.value(), FilteredTrace::Channel::Voltage, flaws_.gain, flaws_.offset);
@@ -157,11 +182,19 @@ void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrac
                                      double offset) {
     buffer_.resize(settings_.samples);
     trace.sample(start_s, step_s(), buffer_);
+    if (const double reference = channel.unit == "V" ? world_->reference() : 0; reference != 0) {
+        for (double& sample : buffer_) sample += reference;
+    }
     channel.samples.resize(settings_.samples);
     const double noise = flaws_.noise * channel.high;
     const double perLsb = 1 / channel.lsb;
+    const double shift = offset + flaws_.rangeOffset * channel.high;
+    // A cubic through the ends and the middle of the range: at most 1 of what it is multiplied with.
+    const double bow = 1.5 * std::sqrt(3.0) * flaws_.bow, perRange = 1 / channel.high;
     for (std::size_t k = 0; k < buffer_.size(); ++k) {
-        const double seen = gain * buffer_[k] + offset + noise * noise_.normal();
+        const double x = buffer_[k] * perRange;
+        const double bent = buffer_[k] * (1 + (x > -1 && x < 1 ? bow * (1 - x * x) : 0));
+        const double seen = gain * bent + shift + noise * noise_.normal();
         const double bounded = std::clamp(seen, channel.low, channel.high);
         const auto code = static_cast<std::int64_t>(bounded * perLsb + (bounded < 0 ? -0.5 : 0.5));
         channel.samples[k] = static_cast<float>(static_cast<double>(code) * channel.lsb);

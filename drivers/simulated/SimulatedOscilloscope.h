@@ -21,16 +21,31 @@
 
 namespace tacto::sim {
 
+/// What the twin's data sheet states: half-widths. Its flaws are drawn within them (science.md section 12).
+struct ScopeStatement {
+    bool states = true;         ///< false: nothing of what follows (`accuracy=unknown`)
+    double gain = 0.005;        ///< relative; both channels have the same reference, so one gain error
+    double offset = 0.001;      ///< of the range
+    double linearity = 0.0005;  ///< of the range
+    double shunt = 0.001;       ///< relative
+    double timeBase = 10e-6;    ///< relative
+};
+
 struct ScopeFlaws {
     double noise = 1e-4;                        ///< r.m.s., of the range
     double gain = 1, offset = 0;                ///< of the voltage channel; offset in V
     double currentGain = 1, currentOffset = 0;  ///< offset in A
-    double timeBase = 1;  ///< what it states of a time, to that time; a computer whose clock is off the other way
-    double gainTolerance = 0.005;    ///< what its data sheet states
-    double offsetTolerance = 0.001;  ///< of the range
+    double rangeOffset = 0;                     ///< of the range, of both channels
+    double bow = 0;                             ///< of the range: the largest departure from the straight line
+    /// What it states of a time since it was armed, to that time; a computer whose clock is off the other way.
+    double timeBase = 1;
+    ScopeStatement stated;
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };
+
+/// Gains, offset, bow and time base drawn from `seed` within what is stated; the rest as in `otherwise`.
+[[nodiscard]] ScopeFlaws drawnFlaws(const ScopeFlaws& otherwise, std::uint64_t seed);
 
 class SimulatedOscilloscope final : public Oscilloscope, public ForcedTrigger, public WorldMember {
 public:
@@ -51,6 +66,13 @@ private:
     /// From one sample to the next, true.
     [[nodiscard]] double step_s() const noexcept { return 1 / settings_.sampleRate.value() / flaws_.timeBase; }
     [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
+    /// What the instrument makes of a time since it was armed, and back.
+    [[nodiscard]] double stated_s(double true_s) const noexcept {
+        return armed_s_ + (true_s - armed_s_) * flaws_.timeBase;
+    }
+    [[nodiscard]] double true_s(double stated_s) const noexcept {
+        return armed_s_ + (stated_s - armed_s_) / flaws_.timeBase;
+    }
     /// A record around `middle_s`, where a trigger stood unless it is `untriggered`.
     [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered);
     void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset);
@@ -58,6 +80,7 @@ private:
     const DeviceIdentity identity_;
     const std::shared_ptr<World> world_;
     const ScopeTraits traits_;
+    double armed_s_ = 0;
     const ScopeFlaws flaws_;
     ScopeSettings wanted_, settings_;
     FastNoise noise_;

@@ -32,11 +32,11 @@ SimulatedSensor::SimulatedSensor(DeviceIdentity identity, std::shared_ptr<World>
       samplesPerSlow_(std::llround(settings.rate_hz / settings.slowRate_hz)),
       opened_s_(finger_->time_s()),
       lsb_(2 * settings.range_g * kGravity / std::pow(2.0, settings.bits)),
-      streams_{
-          {{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, settings.rate_hz,
-            "simulated fingertip accelerometer"},
-           {StreamKind::Taxels, StreamUnit::Pascal, Finger::kTaxels, settings.slowRate_hz, "simulated taxel array"},
-           {StreamKind::Force, StreamUnit::Newton, 1, settings.slowRate_hz, "simulated fingertip force"}}},
+      streams_{{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, settings.rate_hz,
+                 "simulated fingertip accelerometer"},
+                {StreamKind::Taxels, settings.taxelsInCounts ? StreamUnit::Count : StreamUnit::Pascal, Finger::kTaxels,
+                 settings.slowRate_hz, "simulated taxel array"},
+                {StreamKind::Force, StreamUnit::Newton, 1, settings.slowRate_hz, "simulated fingertip force"}}},
       fastNoise_(settings.seed, "accelerometer noise"),
       slowNoise_(settings.seed, "taxel and force noise") {
     FastNoise zero(settings.seed, "taxel offsets");
@@ -89,13 +89,13 @@ void SimulatedSensor::sampleSlow(SampleBlock& taxels, SampleBlock& force) {
     std::array<double, Finger::kTaxels> pressures{};
     finger_->pressures(pressures);
     for (std::size_t i = 0; i < pressures.size(); ++i) {
-        const double value = pressures[i] + offsets_[i] + settings_.taxelNoise_Pa * slowNoise_.normal() +
-                             kPressureDrift_Pa_s * drifting_s_;
+        const double value = settings_.taxelGain * pressures[i] + offsets_[i] +
+                             settings_.taxelNoise_Pa * slowNoise_.normal() + kPressureDrift_Pa_s * drifting_s_;
         const double seen = quantised(value, settings_.taxelStep_Pa, 1e6);
         if (!stuck_) lastPressures_[i] = seen;
     }
-    const double value =
-        finger_->force_N() + settings_.forceNoise_N * slowNoise_.normal() + kForceDrift_N_s * drifting_s_;
+    const double value = settings_.forceGain * finger_->force_N() + settings_.forceNoise_N * slowNoise_.normal() +
+                         kForceDrift_N_s * drifting_s_;
     if (!stuck_) lastForce_ = quantised(value, settings_.forceStep_N, 50);
     const double t = opened_s_ + static_cast<double>(sample_) / settings_.rate_hz;
     if (silent_ || packetLost(t)) return;

@@ -30,7 +30,10 @@ struct SensorSettings {
     double taxelStep_Pa = 1;
     double forceNoise_N = 0.002;
     double forceStep_N = 0.001;
-    double dropouts = 0;  ///< fraction of 10 ms packets that are lost
+    double taxelGain = 1;  ///< what a taxel and the force sensor say of 1 Pa and 1 N: a scale that is wrong
+    double forceGain = 1;
+    bool taxelsInCounts = false;  ///< and whether taxels claim to be in Pa at all
+    double dropouts = 0;          ///< fraction of 10 ms packets that are lost
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };

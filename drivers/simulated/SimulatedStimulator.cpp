@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/Random.h"
+
 namespace tacto::sim {
 
 namespace {
@@ -15,13 +17,31 @@ constexpr double kImbalanceNoise = 5e-4;
 constexpr double kImbalanceUncertainty = 2e-3;
 }  // namespace
 
+StimulatorSettings drawnFlaws(const StimulatorSettings& settings) {
+    Random random(settings.seed, "stimulator flaws");
+    const auto within = [&random](double halfWidth) { return halfWidth * (2 * random.uniform() - 1); };
+    const StimulatorStatement stated;
+    const bool current = settings.traits.drive == Drive::Current;
+    StimulatorSettings out = settings;
+    out.gain = 1 + within(stated.gain);
+    out.offset = within(current ? 1e-3 * stated.offset_ma : stated.offset_v);
+    out.coldGain = within(stated.coldGain);
+    out.droop = stated.droop * random.uniform();
+    out.overshoot = stated.overshoot * random.uniform();
+    out.sourceOhm = current ? 0 : stated.sourceOhm * random.uniform();
+    out.widthError = Seconds(within(stated.timing.count()));
+    out.gapError = Seconds(within(stated.timing.count()));
+    return out;
+}
+
 SimulatedStimulator::SimulatedStimulator(DeviceIdentity identity, std::shared_ptr<World> world,
                                          const StimulatorSettings& settings)
     : identity_(std::move(identity)),
       world_(std::move(world)),
       settings_(settings),
       timing_(settings.seed, "stimulator timing"),
-      meter_(settings.seed, "stimulator read-back") {
+      meter_(settings.seed, "stimulator read-back"),
+      opened_(world_->clock().now()) {
     world_->circuit().setFaults(settings.faults);
 }
 
@@ -71,6 +91,7 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     if (const auto since = settings_.faults.since(Fault::Drift, now)) {
         gain *= 1 + std::min(kMostDrift, kDriftPerSecond * toSeconds(now - *since));
     }
+    gain *= 1 + settings_.coldGain * std::exp(-toSeconds(now - opened_) / kWarmUp.count());
     // An amplitude of 0 is an output that stays off, whatever the offset.
     magnitude = magnitude > 0 ? std::max(0.0, gain * magnitude + settings_.offset) : 0;
     const double sign = train.polarity == Polarity::Positive ? 1 : -1;
@@ -100,25 +121,33 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     const bool drivesDown = traits.gap == GapState::HoldsZero;
     const double hold = drivesDown ? -edge : -edge / 2;
     DrivenPulse pulse;
+    // Above its level at first, and sagging from its beginning to its end.
+    const double sagged = 1 - settings_.droop;
+    const auto plateau = [&](double level, double duration, PulsePart part) {
+        const double early = settings_.overshoot > 0 ? std::min(kOvershoot.count(), duration / 4) : 0;
+        const double at = 1 - settings_.droop * early / std::max(duration, 1e-12);
+        pulse.add({drive, level * (1 + settings_.overshoot), level * at, early}, part);
+        pulse.add({drive, level * at, level * sagged, duration - early}, part);
+    };
     pulse.rest = off(0);
     pulse.add({drive, 0, lead, edge}, PulsePart::LeadingPhase);
     if (train.shape == PulseShape::Monophasic) {
-        pulse.add({drive, lead, lead, width + hold}, PulsePart::LeadingPhase);
-        if (drivesDown) pulse.add({drive, lead, 0, edge}, PulsePart::Rest);
+        plateau(lead, width + hold, PulsePart::LeadingPhase);
+        if (drivesDown) pulse.add({drive, lead * sagged, 0, edge}, PulsePart::Rest);
         return pulse;
     }
     if (gap > 0) {
         const double fall = std::min(drivesDown ? edge : edge / 2, gap);
-        pulse.add({drive, lead, lead, width + hold}, PulsePart::LeadingPhase);
-        if (drivesDown) pulse.add({drive, lead, 0, fall}, PulsePart::Gap);
+        plateau(lead, width + hold, PulsePart::LeadingPhase);
+        if (drivesDown) pulse.add({drive, lead * sagged, 0, fall}, PulsePart::Gap);
         pulse.add(off(gap - fall), PulsePart::Gap);
         pulse.add({drive, 0, second, edge}, PulsePart::SecondPhase);
     } else {
-        pulse.add({drive, lead, lead, width - edge}, PulsePart::LeadingPhase);
-        pulse.add({drive, lead, second, edge}, PulsePart::SecondPhase);
+        plateau(lead, width - edge, PulsePart::LeadingPhase);
+        pulse.add({drive, lead * sagged, second, edge}, PulsePart::SecondPhase);
     }
-    pulse.add({drive, second, second, secondWidth + hold}, PulsePart::SecondPhase);
-    if (drivesDown) pulse.add({drive, second, 0, edge}, PulsePart::Rest);
+    plateau(second, secondWidth + hold, PulsePart::SecondPhase);
+    if (drivesDown) pulse.add({drive, second * sagged, 0, edge}, PulsePart::Rest);
     return pulse;
 }
 
@@ -148,6 +177,7 @@ Result<void> SimulatedStimulator::start(const ApprovedTrain& approved, Seconds r
     driven.pulses = train.pulses;
     driven.period_s = 1 / train.rate.value();
     driven.repeatEvery_s = repeatEvery.count();
+    driven.sourceOhm = settings_.sourceOhm;
     driven.limits.compliance_V = settings_.traits.compliance.value();
     if (settings_.traits.currentLimit.value() > 0) {
         driven.limits.current_A = settings_.traits.currentLimit.value() * 1e-3;

@@ -26,6 +26,10 @@ struct StimulatorSettings {
     double widthGain = 1;          ///< of both phases
     Seconds widthError{0};         ///< added to each phase
     Seconds gapError{0};           ///< added to the gap, where there is one
+    double droop = 0;              ///< of each phase, from its beginning to its end
+    double overshoot = 0;          ///< of each phase's first kOvershoot
+    double coldGain = 0;           ///< relative, when it is opened; gone with the time constant kWarmUp
+    double sourceOhm = 0;          ///< of a voltage source
     Seconds rise{100e-9};          ///< 0 to 100 % of an edge
     Seconds latency{200e-6};       ///< from the command to the onset
     Seconds jitter{2e-6};          ///< of the onset, s.d.
@@ -34,11 +38,28 @@ struct StimulatorSettings {
     std::uint64_t seed = 1;
 };
 
+/// What the twin's data sheet states; its flaws are drawn within it (science.md section 12).
+struct StimulatorStatement {
+    double gain = 0.005;       ///< relative
+    double offset_v = 0.02;    ///< of a voltage source
+    double offset_ma = 0.005;  ///< of a current source
+    double coldGain = 0.002;   ///< relative
+    double droop = 0.003;      ///< relative
+    double overshoot = 0.01;   ///< relative
+    double sourceOhm = 2;      ///< of a voltage source
+    Seconds timing{20e-9};     ///< of a phase and of the gap
+};
+
+/// `settings` with flaws drawn from its seed; their accuracy is stated in its traits.
+[[nodiscard]] StimulatorSettings drawnFlaws(const StimulatorSettings& settings);
+
 class SimulatedStimulator final : public Stimulator, public RepeatingStimulator, public WorldMember {
 public:
     static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
     static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMostDrift
     static constexpr double kMostDrift = 0.5;
+    static constexpr Seconds kOvershoot{3e-6};
+    static constexpr Seconds kWarmUp{120};
 
     SimulatedStimulator(DeviceIdentity identity, std::shared_ptr<World> world, const StimulatorSettings& settings);
     ~SimulatedStimulator() override { forceOff(); }
@@ -69,6 +90,7 @@ private:
     const std::shared_ptr<World> world_;
     const StimulatorSettings settings_;
     FastNoise timing_, meter_;
+    const Instant opened_;
     std::atomic<std::uint64_t> offs_{0};  // counts forceOff(), so that a train in flight notices one
 };
 

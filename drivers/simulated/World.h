@@ -4,6 +4,7 @@
 // Thread-safety: const after opening; the circuit and the finger have their own rules.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -23,9 +24,14 @@ public:
     [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
     [[nodiscard]] SimulatedCircuit& circuit() noexcept { return circuit_; }
 
+    /// Of a reference source in place of the load, V; 0: none.
+    [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
+    void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
+
 private:
     const Clock& clock_;
     const std::uint64_t seed_;
+    std::atomic<double> reference_V_{0};
     SimulatedCircuit circuit_;
 };
 
@@ -41,6 +47,16 @@ class CircuitFitter final : public LoadFitter {
 public:
     explicit CircuitFitter(std::shared_ptr<World> world) : world_(std::move(world)) {}
     [[nodiscard]] Result<void> fitLoad(std::string_view load) override;
+
+private:
+    const std::shared_ptr<World> world_;
+};
+
+/// Puts a voltage of known size on the oscilloscope.
+class WorldReference final : public VoltageReference {
+public:
+    explicit WorldReference(std::shared_ptr<World> world) : world_(std::move(world)) {}
+    [[nodiscard]] Result<void> applyVoltage(double volts) override;
 
 private:
     const std::shared_ptr<World> world_;

@@ -1,11 +1,12 @@
-// Which of R and P should set the amplitude, and along which curve?
+// Along which curve should amplitude and interval follow R and P? Which of the two sets which is no question for an
+// oscilloscope: swapping them is a symmetry of the distances that are measured here, and people decide.
 //
 // The same trials in the same order under both assignments and the three curves, each judged on what the oscilloscope
 // saw. R and P are set directly, so that the encoding alone makes the difference.
 //
 // Results: { default, encodings: [{ name, assignment, curve, conditions, pairs, smallest_amplitude_jnd,
 // smallest_interval_jnd, smallest_pair_jnd, mahalanobis_min, amplitude_variation_max, interval_variation_max, accuracy,
-// separable, neighbours, levels, gradual_jnd, abrupt_jnd }], differences, conclusion, reference }; verdict null: a
+// separable, neighbours, levels, gradual_jnd, abrupt_jnd }], differences, asymmetry_jnd, conclusion, reference }; verdict null: a
 // comparison has none unless something was not measured (indeterminate).
 protocol({
   title: "Encoding comparison",
@@ -17,7 +18,7 @@ protocol({
     low: { label: "R or P of a smooth or low condition", min: 0, max: 1, value: 0.1 },
     high: { label: "R or P of a rough or high condition", min: 0, max: 1, value: 0.9 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, value: 1e3 },
-    load_tolerance_pct: { label: "Tolerance of the load", unit: "%", min: 0.001, max: 20, value: 5 },
+    load_tolerance_pct: { label: "Known load must read within", unit: "%", min: 0.001, max: 20, value: 5 },
     traverse_s: { label: "A finger crosses the plane in", unit: "s", min: 0.1, max: 600, value: 5 },
   },
 });
@@ -104,7 +105,7 @@ function neighbours(pairs) {
 
 function compare(p, encoding, trials, between) {
   bench.setEncoding({ assignment: encoding.assignment, amplitude_curve: encoding.curve, interval_curve: encoding.curve,
-    amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0, hold: "voltage" });
+    amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0, hold: "voltage" });
   const sweep = analysis.transitions({ traverse_s: p.traverse_s });
   bench.arm({ load: p.load });
   const found = analysis.separability(measureAll(trials, encoding), { conditions: NAMES });
@@ -134,43 +135,56 @@ function compare(p, encoding, trials, between) {
 // A report shows thousandths: what is below is measurement, not encoding.
 const shown = (x) => (x === null || !isFinite(x) ? null : Math.round(1000 * x) / 1000);
 const inPercent = (x) => (x === null ? null : 100 * x);
-const percent = (x) => (x === null ? "?" : (100 * x).toFixed(1));
 
-function comparisonRow(each) {
+// The distances that a curve gives, of one assignment: by what is felt as amplitude and as interval, not by what set it.
+function distancesOf(each) {
+  const n = each.neighbours, swapped = each.assignment === "swapped";
   return {
-    encoding: each.name,
-    amplitude_jnd: shown(each.smallest_amplitude_jnd),
-    interval_jnd: shown(each.smallest_interval_jnd),
-    pair_jnd: shown(each.smallest_pair_jnd),
-    mahalanobis: each.mahalanobis_min,
-    variation_pct: inPercent(largest([each.amplitude_variation_max, each.interval_variation_max])),
-    accuracy: percent(each.accuracy.value) + " % (" + percent(each.accuracy.low) + " to " + percent(each.accuracy.high) + ")",
-    step_jnd: shown(each.gradual_jnd),
-    separable: each.separable,
+    amplitude_jnd: each.smallest_amplitude_jnd,
+    interval_jnd: each.smallest_interval_jnd,
+    pair_jnd: each.smallest_pair_jnd,
+    amplitude_levels_jnd: swapped ? n.pressure_min_jnd : n.texture_min_jnd,
+    interval_levels_jnd: swapped ? n.texture_min_jnd : n.pressure_min_jnd,
+    step_jnd: each.gradual_jnd,
   };
 }
 
-function levelRow(each) {
-  const n = each.neighbours;
-  return {
-    encoding: each.name,
-    texture_min_jnd: shown(n.texture_min_jnd),
-    texture_mean_jnd: shown(n.texture_mean_jnd),
-    pressure_min_jnd: shown(n.pressure_min_jnd),
-    pressure_mean_jnd: shown(n.pressure_mean_jnd),
-    all_min_jnd: shown(n.min_jnd),
-    all_mean_jnd: shown(n.mean_jnd),
-  };
+// A row per curve: under the other assignment all of it comes out the same.
+function comparisonRow(each) {
+  const row = { curve: each.curve };
+  const distances = distancesOf(each);
+  for (const key of Object.keys(distances)) row[key] = shown(distances[key]);
+  row.variation_pct = inPercent(largest([each.amplitude_variation_max, each.interval_variation_max]));
+  return row;
 }
 
 // "13.00 V, 1.850 s" of each condition.
 function conditionRow(each) {
-  const row = { encoding: each.name };
+  const row = { curve: each.curve };
   for (const condition of each.conditions) {
     const known = condition.amplitude_v.mean !== null && condition.interval_s.mean !== null;
     row[condition.name] = known ? condition.amplitude_v.mean.toFixed(2) + " V, " + condition.interval_s.mean.toFixed(3) + " s" : null;
   }
   return row;
+}
+
+// How far the two assignments of a curve differ as measured, once smooth-high and rough-low have changed places: the
+// largest over all distances and conditions, just-noticeable differences. Null before a curve was measured under both.
+function asymmetryOf(done) {
+  const found = [];
+  for (const usual of done.filter((each) => each.assignment === "texture_to_amplitude")) {
+    const swapped = done.find((each) => each.assignment === "swapped" && each.curve === usual.curve);
+    if (swapped === undefined) continue;
+    const a = distancesOf(usual), b = distancesOf(swapped);
+    for (const key of Object.keys(a)) found.push(a[key] === null || b[key] === null ? null : Math.abs(a[key] - b[key]));
+    [0, 2, 1, 3].forEach((there, here) => {
+      for (const [axis, key] of [["amplitude", "amplitude_v"], ["interval", "interval_s"]]) {
+        const moved = analysis.difference(axis, usual.conditions[here][key].mean, swapped.conditions[there][key].mean);
+        found.push(moved === null ? null : Math.abs(moved));
+      }
+    });
+  }
+  return found.length === 0 ? null : largest(found);
 }
 
 // Against the default, signed: where a condition's amplitude and interval went, and what that did to the distances.
@@ -189,8 +203,9 @@ function differenceRow(each, base) {
 }
 
 // Amplitude and interval of each condition went this far, in just-noticeable differences.
-function movedRow(difference) {
-  const row = { encoding: difference.encoding };
+function movedRow(each, base) {
+  const difference = differenceRow(each, base);
+  const row = { curve: each.curve };
   for (const name of NAMES) {
     const moved = ["amplitude", "interval"].map((axis) => difference[name + " " + axis + "_jnd"]);
     row[name] = moved.includes(null) ? null : moved.map((x) => (shown(x) > 0 ? "+" : "") + (shown(x) || 0).toFixed(2)).join(", ");
@@ -198,44 +213,51 @@ function movedRow(difference) {
   return row;
 }
 
+// Of the default assignment alone: the other one repeats them.
 function tablesOf(done) {
-  const first = ["encoding"];
-  const differences = done.slice(1).map((each) => differenceRow(each, done[0]));
-  const changes = ["pair_jnd", "neighbours_min_jnd", "neighbours_mean_jnd", "per_train_jnd"];
-  const rounded = differences.map((each) => {
-    const row = { encoding: each.encoding };
-    for (const key of changes) row[key] = shown(each[key]);
-    return row;
-  });
+  const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
   return [
-    { caption: "Six encodings side by side", rows: done.map(comparisonRow),
-      columns: first.concat(["amplitude_jnd", "interval_jnd", "pair_jnd", "mahalanobis", "variation_pct", "accuracy", "step_jnd", "separable"]) },
-    { caption: "Levels in between: distance of neighbours", rows: done.map(levelRow),
-      columns: first.concat(["texture_min_jnd", "texture_mean_jnd", "pressure_min_jnd", "pressure_mean_jnd", "all_min_jnd", "all_mean_jnd"]) },
-    { caption: "The four conditions as measured", rows: done.map(conditionRow), columns: first.concat(NAMES) },
-    { caption: "Against the default: conditions moved by (amplitude, interval; JND)", rows: differences.map(movedRow), columns: first.concat(NAMES) },
-    { caption: "Against the default: distances (JND)", rows: rounded, columns: first.concat(changes) },
+    { caption: "Three curves side by side, smallest distances (JND)", rows: curves.map(comparisonRow),
+      columns: ["curve", "amplitude_jnd", "interval_jnd", "amplitude_levels_jnd", "interval_levels_jnd", "step_jnd", "variation_pct"] },
+    { caption: "The four conditions as measured", rows: curves.map(conditionRow), columns: ["curve"].concat(NAMES) },
+    { caption: "Against the " + (done.length > 0 ? done[0].curve : "first") + " curve: conditions moved by (amplitude, interval; JND)",
+      rows: curves.slice(1).map((each) => movedRow(each, done[0])), columns: ["curve"].concat(NAMES) },
   ].filter((table) => table.rows.length > 0);
 }
 
-// All that come within a hundredth of the best: measurement does not tell them apart.
-function bestOf(done, key) {
-  const most = Math.max.apply(null, done.map(key));
-  return done.filter((each) => key(each) > most - 0.01).map((each) => each.name).join(" or ") + " (" + Math.abs(most).toFixed(2) + " JND)";
+// All curves that come within a hundredth of the best: measurement does not tell them apart.
+function bestOf(curves, key) {
+  const most = Math.max.apply(null, curves.map(key));
+  return curves.filter((each) => key(each) > most - 0.01).map((each) => each.curve).join(" or ") + " (" + Math.abs(most).toFixed(2) + " JND)";
 }
 
-// What the tables say by themselves, and where they end.
+// What the figures say by themselves, and where they end.
+function symmetry(asymmetry) {
+  return "Swapping R and P is a symmetry of this metric: it exchanges smooth-high and rough-low, and texture and pressure, and leaves every " +
+    "distance as it is" + (asymmetry === null ? "" : " (measured: within " + Math.max(0.01, asymmetry).toFixed(2) + " JND)") +
+    ". No figure here can prefer one assignment; people decide which is told apart, natural or preferred";
+}
+
 function conclusion(done) {
-  return "The tables decide, at constant Weber fractions, which encoding keeps conditions farthest apart: " +
-    bestOf(done, (each) => each.smallest_pair_jnd) + "; neighbouring levels of texture: " +
-    bestOf(done, (each) => each.neighbours.texture_min_jnd) + ", of pressure: " +
-    bestOf(done, (each) => each.neighbours.pressure_min_jnd) + ", of both: " + bestOf(done, (each) => each.neighbours.min_jnd) +
-    "; and which moves least per train: " + bestOf(done, (each) => -each.gradual_jnd) +
-    "; which one people tell apart, find natural or prefer they do not decide.";
+  const curves = done.filter((each) => each.assignment === "texture_to_amplitude");
+  const axis = (name) => (each) => distancesOf(each)[name];
+  return "At constant Weber fractions the curve that keeps the conditions farthest apart is " + bestOf(curves, axis("pair_jnd")) +
+    "; neighbouring levels in amplitude " + bestOf(curves, axis("amplitude_levels_jnd")) + ", in interval " +
+    bestOf(curves, axis("interval_levels_jnd")) + "; the one that moves least per train " + bestOf(curves, (each) => -each.gradual_jnd);
+}
+
+// What is the same for all is said once.
+function sameForAll(done) {
+  const accuracies = done.map((each) => each.accuracy);
+  const least = Math.min.apply(null, accuracies.map((each) => (each.low === null ? 0 : each.low)));
+  const verdicts = Array.from(new Set(done.map((each) => each.separable)));
+  return "Recognised trials: " + (100 * Math.min.apply(null, accuracies.map((each) => each.value || 0))).toFixed(1) +
+    " % or more under every encoding (95 % interval from " + (100 * least).toFixed(1) + " %); separable by an oscilloscope: " + verdicts.join(", ") + ".";
 }
 
 function run(p) {
   if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
+  report.text(symmetry(null) + ".");
   const reference = checkReference(p);
   bench.disarm();
   if (!reference.passed) {
@@ -248,18 +270,22 @@ function run(p) {
     done.push(compare(p, encoding, trials, between));
     record.partial({ reference, encodings: done.slice() }, tablesOf(done));
   }
-  report.text("R to A: texture sets the amplitude, pressure the interval; swapped: the other way round. The default is " + done[0].name +
-    ". Conditions at R and P of " + p.low + " and " + p.high + ": at 0 and 1 all curves meet.");
+  const asymmetry = asymmetryOf(done);
+  report.text("Both assignments were measured along three curves, and differ by no more than " + (asymmetry === null ? "?" : Math.max(0.01, asymmetry).toFixed(2)) +
+    " JND. Below is the default, texture to amplitude and pressure to interval; swapped, it comes out the same. Amplitude and interval are the smallest " +
+    "distances of pairs that differ in them, the worst pair is the smaller of the two; levels are neighbours in between. Conditions at R and P of " + p.low + " and " + p.high + "; at 0 and 1 all curves meet. Levels at R and P of " + LEVELS.join(", ") +
+    "; step_jnd is the largest from train to train when a finger crosses the plane in " + p.traverse_s + " s, computed, without limits on a step.");
   for (const table of tablesOf(done)) report.table(table.caption, table.rows, table.columns);
+  report.text(sameForAll(done));
   report.figure("Four conditions under the default, " + done[0].name, plot.conditions(done[0]));
   report.figure("Exposure against limits", plot.exposure());
-  const results = { reference, default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])) };
+  const results = { reference, default: done[0].name, encodings: done, differences: done.slice(1).map((each) => differenceRow(each, done[0])),
+    asymmetry_jnd: asymmetry };
   const missing = done.filter((each) => each.smallest_pair_jnd === null || each.neighbours.min_jnd === null);
   // A comparison has no pass: it has a verdict only where it could not be made.
   results.verdict = missing.length > 0 ? "indeterminate" : null;
-  results.conclusion = missing.length > 0 ? null : conclusion(done);
+  results.conclusion = missing.length > 0 ? null : symmetry(asymmetry) + ". " + conclusion(done);
   results.reasons = missing.map((each) => each.name + ": a condition or a level was not measured");
-  if (results.conclusion !== null) results.reasons.push(results.conclusion);
-  report.text(results.reasons.join(". "));
+  if (results.conclusion !== null) results.reasons.push(symmetry(asymmetry), conclusion(done));
   return verdict(results);
 }

@@ -1,6 +1,7 @@
 // What does this fingertip read on surfaces that somebody else has measured?
 //
-// Rest, reference surfaces slid over again and again, known weights. Definitions: science.md section 2.6.
+// Rest, known weights, reference surfaces slid over again and again. The scales of force and taxels are put into use
+// before the surfaces are read, so that these are read as they will be. Definitions: science.md sections 2.6 and 12.
 protocol({
   title: "Sensor calibration",
   purpose: "Gives roughness R its scale on this rig, and force and taxels their units",
@@ -27,14 +28,17 @@ protocol({
     weight_repeats: { label: "Repeats of each weight, each way", type: "integer", min: 1, max: 20, value: 3 },
     weight_tolerance_pct: { label: "Tolerance of the weights", unit: "%", min: 0, max: 10, value: 0.1 },
     gravity_m_s2: { label: "Local gravity", unit: "m/s2", min: 9.7, max: 9.9, value: 9.80665 },
+    // Sea level: 9.780 m/s2 at the equator, 9.832 m/s2 at the poles (WGS 84).
+    gravity_tolerance_pct: { label: "Uncertainty of local gravity, ± (0: not known)", unit: "%", min: 0, max: 1, value: 0.27 },
     contact_area_cm2: { label: "Contact area under a weight (0: not known)", unit: "cm2", min: 0, max: 100, value: 1 },
+    contact_area_tolerance_pct: { label: "Uncertainty of the contact area, ± (0: not known)", unit: "%", min: 0, max: 90, value: 0 },
     reference_tolerance_pct: { label: "Known-reference check, ±", unit: "%", min: 0.1, max: 50, value: 10 },
     store: { label: "Keep the result as a profile", type: "boolean", value: false },
   },
 });
 
 const SLIDE_COLUMNS = ["material", "h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"];
-const SURFACE_COLUMNS = ["name", "ra_um", "rz_um", "slides", "h", "v", "R", "R_sd", "force_n"];
+const SURFACE_COLUMNS = ["name", "ra_um", "rz_um", "slides", "h", "v", "R", "R_sd", "R_expanded_uncertainty", "force_n"];
 
 function parts(text) {
   return text.split(";").map((part) => part.trim()).filter((part) => part !== "");
@@ -157,10 +161,11 @@ function checkReference(p, rest, masses) {
   const reading = bench.measureWeight(Math.max(...masses), { gravity_m_s2: p.gravity_m_s2 });
   check.mass_g = reading.mass_g;
   check.reference_n = reading.reference_n;
-  check.measured = reading.force === null ? null : reading.force - rest.force.mean;
-  check.unit = reading.force_unit;
+  const used = reading.force_in_use, idle = rest.force_in_use;
+  check.measured = used === null || used.mean === null || idle === null || idle.mean === null ? null : used.mean - idle.mean;
+  check.unit = used === null ? null : used.unit;
   if (check.measured === null) check.passed = false;
-  else if (reading.force_unit === "N") {
+  else if (check.unit === "N") {
     check.deviation_pct = 100 * Math.abs(check.measured / reading.reference_n - 1);
     check.passed = check.deviation_pct <= p.reference_tolerance_pct;
   } else check.passed = Math.abs(check.measured) > 5 * rest.force.sd;
@@ -170,71 +175,23 @@ function checkReference(p, rest, masses) {
 
 // Up and down, again and again: what stays behind when weight is taken off shows as hysteresis.
 function weigh(p, masses, results) {
-  if (masses.length === 0) return [];
+  const weighed = [];
   const steps = [];
   for (let repeat = 1; repeat <= p.weight_repeats; ++repeat) {
     for (const mass of masses) steps.push({ mass, direction: "up", repeat });
     for (const mass of masses.slice().reverse()) steps.push({ mass, direction: "down", repeat });
   }
-  const readings = [];
+  if (steps.length === 0) return weighed;
+  results.weights = [];
   for (const step of progress(steps, "Weights")) {
     const reading = bench.measureWeight(step.mass, { gravity_m_s2: p.gravity_m_s2 });
-    readings.push(Object.assign(reading, { direction: step.direction, repeat: step.repeat }));
-    record.trial("weight " + step.mass + " g", reading);
-    results.weights = readings;
+    weighed.push({ reading, direction: step.direction });
+    results.weights.push(Object.assign({}, reading, { direction: step.direction, repeat: step.repeat }));
+    record.trial("weight " + step.mass + " g", results.weights[results.weights.length - 1]);
     keep(results);
   }
   bench.lift();
-  return readings;
-}
-
-function scaleOf(name, readings, tolerance_pct) {
-  try {
-    return analysis.sensorScale(readings, { name, tolerance_pct });
-  } catch (error) {
-    return { scale: null, reason: error.message };
-  }
-}
-
-function forceScale(p, weights, results) {
-  const at = (w) => ({ commanded: w.reference_n, measured: w.force, direction: w.direction });
-  if (weights.length === 0) return { scale: null, reason: "no weights were given; force was not evaluated" };
-  if (!bench.sensorStreams.some((stream) => stream.kind === "force")) {
-    return { scale: null, reason: "this fingertip has no force sensor; force was not evaluated" };
-  }
-  if (weights.some((w) => w.force === null)) return { scale: null, asked: true, reason: "a weight's force was not read; force was not evaluated" };
-  const force = scaleOf("force", weights.map(at), p.weight_tolerance_pct);
-  force.unit = weights[0].force_unit;
-  return force;
-}
-
-function taxelScales(p, weights) {
-  if (weights.length === 0 || weights[0].taxels.length === 0) return [];
-  if (!(p.contact_area_cm2 > 0)) {
-    return weights[0].taxels.map((_, index) => ({
-      taxel: index + 1, unit: weights[0].taxel_unit, scale: null, offset_pa: null, reason: "the contact area is not known; no pressure to compare with",
-    }));
-  }
-  const out = [];
-  for (let k = 0; k < weights[0].taxels.length; ++k) {
-    const readings = weights.map((w) => ({
-      commanded: w.reference_n / (p.contact_area_cm2 * 1e-4),
-      measured: w.taxels[k],
-      direction: w.direction,
-    }));
-    const found = scaleOf("taxel " + (k + 1), readings, p.weight_tolerance_pct);
-    out.push({
-      taxel: k + 1,
-      unit: weights[0].taxel_unit,
-      scale: found.scale,
-      scale_expanded_uncertainty: found.scale === null ? null : found.scale_expanded_uncertainty,
-      offset_pa: found.scale === null ? null : found.offset,
-      offset_expanded_uncertainty_pa: found.scale === null ? null : found.offset_expanded_uncertainty,
-      residual_max_pct_fs: found.scale === null ? null : found.residual_max_pct_fs,
-      reason: found.reason || null,
-    });
-  }
-  return out;
+  return weighed;
 }
 
 // What one repeat cannot tell is not known, and is not 0.
@@ -245,6 +202,10 @@ function digitsOf(value, digits) {
 function show(estimate, digits) {
   const one = (value) => digitsOf(value, digits);
   return one(estimate.value) + " (95 %: " + one(estimate.low) + " to " + one(estimate.high) + ")";
+}
+
+function toleranceOf(percent) {
+  return percent > 0 ? "± " + percent + " %" : "not known";
 }
 
 function writeScales(p, results) {
@@ -282,7 +243,9 @@ function writeScales(p, results) {
   );
   report.text(
     "A taxel's scale takes the weight as spread evenly over the contact area; it " +
-      "holds for a contact of that shape.",
+      "holds for a contact of that shape. Its U holds the tolerances of the weights (± " + p.weight_tolerance_pct + " %), of local gravity (" +
+      toleranceOf(p.gravity_tolerance_pct) + ") and of the contact area (" + toleranceOf(p.contact_area_tolerance_pct) +
+      "); where one is not known there is no U.",
   );
 }
 
@@ -307,6 +270,18 @@ function writeSurfaces(found) {
       : "Spearman's rank correlation of R against Ra over " + rank.n + " surfaces: " + show(rank, 3) +
           (rank.ties ? ", equal values sharing their ranks" : "") + "." + (rank.note ? " Note: " + rank.note + "." : ""),
   );
+  if (rank !== null && bench.devices.every((device) => device.simulated)) {
+    report.text("On the simulated fingertip the ranking holds by construction: the relief of its surfaces follows their Ra.");
+  }
+  report.text(found.known_limit);
+  const u = found.uncertainty_R;
+  report.text(
+    u === null
+      ? "The uncertainty of R was not evaluated."
+      : "U of R for one slide (95 %, k = " + u.coverage_factor.toPrecision(3) + "): " + u.smooth.toPrecision(2) + " at R 0, " +
+          u.middle.toPrecision(2) + " at R 0.5, " + u.rough.toPrecision(2) + " at R 1, from the repeatability of the slides (s = " +
+          u.slide_sd.toPrecision(2) + ") and of the two references' means.",
+  );
   for (const warning of found.warnings) report.text("Note: " + warning + ".");
 }
 
@@ -319,7 +294,7 @@ function run(p) {
   report.table("Surfaces, as the profilometer describes them", results.surfaces, ["name", "ra_um", "rz_um", "source"]);
   keep(results);
 
-  const rest = bench.measureRest({ duration_s: 3 });
+  let rest = bench.measureRest({ duration_s: 3 });
   results.rest = rest;
   record.measurement("fingertip at rest", rest);
   keep(results);
@@ -338,11 +313,24 @@ function run(p) {
   }
 
   const weights = weigh(p, masses, results);
-  results.force = forceScale(p, weights, results);
-  results.taxels = taxelScales(p, weights);
+  const scales = analysis.fingertipScales(weights, {
+    tolerance_pct: p.weight_tolerance_pct,
+    gravity_tolerance_pct: p.gravity_tolerance_pct,
+    contact_area_cm2: p.contact_area_cm2,
+    contact_area_tolerance_pct: p.contact_area_tolerance_pct,
+  });
+  results.force = scales.force;
+  results.taxels = scales.taxels;
+  results.scaled = { force: false, taxels: false };
   record.measurement("force and taxels", { force: results.force, taxels: results.taxels });
   keep(results);
 
+  if (weights.length > 0) {
+    results.scaled = bench.useFingertipScales(scales);
+    rest = bench.measureRest({ duration_s: 3 });
+    results.rest = rest;
+    record.measurement("fingertip at rest, scaled", rest);
+  }
   slideOver(p, surfaces, rest, results);
   const found = analysis.sensorCalibration(surfaces, rest);
   record.measurement("sensor calibration", found);
@@ -355,7 +343,7 @@ function run(p) {
   report.table("Slides", results.slides, SLIDE_COLUMNS);
   const taxels = results.sensor.find((stream) => stream.kind === "taxels");
   if (taxels) report.table(
-    "Taxels at rest, nothing touched (" + taxels.unit + ")",
+    "Taxels at rest, nothing touched (" + rest.taxel_unit + ")",
     rest.taxel_baseline.map((baseline, k) => ({ taxel: k + 1, baseline, floor: rest.taxel_floor })),
     ["taxel", "baseline", "floor"],
   );
@@ -377,7 +365,7 @@ function run(p) {
         (results.profile.file === null ? "; it is in the session and was not kept as a file." : " and is kept as " + results.profile.file + "."),
     );
   } else {
-    report.text("Refused: " + found.reasons.join("; ") + ". The profile stays as it was, and R uncalibrated or as calibrated before.");
+    report.text("Refused: " + found.reasons.join("; ") + ". The profile stays as it was.");
   }
   if (results.force.asked && results.verdict === "pass") {
     results.verdict = "indeterminate";

@@ -32,6 +32,9 @@ protocol({
     repeats: { label: "Repeats of each level, each way", type: "integer", min: 2, max: 50, value: 5 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, value: 1e3 },
     load_tolerance_pct: { label: "Tolerance of the load", unit: "%", min: 0.001, max: 20, value: 1 },
+    reference_tolerance_pct: { label: "Known load must read within", unit: "%", min: 0.01, max: 20, value: 5 },
+    reference_v: { label: "Reference source on the oscilloscope (0: none)", unit: "V", min: 0, max: 500, value: 0 },
+    reference_u_pct: { label: "Its uncertainty (k = 2)", unit: "%", min: 0, max: 10, value: 0 },
     amplitude_min_v: { label: "Lowest amplitude", unit: "V", min: 0.1, max: 200, value: 10 },
     amplitude_max_v: { label: "Largest amplitude (of a current source times |Z|)", unit: "V", min: 0.2, max: 200, value: 40 },
     interval_min_s: { label: "Shortest interval", unit: "s", min: 0.05, max: 60, value: 0.5 },
@@ -45,7 +48,7 @@ protocol({
     tolerance_pct: { label: "Tolerance of amplitude", unit: "%", min: 0.01, max: 50, value: 2 },
     timing_tolerance_pct: { label: "Tolerance of interval, width and gap", unit: "%", min: 0.01, max: 50, value: 1 },
     scope_gain_pct: { label: "Oscilloscope gain, ± (0: as it declares)", unit: "%", min: 0, max: 20, value: 0 },
-    timebase_ppm: { label: "Oscilloscope time base, ±", unit: "ppm", min: 0, max: 10000, value: 50 },
+    timebase_ppm: { label: "Oscilloscope time base, ± (0: as it declares)", unit: "ppm", min: 0, max: 10000, value: 0 },
     rate: {
       label: "Sampling rate",
       type: "choice",
@@ -69,6 +72,7 @@ function encodingFor(p) {
     amplitude_max_v: p.amplitude_max_v,
     interval_min_s: p.interval_min_s,
     interval_max_s: p.interval_max_s,
+    amplitude_ratio_per_train: 0,
     amplitude_slew_v_per_s: 0,
     interval_ratio_per_train: 0,
     hold: "voltage",
@@ -79,15 +83,23 @@ function encodingFor(p) {
   };
 }
 
-function read(p, trains) {
-  const range_v = 1.3 * p.amplitude_max_v;
-  const captures = bench.capture({
+// One range for all levels: its errors are then the same for all.
+function read(p, trains, record) {
+  return measure.pulse(bench.capture(Object.assign({
     trains: trains,
     rate_hz: RATES[p.rate],
-    voltage_range_v: range_v, // one range for all levels: its errors are then the same for all
+    voltage_range_v: 1.3 * p.amplitude_max_v,
     current_range_ma: Math.max(1, (1.3e3 * p.amplitude_max_v) / p.load),
-  });
-  return measure.pulse(captures);
+  }, record)));
+}
+
+// Two records, or both trains in one where the oscilloscope does not state how good the time stamps of records are.
+function readInterval(p, interval_s) {
+  if (p.stamped) return read(p, 2);
+  bench.wait(2 * interval_s); // the record begins with whatever train comes first: it has the new interval by then
+  const seconds = 1.3 * interval_s;
+  const rate_hz = Math.min(RATES[p.rate], Math.max(2e5, 1e6 / seconds));
+  return read(p, 1, { rate_hz: rate_hz, samples: Math.floor(rate_hz * seconds) });
 }
 
 // What the levels of a quantity are set with. Width and gap are part of the profile and want a disarmed output.
@@ -128,7 +140,7 @@ function optionsFor(p, quantity, reading) {
       quantity,
       unit: "s",
       tolerance_pct: p.timing_tolerance_pct,
-      gain_tolerance: p.timebase_ppm * 1e-6,
+      gain_tolerance: instrument.timebase_tolerance,
       sampling_step: instrument.sampling_step_s,
     };
   }
@@ -136,9 +148,9 @@ function optionsFor(p, quantity, reading) {
     quantity,
     unit: reading.unit,
     tolerance_pct: p.tolerance_pct,
-    gain_tolerance: p.scope_gain_pct > 0 ? p.scope_gain_pct / 100 : instrument.gain_tolerance,
-    offset_tolerance: instrument.offset_tolerance || 0,
-    resolution: instrument.resolution || 0,
+    gain_tolerance: instrument.gain_tolerance,
+    probe_tolerance: instrument.probe_tolerance,
+    resolution: instrument.resolution,
     load_tolerance: p.load_tolerance_pct / 100,
     load_sensitivity: 0, // the channel reads the source's own quantity, whatever the load
     // A current source is told A / |Z|, and |Z| is measured each time.
@@ -153,7 +165,8 @@ function calibrate(p, quantity, results) {
   if (quantity === "amplitude" || quantity === "interval") bench.arm({ load: p.load });
   for (const step of progress(sweepsOf(p), TITLES[quantity])) {
     applyLevel(p, quantity, step.share);
-    const reading = read(p, quantity === "interval" ? 2 : 1);
+    const commanded_s = p.interval_min_s + step.share * (p.interval_max_s - p.interval_min_s);
+    const reading = quantity === "interval" ? readInterval(p, commanded_s) : read(p, 1);
     const key = KEYS[quantity];
     readings.push({
       reading: reading.reading,
@@ -181,7 +194,7 @@ function checkReference(p) {
   bench.drive("manual", { roughness: 1, pressure: 1 });
   const reading = read(p, 1);
   bench.disarm();
-  return { check: record.reference(reading, p.load, p.load_tolerance_pct), reading };
+  return { check: record.reference(reading, p.load, p.reference_tolerance_pct, p.load_tolerance_pct), reading };
 }
 
 function warmUp(p) {
@@ -192,25 +205,77 @@ function warmUp(p) {
   bench.disarm();
 }
 
+// As cells of a table: with U, or without.
+const withU = (value, expanded, unit) => ({ value: value, expanded: expanded, unit: unit });
+const plain = (value, unit) => ({ value: value, unit: unit });
+const apart = (a, b) => (a === null || b === null ? null : a - b);
+
+function levelRows(found) {
+  return found.levels.map((level) => ({
+    commanded: report.quantity(level.commanded, found.unit),
+    n: level.n,
+    error_going_up: plain(apart(level.mean_up, level.commanded), found.unit),
+    error_going_down: plain(apart(level.mean_down, level.commanded), found.unit),
+    hysteresis: plain(apart(level.mean_down, level.mean_up), found.unit),
+    "error judged ± U": withU(level.worst_error, level.worst_expanded_uncertainty, found.unit),
+    tolerance: "± " + report.quantity(level.tolerance, found.unit, 0),
+    verdict: level.verdict,
+  }));
+}
+
+// What the uncertainty is made of, at both ends: what weighs at one need not at the other.
+function budgetRows(found) {
+  const small = {};
+  for (const row of found.budget_smallest.rows) small[row.name] = row;
+  const rows = found.budget.rows.map((row) => ({
+    contribution: row.name,
+    distribution: row.distribution,
+    at_the_smallest: plain(small[row.name] === undefined ? null : small[row.name].contribution, found.unit),
+    at_the_largest: plain(row.contribution, found.unit),
+    degrees_of_freedom: row.degrees_of_freedom === null ? "∞" : row.degrees_of_freedom.toFixed(0),
+  }));
+  const sum = (title, key) => rows.push({ contribution: title, distribution: "",
+    at_the_smallest: plain(found.budget_smallest[key], found.unit), at_the_largest: plain(found.budget[key], found.unit),
+    degrees_of_freedom: "" });
+  sum("combined, u", "combined");
+  sum("expanded, U (95 %)", "expanded_uncertainty");
+  return rows;
+}
+
+function coverage(budget) {
+  return (budget.coverage_factor === null ? "" : "k = " + budget.coverage_factor.toFixed(2) + ", ") + budget.method;
+}
+
 function write(quantity, found) {
   const title = TITLES[quantity];
-  report.figure(title + ": measured against commanded", plot.calibration(found));
-  report.figure(title + ": error and tolerance", plot.residuals(found));
-  report.table(title + ": levels (" + found.unit + ")", found.levels, [
-    "commanded", "n", "mean", "mean_up", "mean_down", "s", "error", "expanded_uncertainty", "tolerance", "verdict",
-  ]);
-  report.table(title + ": uncertainty budget at the largest command (" + found.unit + ")", found.budget.rows, [
-    "name", "distribution", "value", "divisor", "sensitivity", "contribution", "degrees_of_freedom",
-  ]);
-  const k = found.budget.coverage_factor;
-  report.text(
-    title + ": gain " + found.gain.toPrecision(6) + ", offset " + found.offset.toPrecision(3) + " " + found.unit +
-      "; U = " + found.expanded_uncertainty.toPrecision(3) + " " + found.unit + " (95 %" +
-      (k === null ? "" : ", k = " + k.toPrecision(3)) + ", by " + found.budget.method + "). " +
-      (found.outliers === 0 ? "No reading stands out." : found.outliers + " readings stand out; they are marked and kept."),
-  );
+  report.figure(title + ": error, tolerance and the two sweep directions", plot.residuals(found));
+  report.table(title + ": levels", levelRows(found), ["commanded", "n", "error_going_up", "error_going_down", "hysteresis",
+    "error judged ± U", "tolerance", "verdict"]);
+  report.table(title + ": uncertainty budget at the smallest and the largest command", budgetRows(found),
+    ["contribution", "distribution", "at_the_smallest", "at_the_largest", "degrees_of_freedom"]);
+  report.text("Coverage at the smallest: " + coverage(found.budget_smallest) + "; at the largest: " + coverage(found.budget) +
+    ". " + (found.outliers === 0 ? "No reading stands out." : found.outliers + " readings stand out; they are marked and kept."));
   const marked = found.readings.filter((reading) => reading.outlier);
-  if (marked.length > 0) report.table(title + ": marked readings", marked, ["commanded", "measured", "direction"]);
+  if (marked.length > 0) {
+    report.table(title + ": marked readings", marked.map((each) => ({ commanded: report.quantity(each.commanded, found.unit),
+      measured: plain(each.measured, found.unit), direction: each.direction })), ["commanded", "measured", "direction"]);
+  }
+}
+
+// A share of the largest command; two digits tell enough.
+function brief(percent) {
+  return plain(percent === null ? null : Number(percent.toPrecision(2)), "%");
+}
+
+// All quantities side by side; U of gain and offset beside them.
+function writeSummary(results, quantities) {
+  report.table("What was found, in % of the largest command where a % stands", quantities.map((quantity) => {
+    const found = results[quantity];
+    return { quantity: TITLES[quantity], gain: withU(found.gain, found.gain_expanded_uncertainty, ""),
+      offset: withU(found.offset, found.offset_expanded_uncertainty, found.unit),
+      residual: brief(found.residual_max_pct_fs), repeatability: brief(found.repeatability_pct_fs),
+      hysteresis: brief(found.hysteresis_pct_fs), verdict: found.verdict };
+  }), ["quantity", "gain", "offset", "residual", "repeatability", "hysteresis", "verdict"]);
 }
 
 // Does the stored line still hold? Guard-banded, as at its making: within the tolerance, this run's uncertainty included.
@@ -220,7 +285,7 @@ function checkLine(p, quantity, line, found) {
   return found.levels.map((level) => {
     const expected = line.gain * level.commanded + line.offset;
     const off = level.mean - expected;
-    const u = level.expanded_uncertainty;
+    const u = level.expanded_uncertainty === null ? NaN : level.expanded_uncertainty;
     const allowed = (tolerance_pct / 100) * level.commanded;
     // A current source is told A / |Z|: that it comes back to the same levels is not sure. The line knows its own range.
     const known = level.commanded >= 0.98 * line.lowest && level.commanded <= 1.02 * line.highest;
@@ -253,7 +318,10 @@ function checkStored(p, stored, results) {
   results.check = [];
   for (const quantity of quantitiesOf(p)) {
     const rows = checkLine(p, quantity, stored[quantity], calibrate(few, quantity, results));
-    report.table(TITLES[quantity] + ": check of the stored calibration (" + rows[0].unit + ")", rows);
+    report.table(TITLES[quantity] + ": check of the stored calibration", rows.map((row) => ({
+      commanded: report.quantity(row.commanded, row.unit), expected: report.quantity(row.expected, row.unit, 0),
+      "off ± U": withU(row.off, row.expanded_uncertainty, row.unit), allowed: "± " + report.quantity(row.allowed, row.unit),
+      verdict: row.verdict })), ["commanded", "expected", "off ± U", "allowed", "verdict"]);
     results.check.push(...rows);
   }
   results.verdict = worst(results.check.map((row) => row.verdict));
@@ -264,9 +332,9 @@ function checkStored(p, stored, results) {
 
 function notHeld(row) {
   return (
-    TITLES[row.quantity] + ": at " + row.commanded.toPrecision(4) + " " + row.unit +
-    " the stored calibration expects " + row.expected.toPrecision(5) + ", and " + row.measured.toPrecision(5) + " ± " +
-    row.expanded_uncertainty.toPrecision(2) + " was measured; ± " + row.allowed.toPrecision(2) + " is allowed"
+    TITLES[row.quantity] + ": at " + report.quantity(row.commanded, row.unit) + " the stored calibration expects " +
+    report.quantity(row.expected, row.unit) + ", and " + report.quantity(row.measured, row.unit, row.expanded_uncertainty) +
+    " was measured; ± " + report.quantity(row.allowed, row.unit) + " is allowed"
   );
 }
 
@@ -302,14 +370,21 @@ function run(p) {
   if (p.mode === "check" && !stored.calibrated) throw new Error(stored.text + "; there is nothing to check");
   operator.wired(p.load);
   const { check, reading } = checkReference(p);
-  const results = { reference: check, instruments: bench.devices };
+  p = Object.assign({}, p, { stamped: reading.instrument.stamp_tolerance_s !== null });
+  const results = { reference: check };
+  if (p.reference_v > 0) {
+    if (!(p.reference_u_pct > 0)) throw new Error("reference_u_pct is 0; above 0 is expected with a reference source");
+    results.absolute = bench.readReference(p.reference_v, p.reference_u_pct, p.tolerance_pct);
+  }
+  if (results.absolute && !results.absolute.passed) {
+    results.verdict = "indeterminate";
+    results.reasons = ["the absolute reference: " + results.absolute.text + "; nothing was calibrated"];
+    return verdict(results);
+  }
   if (!check.passed) {
     results.verdict = "indeterminate";
     results.reasons = [check.reason + "; nothing was calibrated"];
     return verdict(results);
-  }
-  if (!(p.scope_gain_pct > 0) && !reading.instrument.gain_tolerance) {
-    throw new Error("the oscilloscope states no gain tolerance; scope_gain_pct is expected, from its data sheet");
   }
   warmUp(p);
   if (p.mode === "check") return checkStored(p, stored, results);
@@ -317,9 +392,10 @@ function run(p) {
   for (const quantity of quantities) {
     const found = calibrate(p, quantity, results);
     record.measurement("calibration of " + quantity, found);
-    write(quantity, found);
     results[quantity] = found;
   }
+  writeSummary(results, quantities);
+  for (const quantity of quantities) write(quantity, results[quantity]);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
   if (p.store) {

@@ -1,18 +1,20 @@
 // How large a change is felt from one train to the next, and how long it takes until it is felt?
 //
-// The R-P plane is swept with the bench's own encoding; then the finger steps, and the first train that carries the
-// step is looked for in the oscilloscope's records. Definitions: science.md sections 4 and 10.
+// The finger steps and moves, and every train that follows is looked for in the oscilloscope's records: the first that
+// carries a step, how far each differs from the one before, and the one with which the change is complete. What the
+// encoder's design makes of the whole R-P plane is computed beside it. Definitions: science.md sections 4, 10 and 12.
 //
-// Results: { transitions: from analysis.transitions(), steps: [{ name, and what bench.step() returned }], latency: from
-// analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed }, verdict, reasons }.
+// Results: { transitions: from analysis.transitions(), steps, and jumps with small steps among them: [{ name, and what
+// bench.step() returned }], movements: [{ name, and what bench.traverse() returned }], changes: from analysis.changes(),
+// latency: from analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed }, verdict, reasons, notes }.
 protocol({
   title: "Transitions",
-  purpose: "The largest step from train to train in just-noticeable differences, and the latency of a step",
+  purpose: "The largest step from train to train, and the time until a change is felt and is complete",
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     repeats: { label: "Steps of each kind", type: "integer", min: 1, max: 100, value: 10 },
     load: { label: "Load", unit: "ohm", min: 100, max: 1e5, value: 1e3 },
-    load_tolerance_pct: { label: "Tolerance of the load", unit: "%", min: 0.001, max: 20, value: 5 },
+    load_tolerance_pct: { label: "Known load must read within", unit: "%", min: 0.001, max: 20, value: 5 },
     low: { label: "A step's lower end (R or P)", min: 0, max: 1, value: 0 },
     high: { label: "A step's upper end (R or P)", min: 0, max: 1, value: 1 },
     held: { label: "The other of R and P meanwhile", min: 0, max: 1, value: 0.5 },
@@ -20,19 +22,29 @@ protocol({
     traverse_s: { label: "A finger crosses the plane in", unit: "s", min: 0.1, max: 600, value: 5 },
     lines: { label: "Lines along R and along P", type: "integer", min: 2, max: 41, value: 11 },
     jumps: { label: "Judge jumps between the plane's corners too", type: "boolean", value: true },
+    complete_s: { label: "A change is complete within (choice)", unit: "s", min: 0.01, max: 600, value: 2 },
+    complete: {
+      label: "Where steps of two differences take longer",
+      type: "choice",
+      choices: { trains: "with the fewest trains that such steps take (choice)", seconds: "still within that time" },
+      value: "trains",
+    },
     slew: {
-      label: "Slew limits",
+      label: "Limits on a step",
       type: "choice",
       choices: { profile: "as the profile has them", given: "as given here", off: "none" },
       value: "profile",
     },
-    slew_v_per_s: { label: "Amplitude, at most (0: no limit)", unit: "V/s", min: 0, max: 1000, value: 1 },
-    slew_ratio: { label: "Interval, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.3 },
+    slew_amplitude_ratio: { label: "Amplitude, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.2 },
+    slew_v_per_s: { label: "Amplitude, at most (0: no limit)", unit: "V/s", min: 0, max: 1000, value: 0 },
+    slew_ratio: { label: "Interval, at most times the one before (0: no limit)", min: 0, max: 10, value: 1.34 },
   },
 });
 
 const COLUMNS = ["step", "n", "missing", "latency_s", "median_s", "max_s", "designed_s", "off_s", "trains", "verdict"];
 const LARGEST = ["movement", "of", "change", "jnd", "R", "P", "wanted"];
+const CHANGES = ["change", "n", "amplitude_jnd", "interval_jnd", "complete_s", "max_s", "fastest_s", "trains", "verdict"];
+const CAPTURED = "As captured: largest step per train (JND, at most 2 wanted), and time until complete";
 
 // The two inputs, both directions each; the order of the steps is drawn, and so is the moment within the interval.
 function stepsOf(p) {
@@ -53,6 +65,39 @@ function stepsOf(p) {
     names: kinds.map((kind) => kind.name),
     steps: random.blocks(kinds, p.repeats).map((kind) => Object.assign({ phase: phases[kind.name].pop() }, kind)),
   };
+}
+
+// Once each: every corner of the plane to every other, and the plane's edges and middle lines at an even pace.
+function jumpsOf() {
+  const corners = [];
+  for (const roughness of [0, 1]) for (const pressure of [0, 1]) corners.push({ roughness, pressure });
+  const name = (at) => (at.roughness ? "rough" : "smooth") + "-" + (at.pressure ? "high" : "low");
+  const out = [];
+  for (const from of corners) {
+    for (const to of corners) if (from !== to) out.push({ name: name(from) + " to " + name(to), from, to, phase: 0.5 });
+  }
+  return random.shuffle(out);
+}
+
+// Small enough for steps of two differences to be complete within 2 s: these are judged by the seconds.
+function smallSteps() {
+  const at = (roughness, pressure) => ({ roughness, pressure });
+  return [
+    { name: "a little rougher, pressed", from: at(0.5, 1), to: at(0.75, 1), phase: 0.5 },
+    { name: "a little smoother, pressed", from: at(0.75, 1), to: at(0.5, 1), phase: 0.5 },
+    { name: "pressed a little more", from: at(0.5, 0.8), to: at(0.5, 1), phase: 0.5 },
+    { name: "pressed a little less", from: at(0.5, 1), to: at(0.5, 0.8), phase: 0.5 },
+  ];
+}
+
+function movementsOf() {
+  const at = (roughness, pressure) => ({ roughness, pressure });
+  const out = [];
+  for (const held of [0, 0.5, 1]) {
+    out.push({ name: "texture moves at P " + held, from: at(0, held), to: at(1, held) });
+    out.push({ name: "pressure moves at R " + held, from: at(held, 0), to: at(held, 1) });
+  }
+  return out;
 }
 
 // Before anything is believed: the wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
@@ -98,42 +143,121 @@ function latencyRows(latency) {
   }));
 }
 
+// What was not measured has no largest: Math.max takes null for 0.
+const largest = (values) => (values.some((x) => x === null || !isFinite(x)) ? null : Math.max.apply(null, values));
+
+function changeRows(changes) {
+  return changes.groups.map((group) => ({
+    change: group.name,
+    n: group.n,
+    amplitude_jnd: group.amplitude_jnd === null ? null : group.amplitude_jnd.toFixed(2),
+    interval_jnd: group.interval_jnd === null ? null : group.interval_jnd.toFixed(2),
+    complete_s: group.completes ? group.complete_s.median : null,
+    max_s: group.completes ? group.complete_s.max : null,
+    fastest_s: group.completes ? group.fastest_complete_s.min : null,
+    trains: group.trains.max === null ? null : group.trains.max + " / " + group.fewest_trains.max,
+    verdict: group.verdict,
+  }));
+}
+
+// Of a pass: what was found, and what 2 s would need and cannot have.
+function passed(p, changes) {
+  const groups = changes.groups;
+  const most = largest(groups.map((group) => Math.max(group.amplitude_jnd, group.interval_jnd)));
+  const ending = groups.filter((group) => group.completes), beyond = ending.filter((group) => group.out_of_reach > 0);
+  const out = ["No captured train differs from the one before by more than " + most.toFixed(2) + " just-noticeable differences; at most 2 are wanted"];
+  const within = "within " + p.complete_s + " s";
+  if (beyond.length < ending.length) out.push(ending.length - beyond.length + " of " + ending.length + " kinds of change are complete " + within);
+  if (beyond.length > 0) {
+    const least = Math.min.apply(null, beyond.map((group) => group.fastest_complete_s.min));
+    out.push(beyond.length + " of " + ending.length + " kinds of change cannot be complete " + within + " in steps of at most 2 differences (" + least.toFixed(1) +
+      " s at the least); they were, after " + Math.max.apply(null, beyond.map((group) => group.complete_s.max)).toFixed(1) +
+      " s at most, with the fewest trains that such steps take, which is what is judged there (choice)");
+  }
+  return out;
+}
+
+// Judged with what the captures leave open of a step; the largest of all changes.
+function openOf(changes) {
+  const worst = (key) => largest(changes.groups.map((group) => group[key]));
+  const amplitude = worst("amplitude_u_jnd"), interval = worst("interval_u_jnd");
+  if (amplitude === null || interval === null) return "What captures leave open of a step is unknown. ";
+  return "Captures leave ± " + Number(amplitude.toPrecision(2)) + " differences of amplitude open, twice the scatter of trains of one command, and ± " +
+    Number(interval.toPrecision(2)) + " of interval. ";
+}
+
+// What is asked for and what cannot be had, before the figures.
+function writeChanges(p, changes) {
+  report.text(
+    "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences (w = 0.10 of amplitude, " +
+      "0.16 of interval), and a change of state is complete within " + p.complete_s + " s. (choice) Both at once are out of reach for large changes at " +
+      "these intervals, whatever the encoder does: the steps in between are trains, and trains take their intervals. " +
+      (p.complete === "seconds" ? "Such a change fails here." : "Such a change is judged by its trains: it passes with the fewest that steps of 2 differences take. (choice)"),
+  );
+  report.table(CAPTURED, changeRows(changes), CHANGES);
+  report.text(
+    openOf(changes) + "Complete: median and largest time from the change to the train that reaches the new state; " +
+      "fastest_s is the least that steps of 2 differences allow; trains is how many it took, most / fewest that such steps take.",
+  );
+}
+
 function writeSweep(found) {
-  report.figure("Largest step from train to train over the R-P plane", plot.transitions(found));
-  report.table("Largest step from train to train (at most " + found.wanted_jnd + " differences are wanted)", largestRows(found), LARGEST);
-  const slew = found.amplitude_slew_v_per_s, ratio = found.interval_ratio_per_train;
+  report.figure("Computed from the encoding: largest step from train to train over the R-P plane", plot.transitions(found));
+  report.table("Computed from the encoding: largest step from train to train (at most " + found.wanted_jnd + " differences are wanted)", largestRows(found), LARGEST);
+}
+
+function limitsText(found) {
+  const amplitude = found.amplitude_ratio_per_train, slew = found.amplitude_slew_v_per_s, interval = found.interval_ratio_per_train;
   const limits = [];
+  if (amplitude > 0) limits.push("amplitude at most " + amplitude + " times the one before");
   if (slew > 0) limits.push("amplitude by at most " + slew + " V/s");
-  if (ratio > 0) limits.push("the interval at most " + ratio + " times from train to train");
-  report.text(limits.length === 0 ? "No slew limits: a change is taken in one train." : "Slew limits: " + limits.join(", ") + ".");
+  if (interval > 0) limits.push("interval at most " + interval + " times the one before");
+  return limits.length === 0 ? "No limits on a step: a change is taken in one train." : "Limits on a step from train to train, either way: " + limits.join(", ") + ".";
 }
 
 function run(p) {
   if (!(p.low < p.high)) throw new Error("low is " + p.low + "; below high, " + p.high + ", is expected");
   bench.setEncoding({ hold: "voltage" });
-  if (p.slew === "given") bench.setEncoding({ amplitude_slew_v_per_s: p.slew_v_per_s, interval_ratio_per_train: p.slew_ratio });
-  if (p.slew === "off") bench.setEncoding({ amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
+  if (p.slew === "given") {
+    bench.setEncoding({ amplitude_ratio_per_train: p.slew_amplitude_ratio, amplitude_slew_v_per_s: p.slew_v_per_s,
+      interval_ratio_per_train: p.slew_ratio });
+  }
+  if (p.slew === "off") bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
 
   const sweep = analysis.transitions({ lines: p.lines, traverse_s: p.traverse_s, jumps: p.jumps });
-  const results = { transitions: sweep, latency: null, steps: [] };
-  record.partial(results, [{ caption: "Largest step from train to train", rows: largestRows(sweep), columns: LARGEST }]);
-  writeSweep(sweep);
+  const computed = { caption: "Computed: largest step from train to train", rows: largestRows(sweep), columns: LARGEST };
+  const results = { transitions: sweep, changes: null, latency: null, steps: [], jumps: [], movements: [] };
+  record.partial(results, [computed]);
+  report.text(limitsText(sweep));
   results.reference = checkReference(p);
 
   const plan = stepsOf(p);
-  const options = { names: plan.names, tolerance_s: p.latency_tolerance_s };
-  for (const step of results.reference.passed ? progress(plan.steps, "Steps") : []) {
-    const seen = bench.step(step.from, step.to, { phase: step.phase });
-    results.steps.push(Object.assign({ name: step.name }, seen));
-    record.trial(step.name, seen);
-    results.latency = analysis.latency(results.steps, options);
+  const jumps = smallSteps().concat(p.jumps ? jumpsOf() : []), movements = movementsOf();
+  const changed = plan.names.concat(jumps.map((jump) => jump.name), movements.map((movement) => movement.name));
+  const judge = () => {
+    results.latency = analysis.latency(results.steps, { names: plan.names, tolerance_s: p.latency_tolerance_s });
+    results.changes = analysis.changes(results.steps.concat(results.jumps, results.movements),
+      { names: changed, complete_s: p.complete_s, seconds_alone: p.complete === "seconds" });
     record.partial(results, [
-      { caption: "Largest step from train to train", rows: largestRows(sweep), columns: LARGEST },
+      { caption: CAPTURED, rows: changeRows(results.changes), columns: CHANGES },
       { caption: "Latency of a step", rows: latencyRows(results.latency), columns: COLUMNS },
+      computed,
     ]);
+  };
+  const known = results.reference.passed;
+  for (const step of known ? progress(plan.steps.concat(jumps), "Steps") : []) {
+    const seen = bench.step(step.from, step.to, { phase: step.phase });
+    (jumps.includes(step) ? results.jumps : results.steps).push(Object.assign({ name: step.name }, seen));
+    record.trial(step.name, seen);
+    judge();
+  }
+  for (const movement of known ? progress(movements, "Movements") : []) {
+    results.movements.push(Object.assign({ name: movement.name }, bench.traverse(movement.from, movement.to, { seconds: p.traverse_s })));
   }
   bench.disarm();
-  if (!results.reference.passed) results.latency = analysis.latency([], options);
+  judge();
+
+  writeChanges(p, results.changes);
 
   report.table("Latency: from the step to the first train that carries it, mean ± s.d.", latencyRows(results.latency), COLUMNS);
   report.text(
@@ -141,11 +265,16 @@ function run(p) {
       "amplitude. Steps fall on moments spread over the interval. Off is the largest difference between a step and its design; trains is " +
       "how many a change takes until it is complete, measured / designed.",
   );
+  writeSweep(sweep);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
-  results.reasons = sweep.reasons.concat(results.latency.reasons);
-  if (!results.reference.passed) results.reasons.unshift(results.reference.reason + "; no latency was measured");
-  const verdicts = [sweep.verdict, results.latency.verdict];
+  // Captures decide; a design that steps too far elsewhere in the plane leaves it open.
+  const elsewhere = sweep.reasons.map((reason) => "computed, not captured: " + reason);
+  results.notes = results.changes.notes;
+  results.reasons = results.changes.reasons.concat(results.latency.reasons, elsewhere);
+  if (!known) results.reasons.unshift(results.reference.reason + "; nothing was measured");
+  const verdicts = [results.changes.verdict, results.latency.verdict, sweep.verdict === "pass" ? "pass" : "indeterminate"];
   results.verdict = verdicts.includes("fail") ? "fail" : verdicts.includes("indeterminate") ? "indeterminate" : "pass";
+  if (results.verdict === "pass") results.reasons = passed(p, results.changes);
   return verdict(results);
 }

@@ -3,7 +3,7 @@
 // Nothing here is measured: every figure and table is a prediction and says so.
 protocol({
   title: "Variation: virtual participants",
-  purpose: "How far would people differ in telling the conditions apart, and how many trials does a pilot need?",
+  purpose: "How many people do the amplitudes serve, how well would those tell the conditions apart, and what can a pilot of a few people show?",
   needs: [],
   parameters: {
     participants: { label: "Virtual participants", type: "integer", min: 2, max: 20000, value: 200 },
@@ -11,7 +11,7 @@ protocol({
     levels: {
       label: "Amplitudes",
       type: "choice",
-      choices: { personal: "between each participant's thresholds", profile: "the profile's, for everybody" },
+      choices: { personal: "a range of each participant's own", profile: "the profile's, for everybody" },
       value: "personal",
     },
     source: {
@@ -27,10 +27,13 @@ protocol({
       value: "none",
     },
     width: { label: "Wanted width of the 95 % interval", unit: "%", min: 2, max: 100, value: 10 },
-    pilot: { label: "Participants of the pilot", type: "integer", min: 1, max: 1000, value: 12 },
+    pilot: { label: "Participants of the pilot", type: "integer", min: 1, max: 1000, value: 5 },
+    area: { label: "Area of each electrode (0: the profile's)", unit: "cm2", min: 0, max: 1000, value: 0 },
     skin_spread: { label: "Skin, spread (geometric s.d.)", min: 1, max: 10, value: 1.5 },
-    detection: { label: "Detection threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
-    discomfort: { label: "Discomfort threshold, median", unit: "mA", min: 0.2, max: 200, value: 13.8 },
+    detection: { label: "Perception threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
+    attention: { label: "Attention threshold, median", unit: "mA", min: 0.1, max: 200, value: 6.9 },
+    discomfort: { label: "Too strong from, median", unit: "mA", min: 0.2, max: 200, value: 9.8 },
+    intolerance: { label: "Intolerance threshold, median", unit: "mA", min: 0.2, max: 500, value: 13.8 },
     threshold_spread: { label: "Thresholds, spread (geometric s.d.)", min: 1, max: 10, value: 1.4 },
     weber_spread: { label: "Weber fractions, spread (geometric s.d.)", min: 1, max: 10, value: 1.25 },
     lapse: { label: "Largest lapse rate", unit: "%", min: 0, max: 100, value: 6 },
@@ -38,31 +41,91 @@ protocol({
   },
 });
 
-const MARK = " (predicted, not measured)";  // the report adds that it is simulated
+const MARK = ", predicted, not measured";  // the report adds that it is simulated
 
-function predict(p, levels, label) {
-  return analysis.variation({ participants: p.participants, trials: p.trials, levels: levels, source: p.source,
-    guess: p.guess, width: p.width / 100, pilot: p.pilot, skin_spread: p.skin_spread, detection_ma: p.detection,
-    discomfort_ma: p.discomfort, threshold_spread: p.threshold_spread, weber_spread: p.weber_spread,
-    lapse_most: p.lapse / 100, noise_jnd: p.noise, label: label });
+function predict(p, levels, label, changed) {
+  const options = { participants: p.participants, trials: p.trials, levels: levels, source: p.source, guess: p.guess,
+    width: p.width / 100, pilot: p.pilot, detection_ma: p.detection, attention_ma: p.attention,
+    discomfort_ma: p.discomfort, intolerance_ma: p.intolerance, threshold_spread: p.threshold_spread,
+    weber_spread: p.weber_spread, lapse_most: p.lapse / 100, noise_jnd: p.noise, label: label };
+  if (p.area > 0) options.area_cm2 = p.area;
+  if (p.skin_spread !== 1.5) options.skin_spread = p.skin_spread;
+  return analysis.variation(Object.assign(options, changed));
 }
 
-// An accuracy as the tables take it: its median and 5 to 95 % of the participants.
-function percent(accuracy) {
-  if (accuracy.median === null) return null;
-  return { value: 100 * accuracy.median, low: 100 * accuracy.low, high: 100 * accuracy.high };
+// "94.8 (66.7 to 99.2)": the median, 5 and 95 %. Of one participant, and of none, no more than there is.
+function spread(estimate, digits, factor) {
+  const shown = (x) => (factor * x).toFixed(digits);
+  const middle = estimate.median !== undefined ? estimate.median : estimate.value;
+  if (middle === null) return "–";
+  if (estimate.low === estimate.high) return shown(middle);
+  return shown(middle) + " (" + shown(estimate.low) + " to " + shown(estimate.high) + ")";
 }
 
-// A thousandth of a just-noticeable difference says nothing.
-function rounded(estimate) {
-  const digits = (x) => (x === null ? null : Math.round(1000 * x) / 1000);
-  return { value: digits(estimate.value), low: digits(estimate.low), high: digits(estimate.high) };
+function percent(estimate) {
+  return spread(estimate, 1, 100);
+}
+
+function share(x) {
+  return (100 * x).toFixed(0) + " %";
+}
+
+// Columns in the order in which a row names them.
+function table(caption, rows) {
+  report.table(caption, rows, rows.length > 0 ? Object.keys(rows[0]) : []);
+}
+
+function volts(range) {
+  return range[0] + " to " + range[1] + " V";
+}
+
+function fixedRange(found) {
+  const papers = found.range_v[0] === 10 && found.range_v[1] === 40;
+  return (papers ? "The paper's own " : "The profile's ") + volts(found.range_v);
+}
+
+// How many are served stands before anything else that is found.
+function headline(p, fixed, personal) {
+  const why = [];
+  if (fixed.participants_refused > 0) {
+    const strong = fixed.withheld.every((each) => each.reason === "too strong for the participant");
+    why.push(fixed.participants_refused + " would be refused " + (strong ? fixed.range_v[1] + " V as too strong" : "part of it"));
+  }
+  if (fixed.participants_not_feeling > 0) {
+    why.push(fixed.participants_not_feeling + " are given all of it and do not feel " + fixed.range_v[0] + " V");
+  }
+  if (fixed.participants_without_range > 0) why.push(fixed.participants_without_range + " cannot be given it by this device");
+  const out = [fixedRange(fixed) + " serves " + fixed.served + " of " + fixed.participants + " virtual participants" +
+    (why.length > 0 ? ": " + why.join(", ") : "") + "."];
+  if (personal.served === 0) return out.concat("A range of their own within it serves none of them either.");
+  out.push("A range of their own within it serves " + personal.served + " of " + personal.participants + "; " +
+    personal.clearly_separable + " of these have every pair of conditions 5 just-noticeable differences apart, and of " +
+    "their answers " + percent(personal.accuracy) + " % would be right (median; 5 to 95 % of them).");
+  const pilot = personal.pilots.find((each) => each.people === p.pilot);
+  out.push("A pilot of " + p.pilot + (p.pilot === 1 ? " person" : " people") + " with such ranges: all are served with " +
+    share(pilot.all_served) + " probability; if all are above chance, at least " + share(pilot.prevalence_all) +
+    " of such people can do it (95 %).");
+  return out;
 }
 
 function summary(name, found) {
-  return { amplitudes: name, participants: found.participants, presented_all: found.complete,
-    refused: found.refused, not_felt: found.not_felt, accuracy_pct: percent(found.accuracy),
-    information_bits: found.information_bits.median };
+  return { amplitudes: name, served: found.served, refused: found.participants_refused,
+    do_not_feel_all: found.participants_not_feeling, without_a_range: found.participants_without_range,
+    every_pair_5_jnd_apart: found.clearly_separable, "right_answers_of_the_served,_%": percent(found.accuracy) };
+}
+
+// Where comfort ends is not known: what is served is said for the lowest, the run's and the highest answer.
+function readings(p, fixed, personal) {
+  const at = [["the attention threshold", p.attention], ["the run's setting", p.discomfort], ["the intolerance threshold", p.intolerance]];
+  return at.map(([name, milliamps]) => {
+    const same = milliamps === p.discomfort;
+    const changed = { discomfort_ma: milliamps };
+    const shared = same ? fixed : predict(p, "profile", "Too strong from " + milliamps + " mA, fixed amplitudes", changed);
+    const own = same ? personal : predict(p, "personal", "Too strong from " + milliamps + " mA, personal amplitudes", changed);
+    return { too_strong_from: name, median_ma: milliamps, fixed_served: shared.served, fixed_refused: shared.participants_refused,
+      fixed_not_feeling: shared.participants_not_feeling, personal_served: own.served, accuracy: own.accuracy,
+      presented_accuracy: own.presented_accuracy, presented_fixed_accuracy: shared.presented_accuracy };
+  });
 }
 
 function pilotRows(needed) {
@@ -76,16 +139,33 @@ function pilotRows(needed) {
   return rows;
 }
 
-// What is not everybody's result is said first.
+function fewRows(pilots) {
+  return pilots.map((each) => ({ people: each.people, all_are_served: share(each.all_served),
+    all_are_served_and_above_chance: share(each.all_above_chance), "if_all:_can_do_it,_at_least": share(each.prevalence_all),
+    "if_all_but_one:_at_least": share(each.prevalence_but_one) }));
+}
+
+function fewText(found) {
+  if (found.pilots.length === 0) return "No one is served, so a pilot has nothing to show.";
+  const one = found.pilots[0];
+  return "Each person gives " + one.trials + " answers; " + one.right_from + " right ones or more are above chance (p < 0.05, one-sided). " +
+    "One person's 95 % interval is then " + percent(one.width) + " % wide. “If all” says what share of such people can do it, " +
+    "at least (95 %), when everyone in the pilot is above chance; “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, " +
+    "doi:10.7554/eLife.62461). So few people say whether people can do it, not how well people do it on average.";
+}
+
+// What is not everybody's result.
 function remarks(p, found) {
-  const out = ["Everything in this report is simulated: predicted from stated distributions, not measured on anybody."];
+  const out = ["Everything here is simulated: predicted from stated distributions, not measured on anybody. A condition counts for a participant only if it is presented, felt and not too strong."];
   if (p.source === "voltage") out.push("A voltage source is refused for people: this shows what it would do, judged as on a bench load.");
-  const missing = found.participants - found.complete;
+  if (found.model.electrode_area_cm2 === null) out.push("No electrode area is stated: the skin is that under " + found.model.skin_area_cm2 + " cm².");
+  const missing = found.participants - found.served;
   if (missing > 0) {
-    out.push(missing + " of " + found.participants + " virtual participants were not presented every condition and are left out of accuracy and confusion: " +
-      found.withheld.map((each) => each.count + " times " + each.reason).join(", ") + ".");
+    const withheld = found.withheld.map((each) => each.count + " times " + each.reason).join(", ");
+    out.push(missing + " of " + found.participants + " virtual participants are not served and are left out of accuracy and confusion" +
+      (withheld === "" ? "." : ". Conditions that were withheld: " + withheld + "."));
   }
-  if (found.trials_needed === null) out.push("Nobody was presented every condition, so there is no accuracy to predict.");
+  if (found.trials_needed === null) out.push("No one is served, so there is no accuracy to predict.");
   return out;
 }
 
@@ -93,30 +173,52 @@ function run(p) {
   const found = predict(p, p.levels, "Virtual participants");
   const other = p.levels === "personal" ? "profile" : "personal";
   const compared = predict(p, other, "Virtual participants, " + other + " amplitudes");
-  const names = { personal: "between the participant's thresholds", profile: "the profile's" };
+  const fixed = p.levels === "profile" ? found : compared;
+  const personal = p.levels === "profile" ? compared : found;
+  const read = readings(p, fixed, personal);
+  const said = headline(p, fixed, personal);
+  const names = { personal: "A range of each participant's own", profile: fixedRange(fixed) };
   const bench = analysis.uncertainBench({ source: p.source });
 
+  report.text(said.join(" "));
+  table("Who is served of " + p.participants + MARK, [summary(names.profile, fixed), summary(names.personal, personal)]);
+  report.figure("Thresholds and currents of the participants" + MARK, plot.predicted(fixed, "thresholds"));
+  report.table(fixedRange(fixed) + " for everybody" + MARK, fixed.conditions,
+    ["name", "presented", "not_felt", "counted", "draws_attention", "too_strong", "not_tolerated"]);
+  report.text("Where comfort ends is not known: somewhere from the attention to the intolerance threshold. The run takes " + p.discomfort + " mA.");
+  table("Served, by what is too strong" + MARK, read.map((each) => ({ too_strong_from: each.too_strong_from,
+    median_ma: each.median_ma, fixed_range_serves: each.fixed_served, it_is_refused_to: each.fixed_refused,
+    its_lowest_not_felt_by: each.fixed_not_feeling, own_range_serves: each.personal_served,
+    "right_answers_of_these,_%": percent(each.accuracy) })));
   remarks(p, found).forEach((each) => report.text(each));
+  table("What 3 to 5 people can show" + MARK, fewRows(found.pilots));
+  report.text(fewText(found));
+  report.table("What the prediction rests on", found.premises, ["quantity", "value", "spread", "mark", "source"]);
+  report.text("Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for this run. Every spread (geometric standard deviation) is a choice.");
+  report.text("In what follows a value is the median, and in brackets stand 5 and 95 %, of participants or of benches. " +
+    "Accuracy, confusion and trials are those of: " + names[p.levels] + ".");
+  table("Conditions, " + names[p.levels].toLowerCase().replace(" v", " V") + MARK, found.conditions.map((each) => ({ name: each.name,
+    presented: each.presented, refused: each.refused, not_felt: each.not_felt, counted: each.counted,
+    "current,_mA": spread(each.current_ma, 2, 1), "voltage,_V": spread(each.voltage_v, 1, 1) })));
+  table("Distance of the conditions in just-noticeable differences" + MARK, found.separability.map((each) => ({ a: each.a, b: each.b,
+    participants: each.participants, together: spread(each.jnd, 1, 1), by_amplitude: spread(each.amplitude_jnd, 1, 1),
+    by_interval: spread(each.interval_jnd, 1, 1) })));
   report.figure("Confusion" + MARK, plot.predicted(found, "confusion"));
-  report.figure("Accuracy of virtual participants" + MARK, plot.predicted(found, "accuracy"));
+  report.figure("Accuracy of the served" + MARK, plot.predicted(found, "accuracy"));
   report.figure("Width of the interval" + MARK, plot.predicted(found, "width"));
-  report.text("In every table a value is the median, and in brackets stand 5 and 95 %, of participants or of benches.");
-  report.table("Which amplitudes" + MARK, [summary(names[p.levels], found), summary(names[other], compared)],
-    ["amplitudes", "participants", "presented_all", "refused", "not_felt", "accuracy_pct", "information_bits"]);
-  report.table("Conditions" + MARK, found.conditions,
-    ["name", "presented", "refused", "not_felt", "current_ma", "voltage_v"]);
-  report.table("Separability" + MARK, found.separability, ["a", "b", "jnd", "amplitude_jnd", "interval_jnd"]);
-  report.table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(found.trials_needed),
-    ["aim", "one_participant", "pooled_each", "pooled_trials", "design_effect", "participants_at_least"]);
+  table("Trials that a pilot of " + p.pilot + " needs" + MARK, pilotRows(found.trials_needed));
   if (found.trials_needed !== null) report.text(found.trials_needed.assumptions);
-  report.table("Withheld, participants times conditions" + MARK, found.withheld, ["reason", "count"]);
-  report.table("Benches within their tolerances" + MARK, bench.conditions, ["name", "amplitude_v", "interval_s"]);
-  report.table("Benches: distance of the conditions" + MARK, bench.pairs.map((each) => ({ a: each.a, b: each.b,
-    amplitude_jnd: rounded(each.amplitude_jnd), interval_jnd: rounded(each.interval_jnd) })), ["a", "b", "amplitude_jnd", "interval_jnd"]);
+  table("Benches within their tolerances" + MARK, bench.conditions.map((each) => ({ name: each.name,
+    "amplitude,_V": spread(each.amplitude_v, 2, 1), "interval,_s": spread(each.interval_s, 4, 1) })));
+  table("Benches: distance of the conditions in just-noticeable differences" + MARK, bench.pairs.map((each) => ({ a: each.a, b: each.b,
+    by_amplitude: spread(each.amplitude_jnd, 2, 1), by_interval: spread(each.interval_jnd, 2, 1) })));
 
-  const results = Object.assign({ verdict: null, levels: p.levels, source: p.source }, found);
-  results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete,
-    refused: compared.refused, not_felt: compared.not_felt };
+  const results = Object.assign({ verdict: null, reasons: said, headline: said.join(" "), levels: p.levels, source: p.source,
+    profile_served: fixed.served, personal_served: personal.served, readings: read }, found);
+  results.other_levels = { levels: other, accuracy: compared.accuracy, complete: compared.complete, refused: compared.refused,
+    not_felt: compared.not_felt, served: compared.served, participants_refused: compared.participants_refused,
+    participants_not_feeling: compared.participants_not_feeling, participants_without_range: compared.participants_without_range,
+    presented_accuracy: compared.presented_accuracy, conditions: compared.conditions, people: compared.people };
   results.bench = bench;
   verdict(results);
   return null;

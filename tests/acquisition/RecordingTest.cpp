@@ -25,6 +25,13 @@ Recording opened(const ScratchDir& folder, const std::string& csv, const std::st
 
 }  // namespace
 
+TEST(Recording, MayNameTheFingertipThatWasRecorded) {
+    const ScratchDir folder;
+    const std::string samples = "time,X,Y\n0,1,-2\n0.01,0,0.5\n0.02,0,0\n";
+    EXPECT_EQ(opened(folder, samples, kAcceleration, R"("fingertip": "B-1", )").fingertip, "B-1");
+    EXPECT_EQ(opened(folder, samples).fingertip, "") << "not stated";
+}
+
 TEST(Recording, ReadsAFolderAndConvertsItsUnits) {
     const ScratchDir folder;
     const auto recording = opened(folder, "time,X,Y\n0,1,-2\n0.01,0,0.5\n0.02,0,0\n");

@@ -15,6 +15,7 @@ constexpr std::size_t kDraws = 10'000;
 /// In how many of the runs the interval held the truth.
 struct Covered {
     std::array<int, 3> level{};  ///< lowest, middle, largest command
+    std::array<int, 3> worst{};  ///< of the worse direction's mean, which is what is judged
     int gain = 0;
     int offset = 0;
     int monteCarlo = 0;  ///< budgets at the largest command that were propagated
@@ -42,6 +43,10 @@ Covered coverageOf(const CalibrationTwin& twin) {
             const auto& level = judged->levels[k];
             const double truth = twin.truth(level.commanded) - level.commanded;
             covered.level[k] += std::abs(level.error - truth) <= level.budget.expanded ? 1 : 0;
+            const auto& read = found->levels[looked[k]];
+            const bool up = std::abs(level.worstError - (read.meanUp - read.commanded)) < 1e-12;
+            const double worstTruth = truth + (up ? -0.5 : 0.5) * twin.hysteresis;
+            covered.worst[k] += std::abs(level.worstError - worstTruth) <= level.worstBudget.expanded ? 1 : 0;
         }
         covered.gain += std::abs(found->gain - twin.gain) <= judged->gain.expanded ? 1 : 0;
         covered.offset += std::abs(found->offset - twin.offset) <= judged->offset.expanded ? 1 : 0;
@@ -58,6 +63,9 @@ void expectStated(const Covered& covered) {
     stated(covered.level[0], "lowest level");
     stated(covered.level[1], "middle level");
     stated(covered.level[2], "largest level");
+    stated(covered.worst[0], "worse direction of the lowest level");
+    stated(covered.worst[1], "worse direction of the middle level");
+    stated(covered.worst[2], "worse direction of the largest level");
     stated(covered.gain, "gain");
     stated(covered.offset, "offset");
     testing::Test::RecordProperty("covered_largest", covered.level[2]);

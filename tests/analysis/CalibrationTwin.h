@@ -20,7 +20,7 @@ struct CalibrationTwin {
     double high = 40;
     std::size_t levels = 11;
     std::size_t repeats = 5;
-    InstrumentErrors instrument;
+    InstrumentErrors instrument{.gainTolerance = 0, .resolution = 0};
 
     [[nodiscard]] double levelAt(std::size_t k) const {
         return low + (high - low) * static_cast<double>(k) / static_cast<double>(levels - 1);

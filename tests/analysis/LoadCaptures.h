@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/analysis/LoadReading.h"
+#include "core/base/Random.h"
 
 namespace tacto::test {
 
@@ -20,7 +21,13 @@ struct LoadTruth {
     double gain_v = 1, gain_i = 1;      ///< of the instrument
     double offset_v = 0, offset_a = 0;  ///< of the instrument
     double gainTolerance = 0.005;
-    int bits = 12;  ///< of a range of 1.5 times the peak
+    double shuntTolerance = 0;
+    double timeBaseTolerance = 0;
+    double timeBase = 1;     ///< what the instrument makes of a second
+    double noise = 0;        ///< of the range, r.m.s.
+    double scatter = 0;      ///< relative, of the trains' amplitudes
+    std::uint64_t seed = 1;  ///< of noise and scatter
+    int bits = 12;           ///< of a range of 1.5 times the peak
 };
 
 /// `trains` captures, one per train. Edges last 100 ns, as a fast source's do.
@@ -28,7 +35,10 @@ struct LoadTruth {
     std::vector<Capture> out;
     const double edge = 100e-9, before = 120e-6;
     const double end = before + 2 * truth.width_s + truth.gap_s + 150e-6;
-    const auto level = [&](double t) {
+    Random random(truth.seed, "load captures");
+    double shift = 0;  // of the train against the samples
+    const auto level = [&](double stated) {
+        const double t = stated / truth.timeBase - shift;
         // A trapezoid whose width at half height is the phase's.
         const auto phase = [&](double from) {
             const double x = t - from;
@@ -41,7 +51,11 @@ struct LoadTruth {
     for (int k = 0; k < trains; ++k) {
         Capture capture;
         capture.rate_hz = truth.rate_hz;
-        capture.start_s = k * truth.interval_s;
+        capture.start_s = k * truth.interval_s * truth.timeBase;
+        capture.timeBaseTolerance = truth.timeBaseTolerance;
+        capture.stampTolerance_s = 0;
+        const double strength = 1 + truth.scatter * random.normal();
+        if (truth.noise > 0) shift = random.uniform() / truth.rate_hz;
         capture.trigger_s = capture.start_s + before;
         CaptureChannel v, i;
         v.name = "voltage";
@@ -54,12 +68,16 @@ struct LoadTruth {
             channel->low = -channel->high;
             channel->lsb = 2 * channel->high / std::ldexp(1, truth.bits);
             channel->gainTolerance = truth.gainTolerance;
+            channel->probeTolerance = channel == &i ? truth.shuntTolerance : 0;
         }
-        const auto read = [](double x, double lsb) { return static_cast<float>(std::round(x / lsb) * lsb); };
+        const auto read = [&](double x, const CaptureChannel& channel) {
+            if (truth.noise > 0) x += truth.noise * channel.high * random.normal();
+            return static_cast<float>(std::round(x / channel.lsb) * channel.lsb);
+        };
         for (double t = 0; t < end; t += 1 / truth.rate_hz) {
-            const double volts = level(t);
-            v.samples.push_back(read(truth.gain_v * volts + truth.offset_v, v.lsb));
-            i.samples.push_back(read(truth.gain_i * volts / truth.ohms + truth.offset_a, i.lsb));
+            const double volts = strength * level(t);
+            v.samples.push_back(read(truth.gain_v * volts + truth.offset_v, v));
+            i.samples.push_back(read(truth.gain_i * volts / truth.ohms + truth.offset_a, i));
         }
         capture.channels = {v, i};
         out.push_back(std::move(capture));

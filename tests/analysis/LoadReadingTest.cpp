@@ -16,8 +16,8 @@ LoadReading read(const LoadTruth& truth, int trains = 2) {
 /// Within its own expanded uncertainty, and that uncertainty is no excuse for anything.
 void expectTruth(const Reading& reading, double truth, double worst, const char* what) {
     ASSERT_TRUE(reading.measured()) << what;
-    EXPECT_NEAR(reading.value, truth, std::max(reading.expanded(), 1e-12)) << what;
-    EXPECT_LE(reading.expanded(), worst * std::abs(truth)) << what;
+    EXPECT_NEAR(reading.value, truth, std::max(reading.expanded, 1e-12)) << what;
+    EXPECT_LE(reading.expanded, worst * std::abs(truth)) << what;
 }
 
 TEST(LoadReading, MeasuresEveryQuantityOfFortyVoltsInto500Ohm) {
@@ -48,7 +48,7 @@ TEST(LoadReading, AnInstrumentsOffsetChangesNothing) {
     truth.offset_a = 0.003;
     const auto found = read(truth);
     EXPECT_NEAR(found.amplitude_v.value, 40, 0.03);
-    EXPECT_LE(found.imbalance.value, 2 * found.imbalance.expanded());
+    EXPECT_LE(found.imbalance.value, 2 * found.imbalance.expanded);
 }
 
 TEST(LoadReading, NetChargeIsFoundToATenthOfAPercent) {
@@ -58,8 +58,8 @@ TEST(LoadReading, NetChargeIsFoundToATenthOfAPercent) {
         truth.second = 1 - missing;
         const auto found = read(truth);
         const double expected = std::abs(missing) / std::max(1.0, 1 - missing);
-        EXPECT_NEAR(found.imbalance.value, expected, found.imbalance.expanded()) << missing;
-        EXPECT_LE(found.imbalance.expanded(), 0.002) << missing;
+        EXPECT_NEAR(found.imbalance.value, expected, found.imbalance.expanded) << missing;
+        EXPECT_LE(found.imbalance.expanded, 0.002) << missing;
     }
 }
 
@@ -137,9 +137,9 @@ TEST(LoadReading, BehindAClippedSpikeTheFineRangeIsRead) {
     EXPECT_FALSE(readLoad(fine, ExpectedTrain{}).value().impedance_ohm.measured());
     const auto found = readLoad(wide, ExpectedTrain{}, fine).value();
     ASSERT_TRUE(found.impedance_ohm.measured());
-    EXPECT_NEAR(found.impedance_ohm.value, 500, found.impedance_ohm.expanded());
-    EXPECT_NEAR(found.imbalance.value, 0.02, found.imbalance.expanded());
-    EXPECT_LE(found.imbalance.expanded(), 0.005);
+    EXPECT_NEAR(found.impedance_ohm.value, 500, found.impedance_ohm.expanded);
+    EXPECT_NEAR(found.imbalance.value, 0.02, found.imbalance.expanded);
+    EXPECT_LE(found.imbalance.expanded, 0.005);
 }
 
 /// The same trains from a current source into `truth.ohms` in series with a resistor beside a capacitor.
@@ -172,7 +172,7 @@ TEST(LoadReading, OfACurrentSourceTheCurrentTellsThePhases) {
     expectTruth(found.width_s, 200e-6, 0.001, "width");
     expectTruth(found.amplitude_ma, 5, 0.01, "current");
     expectTruth(found.charge_uc, 1, 0.01, "phase charge");
-    EXPECT_LE(found.imbalance.value, found.imbalance.expanded());
+    EXPECT_LE(found.imbalance.value, found.imbalance.expanded);
     // At the end of the phase, as science.md section 4 means it: 3.50 kohm.
     const double ohms = truth.ohms + parallel * (1 - std::exp(-truth.width_s / (parallel * farads)));
     EXPECT_NEAR(ohms, 3.5e3, 10);
@@ -190,7 +190,7 @@ TEST(LoadReading, TrainsThatWereToldDifferentThingsAreEachReadAgainstTheirOwn) {
     expectTruth(found.delivered, 1, 0.01, "delivered");
     expectTruth(found.impedance_ohm, 500, 0.012, "impedance");
     const auto unaware = readLoad(captures, ExpectedTrain{.told = {40, 40}}).value();
-    EXPECT_GT(unaware.delivered.expanded(), 0.05) << "their spread is told";
+    EXPECT_GT(unaware.delivered.expanded, 0.05) << "their spread is told";
     EXPECT_FALSE(readLoad(captures, ExpectedTrain{}).value().delivered.measured());
     EXPECT_FALSE(readLoad(captures, ExpectedTrain{.told = {40}}));
 }

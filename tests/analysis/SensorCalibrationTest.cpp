@@ -224,6 +224,19 @@ TEST(SensorScale, TheOffsetsIntervalIsAsWideAsItShouldBe) {
     EXPECT_LE(covered, 0.97 * kRuns);
 }
 
+TEST(SensorScale, IsAsUncertainAsItsReferencesAndUnknownWithThem) {
+    Random random(11, "tolerance");
+    const auto readings = weighed(random, 250, 1000, 0, 2);
+    const auto found = fitSensorScale(readings, 0.03, "taxel 1").value();
+    // Rectangular: U = 1.96 · 3 % / √3 of the scale, and of the offset that goes with it.
+    EXPECT_NEAR(found.scaleU / found.scale, 1.96 * 0.03 / std::sqrt(3.0), 1e-4);
+    EXPECT_NEAR(found.offsetU, 4 * 1.96 * 0.03 / std::sqrt(3.0), 1e-3);
+    const auto unknown = fitSensorScale(readings, std::nullopt, "taxel 1").value();
+    EXPECT_NEAR(unknown.scale, 0.004, 1e-12);
+    EXPECT_TRUE(std::isnan(unknown.scaleU)) << "not known is not 0";
+    EXPECT_TRUE(std::isnan(unknown.offsetU));
+}
+
 TEST(SensorScale, RefusesASensorThatDoesNotFollow) {
     RecordProperty("hazard", "H7");
     Random random(12, "dead");

@@ -84,6 +84,8 @@ TEST(Separability, ANoiselessTwinIsFlooredAtItsUncertaintyAndNotInfinite) {
     EXPECT_NEAR(stated.pairs[0].mahalanobis, 1.5 / 1e-4, 1e-3);
 
     trials[3].amplitudeUncertainty = std::nan("");
+    EXPECT_TRUE(std::isnan(judgeSeparability(trials).value().amplitudeFloor)) << "one that is unknown";
+    trials[3].amplitudeUncertainty = 0;
     EXPECT_NEAR(judgeSeparability(trials).value().amplitudeFloor, 0.025, 1e-12) << "one that states none";
 }
 

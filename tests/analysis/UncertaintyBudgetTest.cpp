@@ -104,11 +104,21 @@ TEST(UncertaintyBudget, NothingUncertainHasNoFactor) {
     EXPECT_TRUE(std::isnan(budget->coverageFactor));
 }
 
+TEST(UncertaintyBudget, WithARowThatNobodyStatesThereIsNoU) {
+    RecordProperty("hazard", "H9");
+    const auto budget =
+        combine({{"s", Distribution::Student, 1, 1, 1, 4}, {"gain", Distribution::Rectangular, kNaN, 1, 1}});
+    ASSERT_TRUE(budget);
+    EXPECT_TRUE(std::isnan(budget->combined));
+    EXPECT_TRUE(std::isnan(budget->expanded));
+    EXPECT_EQ(budget->rows.size(), 2U) << "what is known stays to be read";
+    EXPECT_EQ(guardBanded(0, budget->expanded, 1), Verdict::Indeterminate);
+}
+
 TEST(UncertaintyBudget, RefusesWhatIsNoUncertainty) {
     RecordProperty("hazard", "H9");
     EXPECT_FALSE(combine({}));
-    for (const double value : {-1.0, kNaN, kInf})
-        EXPECT_FALSE(combine({{"s", Distribution::Normal, value, 1, 1, kInf}}));
+    for (const double value : {-1.0, kInf}) EXPECT_FALSE(combine({{"s", Distribution::Normal, value, 1, 1, kInf}}));
     for (const double divisor : {0.0, -1.0, kNaN})
         EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, divisor, 1, kInf}}));
     for (const double freedom : {0.0, kNaN}) EXPECT_FALSE(combine({{"s", Distribution::Normal, 1, 1, 1, freedom}}));

@@ -6,7 +6,6 @@
 #include "core/analysis/IndexedWork.h"
 #include "core/analysis/Variation.h"
 #include "core/analysis/VariationJson.h"
-#include "core/base/Statistics.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -23,12 +22,21 @@ VariationOptions options(std::size_t participants = 60) {
     return out;
 }
 
+/// Everybody feels from `felt` mA at 150 µs and bears up to `strong`.
+void setThresholds(VariationOptions& options, double felt, double strong) {
+    auto& population = options.population;
+    population.detection_ma.median = felt;
+    population.attention_ma.median = std::sqrt(felt * strong);
+    population.intolerance_ma.median = strong;
+    population.discomfort_ma = strong;
+}
+
 /// Nobody differs from the median, nobody lapses.
 VariationOptions everybodyAlike() {
     auto out = options(5);
     for (auto* drawn : {&out.population.series_ohm, &out.population.parallel_ohm, &out.population.capacitance_nf,
-                        &out.population.detection_ma, &out.population.headroom, &out.population.amplitudeWeber,
-                        &out.population.intervalWeber}) {
+                        &out.population.detection_ma, &out.population.attention_ma, &out.population.intolerance_ma,
+                        &out.population.amplitudeWeber, &out.population.intervalWeber}) {
         drawn->spread = 1;
     }
     out.population.lapseMost = 0;
@@ -56,37 +64,10 @@ TEST(Variation, OnePersonIsTheSameInACrowd) {
     EXPECT_NE(first.skin, drawParticipant(wanted.population, 8, 3, Micros(200)).skin);
 }
 
-TEST(Variation, DrawsHaveTheirMedianAndSpread) {
-    const PopulationModel model;
-    std::vector<double> detection;
-    std::size_t above = 0;
-    for (std::size_t i = 0; i < 4000; ++i) {
-        const auto who = drawParticipant(model, 5, i, model.thresholdWidth);
-        detection.push_back(std::log(who.detection.value()));
-        EXPECT_GT(who.discomfort, who.detection);
-        EXPECT_GE(who.lapse, 0);
-        EXPECT_LT(who.lapse, model.lapseMost);
-        above += who.detection.value() > 3.5 ? 1 : 0;
-    }
-    const auto found = statisticsOf(detection);
-    const double sd = std::log(1.4);
-    EXPECT_NEAR(found.mean, std::log(3.5), 5 * sd / std::sqrt(4000.0));
-    EXPECT_NEAR(found.sd, sd, 5 * sd / std::sqrt(8000.0));
-    EXPECT_NEAR(static_cast<double>(above), 2000, 5 * std::sqrt(1000.0));
-}
-
-TEST(Variation, LongerPulsesAreFeltAtLessCurrentByWeissLaw) {
-    const PopulationModel model;
-    const double at150 = drawParticipant(model, 1, 0, Micros(150)).detection.value();
-    const double at300 = drawParticipant(model, 1, 0, Micros(300)).detection.value();
-    EXPECT_NEAR(at300 / at150, (1 + 151.0 / 300) / (1 + 151.0 / 150), 1e-12);
-}
-
 TEST(Variation, CurrentIsTheCommandOverTheParticipantsImpedance) {
     auto wanted = everybodyAlike();
     wanted.stimulation.levels = AmplitudeLevels::Profile;
-    wanted.population.detection_ma.median = 1;
-    wanted.population.headroom.median = 19;
+    setThresholds(wanted, 1, 20);
     const auto who = predictParticipant(wanted, 0);
     // science.md section 4: 3.50 kΩ from a current source on 200 Ω + (10 kΩ ∥ 50 nF) at 200 µs.
     const double z = 200 + 10e3 * (1 - std::exp(-200e-6 / (10e3 * 50e-9)));
@@ -103,8 +84,7 @@ TEST(Variation, CurrentIsTheCommandOverTheParticipantsImpedance) {
 TEST(Variation, PeopleWhoAreAlikeHaveTheDistancesOfTheDefinition) {
     auto wanted = everybodyAlike();
     wanted.stimulation.levels = AmplitudeLevels::Profile;
-    wanted.population.detection_ma.median = 0.5;
-    wanted.population.headroom.median = 99;
+    setThresholds(wanted, 0.5, 50);
     const auto found = predictVariation(wanted).value();
     ASSERT_EQ(found.pairs.size(), 6U);
     EXPECT_EQ(found.complete, 5U);
@@ -114,7 +94,8 @@ TEST(Variation, PeopleWhoAreAlikeHaveTheDistancesOfTheDefinition) {
     EXPECT_NEAR(found.pairs[2].jnd.high, std::hypot(amplitude, interval), 1e-9);
     EXPECT_NEAR(found.accuracy.value, 1, 1e-5);
     EXPECT_NEAR(found.information.value, 2, 1e-3);
-    EXPECT_EQ(found.clearlySeparable, 1);
+    EXPECT_EQ(found.clearlySeparable, 5U);
+    EXPECT_EQ(found.served, 5U);
 }
 
 TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
@@ -122,8 +103,7 @@ TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
     auto wanted = everybodyAlike();
     wanted.stimulation.levels = AmplitudeLevels::Profile;
     wanted.stimulation.ceilings = {{Quantity::PeakCurrent, 5}};  // lets 10 V through, 2.9 mA, and not 40 V, 11.4 mA
-    wanted.population.detection_ma.median = 1;
-    wanted.population.headroom.median = 99;
+    setThresholds(wanted, 1, 100);
     const auto limited = predictVariation(wanted).value();
     EXPECT_EQ(limited.refused, 2 * 5U);
     EXPECT_EQ(limited.complete, 0U);
@@ -138,7 +118,7 @@ TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
 
     // Above what the participant bears: the gate's ceiling in person mode.
     wanted.stimulation.ceilings.clear();
-    wanted.population.headroom.median = 2;
+    setThresholds(wanted, 1, 3);
     EXPECT_EQ(predictVariation(wanted).value().conditions[2].refused, 5U);
     // A skin that is out of the profile's range gets nothing at all.
     wanted.stimulation.loadHigh = Ohms(3000);
@@ -148,13 +128,14 @@ TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
 TEST(Variation, WhatIsBelowDetectionIsNotFeltAndAnsweredNone) {
     auto wanted = everybodyAlike();
     wanted.stimulation.levels = AmplitudeLevels::Profile;
-    wanted.population.detection_ma.median = 6;  // 10 V gives 2.9 mA
-    wanted.population.headroom.median = 9;
+    setThresholds(wanted, 6, 60);  // 10 V gives 2.9 mA
     const auto found = predictVariation(wanted).value();
     EXPECT_EQ(found.notFelt, 2 * 5U);
-    EXPECT_EQ(found.confusion[0][4], 50U);
-    EXPECT_EQ(found.confusion[2][4], 0U);
-    EXPECT_NEAR(found.accuracy.value, 0.5, 1e-3);
+    EXPECT_EQ(found.complete, 5U);
+    EXPECT_NEAR(found.presentedAccuracy.value, 0.5, 1e-3);
+    const auto counts = predictParticipant(wanted, 0).counts;
+    EXPECT_EQ(counts[0][4], 10U);
+    EXPECT_EQ(counts[2][4], 0U);
 }
 
 TEST(Variation, PersonalLevelsLieBetweenTheThresholdsAndInTheProfile) {
@@ -220,7 +201,14 @@ TEST(Variation, RefusesOptionsThatMakeNoSense) {
     refuses([](VariationOptions& o) { o.participants = 0; });
     refuses([](VariationOptions& o) { o.trials = 0; });
     refuses([](VariationOptions& o) { o.population.series_ohm.median = std::nan(""); });
-    refuses([](VariationOptions& o) { o.population.headroom.spread = 0.9; });
+    refuses([](VariationOptions& o) { o.population.intolerance_ma.spread = 0.9; });
+    refuses([](VariationOptions& o) { o.population.attention_ma.median = 3; });
+    refuses([](VariationOptions& o) { o.population.intolerance_ma.median = 6; });
+    refuses([](VariationOptions& o) { o.population.discomfort_ma = 3.5; });
+    refuses([](VariationOptions& o) { o.population.discomfort_ma = std::nan(""); });
+    refuses([](VariationOptions& o) { o.population.thresholdCorrelation = 1.1; });
+    refuses([](VariationOptions& o) { o.population.skinArea = SquareCentimetres(0); });
+    refuses([](VariationOptions& o) { o.stimulation.electrodeArea = SquareCentimetres(std::nan("")); });
     refuses([](VariationOptions& o) { o.population.lapseMost = 1.5; });
     refuses([](VariationOptions& o) { o.population.noise_jnd = 0; });
     refuses([](VariationOptions& o) { o.stimulation.limits.clear(); });

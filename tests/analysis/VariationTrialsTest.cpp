@@ -59,8 +59,8 @@ TEST(VariationTrials, TheSearchFindsWhatTryingEveryNumberFinds) {
         EXPECT_EQ(found.rho, 0);
         // Nobody differs: pooled trials count like one participant's, up to whole blocks.
         ASSERT_TRUE(found.pooledForWidth.perParticipant);
-        EXPECT_EQ(*found.pooledForWidth.total, 12 * *found.pooledForWidth.perParticipant);
-        EXPECT_LE(*found.pooledForWidth.total, forWidth + 12 * 4);
+        EXPECT_EQ(*found.pooledForWidth.total, 5 * *found.pooledForWidth.perParticipant);
+        EXPECT_LE(*found.pooledForWidth.total, forWidth + 5 * 4);
         EXPECT_GT(*found.pooledForWidth.total + 4, forWidth);
         EXPECT_EQ(found.pooledForWidth.participantsLeast, 1U);
     }

@@ -12,7 +12,14 @@ namespace {
 TEST(Profile, TheShippedFileIsTheProgramsDefault) {
     const auto shipped = loadProfile(test::sourceDir() / "resources" / "encodings" / "default.json");
     ASSERT_TRUE(shipped) << shipped.error().message;
-    EXPECT_EQ(toJson(*shipped).dump(1), toJson(Profile{}).dump(1));
+    Profile expected;
+    expected.encoding.amplitudeRatioPerTrain = 1.2;
+    expected.encoding.intervalRatioPerTrain = 1.34;
+    EXPECT_EQ(toJson(*shipped).dump(1), toJson(expected).dump(1));
+}
+
+TEST(Profile, AFileThatNamesNoLimitOnAStepHasNone) {
+    EXPECT_FALSE(parseProfile("{\"encoding\": {\"amplitude_max_v\": 30}}", "test")->encoding.movesInSteps());
 }
 
 TEST(Profile, ReadsBackWhatItWrites) {

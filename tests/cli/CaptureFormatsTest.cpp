@@ -1,4 +1,7 @@
 // measure and convert on files of other instruments, and what the user knows better than they do.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,12 +52,50 @@ TEST(CaptureFormatsCommands, MeasureTakesTheUsersWordOverTheFiles) {
     EXPECT_EQ(desk.run({"measure", titled, "--skip-rows", "2", "--time-column", "when"}).code, 0);
 }
 
+TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto path = desk.write("scope.csv", rigol());
+    const auto clippedOf = [](const nlohmann::json& json) {
+        return json["channels"][0]["flagged"]["clipped"].get<int>();
+    };
+    const auto unstated = jsonOf(desk.run({"measure", path, "--json"}));
+    EXPECT_EQ(clippedOf(unstated), 0) << "the highest value of a record is no range";
+    EXPECT_GT(unstated["channels"][0]["pulses"].get<int>(), 5);
+    const auto at = jsonOf(desk.run({"measure", path, "--range", "CH1=-5:5", "--json"}));
+    EXPECT_GT(clippedOf(at), 5);
+    EXPECT_EQ(at["channels"][0]["pulses"], 0);
+    const auto within = jsonOf(desk.run({"measure", path, "--range", "CH1=-10:10", "--json"}));
+    EXPECT_EQ(clippedOf(within), 0);
+    EXPECT_EQ(desk.run({"measure", path, "--range", "CH1=5:-5"}).code, 3);
+
+    // Really clipped: 7 V through an input that ends at 5.08 V, in steps of 40 mV with noise of one.
+    std::string text = "X,CH1,Start,Increment,\nSequence,Volt,0,1.0e-05,\n";
+    std::uint32_t state = 1;
+    for (int i = 0; i < 2000; ++i) {
+        double noise = -2;
+        for (int k = 0; k < 4; ++k) {
+            state = state * 1664525U + 1013904223U;
+            noise += static_cast<double>(state >> 8U) / (1U << 24U);
+        }
+        const double volts = i / 50 % 2 * 7 + 0.07 * noise;
+        text += fmt::format("{},{:.2f},\n", i, std::min(127.0, std::round(volts / 0.04)) * 0.04);
+    }
+    const auto clipped = desk.write("clipped.csv", text);
+    const auto json = jsonOf(desk.run({"measure", clipped, "--json"}));
+    EXPECT_EQ(clippedOf(json), 0);
+    EXPECT_EQ(json["channels"][0]["flagged"]["flat_top"], json["channels"][0]["pulses"]);
+    EXPECT_THAT(json["warnings"].dump(), HasSubstr("it may be clipped"));
+    EXPECT_GT(clippedOf(jsonOf(desk.run({"measure", clipped, "--range", "CH1=-5.12:5.08", "--json"}))), 10);
+}
+
 TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
     RecordProperty("hazard", "H10");
     const Desk desk;
     const auto path = desk.write("scope.csv", rigol());
     for (const Words& words : {Words{"--unit", "CH1"}, Words{"--unit", "=V"}, Words{"--probe", "CH1=ten"},
                                Words{"--skip-rows", "-1"}, Words{"--skip-rows", "1.5"}, Words{"--columns", "1,,2"},
+                               Words{"--range", "CH1=5"}, Words{"--range", "CH1=0:x"}, Words{"--range", "0:1"},
                                Words{"--sample-rate", "0"}, Words{"--sample-rate", "nan"}}) {
         Words all{"measure", path};
         all.insert(all.end(), words.begin(), words.end());

@@ -60,15 +60,16 @@ TEST_F(HostileText, InAScriptsNameTitleAndLogIsSpelledOut) {
 
 TEST_F(HostileText, ACountBeyondAnyIntegerIsShownAsItIs) {
     RecordProperty("hazard", "H9");
-    desk_.protocol("huge.js",
-                   "protocol({ title: 'Huge', parameters: { kind: { type: 'choice', value: 'a',"
-                   " choices: ['a', 'b', 'c'] } } });\n"
-                   "function run(p) { return verdict(Object.assign({ verdict: 'pass' },"
-                   " p.kind === 'a' ? { trials_needed: null, participants: 1e300 }"
-                   " : p.kind === 'b' ? { loads: [{ commands_refused: 1e300 }] }"
-                   " : { confusion: [], conditions: [{ n: 1e300, amplitude_v: {}, interval_s: {} }] })); }");
+    desk_.protocol(
+        "huge.js",
+        "protocol({ title: 'Huge', parameters: { kind: { type: 'choice', value: 'a',"
+        " choices: ['a', 'b', 'c'] } } });\n"
+        "function run(p) { return verdict(Object.assign({ verdict: 'pass' },"
+        " p.kind === 'a' ? { kind: 'variation', trials_needed: null, participants: 1e300 }"
+        " : p.kind === 'b' ? { kind: 'load-safety', loads: [{ commands_refused: 1e300 }] }"
+        " : { kind: 'separability', confusion: [], conditions: [{ n: 1e300, amplitude_v: {}, interval_s: {} }] })); }");
     const auto huge = fmt::format("{:.0f}", 1e300);
-    EXPECT_THAT(desk_.run({"run", "huge", "--out", "a"}).out, HasSubstr("  " + huge + " virtual participants"));
+    EXPECT_THAT(desk_.run({"run", "huge", "--out", "a"}).out, HasSubstr(" of " + huge));
     EXPECT_THAT(desk_.run({"run", "huge", "--set", "kind=b", "--out", "b"}).out,
                 HasSubstr("(" + huge + " refused as expected)"));
     EXPECT_THAT(desk_.run({"run", "huge", "--set", "kind=c", "--out", "c"}).out, HasSubstr(" " + huge + " "));

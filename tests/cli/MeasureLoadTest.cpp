@@ -24,14 +24,24 @@ std::string pulses(const std::string& header, double perAmpere) {
     return text;
 }
 
+/// What a data sheet would state of the instrument.
+Words stated(Words words) {
+    for (const char* key :
+         {"gain_pct=0.1", "probe_pct=0", "shunt_pct=0.1", "timebase_ppm=50", "lsb_v=0.001", "lsb_a=1e-6"}) {
+        words.insert(words.end(), {"--accuracy", key});
+    }
+    return words;
+}
+
 double meanOf(const Json& statistic) { return statistic["mean"].get<double>(); }
 
 TEST(MeasureLoad, AVoltageAndACurrentGiveTheLoad) {
     const Desk desk;
     const auto file = desk.write("pulses.csv", pulses("time_s,voltage_v,current_a", 1));
-    const auto ran = desk.run({"measure", file, "--json"});
+    const auto ran = desk.run(stated({"measure", file, "--json"}));
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto value = jsonOf(ran);
+    EXPECT_EQ(value["not_stated"], "");
     const auto& load = value["load"];
     expectKeys(load,
                {"voltage", "current", "pulses", "load_ohm", "load_uncertainty_ohm", "impedance_ohm", "charge_c",
@@ -61,7 +71,7 @@ TEST(MeasureLoad, AShuntMakesTheCurrent) {
 TEST(MeasureLoad, TrustIsInTheJsonAndInTheText) {
     const Desk desk;
     const auto file = desk.write("pulses.csv", pulses("time_s,voltage_v,current_a", 1));
-    const auto value = jsonOf(desk.run({"measure", file, "--json"}));
+    const auto value = jsonOf(desk.run(stated({"measure", file, "--json"})));
     const auto& channel = value["channels"][0];
     expectKeys(channel["uncertainty"],
                {"coverage_factor", "amplitude", "width_s", "interval_s", "gap_s", "charge", "imbalance"},
@@ -74,7 +84,13 @@ TEST(MeasureLoad, TrustIsInTheJsonAndInTheText) {
     EXPECT_EQ(channel["quality"]["doubtful"], false);
     EXPECT_EQ(channel["flagged"]["under_sampled"], 0);
     EXPECT_EQ(channel["flagged"]["coarse"], 0);
-    EXPECT_THAT(desk.run({"measure", file}).out, HasSubstr("uncertainty (k = 2): amplitude"));
+    EXPECT_THAT(desk.run({"measure", file}).out, HasSubstr("uncertainty (k = 2): amplitude not known"));
+    const auto silent = jsonOf(desk.run({"measure", file, "--json"}));
+    EXPECT_TRUE(silent["channels"][0]["amplitude_uncertainty"].is_null()) << "nobody stated it";
+    EXPECT_THAT(silent["not_stated"].get<std::string>(), HasSubstr("the gain of voltage"));
+    const auto refused = desk.run({"measure", file, "--accuracy", "gain=1"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--accuracy gain is not known; gain_pct"));
 }
 
 }  // namespace

@@ -73,7 +73,10 @@ Analysed roughness(const std::string& recording) {
     const auto ran = desk.run({"roughness", recording, "--out", desk.at("frames.csv"), "--json"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     const auto summary = jsonOf(ran);
-    expectKeys(summary, {"frames", "contact_frames", "rate_hz", "flags", "h", "v", "R", "pressure_pa", "P"}, recording);
+    expectKeys(summary,
+               {"frames", "contact_frames", "rate_hz", "flags", "h", "v", "R", "pressure_pa", "P", "simulated",
+                "known_limit", "R_expanded_uncertainty"},
+               recording);
     return {summary, contentOf(desk.at("frames.csv"))};
 }
 

@@ -1,6 +1,7 @@
 // run: separability on the simulated bench, live from real recordings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <regex>
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
@@ -19,7 +20,7 @@ Words separability(const std::string& out, const std::string& repeats, const std
 
 double firstTime(const std::string& capture) {
     const auto text = contentOf(capture);
-    return std::stod(text.substr(text.find('\n') + 1));
+    return std::stod(text.substr(text.find("}\n") + 2));  // behind the header's comment line
 }
 
 TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
@@ -53,7 +54,7 @@ TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
     EXPECT_TRUE(contentOf(captures[0]).starts_with("time_s,voltage_v,current_a\n"));
     EXPECT_EQ(jsonOf(desk.run({"measure", captures[0], "--json"}))["simulated"], true) << "the twin's capture";
     const auto alone = desk.write("alone.csv", contentOf(captures[0]));
-    EXPECT_TRUE(jsonOf(desk.run({"measure", alone, "--json"}))["simulated"].is_null()) << "it says nothing of itself";
+    EXPECT_EQ(jsonOf(desk.run({"measure", alone, "--json"}))["simulated"], true) << "its own header says so";
     for (const std::size_t trial : {0U, 1U, 50U, 99U}) {
         const auto& made = results["trials"][trial];
         EXPECT_NEAR(firstTime(captures[2 * trial + 1]) - firstTime(captures[2 * trial]),
@@ -158,6 +159,102 @@ TEST(RunSeparability, AnElectrodeThatLiftsStopsTheRun) {
     EXPECT_TRUE(value["results"].is_null());
     EXPECT_THAT(ran.err, HasSubstr("open"));
     EXPECT_EQ(desk.run({"verify", value["session"]}).code, 0);
+}
+
+TEST(Run, EachKindPrintsItsOwnFiguresAndWritesTheReportThatIsAskedFor) {
+    const Desk desk;
+    struct Case {
+        const char* protocol;
+        const char* shows;
+    };
+    for (const auto& each : {Case{"transitions", "amplitude JND"}, Case{"encoding-comparison", "smallest pair JND"},
+                             Case{"sensor-calibration", "told apart"}}) {
+        const auto ran =
+            desk.run({"run", each.protocol, "--device", "sim:", "--report", "none", "--out", desk.at(each.protocol)});
+        EXPECT_THAT(ran.out, HasSubstr(each.shows)) << each.protocol;
+        EXPECT_EQ(ran.out.find("repeatability %"), std::string::npos) << "no empty table of a calibration";
+        EXPECT_EQ(ran.out.find("nan"), std::string::npos) << ran.out;
+        EXPECT_EQ(ran.out.find("  report "), std::string::npos);
+        EXPECT_TRUE(desk.named(each.protocol, ".pdf").empty());
+        EXPECT_TRUE(desk.named(each.protocol, ".html").empty());
+    }
+    auto words = separability(desk.at("html"), "2");
+    words.insert(words.end(), {"--report", "html"});
+    const auto html = jsonOf(desk.run(words));
+    EXPECT_THAT(html["report"].get<std::string>(), testing::EndsWith(".html"));
+    EXPECT_TRUE(desk.named("html", ".pdf").empty());
+    words.back() = "docx";
+    const auto refused = desk.run(words);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--report is \"docx\"; none, html or pdf is expected"));
+}
+
+/// An HTML report's words, without its pictures.
+std::string wordsOf(std::string html) {
+    for (const auto& [from, to] : {std::pair("<svg", "</svg>"), std::pair("src=\"data:", "\"/>")}) {
+        for (auto begin = html.find(from); begin != std::string::npos; begin = html.find(from, begin))
+            html.erase(begin, std::min(html.find(to, begin), html.size()) - begin);
+    }
+    return html;
+}
+
+TEST(Run, NoShippedProtocolShowsANumberThatAReaderCannotRead) {
+    const Desk desk;
+    const std::regex unreadable("\\b(nan|inf|null|undefined)\\b|[0-9]e[-+][0-9]", std::regex::icase);
+    for (const auto* protocol : {"separability", "stimulator-calibration", "load-safety", "transitions", "variation",
+                                 "encoding-comparison", "sensor-calibration"}) {
+        const auto ran =
+            desk.run({"run", protocol, "--device", "sim:", "--report", "html", "--out", desk.at(protocol)});
+        const auto pages = desk.named(protocol, ".html");
+        ASSERT_EQ(pages.size(), 1U) << protocol << ran.err;
+        for (const auto& text : {ran.out, wordsOf(contentOf(pages.front()))}) {
+            std::smatch found;
+            EXPECT_FALSE(std::regex_search(text, found, unreadable))
+                << protocol << ": "
+                << text.substr(std::size_t(std::max<std::ptrdiff_t>(0, found.position() - 80)), 160);
+        }
+    }
+}
+
+TEST(RunLoadSafety, ItsReportHasSixPagesAtMostAndSaysFromHowManyTrainsAWindowIs) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto ran =
+        desk.run({"run", "load-safety", "--device", "sim:", "--set", "area=1", "--json", "--out", desk.at("out")});
+    const Json result = Json::parse(ran.out, nullptr, false);
+    int windows = 0;
+    for (const auto& row : result["results"]["rows"]) {
+        if (row["item"] != "rms_current_5s" || row["value"].is_null()) continue;
+        EXPECT_EQ(row["note"], "from 4 captured trains, repeated") << row["load"];
+        ++windows;
+    }
+    EXPECT_GT(windows, 6);
+    const auto pages = contentOf(desk.named("out", ".pdf").at(0));
+    const std::string mark = "/Type /Page\n";
+    int count = 0;
+    for (auto at = pages.find(mark); at != std::string::npos; at = pages.find(mark, at + 1)) ++count;
+    EXPECT_GE(count, 3);
+    EXPECT_LE(count, 6);
+}
+
+TEST(Run, WhoDidItAndTheAmbientConditionsStandInItsReport) {
+    const Desk desk;
+    Words words{
+        "run",  "encoding-comparison", "--device",         "sim:",  "--operator",  "Åsa <b>Lind</b>", "--report",
+        "html", "--ambient",           "22.5 °C, 45 % RH", "--out", desk.at("out")};
+    ASSERT_EQ(desk.run(words).code, 0);
+    const auto page = contentOf(desk.named("out", ".html").at(0));
+    EXPECT_THAT(page, HasSubstr("Åsa &lt;b&gt;Lind&lt;/b&gt;"));
+    EXPECT_THAT(page, HasSubstr("22.5 °C, 45 % RH"));
+    EXPECT_THAT(page, HasSubstr("not recorded")) << "the reviewer";
+    words[5] = "two\nlines";
+    words.back() = desk.at("refused");
+    const auto refused = desk.run(words);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("the operator is \"two\\x0alines\"; one line of text"));
+    words[5] = std::string(201, 'x');
+    EXPECT_THAT(desk.run(words).err, HasSubstr("the operator has 201 characters; at most 200 are accepted"));
+    EXPECT_TRUE(desk.named("refused", "").empty());
 }
 
 TEST(RunSeparability, TextSaysThatItIsSimulatedAndWhereThingsAre) {

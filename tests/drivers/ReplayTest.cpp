@@ -223,6 +223,21 @@ TEST(ReplayedCaptures, StayWhatTheyAreStatedToBe) {
     }
 }
 
+TEST(ReplayedCaptures, OneThatIsSimulatedMakesThemSoAndOneThatSaysNothingLeavesThemUnknown) {
+    RecordProperty("hazard", "H9");
+    for (const bool twin : {true, false}) {
+        const ScratchDir folder;
+        ASSERT_TRUE(writeCapture(folder.path() / "a.csv", pulseCapture(20.0)));
+        auto second = pulseCapture(21.0);
+        second.simulated = twin;
+        ASSERT_TRUE(writeCapture(folder.path() / "b.csv", second));
+        if (!twin) folder.write("b.csv", "time_s,voltage_v\n0,0\n1e-6,1\n2e-6,0\n");
+        FileBench bench;
+        ASSERT_TRUE(bench.open(*makeCaptureDriver(), "capture:" + folder.path().string()));
+        EXPECT_EQ(originOf(*bench.devices.oscilloscope), twin ? StatedOrigin::Simulated : StatedOrigin::NotStated);
+    }
+}
+
 TEST(ReplayedCaptures, SayWhatWasToleratedWhenTheyWereRead) {
     const ScratchDir folder;
     const auto file = folder.path() / "a.csv";

@@ -20,7 +20,12 @@ Result<void> SimBench::tryOpen(std::string_view text, const std::set<Role>& want
 }
 
 void SimBench::open(std::string_view uri, const std::set<Role>& wanted) {
-    if (const auto opened = tryOpen(uri, wanted); !opened) throw std::runtime_error(opened.error().message);
+    std::string ideal(uri);
+    const bool electric = uri.starts_with("sim:stimulator") || uri.starts_with("sim:oscilloscope");
+    if (electric && uri.find("flaws=") == std::string_view::npos) {
+        ideal += (uri.find('?') == std::string_view::npos ? "?" : "&") + std::string("flaws=none");
+    }
+    if (const auto opened = tryOpen(ideal, wanted); !opened) throw std::runtime_error(opened.error().message);
 }
 
 ApprovedTrain SimBench::approved(const PulseTrain& train) {

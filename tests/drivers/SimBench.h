@@ -17,6 +17,7 @@ public:
     explicit SimBench(std::string declaredLoad = "1 kohm", std::uint64_t seed = 1);
 
     /// Opens one URI; failing that, the test's failure says why.
+    /// Without flaws unless `uri` says otherwise: these tests look at one flaw at a time.
     void open(std::string_view uri, const std::set<Role>& wanted = {});
     /// As open(), for what should be refused.
     [[nodiscard]] Result<void> tryOpen(std::string_view uri, const std::set<Role>& wanted = {});

@@ -45,6 +45,9 @@ TEST(RoughnessSettings, SurviveARoundTrip) {
     settings.roughSurface = ReferenceSurface{"P120", Micrometres(25), Micrometres(160)};
     settings.restMeanSquare = 2e-4;
     settings.restUnit = StreamUnit::Count;
+    settings.uncertainty = RoughnessUncertainty{0.02, 5, 6, 2.3};
+    settings.sensor = SensorScales{
+        "B-1", SensorLine{0.004, -4, 1e-5}, StreamUnit::Count, {{2, -100, {}}, {-3, 0, 0.1}}, StreamUnit::Count};
     const auto again = roughnessSettingsFromJson(toJson(settings));
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(*again, settings);

@@ -190,6 +190,7 @@ protected:
         };
         return {
             menu("Bench", "Simulated bench with faults…"),
+            menu("Bench", "Oscilloscope certificates…"),
             {"Save the plot", [this] { savePlot(); }},
             {"Arm",  // opened while there is nothing to stop
              [this] {

@@ -123,6 +123,22 @@ TEST(SlewLimits, BoundTheAmplitudePerSecondAndTheIntervalPerTrain) {
     EXPECT_EQ(encoder.limited(low, low, Seconds(0.5)), low);
 }
 
+TEST(SlewLimits, BoundTheAmplitudeByARatioPerTrainHoweverLongItTook) {
+    RecordProperty("hazard", "H6");
+    EncodingProfile profile;
+    profile.amplitudeRatioPerTrain = 1.2;
+    const Encoder encoder(profile);
+    const Command low{Volts(10), Seconds(1)};
+    const Command high{Volts(40), Seconds(1)};
+    for (const double since : {0.0, 0.5, 60.0}) {
+        EXPECT_DOUBLE_EQ(encoder.limited(low, high, Seconds(since)).amplitude.value(), 12);
+        EXPECT_DOUBLE_EQ(encoder.limited(high, low, Seconds(since)).amplitude.value(), 40 / 1.2);
+    }
+    EXPECT_EQ(encoder.limited({Volts(36), Seconds(1)}, high, Seconds(1)).amplitude, Volts(40)) << "no overshoot";
+    profile.amplitudeSlew_V_per_s = 1;
+    EXPECT_DOUBLE_EQ(Encoder(profile).limited(low, high, Seconds(0.5)).amplitude.value(), 10.5) << "the tighter one";
+}
+
 TEST(HeldAmplitude, FollowsTheImpedanceByWhatIsHeld) {
     const auto held = [](Hold hold, double armed, double now) {
         return heldAmplitude(hold, Volts(20), Ohms(armed), Ohms(now))->value();

@@ -47,6 +47,11 @@ TEST(StepResponse, SlewLimitsSpreadAStepOverTrains) {
     // Pressed late: the first train comes at once and still is not the new interval.
     EXPECT_EQ(designOf(profile, {Seconds(1.8), at(25, 2), at(25, 0.5)}).trains, 8);
 
+    // An interval on the way to the new one is not complete, although it is longer.
+    EncodingProfile ratio;
+    ratio.intervalRatioPerTrain = 1.34;
+    EXPECT_EQ(designOf(ratio, {Seconds(0.4), at(25, 0.8), at(25, 0.5)}).trains, 2);
+
     EncodingProfile slow;
     slow.amplitudeSlew_V_per_s = 10;  // 12.5 V a train at 1.25 s: 30 V take three
     EXPECT_EQ(designOf(slow, {Seconds(0.4), at(10, 1.25), at(40, 1.25)}).trains, 3);

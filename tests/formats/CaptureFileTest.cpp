@@ -24,15 +24,18 @@ TEST(CaptureFile, WhatIsWrittenReadsBackTheSame) {
     const auto path = scratch.path() / "capture.csv";
     ASSERT_TRUE(writeCapture(path, capture));
     std::string header;
-    std::getline(std::ifstream(path) >> std::ws, header);
+    std::ifstream lines(path);
+    std::getline(lines, header);
     EXPECT_EQ(header, "time_s,voltage_v,current_a");
+    std::getline(lines, header);
+    EXPECT_TRUE(header.starts_with("# tactoscope {")) << header;
 
     const auto read = readCapture(path);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_TRUE(read->warnings.empty());
     EXPECT_NEAR(read->capture.rate_hz, 10e6, 1e-2);
     EXPECT_NEAR(read->capture.start_s, capture.start_s, 1e-10);
-    EXPECT_TRUE(std::isnan(read->capture.trigger_s));
+    EXPECT_EQ(read->capture.trigger_s, capture.trigger_s);
     ASSERT_EQ(read->capture.channels.size(), 2U);
     EXPECT_EQ(read->capture.channels[1].name, "current");
     EXPECT_EQ(read->capture.channels[1].unit, "A");
@@ -82,7 +85,9 @@ TEST(CaptureFile, RefusalsNameFileLineAndWhatWasExpected) {
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1\n2,1\n"), "c.csv:3: 1 fields; 2 were expected, as in the header");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1,1\n"), "c.csv:3: 3 fields; 2 were expected, as in the header");
     EXPECT_EQ(refusal("time_s,voltage_v\n0,1\n1,1\n2\n"), "c.csv:4: 1 fields; 2 were expected, as in the header");
-    EXPECT_EQ(refusal("0,1\n1,2\n"), "c.csv:1: a header line naming the columns was expected before the numbers");
+    EXPECT_EQ(refusal("0,1\n1,2\n"),
+              "c.csv:1: a header line naming the columns was expected before the numbers; a time column or a sampling "
+              "rate, given as an option, reads a table without one");
     EXPECT_EQ(refusal("a,b\n0,1\n"),
               "c.csv:1: columns 'a,b'; a time column and channels were expected, as in time_s,voltage_v,current_a");
     EXPECT_EQ(refusal("time_s,force (lbf)\n0,1\n"),

@@ -35,7 +35,7 @@ TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
     EXPECT_EQ(
         unknown.error().message,
         "format 'dat' is not known; wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, csv-picoscope, "
-        "csv are");
+        "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv are");
 }
 
 TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {

@@ -49,6 +49,23 @@ TEST(CsvOptions, UnitsAndProbesReplaceAndMultiply) {
     EXPECT_EQ(refusal("time_s,force (lbf)\n0,1\n1,2\n", {.units = {{"force", "V"}}}), "accepted");
 }
 
+TEST(CsvOptions, ARangeIsTheChannelsInVoltsAndAmperes) {
+    const auto read = parseCapture("time_s,CH1_mv,CH2_a\n0,1000,1\n1,2000,2\n", "t.csv",
+                                   {.ranges = {{"CH1", {-5, 5}}, {"3", {0, 2}}}});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->capture.channels[0].low, -5);
+    EXPECT_EQ(read->capture.channels[0].high, 5);
+    EXPECT_EQ(read->capture.channels[1].low, 0);
+    EXPECT_EQ(read->capture.channels[1].high, 2);
+    EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(1, 2));
+    for (const auto& [low, high] :
+         {std::pair(5.0, -5.0), {1.0, 1.0}, {std::nan(""), 1.0}, {-1.0, std::numeric_limits<double>::infinity()}}) {
+        EXPECT_THAT(refusal("time_s,a\n0,1\n1,2\n", {.ranges = {{"a", {low, high}}}}),
+                    HasSubstr("two finite numbers, the lower first, were expected"));
+    }
+    EXPECT_THAT(refusal(kTable, {.ranges = {{"X", {0, 1}}}}), HasSubstr("no channel 'X', which the range names"));
+}
+
 TEST(CsvOptions, ATimeColumnOrARateMakesAnyTableACapture) {
     const auto named = parseCapture("when,a\n5,1\n6,2\n", "t.csv", {.timeColumn = "when"});
     ASSERT_TRUE(named) << named.error().message;

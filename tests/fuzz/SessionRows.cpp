@@ -8,10 +8,10 @@
 #include <span>
 #include <string_view>
 
+#include "core/base/JsonFields.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chunk.h"
-#include "core/session/JsonFields.h"
 
 namespace {
 

@@ -22,12 +22,15 @@ struct Circuit {
 /// v = R·i + ∫i dt / C, integrated on ten steps a sample.
 Capture across(const Circuit& circuit, const std::vector<SyntheticPhase>& phases, std::size_t samples = 20'000) {
     auto capture = recordOf(phases, {.samples = samples, .noise = 0});
+    capture.channels[0].lsb = 1e-9;  // stated, and finer than all else
     capture.channels[0].name = "current";
     capture.channels[0].unit = "A";
     auto& current = capture.channels[0].samples;
     CaptureChannel voltage;
     voltage.name = "voltage";
     voltage.unit = "V";
+    voltage.lsb = 1e-6;
+    voltage.gainTolerance = voltage.probeTolerance = 0;
     Random random(5, "load");
     double charge = 0;
     std::vector<StepResponse> steps;

@@ -54,6 +54,7 @@ Record recordAt(const GridPoint& point, unsigned seed) {
             r.lsb = 2 * r.range / 256;
         }
     }
+    if (r.lsb == 0) r.lsb = std::max(r.noise / 50, level * 1e-6);  // a resolution that hides nothing
     record.capture = recordOf(record.phases, r);
     if (point.shape == PulseShape::Logic) {
         record.capture.channels[0].unit = "";

@@ -42,15 +42,144 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
     EXPECT_NEAR(m.pulses[1].seenTo_s, 4.5e-3, 2e-6);
 }
 
-TEST(PulseFlags, ClippingIsSeenWithoutADeclaredRange) {
+/// Highest code of a converter of 8 bits.
+constexpr double kCodes = 127;
+
+/// A record as an 8-bit oscilloscope of that range gives it, with the noise that it has before its converter.
+Capture digitised(std::vector<SyntheticPhase> phases, double range, double noise) {
+    auto capture = recordOf(phases, {.noise = noise});
+    const double lsb = range / kCodes;
+    for (float& x : capture.channels[0].samples) {
+        const double code = std::clamp(std::round(static_cast<double>(x) / lsb), -kCodes, kCodes);
+        x = static_cast<float>(code * lsb);
+    }
+    return capture;
+}
+
+TEST(PulseFlags, ClippingIsKnownFromTheStatedRangeAndNotFromTheRecordsOwnMaximum) {
     RecordProperty("hazard", "H9");
-    auto phases = biphasic(1e-3, 60);
-    auto capture = recordOf(phases, {.noise = 0.3});
-    for (float& x : capture.channels[0].samples) x = std::clamp(x, -50.0F, 50.0F);
+    auto capture = digitised(biphasic(1e-3, 60), 50, 0.6);
+    auto unstated = measureChannel(capture, 0);
+    ASSERT_EQ(unstated.pulses.size(), 1U);
+    EXPECT_FALSE(unstated.pulses[0].flags.clipped);
+    EXPECT_TRUE(unstated.pulses[0].flags.flatTop);
+    EXPECT_EQ(unstated.measuredPulses, 1U);
+    ASSERT_EQ(unstated.warnings.size(), 1U) << "a record that is really clipped is not measured without remark";
+    EXPECT_NE(unstated.warnings[0].find("1 pulse with a flat top"), std::string::npos) << unstated.warnings[0];
+    EXPECT_NE(unstated.warnings[0].find("may be clipped"), std::string::npos);
+
+    auto& channel = capture.channels[0];
+    channel.low = -50;
+    channel.high = 50;
+    channel.lsb = 50 / kCodes;
+    const auto stated = measureChannel(capture, 0);
+    ASSERT_EQ(stated.pulses.size(), 1U);
+    EXPECT_TRUE(stated.pulses[0].flags.clipped);
+    EXPECT_FALSE(stated.pulses[0].flags.flatTop);
+    EXPECT_EQ(stated.measuredPulses, 0U);
+
+    channel.low = -60;  // as much room as anyone could wish
+    channel.high = 60;
+    const auto roomy = measureChannel(capture, 0);
+    EXPECT_EQ(roomy.measuredPulses, 1U);
+    EXPECT_TRUE(roomy.warnings.empty()) << "the stated range says that nothing is missing";
+}
+
+TEST(PulseFlags, OnlyTheLastCodeIsFullScale) {
+    RecordProperty("hazard", "H9");
+    for (const double code : {125.0, 126.0, 127.0, -126.0, -127.0}) {
+        auto capture = digitised(biphasic(1e-3, code / kCodes * 50), 50, 0);
+        auto& channel = capture.channels[0];
+        channel.low = -50;
+        channel.high = 50;
+        channel.lsb = 50 / kCodes;
+        const auto m = measureChannel(capture, 0);
+        ASSERT_EQ(m.pulses.size(), 1U) << code;
+        EXPECT_EQ(m.pulses[0].flags.clipped, std::abs(code) == kCodes) << code;
+        channel.lsb = 0;  // a range alone is enough
+        EXPECT_EQ(measureChannel(capture, 0).pulses[0].flags.clipped, std::abs(code) == kCodes) << code;
+    }
+}
+
+TEST(PulseFlags, AClippedRecordIsRemarkedOnWhateverItsNoise) {
+    RecordProperty("hazard", "H9");
+    const double lsb = 50 / kCodes;
+    for (const double noise : {0.35, 0.5, 1.0, 3.0}) {
+        auto phases = biphasic(1e-3, 70);
+        append(phases, biphasic(4e-3, 70));
+        for (auto& phase : phases) phase.level += phase.level > 0 ? 0.2 : 0;  // no two of them alike
+        auto capture = digitised(phases, 50, noise * lsb);
+        const auto m = measureChannel(capture, 0);
+        ASSERT_EQ(m.pulses.size(), 2U) << noise;
+        EXPECT_TRUE(m.pulses[0].flags.flatTop && m.pulses[1].flags.flatTop) << noise;
+        // The same with room for it: nothing is said.
+        auto whole = digitised(phases, 100, 2 * noise * lsb);
+        for (const auto& pulse : measureChannel(whole, 0).pulses) EXPECT_FALSE(pulse.flags.flatTop) << noise;
+    }
+}
+
+TEST(PulseFlags, OneFlatPulseAmongSmallerOnesIsTheOneThatIsRemarkedOn) {
+    RecordProperty("hazard", "H9");
+    auto phases = threePulses();
+    phases[2].level = 60;
+    const auto m = measureChannel(digitised(phases, 50, 0.5), 0);
+    ASSERT_EQ(m.pulses.size(), 3U);
+    EXPECT_FALSE(m.pulses[0].flags.flatTop);
+    EXPECT_TRUE(m.pulses[1].flags.flatTop);
+    EXPECT_FALSE(m.pulses[2].flags.flatTop);
+    EXPECT_EQ(m.measuredPulses, 3U);
+}
+
+/// Of clean records with levels anywhere between two codes, and of clipped ones, those that are remarked on.
+TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
+    RecordProperty("hazard", "H9");
+    constexpr int kRecords = 20;
+    for (const double noise : {0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 2.0}) {
+        int clean = 0;
+        int clipped = 0;
+        for (int k = 0; k < kRecords; ++k) {
+            const double level = 30 + 0.411 * k;
+            const auto flat = [&](double range) {
+                auto phases = biphasic(1e-3, level);
+                auto capture =
+                    recordOf(phases, {.noise = noise * range / kCodes, .seed = static_cast<unsigned>(k + 1)});
+                const double lsb = range / kCodes;
+                const double offset = 0.273 * k * lsb;  // where the baseline lies between its codes
+                for (float& x : capture.channels[0].samples) {
+                    x = static_cast<float>(
+                        std::clamp(std::round((static_cast<double>(x) + offset) / lsb), -kCodes, kCodes) * lsb);
+                }
+                const auto m = measureChannel(capture, 0);
+                return m.pulses.size() == 1 && m.pulses[0].flags.flatTop;
+            };
+            clean += flat(50) ? 1 : 0;
+            clipped += flat(25) ? 1 : 0;
+        }
+        // With less noise than a third of a code a clean top and a clipped one can look the same.
+        EXPECT_LE(clean, noise < 0.3 ? kRecords / 5 : 0) << noise << " codes";
+        EXPECT_GE(clipped, noise < 0.4 ? 0 : kRecords) << noise << " codes";
+    }
+}
+
+TEST(PulseFlags, ACleanWaveOfTwoCodesPerLevelIsNeitherClippedNorFlat) {
+    // As a Rigol DS2072A records its own calibrator: each level dithers between two codes, the upper of which is the
+    // record's maximum in half of the samples.
+    Capture capture;
+    capture.rate_hz = 200e3;
+    capture.trigger_s = std::nan("");
+    auto& channel = capture.channels.emplace_back();
+    channel.name = "CH1";
+    channel.unit = "V";
+    std::uint32_t state = 1;
+    for (int i = 0; i < 1400; ++i) {
+        state = state * 1664525U + 1013904223U;
+        const bool upper = (state >> 24U) < 115;
+        channel.samples.push_back(((i / 100) % 2 == 0 ? 0.008F : 0.304F) + (upper ? 0.016F : 0.0F));
+    }
     const auto m = measureChannel(capture, 0);
-    ASSERT_EQ(m.pulses.size(), 1U);
-    EXPECT_TRUE(m.pulses[0].flags.clipped);
-    EXPECT_EQ(m.measuredPulses, 0U);
+    EXPECT_EQ(m.measuredPulses, 6U);
+    for (const auto& pulse : m.pulses) EXPECT_FALSE(pulse.flags.clipped || pulse.flags.flatTop);
+    EXPECT_NEAR(m.amplitude.mean, 0.296, 0.008) << "half a step of 16 mV";
 }
 
 TEST(PulseFlags, AnIdealOrCoarselyQuantisedPlateauIsNotCalledClipped) {

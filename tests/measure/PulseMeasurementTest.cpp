@@ -124,8 +124,9 @@ TEST(PulseMeasurement, NoiseMovesReadingsByNoMoreThanTheStatedUncertainty) {
     MeasurementUncertainty u;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         const double onset = 1e-3 + seed * 0.5e-6 / 200;
-        const auto m = measureChannel(
-            recordOf(biphasic(onset, 40, 200e-6, 100e-6, 1e-7), {.samples = 4000, .noise = 0.4, .seed = seed}), 0);
+        const auto m = measureChannel(recordOf(biphasic(onset, 40, 200e-6, 100e-6, 1e-7),
+                                               {.samples = 4000, .noise = 0.4, .lsb = 1e-3, .seed = seed}),
+                                      0);
         ASSERT_EQ(m.measuredPulses, 1U) << seed;
         amplitudes.push_back(m.pulses[0].leading.plateau);
         widths.push_back(m.pulses[0].leading.width_s);
@@ -145,10 +146,33 @@ TEST(PulseMeasurement, UncertaintyAddsWhatTheChannelDeclares) {
     auto& channel = capture.channels[0];
     channel.lsb = 0.39;
     channel.gainTolerance = 0.02;
-    channel.offsetTolerance = 0.1;
+    channel.probeTolerance = 0.01;
+    channel.offsetTolerance = 0.1;  // in the baseline as well: it cancels
+    capture.timeBaseTolerance = 1e-3;
     const auto m = measureChannel(capture, 0);
-    const double expected = std::sqrt((0.39 * 0.39) / 12 + (0.02 * 40) * (0.02 * 40) / 3 + 0.1 * 0.1 / 3);
+    const double expected =
+        std::sqrt((0.39 * 0.39) / 6 + (0.02 * 40) * (0.02 * 40) / 3 + (0.01 * 40) * (0.01 * 40) / 3);
     EXPECT_NEAR(m.uncertainty.amplitude, expected, 1e-4);
+    EXPECT_GE(m.uncertainty.width_s, 1e-3 * 200e-6 / std::sqrt(3.0));
+}
+
+TEST(PulseMeasurement, WhatTheInstrumentDoesNotStateLeavesNoUncertainty) {
+    RecordProperty("hazard", "H9");
+    auto complete = recordOf(biphasic(1e-3));
+    complete.channels[0].lsb = 0.39;
+    complete.channels[0].gainTolerance = complete.channels[0].probeTolerance = 0;
+    complete.timeBaseTolerance = 0;
+    EXPECT_TRUE(std::isfinite(measureChannel(complete, 0).uncertainty.amplitude));
+    for (double CaptureChannel::*missing : {&CaptureChannel::gainTolerance, &CaptureChannel::probeTolerance}) {
+        auto capture = complete;
+        capture.channels[0].*missing = kNaN;
+        EXPECT_TRUE(std::isnan(measureChannel(capture, 0).uncertainty.amplitude));
+        EXPECT_TRUE(std::isfinite(measureChannel(capture, 0).uncertainty.width_s));
+    }
+    auto capture = complete;
+    capture.timeBaseTolerance = kNaN;
+    EXPECT_TRUE(std::isnan(measureChannel(capture, 0).uncertainty.width_s));
+    EXPECT_TRUE(std::isfinite(measureChannel(capture, 0).uncertainty.amplitude));
 }
 
 TEST(PulseMeasurement, PulsesOfDifferentHeightsInOneRecordAreEachMeasured) {

@@ -113,10 +113,12 @@ inline Capture recordOf(const std::vector<SyntheticPhase>& phases, const Synthet
     Capture capture;
     capture.rate_hz = r.rate_hz;
     capture.start_s = r.start_s;
+    capture.timeBaseTolerance = 0;  // stated to be exact
     CaptureChannel channel;
     channel.name = "voltage";
     channel.unit = "V";
     channel.lsb = r.lsb;
+    channel.gainTolerance = channel.probeTolerance = 0;
     channel.low = -r.range;
     channel.high = r.range;
     channel.samples.reserve(r.samples);

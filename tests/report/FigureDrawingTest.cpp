@@ -2,6 +2,7 @@
 #include <QPainter>
 #include <QSvgRenderer>
 #include <QXmlStreamReader>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -11,6 +12,8 @@
 namespace tacto::test {
 namespace {
 
+using testing::HasSubstr;
+
 const std::vector<QString> kTypes{"conditions", "plane", "waveforms", "confusion", "exposure", "timeline"};
 
 QByteArray svgOf(const QJsonObject& json, bool simulated = false) {
@@ -18,6 +21,12 @@ QByteArray svgOf(const QJsonObject& json, bool simulated = false) {
     EXPECT_TRUE(figure) << (figure ? "" : figure.error().message);
     auto sheet = drawFigure(*figure, simulated);
     return sheetSvg(*sheet, "A figure");
+}
+
+std::string legendOf(const QJsonObject& json) {
+    const auto figure = parseFigure(json);
+    EXPECT_TRUE(figure) << (figure ? "" : figure.error().message);
+    return figure ? figureLegend(*figure).toStdString() : std::string();
 }
 
 /// All text in an SVG, one line per text element.
@@ -98,6 +107,34 @@ TEST(FigureDrawing, SaysThatAConditionWasNotMeasured) {
     EXPECT_NE(textOf(svgOf(json)).find("not measured"), std::string::npos);
 }
 
+TEST(FigureDrawing, DrawsCapturedConditionsInLetteredLanes) {
+    auto json = conditionsJson();
+    auto conditions = json["conditions"].toArray();
+    const QJsonArray trains{QJsonObject{{"onset_s", 0}, {"low_v", -10.2}, {"high_v", 10.1}},
+                            QJsonObject{{"onset_s", 0.5}, {"low_v", -10.2}, {"high_v", 10.1}}};
+    const QJsonObject pulse{{"rate_hz", 1e4},
+                            {"start_s", -1e-4},
+                            {"voltage_v", QJsonArray{0, 0, 10, 10, 0, -10, -10, 0, QJsonValue::Null}}};
+    for (int i = 0; i < 4; ++i) {
+        auto lane = conditions[i].toObject();
+        lane["letter"] = QString(QChar('A' + i));
+        if (i < 3) lane["trains"] = trains;
+        if (i < 2) lane["pulse"] = pulse;
+        conditions[i] = lane;
+    }
+    json["conditions"] = conditions;
+    const auto text = textOf(svgOf(json));
+    for (const char* lane : {"A\u2002smooth-low", "B\u2002smooth-high", "C\u2002rough-low", "D\u2002rough-high"}) {
+        EXPECT_NE(text.find(lane), std::string::npos) << lane;
+    }
+    EXPECT_NE(text.find("not captured"), std::string::npos) << "nothing is drawn of what there is no capture of";
+    const auto legend = figureLegend(parseFigure(json).value()).toStdString();
+    EXPECT_NE(legend.find("captured train"), std::string::npos);
+    EXPECT_NE(legend.find("A to C: texture alone"), std::string::npos);
+    json["conditions"] = QJsonArray{QJsonObject{{"name", "x"}, {"trains", QJsonArray{1}}}};
+    EXPECT_FALSE(parseFigure(json));
+}
+
 TEST(FigureDrawing, DrawsConditionsWithOtherNames) {
     const QJsonObject one{{"name", "denim"}, {"amplitude_v", 20}, {"interval_s", 1}};
     const auto text = textOf(svgOf({{"type", "conditions"}, {"conditions", QJsonArray{one}}}));
@@ -139,6 +176,39 @@ TEST(FigureDrawing, SaysWhichChannelWasNotCaptured) {
     EXPECT_NE(text.find("probe"), std::string::npos);
 }
 
+TEST(FigureDrawing, ShowsTheFirstWaveformsAndSaysHowManyThereAre) {
+    auto all = waveformsJson();
+    const auto one = all["captures"].toArray()[0].toObject();
+    QJsonArray many;
+    for (int i = 0; i < 26; ++i) {
+        auto capture = one;
+        capture["label"] = QString("change %1").arg(i);
+        many << capture;
+    }
+    all["captures"] = many;
+    const auto text = textOf(svgOf(all));
+    EXPECT_THAT(text, HasSubstr("change 7"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("change 8")));
+    EXPECT_THAT(legendOf(all), HasSubstr("The first 8 of 26; the session holds all."));
+    EXPECT_THAT(legendOf(waveformsJson()), testing::Not(HasSubstr("The first")));
+}
+
+TEST(FigureDrawing, ShowsTheSweepDirectionsOnAScaleOfTheirOwn) {
+    QJsonArray levels;
+    for (const double at : {10.0, 20.0, 40.0}) {
+        levels << QJsonObject{{"commanded", at}, {"mean_up", at + 0.001},        {"mean_down", at - 0.001},
+                              {"error", 0.001},  {"expanded_uncertainty", 0.06}, {"tolerance", 0.02 * at}};
+    }
+    const QJsonObject errors{
+        {"type", "calibration"}, {"view", "errors"}, {"quantity", "amplitude"}, {"unit", "V"},
+        {"gain", 1.0},           {"offset", 0.0},    {"levels", levels},        {"readings", QJsonArray{}}};
+    const auto text = textOf(svgOf(errors));
+    EXPECT_THAT(text, HasSubstr("measured \u2212 commanded (mV)"));
+    EXPECT_THAT(text, HasSubstr("error of each direction (mV)"));
+    EXPECT_THAT(text, HasSubstr("750")) << "the tolerance of 800 mV";
+    EXPECT_THAT(text, HasSubstr("\u22121.0")) << "and what 2 mV between the directions are seen on";
+}
+
 TEST(FigureDrawing, DrawsAFlatWaveform) {
     const QJsonObject flat{
         {"rate_hz", 1e5}, {"voltage_v", QJsonArray{0, 0, 0, 0}}, {"current_a", QJsonArray{0, 0, 0, 0}}};
@@ -148,7 +218,8 @@ TEST(FigureDrawing, DrawsAFlatWaveform) {
 TEST(FigureDrawing, ShowsNotEvaluatedAsHatchedAndInWords) {
     RecordProperty("hazard", "H9");
     const auto text = textOf(svgOf(exposureJson()));
-    EXPECT_NE(text.find("not evaluated: no electrode area"), std::string::npos) << text;
+    EXPECT_NE(text.find("not evaluated"), std::string::npos) << text;
+    EXPECT_THAT(legendOf(exposureJson()), HasSubstr("no electrode area")) << "and why, below";
     EXPECT_NE(text.find("attention"), std::string::npos);
     // The hatching is more lines than the same row has with a value.
     auto evaluated = exposureJson();

@@ -26,8 +26,31 @@ TEST(NumberText, GivesValueAndUncertaintyTheSameDecimals) {
     EXPECT_EQ(plain(quantityText(10.0, 3.0, "V")), "10.0 ± 3.0 V");
 }
 
-TEST(NumberText, NeverShowsMoreThanFourDigitsOfTheValue) {
-    EXPECT_EQ(plain(quantityText(2.00004, 4e-5, "s")), "2.000 ± <0.001 s");
+TEST(NumberText, RoundsTheValueToThePlaceOfItsUncertainty) {
+    EXPECT_EQ(plain(quantityText(2.00004, 4e-5, "s")), "2.000040 ± 0.000040 s");
+    EXPECT_EQ(plain(uncertainText(0.012, 0.61, "%")), "0.0 ± 0.6 %");
+    EXPECT_EQ(plain(uncertainText(1.679e-5, 4.2e-7, "s")), "16.79 ± 0.42 µs");
+}
+
+TEST(NumberText, SaysThatAnUncertaintyIsUnknown) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(plain(uncertainText(40.12, kUnknown, "V")), "40.12 V (U unknown)");
+    EXPECT_EQ(plain(quantityText(40.12, kUnknown, "V")), "40.12 V") << "the spread of one reading is left out";
+    const QJsonObject cell{{"value", 40.12}, {"expanded", QJsonValue::Null}, {"unit", "V"}};
+    EXPECT_EQ(plain(cellText(cell, "")), "40.12 V (U unknown)");
+}
+
+TEST(NumberText, WritesNoNumberWithAnE) {
+    EXPECT_EQ(plain(quantityText(-1.679e-5, "", 3)), "−1.68 × 10⁻⁵");
+    EXPECT_EQ(plain(settingText(2e-5, "")), "2.00 × 10⁻⁵");
+    EXPECT_EQ(plain(settingText(12'000'000, "")), "12000000");
+}
+
+TEST(NumberText, GivesAnAxisAPrefixOnlyWhereItsUnitTakesOne) {
+    EXPECT_EQ(axisUnit(0.004, "%").unit, "%");
+    EXPECT_EQ(axisUnit(0.004, "V").unit, "mV");
+    EXPECT_EQ(axisUnit(0.004, "mA").unit, "µA");
+    EXPECT_DOUBLE_EQ(axisUnit(0.004, "mA").factor, 1000);
 }
 
 TEST(NumberText, SaysUnknownAsADash) {

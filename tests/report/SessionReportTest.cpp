@@ -160,8 +160,8 @@ TEST_F(SessionReport, OnlyWhatTheProgramRecordedStandsUnderExposureAgainstLimits
     ASSERT_EQ(model.exposure.size(), 1U);
     EXPECT_DOUBLE_EQ(model.exposure[0].value, 3);
     ASSERT_EQ(model.items.size(), 3U);
-    EXPECT_EQ(std::get<ReportFigure>(model.items[0]).caption, "more than it says");
-    EXPECT_EQ(std::get<ReportFigure>(model.items[1]).caption, "something else");
+    EXPECT_EQ(std::get<ReportFigure>(model.items[0]).caption, "more than it says (computed from approved trains)");
+    EXPECT_EQ(std::get<ReportFigure>(model.items[1]).caption, "something else (computed from approved trains)");
     EXPECT_TRUE(std::get<ReportText>(model.items[2]).text.contains("“broken” could not be drawn"));
 }
 

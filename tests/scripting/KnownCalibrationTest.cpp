@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "app/run/KnownCalibration.h"
+#include "app/run/ScopeStatement.h"
 #include "core/calibration/CalibrationStore.h"
+#include "core/calibration/CertificateStore.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/support/Support.h"
@@ -133,6 +135,61 @@ TEST_F(Known, ADamagedStoreIsNoCalibration) {
     EXPECT_FALSE(known.calibration);
     EXPECT_FALSE(known.holds);
     EXPECT_THAT(known.text, HasSubstr("not calibrated: "));
+}
+
+/// What is certified of an oscilloscope, as its captures get it.
+class KnownCertificates : public Known {
+protected:
+    static void enter(const std::string& serial) {
+        auto store = CertificateStore::open(certificateFile());
+        ASSERT_TRUE(store) << store.error().message;
+        const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+        Certificate one{"Scope X", serial, "4711", "Lab", today, today, 2.0, {}, {}, {}};
+        ASSERT_TRUE(store->add(one, today));
+    }
+    static KnownCertificate of(const std::string& uri, const std::string& serial, bool simulated = false) {
+        return knownCertificate({uri, Role::Oscilloscope, "Scope X", serial, "", simulated});
+    }
+};
+
+TEST_F(KnownCertificates, CountForTheirSerialNumberAlone) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(of("sigrok:rigol-ds", "A1").text, "");
+    enter("A1");
+    EXPECT_TRUE(of("sigrok:rigol-ds", "A1").used);
+    EXPECT_TRUE(of("sigrok:rigol-ds", "A1").statement.voltage.gain.known());
+    EXPECT_FALSE(of("sigrok:rigol-ds", "A2").used);
+    EXPECT_FALSE(of("sigrok:rigol-ds", "").used);
+    EXPECT_THAT(of("sigrok:rigol-ds", "").text, HasSubstr("no serial number"));
+    EXPECT_FALSE(of("capture:/data/captures", "A1").used);  // nobody knows which instrument took them
+}
+
+TEST_F(KnownCertificates, OfASimulatedOscilloscopeCountForNoOther) {
+    RecordProperty("hazard", "H9");
+    enter("SIM-1");
+    EXPECT_TRUE(of("sim:oscilloscope", "SIM-1", true).used);
+    const auto real = of("sigrok:rigol-ds", "SIM-1");
+    EXPECT_FALSE(real.used);
+    EXPECT_FALSE(real.statement.voltage.gain.known());
+    EXPECT_THAT(real.text, HasSubstr("is of a simulated one"));
+}
+
+TEST_F(KnownCertificates, WinOverTheAddressFigureByFigure) {
+    RecordProperty("hazard", "H9");
+    enter("SIM-1");
+    std::vector<std::unique_ptr<Driver>> drivers;
+    drivers.push_back(makeSimulatedDriver());
+    Registry registry(std::move(drivers));
+    const std::vector<DeviceUri> uris{
+        DeviceUri::parse("sim:oscilloscope?accuracy=unknown&gain_pct=9&fs_pct=3&shunt_pct=0.4").value()};
+    auto devices = registry.open(uris, {Role::Oscilloscope}, OpenContext{*clock_, 1, "1 kohm"}).value();
+    EXPECT_TRUE(stateOscilloscope(devices).used);
+    const auto& stated = devices.scopeStatement;
+    EXPECT_NEAR(stated.voltage.gain.value, 0.02 / 0.95, 1e-9);
+    EXPECT_FALSE(stated.voltage.linearity.known());  // who certifies a gain means all of it
+    EXPECT_DOUBLE_EQ(stated.current.probe.value, 0.004);
+    EXPECT_EQ(stated.current.probe.by, "the device's address");
+    EXPECT_FALSE(stated.timeBase.known());
 }
 
 }  // namespace

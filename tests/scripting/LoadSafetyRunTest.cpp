@@ -36,15 +36,18 @@ TEST(LoadSafetyRun, PassesOnTheCleanTwinAndFindsEveryLoadsValue) {
     EXPECT_NEAR(skin["measured_ohm"].get<double>(), 10'200, 0.01 * 10'200);
     EXPECT_LE(skin["imbalance"].get<double>(), 0.005);
     EXPECT_EQ(outcome.results["worst_case"]["verdict"], "pass");
-    std::size_t tables = 0, figures = 0;
+    std::size_t tables = 0, figures = 0, matrices = 0, pulses = 0;
     for (const auto& item : rig.reportItems()) {
         tables += item.value("kind", "") == "table" ? 1 : 0;
+        matrices += item.value("kind", "") == "matrix" ? 1 : 0;
         if (item.value("kind", "") != "figure") continue;
         ++figures;
-        EXPECT_EQ(item["figure"]["captures"].size(), 1U) << item["caption"];
+        pulses += item["figure"]["captures"].size();
     }
-    EXPECT_GE(tables, 9U);
-    EXPECT_EQ(figures, 4U) << "three single pulses and a burst";
+    EXPECT_GE(tables, 5U);
+    EXPECT_GE(matrices, 1U) << "limits against loads";
+    EXPECT_EQ(figures, 2U) << "single pulses, a burst";
+    EXPECT_EQ(pulses, 4U) << "three single pulses and a burst";
 }
 
 TEST(LoadSafetyRun, FortyVoltsInto100OhmIsAskedForAndRefused) {
@@ -168,7 +171,11 @@ TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
     ASSERT_EQ(clean.run().verdict, ScriptVerdict::Pass);
     const double whole_s = clean.now_s();
     ASSERT_GT(whole_s, 20);
+#ifdef TACTOSCOPE_SANITIZED
+    constexpr int kMoments = 8;  // ten times slower each
+#else
     constexpr int kMoments = 24;
+#endif
     std::size_t loadsSeen = 0, partial = 0;
     for (int k = 0; k < kMoments; ++k) {
         const double at_s = whole_s * (k + 0.5) / kMoments;
@@ -186,7 +193,10 @@ TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
         loadsSeen = measured;
         for (const auto& item : rig.reportItems()) {
             const auto caption = item.value("caption", "");
-            partial += caption == "Loads (partial: the run ended early)" ? 1 : 0;
+            partial += caption.starts_with("What was measured into each load") &&
+                               caption.ends_with("(partial: the run ended early)")
+                           ? 1
+                           : 0;
         }
     }
     EXPECT_GE(loadsSeen, 6U);

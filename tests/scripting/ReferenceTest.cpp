@@ -35,7 +35,8 @@ TEST(KnownReference, OfTheLoadThatIsConnectedPassesAndIsRecorded) {
     EXPECT_NEAR(outcome.results["measured_ohm"].get<double>(), 1000, 30);
     EXPECT_NEAR(outcome.results["deviation_pct"].get<double>(),
                 outcome.results["measured_ohm"].get<double>() / 10 - 100, 1e-9);
-    EXPECT_GT(outcome.results["allowed_pct"].get<double>(), 1) << "the instruments' part is added";
+    EXPECT_EQ(outcome.results["allowed_pct"].get<double>(), 1) << "the instruments' part is in U, which narrows it";
+    EXPECT_GT(outcome.results["expanded_uncertainty_pct"].get<double>(), 0.5);
     EXPECT_TRUE(outcome.results["reason"].is_null());
     rig.closeBench();
     ASSERT_TRUE(rig.writer().close());
@@ -55,8 +56,8 @@ TEST(KnownReference, OfAnotherLoadOrOfNoneFailsWithItsReason) {
         return outcome.results["reason"].is_string() ? outcome.results["reason"].get<std::string>() : "none";
     };
     EXPECT_THAT(reasonOf("record.reference(reading, 2000, 1)"),
-                testing::MatchesRegex("the known-reference check failed: .* ohm was measured where 2000 ohm ± .* % is "
-                                      "connected"));
+                testing::MatchesRegex("the known-reference check failed: .* ± .* ohm was measured where 2000 ohm is "
+                                      "connected; 1 % of it is accepted, uncertainty included"));
     EXPECT_THAT(reasonOf("record.reference({}, 2000, 1)"), testing::HasSubstr("nothing was measured where 2000 ohm"));
     EXPECT_THAT(reasonOf("record.reference({ load_ohm: NaN, load_limit: NaN }, 2000, 1)"),
                 testing::HasSubstr("nothing was measured"));

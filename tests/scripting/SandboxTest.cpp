@@ -120,9 +120,10 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
     EXPECT_EQ(outcomeOf(R"js(function run() {
         const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
                      "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
-                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer", "replayed",
-                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "time",
-                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration", "wait"];
+                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer", "readReference", "replayed",
+                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "time", "traverse",
+                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
+                     "useFingertipScales", "wait"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }

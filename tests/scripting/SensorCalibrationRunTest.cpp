@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/bench/Profile.h"
+#include "core/dsp/RoughnessAnalysis.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/RunBench.h"
 
@@ -72,6 +73,98 @@ TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
     EXPECT_EQ(profile.roughness.roughSurface->name, "P120");
     EXPECT_THAT(profile.name, HasSubstr("SIM-1"));
     EXPECT_EQ(rig.bench().profile().roughness, profile.roughness) << "in force for the rest of the run";
+}
+
+/// A twin whose force sensor says 0.8 N of 1 N and whose taxels say 2.5 counts of 1 Pa.
+constexpr const char* kWrongTwin = "sim:finger?forcegain=0.8&taxelgain=2.5&taxelunit=count";
+const Settings kWeighed{{"weights_g", "50; 200; 500"},
+                        {"weight_repeats", "2"},
+                        {"reference_tolerance_pct", "30"},
+                        {"contact_area_tolerance_pct", "5"}};
+
+/// What the bench makes of 2 N on its square centimetre.
+double pressureUnder2N(RunBench& rig) {
+    EXPECT_TRUE(rig.bench().devices().surface->present("glass", MillimetresPerSecond(0), Newtons(2)));
+    EXPECT_TRUE(rig.bench().wait(Seconds(1)));
+    std::vector<double> seen;
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_TRUE(rig.bench().wait(Seconds(0.02)));
+        seen.push_back(rig.bench().telemetry().pressure_pa);
+    }
+    return statisticsOf(seen).mean;
+}
+
+/// What taxels alone say of 2.04 N, under a profile: a fingertip without a force sensor.
+RoughnessSummary taxelsUnder208g(RunBench& rig, const RoughnessSettings& settings) {
+    const auto outcome = rig.run(test::withRun("return verdict({ verdict: 'pass', at: bench.measureWeight(208) });"));
+    EXPECT_FALSE(outcome.error);
+    const auto reading = outcome.results["at"];
+    SampleBlock block;
+    for (int i = 0; i < 200; ++i) {
+        block.t_s.push_back(i / 200.0);
+        for (const auto& taxel : reading["taxels"]) block.values.push_back(taxel.get<double>());
+    }
+    const StreamInfo taxels{StreamKind::Taxels, StreamUnit::Count, 8, 200, "taxels"};
+    return analyseRoughness({{taxels}}, {{block}}, settings).value().summary;
+}
+
+TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAndTheWrongOneBefore) {
+    RecordProperty("hazard", "H7");
+    RunBench rig(true, kWrongTwin, 1, true, kNeeded);
+    EXPECT_NEAR(pressureUnder2N(rig), 0.8 * 20'000, 100) << "what the force sensor says";
+    EXPECT_EQ(taxelsUnder208g(rig, {}).pressure_pa.n, 0U) << "counts are no pressure";
+    const auto outcome = runProtocol(rig.shipped("sensor-calibration", with(kShort, kWeighed))).value();
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump();
+    const auto profile = parseProfile(outcome.results["profile"]["profile"].dump(), "the result").value();
+    ASSERT_TRUE(profile.roughness.sensor);
+    EXPECT_EQ(profile.roughness.sensor->fingertip, "SIM-1");
+    EXPECT_NEAR(profile.roughness.sensor->force->scale, 1 / 0.8, 0.01);
+    EXPECT_NEAR(pressureUnder2N(rig), 20'000, 200) << "in force for the rest of the run";
+    EXPECT_THAT(rig.bench().telemetry().flags.texts(), testing::Each(testing::Not(HasSubstr("calibrated"))));
+    const auto pressed = taxelsUnder208g(rig, profile.roughness);
+    EXPECT_NEAR(pressed.pressure_pa.mean, 0.208 * 9.80665 / 1e-4, 200);
+    EXPECT_THAT(pressed.flags, testing::Not(testing::Contains("uncalibrated units")));
+
+    // In another run with the profile, and on another board.
+    RunBench same(true, kWrongTwin, 1, false, kNeeded), another(true, kWrongTwin, 2, false, kNeeded);
+    for (auto* bench : {&same, &another}) ASSERT_TRUE(bench->bench().setProfile(profile));
+    EXPECT_NEAR(pressureUnder2N(same), 20'000, 200);
+    EXPECT_NEAR(pressureUnder2N(another), 0.8 * 20'000, 100) << "scales of another fingertip are left aside";
+    EXPECT_THAT(another.bench().telemetry().flags.texts(),
+                testing::IsSupersetOf({"calibrated on another fingertip", "uncalibrated R"}));
+}
+
+TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
+    const auto outcome = calibrate("sim:", with(kShort, kWeighed));
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    const auto& force = outcome.results["force"];
+    // 0.1 % and 0.27 %, rectangular, and what the readings scatter.
+    EXPECT_NEAR(force["scale_expanded_uncertainty"].get<double>(), 1.96 * 0.288e-2 / std::sqrt(3.0), 1.5e-3);
+    EXPECT_NEAR(outcome.results["taxels"][0]["scale_expanded_uncertainty"].get<double>(), 1.96 * 0.05 / std::sqrt(3.0),
+                0.01);
+    const auto& u = outcome.results["uncertainty_R"];
+    EXPECT_GT(u["middle"].get<double>(), 0);
+    EXPECT_LT(u["middle"].get<double>(), 0.3);
+    EXPECT_GT(u["smooth"].get<double>(), u["middle"].get<double>())
+        << "the references' own means count most at the ends";
+    EXPECT_EQ(outcome.results["surfaces"][0]["R_expanded_uncertainty"].is_number(), true);
+    auto unknown = with(kWeighed, {{"contact_area_tolerance_pct", "0"}});
+    const auto without = calibrate("sim:", with(kShort, unknown));
+    EXPECT_TRUE(without.results["taxels"][0]["scale_expanded_uncertainty"].is_null()) << "not known is not 0";
+    EXPECT_TRUE(without.results["force"]["scale_expanded_uncertainty"].is_number());
+}
+
+TEST(SensorCalibrationRun, ScalesThatAScriptMakesUpAreNotUsed) {
+    RecordProperty("hazard", "H7");
+    RunBench rig(true, "sim:", 1, false, kNeeded);
+    const auto outcome = rig.run(test::withRun(
+        "const weighed = [100, 200].map((mass) => ({ reading: bench.measureWeight(mass), direction: 'up' }));"
+        "const found = analysis.fingertipScales(weighed, { contact_area_cm2: 1 });"
+        "found.force.scale = 0.01; bench.useFingertipScales(found);"));
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THAT(outcome.error->message, HasSubstr("do not come from this run's own weights"));
+    EXPECT_FALSE(rig.bench().profile().roughness.sensor);
 }
 
 TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {

@@ -46,8 +46,16 @@ TEST(VariationProtocol, PredictsWithoutADevice) {
         EXPECT_EQ(row.size(), 5U);
         for (const auto& cell : row) answers += cell.get<std::size_t>();
     }
-    EXPECT_EQ(answers, found["complete"].get<std::size_t>() * 4 * 5);
-    EXPECT_GT(found["complete"].get<int>(), 0);
+    EXPECT_EQ(answers, found["served"].get<std::size_t>() * 4 * 5);
+    EXPECT_GT(found["served"].get<int>(), 0);
+    // What is served comes first, in the results and in the session.
+    ASSERT_GE(found["reasons"].size(), 2U);
+    EXPECT_TRUE(found["headline"].get<std::string>().starts_with("The paper's own 10 to 40 V serves "));
+    EXPECT_EQ(found["reasons"][0], outcome.reasons.at(0));
+    EXPECT_EQ(found["readings"].size(), 3U);
+    EXPECT_EQ(found["pilots"].back()["people"], 5);
+    EXPECT_EQ(found["people"]["detection_ma"].size(), 40U);
+    EXPECT_LT(found["attention_ma"]["value"], found["intolerance_ma"]["value"]);
     EXPECT_GT(found["accuracy"]["median"].get<double>(), 0.25);
     EXPECT_TRUE(found["trials_needed"]["per_participant"]["for_width"].is_number());
     EXPECT_EQ(found["bench"]["conditions"].size(), 4U);
@@ -63,10 +71,15 @@ TEST(VariationProtocol, PredictsWithoutADevice) {
         const auto kind = item.body.value("kind", "");
         figures += kind == "figure" ? 1 : 0;
         if (kind != "figure" && kind != "table") continue;
+        if (item.body.value("caption", "") == "What the prediction rests on") continue;  // stated, not predicted
         EXPECT_NE(item.body.value("caption", "").find("predicted, not measured"), std::string::npos)
             << item.body.value("caption", "");
     }
-    EXPECT_EQ(figures, 3U);
+    EXPECT_EQ(figures, 4U);
+    const auto verdicts = reader.verdicts().value();
+    ASSERT_EQ(verdicts.size(), 1U);
+    EXPECT_EQ(verdicts[0].verdict, "none");
+    EXPECT_EQ(verdicts[0].reasons, outcome.reasons);
 }
 
 TEST(VariationProtocol, SameSeedSameResults) {
@@ -91,6 +104,10 @@ TEST(VariationProtocol, ThePapersFixedAmplitudesAreComparedWithPersonalOnes) {
     // 10 to 40 V span a factor of 4, and so does the range between the thresholds: few people bear all of it.
     EXPECT_GT(outcome.results["refused"].get<int>() + outcome.results["not_felt"].get<int>(), 0);
     EXPECT_LT(outcome.results["complete"], outcome.results["other_levels"]["complete"]);
+    EXPECT_LE(outcome.results["served"], 2);
+    EXPECT_EQ(outcome.results["profile_served"], outcome.results["served"]);
+    EXPECT_EQ(outcome.results["personal_served"], outcome.results["other_levels"]["served"]);
+    EXPECT_GT(outcome.results["other_levels"]["served"], 30);
 }
 
 TEST(VariationProtocol, NobodyWhoBearsTheAmplitudesIsAResultToo) {
@@ -138,6 +155,8 @@ TEST(VariationProtocol, WrongOptionsAreRefusedByName) {
                  {"analysis.variation({ source: \"water\" })", "water"},
                  {"analysis.variation({ guess: \"maybe\" })", "maybe"},
                  {"analysis.variation({ detection_ma: 5, discomfort_ma: 4 })", "discomfort_ma"},
+                 {"analysis.variation({ attention_ma: 3 })", "attention_ma"},
+                 {"analysis.variation({ intolerance_ma: 6 })", "intolerance_ma"},
                  {"analysis.variation({ persons: 5 })", "persons"},
                  {"analysis.uncertainBench({ load_pct: -1 })", "load_pct"},
                  {"plot.predicted({}, \"width\")", "analysis.variation()"}};

@@ -22,8 +22,6 @@ QString daysText(int days) { return QObject::tr("%1 d").arg(days); }
 
 }  // namespace
 
-CalibrationDate utcToday() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }
-
 CalibrationBook::CalibrationBook(BenchDesk& desk, QObject* parent) : QObject(parent), desk_(desk) {
     connect(&desk_, &BenchDesk::changed, this, &CalibrationBook::follow);
     connect(&desk_, &BenchDesk::finished, this, &CalibrationBook::read);

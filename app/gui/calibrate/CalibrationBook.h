@@ -70,9 +70,6 @@ private:
     QString fault_;  ///< why store_ is empty
 };
 
-/// Today, UTC.
-[[nodiscard]] CalibrationDate utcToday();
-
 /// "calibrated 12 d ago, until 2027-03-01", "not calibrated", "calibration expired 3 d ago".
 [[nodiscard]] QString standingText(const CalibrationStanding& standing);
 /// What it means for the output, and what to do.

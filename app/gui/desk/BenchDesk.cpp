@@ -6,6 +6,8 @@
 
 #include "app/report/Report.h"
 #include "app/run/KnownCalibration.h"
+#include "app/run/OpenDevices.h"
+#include "app/run/ScopeStatement.h"
 #include "app/scripting/ProtocolLibrary.h"
 #include "core/bench/ArmingText.h"
 #include "core/bench/ProfileReach.h"
@@ -386,13 +388,16 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
         live->clock = std::make_shared<SteadyClock>();
     const OpenContext context{
         .clock = *live->clock, .seed = order.seed, .declaredLoad = kDefaultLoad, .stops = stops_.get(), .asked = asked};
-    auto devices = registry.open(order.uris, order.needed, context);
+    auto devices = openDevices(registry, order.uris, order.needed, context);
     if (!devices) return give_up(devices.error());
+    const auto certificate = stateOscilloscope(*devices);
     auto about = aboutSession(*devices, order.profile, limits_, nullptr);
     about.seed = order.seed;
     auto session = makeRunSession("", "live", about, *live->clock);
     if (!session) return give_up(session.error());
     live->session = std::move(session->writer);
+    if (const auto kept = keepCertificate(certificate, *live->session, live->clock->now()); !kept)
+        return give_up(kept.error());
     BenchConfig config;
     config.devices = std::move(*devices);
     config.clock = live->clock;
@@ -423,6 +428,11 @@ void BenchDesk::openOnThread(const LiveOrder& order, StopMark asked) {
         const auto beyond = beyondReach(order.profile, stimulator->traits(), stimulator->identity().name);
         if (beyond) report({ErrorCode::LimitExceeded, *beyond});
     }
+    if (const auto& sensor = live_->bench->devices().sensor) {
+        const auto another = madeWithAnother(order.profile, sensor->identity().serial);
+        if (another) report({ErrorCode::Unsupported, *another});
+    }
+    if (!certificate.text.empty() && !certificate.used) report({ErrorCode::Unsupported, certificate.text});
 }
 
 void BenchDesk::closeOnThread() {

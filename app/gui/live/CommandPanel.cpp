@@ -89,12 +89,14 @@ void CommandPanel::show(const Telemetry& t, bool stale) {
     if (t.trainsRefused > 0) refusal_->setText(tr("Last refused: %1").arg(QString::fromUtf8(t.lastRefusal.c_str())));
 }
 
-HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, bool calibrated, std::uint64_t missedByPicture) {
+HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_t missedByPicture) {
     HealthWords health;
     QStringList words;
     const double age = telemetry.sensorAge_s;
     if (!hasSensor) {
-        return {QObject::tr("No fingertip is open: drive by hand."), false};
+        words << QObject::tr("No fingertip is open: drive by hand.");
+        if (telemetry.uncalibratedStimulator) words << QObject::tr("The stimulator is not calibrated.");
+        return {words.join(" "), false};
     }
     if (telemetry.sensorFinished) {
         words << QObject::tr("The recording has ended");
@@ -114,7 +116,8 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, bool calibra
     words << (telemetry.samplesLost > 0 ? QObject::tr("⚠ %1 samples lost").arg(telemetry.samplesLost)
                                         : QObject::tr("none lost"));
     if (missedByPicture > 0) words << QObject::tr("%1 not drawn, but recorded").arg(missedByPicture);
-    if (!calibrated) words << QObject::tr("R is uncalibrated");
+    for (const auto& flag : telemetry.flags.texts()) words << QString::fromStdString(flag);
+    if (telemetry.uncalibratedStimulator) words << QObject::tr("stimulator not calibrated");
     health.text = words.join(" · ");
     return health;
 }

@@ -28,12 +28,12 @@ private:
     bool simulated_ = false;
 };
 
-/// Is what the fingertip shows fresh, and what was lost, in words; `stale` marks what is not to be trusted.
+/// Is what the fingertip shows fresh, what was lost, and the flags of R, in words; `stale` marks what is not to be
+/// trusted.
 struct HealthWords {
     QString text;
     bool stale = false;
 };
-[[nodiscard]] HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, bool calibrated,
-                                      std::uint64_t missedByPicture);
+[[nodiscard]] HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_t missedByPicture);
 
 }  // namespace tacto::gui

@@ -76,7 +76,7 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
 }
 
 void LiveWorkspace::showPlane(const Telemetry& telemetry) {
-    const bool stale = healthWords(telemetry, !history_.streams().empty(), true, 0).stale;
+    const bool stale = healthWords(telemetry, !history_.streams().empty(), 0).stale;
     const bool byHand = telemetry.driving == DriveSource::Manual;
     const double absent = std::nan("");
     plane_->show(history_.frames(), history_.now_s(), stale && !byHand ? absent : telemetry.roughness,
@@ -84,8 +84,7 @@ void LiveWorkspace::showPlane(const Telemetry& telemetry) {
 }
 
 void LiveWorkspace::showSide(const Telemetry& telemetry) {
-    const auto health =
-        healthWords(telemetry, !history_.streams().empty(), desk_.profile().roughness.calibrated, history_.missed());
+    const auto health = healthWords(telemetry, !history_.streams().empty(), history_.missed());
     if (health_->text() != health.text) health_->setText(health.text);
     auto colour = palette();
     if (health.stale) colour.setColor(QPalette::WindowText, colours().amberText);

@@ -123,7 +123,7 @@ QWidget* LiveWorkspace::buildFoot() {
     health_->setAccessibleName(tr("Sensor health"));
     health_->setToolTip(
         tr("Age of the newest sample, places where samples are missing, samples that came too fast to be "
-           "kept. Old samples drive no train."));
+           "kept; then the flags of R and P. Old samples drive no train."));
     health_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     health_->setWordWrap(true);
     auto* label = new QLabel(tr("&Window"), foot);

@@ -11,6 +11,7 @@
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LoadRows.h"
+#include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ResultPanel.h"
@@ -194,6 +195,7 @@ Result<RunOrder> ProtocolWorkspace::order() {
     order.declaration = *declaration_;
     order.settings = std::move(*settings);
     if (auto filled = wiring_->fill(order); !filled) return failure(filled);
+    order.notes = notes_->notes();
     order.profile = desk_.profile();
     order.limits = desk_.limits();
     return order;
@@ -316,6 +318,7 @@ void ProtocolWorkspace::showButtons() {
     panel_->setReady(declaration_.has_value(), obstacle_);
     form_->setEnabled(!running_);
     wiring_->setEnabled(!running_);
+    notes_->setEnabled(!running_);
     if (chooser_ != nullptr) chooser_->setEnabled(!running_);
 }
 

@@ -35,6 +35,7 @@ class RunPanel;
 class ScriptEditor;
 class StepList;
 class WiringPage;
+class NotesPanel;
 class WiringPanel;
 
 class ProtocolWorkspace final : public QWidget {
@@ -110,6 +111,7 @@ private:
     QLabel* purpose_ = nullptr;
     QScrollArea* before_ = nullptr;  // wiring and settings
     WiringPanel* wiring_ = nullptr;
+    NotesPanel* notes_ = nullptr;
     ParameterForm* form_ = nullptr;
     RunPanel* panel_ = nullptr;
     PromptPanel* prompt_ = nullptr;

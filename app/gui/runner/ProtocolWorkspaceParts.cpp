@@ -11,6 +11,7 @@
 #include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/LoadRows.h"
+#include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
@@ -103,6 +104,8 @@ QWidget* ProtocolWorkspace::buildPath() {
     inner->addWidget(form_);
     column->addWidget(wiring_);
     column->addWidget(settings);
+    notes_ = new NotesPanel(body);
+    column->addWidget(notes_);
     column->addStretch();
     connect(form_, &ParameterForm::edited, this, &ProtocolWorkspace::judge);
     connect(wiring_, &WiringPanel::edited, this, &ProtocolWorkspace::judge);

@@ -101,7 +101,7 @@ void ResultTables::show(const nlohmann::json& results) {
     column_->setContentsMargins(0, 0, 0, 0);
     addValues(results);
     for (const auto& [key, value] : results.items()) {
-        if (key == "trials" || key == "reasons" || isOneCell(value) || value.empty()) continue;
+        if (key == "trials" || key == "reasons" || key == "kind" || isOneCell(value) || value.empty()) continue;
         const auto title = titleOf(QString::fromStdString(key));
         if (CalibrationResult::isCalibration(value))
             column_->addWidget(new CalibrationResult(key, value, body_));
@@ -120,7 +120,7 @@ void ResultTables::addValues(const nlohmann::json& results) {
     auto* form = new QFormLayout;
     for (const auto& [key, value] : results.items()) {
         const auto name = QString::fromStdString(key);
-        if (key == "verdict" || !isOneCell(value)) continue;
+        if (key == "verdict" || key == "kind" || !isOneCell(value)) continue;
         auto* shown = new QLabel(shownValue(value, name), body_);
         shown->setTextFormat(Qt::PlainText);
         shown->setTextInteractionFlags(Qt::TextSelectableByMouse);

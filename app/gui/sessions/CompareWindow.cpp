@@ -20,7 +20,7 @@ constexpr std::size_t kDrawnPoints = 4000;
 void flatten(const nlohmann::json& value, const QString& at, QMap<QString, QString>& into) {
     if (value.is_object()) {
         for (const auto& [key, part] : value.items()) {
-            if (key == "trials") continue;
+            if (key == "trials" || key == "people") continue;  // one by one they say nothing here
             flatten(part, at.isEmpty() ? qtext(key) : at + "." + qtext(key), into);
         }
     } else if (value.is_array()) {

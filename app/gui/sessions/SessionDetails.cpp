@@ -7,6 +7,7 @@
 #include "app/gui/look/PlotPicture.h"
 #include "app/gui/look/Text.h"
 #include "app/report/FigureDrawing.h"
+#include "core/session/Marks.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
@@ -42,6 +43,7 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
         into = std::move(*from);
         return {};
     };
+    if (auto done = take(sessionMarks(*reader), session.marks); !done) return failure(done);
     if (auto done = take(reader->verdicts(), session.verdicts); !done) return failure(done);
     if (auto done = take(reader->trials(), session.trials); !done) return failure(done);
     if (auto done = take(reader->events(), session.events); !done) return failure(done);
@@ -105,6 +107,9 @@ QString SessionDetails::aboutHtml() const {
         for (const auto& reason : verdict.reasons) html += "<br>" + qtext(reason).toHtmlEscaped();
         html += "</p>";
     }
+    QStringList marks;
+    for (const auto& mark : session_->marks) marks << qtext(mark).toHtmlEscaped();
+    if (!marks.isEmpty()) html += "<p>" + marks.join("<br>") + "</p>";
     html += "<table cellpadding=\"3\">";
     const auto row = [&](const QString& name, const QString& value) {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());

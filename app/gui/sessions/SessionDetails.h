@@ -21,6 +21,7 @@ struct ReadSession {
     SessionAbout about;
     bool closed = false;
     std::string head;
+    std::vector<std::string> marks;  ///< of sessionMarks()
     std::vector<SessionVerdict> verdicts;
     std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;

@@ -8,6 +8,7 @@
 
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
+#include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 
@@ -138,6 +139,16 @@ Result<void> writeTrials(const SessionReader& reader, const fs::path& path) {
     return file.close();
 }
 
+/// What every file of the export must be read with.
+Result<void> writeMarks(const SessionReader& reader, const fs::path& path) {
+    const auto marks = sessionMarks(reader);
+    if (!marks) return failure(marks);
+    TextFile file(path);
+    file.write("mark\n");
+    for (const auto& mark : *marks) file.write("{}\n", quoted(mark));
+    return file.close();
+}
+
 Result<void> writeRows(const Result<std::vector<SessionRow>>& rows, const char* what, const fs::path& path) {
     if (!rows) return failure(rows);
     TextFile file(path);
@@ -158,6 +169,7 @@ Result<void> exportCsv(const fs::path& session, const fs::path& folder, const Wo
     if (!streams) return failure(streams);
     const auto captures = reader->captures();
     if (!captures) return failure(captures);
+    if (auto written = writeMarks(*reader, draft.path() / "marks.csv"); !written) return written;
     const int total = int(streams->size() + captures->size()) + 3;
     int done = 0;
     for (const auto& stream : *streams) {
@@ -217,6 +229,7 @@ Result<void> exportRecording(const fs::path& session, const fs::path& folder, co
         {"streams", described}};
     for (const auto& device : reader->about().devices) {
         const auto from = originOf(device);
+        if (device.role == "sensor" && !device.serial.empty()) recording["fingertip"] = device.serial;
         if (device.role == "sensor" && from != origin::kReplayedUnknown)
             recording["simulated"] = from == origin::kSimulated || from == origin::kReplayedSimulated;
     }

@@ -9,6 +9,7 @@
 #include "app/gui/look/Text.h"
 #include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/run/ScopeStatement.h"
 
 namespace tacto::gui {
 
@@ -94,6 +95,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWi
     connect(close_, &QPushButton::clicked, &desk_, &BenchDesk::close);
     connect(tree_, &QTreeWidget::currentItemChanged, this, &DeviceDock::describe);
     connect(&desk_, &BenchDesk::changed, this, [this] {
+        lookForCertificate();
         listed_.clear();
         list();
     });
@@ -178,6 +180,7 @@ void DeviceDock::describe() {
             lines << factsOf(device, *open);
             if (const auto stimulator = calibrations_.connected(); stimulator && device.role == "stimulator")
                 lines << sentence(standingText(calibrations_.standing(*stimulator)));
+            if (device.role == nameOf(Role::Oscilloscope) && !certificate_.isEmpty()) lines << certificate_;
             if (const auto role = roleNamed(device.role)) {
                 if (const auto report = desk_.deviceReport(*role)) lines << rowsOf(*report);
             }
@@ -189,6 +192,19 @@ void DeviceDock::describe() {
     }
     // The same text would throw away what somebody has marked in it.
     if (const auto text = lines.join("<br>"); text != facts_->text()) facts_->setText(text);
+}
+
+void DeviceDock::lookForCertificate() {
+    const auto open = desk_.open();
+    if (!open || open->session == certificateOf_) return;
+    certificateOf_ = open->session;
+    certificate_.clear();
+    for (const auto& device : open->about.devices) {
+        if (device.role != nameOf(Role::Oscilloscope)) continue;
+        const auto known = knownCertificate(
+            {device.uri, Role::Oscilloscope, device.name, device.serial, device.firmware, device.simulated});
+        if (!known.text.empty()) certificate_ = sentence(qtext(known.text)).toHtmlEscaped();
+    }
 }
 
 std::map<Role, DeviceUri> DeviceDock::chosen() const {

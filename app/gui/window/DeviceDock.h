@@ -36,6 +36,8 @@ private:
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
     void openChosen();
     void nameOpen();
+    /// What the bench was opened with stays, whatever is entered since.
+    void lookForCertificate();
 
     BenchDesk& desk_;
     const CalibrationBook& calibrations_;
@@ -44,6 +46,8 @@ private:
     QPushButton* open_;
     QPushButton* close_;
     QPushButton* check_;
+    QString certificate_;                  ///< of the oscilloscope that is open; empty: none is entered
+    std::filesystem::path certificateOf_;  ///< the session of the bench it was looked up for
     std::vector<std::string> listed_;
     std::set<std::string> seen_;  ///< URIs of open devices that were among those plugged in
     QElapsedTimer described_;

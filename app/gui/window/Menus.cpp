@@ -4,6 +4,7 @@
 #include <QMessageBox>
 #include <QSettings>
 
+#include "app/gui/calibrate/CertificateDialog.h"
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/look/Dialogs.h"
 #include "app/gui/window/DeviceDock.h"
@@ -46,6 +47,8 @@ void MainWindow::buildBenchMenu() {
                      &MainWindow::openSimulatedBench);
     bench->addAction(tr("Simulated bench with &faults…"), this, &MainWindow::askForSimulatedBench);
     bench->addAction(tr("&Close"), &desk_, &BenchDesk::close);
+    bench->addAction(tr("Oscilloscope cer&tificates…"), this,
+                     [this] { openDialog(new CertificateDialog(desk_, this)); });
     bench->addSeparator();
     bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), this, &MainWindow::askToArm);
     bench->addAction(tr("&Disarm"), &desk_, &BenchDesk::disarm);

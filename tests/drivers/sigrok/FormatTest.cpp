@@ -235,6 +235,33 @@ TEST_F(SrFile, WhatMakesNoSenseIsRefused) {
     EXPECT_EQ(read("absent.sr").error().code, ErrorCode::NotFound);
 }
 
+TEST_F(SrFile, ASamplingRateThatIsNoneIsRefusedUnlessTheUserGivesOne) {
+    // libsigrok takes "-1 MHz" for 18 exahertz.
+    const auto put = [&](const std::string& rate) {
+        std::ofstream(at("rate.sr"), std::ios::binary)
+            << zipOf({{"version", "2"},
+                      {"metadata", metadata("samplerate=" + rate + "\ntotal analog=1\nanalog1=A0\n")},
+                      {"analog-1-1-1", floats(10)}});
+    };
+    for (const std::string rate :
+         {"-1 MHz", "-1000", "-0", "-0.5 kHz", "1 MHz and more", "fast", "nan", "inf", "1 s"}) {
+        put(rate);
+        expectRefused("rate.sr", "its sampling rate is '" + rate + "'; a frequency above 0 was expected");
+    }
+    put("0");
+    expectRefused("rate.sr", "states no sampling rate");
+    for (const auto& [rate, hertz] : {std::pair("1 MHz", 1e6), {"44100", 44100.0}, {"20 kHz", 20e3}, {"1 GHz", 1e9}}) {
+        put(rate);
+        const auto reading = read("rate.sr");
+        ASSERT_TRUE(reading.has_value()) << reading.error().message;
+        EXPECT_DOUBLE_EQ(reading->capture.rate_hz, hertz);
+    }
+    put("-1 MHz");
+    const auto given = read("rate.sr", {.rate = Hertz(2000)});
+    ASSERT_TRUE(given.has_value()) << given.error().message;
+    EXPECT_DOUBLE_EQ(given->capture.rate_hz, 2000);
+}
+
 TEST_F(SrFile, CutShortAnywhereIsRefusedAndNeverCrashes) {
     ASSERT_TRUE(format_.write(at("whole.sr"), twoChannels(500, 1e6)).has_value());
     std::ifstream file(at("whole.sr"), std::ios::binary);

@@ -12,11 +12,11 @@ using sigrok_driver::CircuitInput;
 using sigrok_driver::EmulatedRigol;
 using sigrok_driver::EmulatedScopeServer;
 
-ScopeOnLan::ScopeOnLan(const std::string& parameters, const std::string& stimulator)
+ScopeOnLan::ScopeOnLan(const std::string& parameters, const std::string& stimulator, const std::string& model)
     : parameters_(parameters), driver_(makeSigrokDriver({})) {
     bench_.open(stimulator);
     auto input = std::make_shared<CircuitInput>(bench_.circuit(), bench_.clock, Ohms(kShuntOhm));
-    auto server = EmulatedScopeServer::start(std::make_unique<EmulatedRigol>(std::move(input), bench_.clock));
+    auto server = EmulatedScopeServer::start(std::make_unique<EmulatedRigol>(std::move(input), bench_.clock, 1, model));
     if (!server) throw std::runtime_error(server.error().message);
     server_ = std::move(*server);
     if (const auto opened = open(); !opened) throw std::runtime_error(opened.error().message);

@@ -15,8 +15,9 @@ class ScopeOnLan {
 public:
     static constexpr double kShuntOhm = 10;
 
-    /// `parameters` are the URI's besides the channels'.
-    explicit ScopeOnLan(const std::string& parameters = "", const std::string& stimulator = "sim:stimulator");
+    /// `parameters` are the URI's besides the channels'; `model` is what the instrument calls itself.
+    explicit ScopeOnLan(const std::string& parameters = "", const std::string& stimulator = "sim:stimulator",
+                        const std::string& model = "DS2072A");
 
     [[nodiscard]] Oscilloscope& scope() { return *opened_.oscilloscope; }
     [[nodiscard]] sigrok_driver::EmulatedScopeServer& instrument() { return *server_; }

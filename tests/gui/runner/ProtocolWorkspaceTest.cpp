@@ -41,6 +41,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
     ASSERT_TRUE(ready());
     type("repeats", "2");
+    type("operator", "A. Lind");
     ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("into 1"); }));
     shot(*workspace, "before");
     click(the<QPushButton>("runButton"));
@@ -57,6 +58,9 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     EXPECT_GT(std::filesystem::file_size(ended->pdf), 10'000U);
     EXPECT_GE(the<QPdfView>("reportView").document()->pageCount(), 1);
     ASSERT_TRUE(comesTrue([this] { return std::filesystem::exists(ended->html); }, 60'000));
+    QFile written(QString::fromStdString(ended->html.string()));
+    ASSERT_TRUE(written.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(written.readAll().contains("A. Lind"));
     const auto inkOnPaper = [this] {
         const auto page = the<QPdfView>("reportView").viewport()->grab().toImage();
         int dark = 0;

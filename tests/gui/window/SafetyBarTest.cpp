@@ -219,8 +219,9 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     desk.drive(DriveSource::Manual, 0.5, 1);
     const auto is = [this](InterlockState state) {
         return comesTrue([this, state] {
-            bar.refresh(desk.telemetry());
-            return desk.telemetry().state == state;
+            const auto now = desk.telemetry();  // once: what the bar shows is what is asked for
+            bar.refresh(now);
+            return now.state == state;
         });
     };
     ASSERT_TRUE(is(InterlockState::Delivering));

@@ -1,4 +1,4 @@
-#include "core/session/JsonFields.h"
+#include "core/base/JsonFields.h"
 
 #include <limits>
 

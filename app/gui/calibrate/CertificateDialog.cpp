@@ -1,0 +1,295 @@
+#include "app/gui/calibrate/CertificateDialog.h"
+
+#include <QDialogButtonBox>
+#include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QVBoxLayout>
+
+#include "app/gui/look/Look.h"
+#include "app/gui/look/Text.h"
+#include "core/base/Text.h"
+
+namespace tacto::gui {
+
+namespace {
+
+enum CertificateColumn {
+    kStanding,
+    kDevice,
+    kSerial,
+    kNumber,
+    kLab,
+    kDate,
+    kDue,
+    kFirstU,
+    kCertificateColumns = kFirstU + 4
+};
+
+constexpr int kIndexRole = Qt::UserRole;
+constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
+
+QString sentenceOf(const Error& error) {
+    auto said = qtext(error.message);
+    return titled(said) + ".";
+}
+
+QString markOf(CertificateState state) {
+    switch (state) {
+        case CertificateState::Counts:
+            return "✔ ";
+        case CertificateState::Expired:
+        case CertificateState::NotYet:
+            return "⚠ ";
+        case CertificateState::Superseded:
+        case CertificateState::Withdrawn:
+            break;
+    }
+    return "– ";
+}
+
+QString figureTitle(const CertificateFigure& figure) {
+    return QObject::tr("U %1 (%2)").arg(qtext(figure.title), qtext(figure.unit));
+}
+
+}  // namespace
+
+CertificateDialog::CertificateDialog(BenchDesk& desk, QWidget* parent) : QDialog(parent) {
+    setObjectName("certificateDialog");
+    setWindowTitle(tr("Oscilloscope certificates"));
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(heading(tr("Calibration certificates of oscilloscopes"), this));
+    column->addWidget(
+        explanation(tr("The expanded uncertainties U (k = 2) of a certificate are used for captures of the "
+                       "oscilloscope with its serial number, from its date until it is due, in place of "
+                       "the data sheet's. A bench that is open keeps what it was opened with."),
+                    this));
+    empty_ = new QLabel(tr("No certificate is entered."), this);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
+    column->addWidget(empty_);
+    table_ = new QTableWidget(0, kCertificateColumns, this);
+    table_->setObjectName("certificates");
+    table_->setAccessibleName(tr("Certificates"));
+    table_->setToolTip(
+        tr("Every certificate that was entered. The one with the latest date is in use; what is entered "
+           "cannot be changed without being noticed."));
+    QStringList titles{tr("State"),      tr("Instrument"), tr("Serial"), tr("Certificate"),
+                       tr("Laboratory"), tr("Date"),       tr("Due")};
+    for (const auto& figure : kCertificateFigures) titles << figureTitle(figure);
+    table_->setHorizontalHeaderLabels(titles);
+    table_->verticalHeader()->hide();
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::SingleSelection);
+    table_->setAlternatingRowColors(true);
+    table_->setWordWrap(false);
+    table_->setTabKeyNavigation(false);
+    table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    column->addWidget(table_, 1);
+    withdraw_ = new ConfirmButton({}, this);
+    withdraw_->setObjectName("withdrawCertificate");
+    withdraw_->setAutoDefault(false);
+    withdraw_->setToolTip(tr("For one that was entered wrongly: it stays in the list and is not used any more."));
+    auto* row = new QHBoxLayout;
+    row->addStretch(1);
+    row->addWidget(withdraw_);
+    column->addLayout(row);
+    buildForm();
+    says_ = new QLabel(this);
+    says_->setObjectName("certificateSays");
+    says_->setWordWrap(true);
+    says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    column->addWidget(says_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+    enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
+    enter_->setObjectName("enterCertificate");
+    enter_->setToolTip(tr("Keeps the certificate. It is used when a bench is opened with this oscilloscope."));
+    column->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(enter_, &QPushButton::clicked, this, &CertificateDialog::enter);
+    connect(withdraw_, &QPushButton::clicked, this, &CertificateDialog::withdraw);
+    connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+        asksWithdraw_ = false;
+        nameWithdraw();
+    });
+    if (const auto open = desk.open()) {
+        for (const auto& device : open->about.devices) {
+            if (device.role != nameOf(Role::Oscilloscope)) continue;
+            texts_[0]->setText(qtext(device.name));
+            texts_[1]->setText(qtext(device.serial));
+        }
+    }
+    list();
+    judge();
+    resize(1000, 520);
+}
+
+void CertificateDialog::changeEvent(QEvent* event) {
+    QDialog::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // greyed in the new theme's grey
+}
+
+void CertificateDialog::buildForm() {
+    auto* form = new QGridLayout;
+    int place = 0;
+    const auto field = [&](const QString& title, const QString& name, const QString& tip) {
+        auto* edit = new QLineEdit(this);
+        edit->setObjectName(name);
+        edit->setAccessibleName(title);
+        edit->setToolTip(tip);
+        auto* label = new QLabel(title, this);
+        label->setBuddy(edit);
+        form->addWidget(label, place / 2, 2 * (place % 2));
+        form->addWidget(edit, place / 2, 2 * (place % 2) + 1);
+        ++place;
+        connect(edit, &QLineEdit::textChanged, this, &CertificateDialog::judge);
+        return edit;
+    };
+    const std::array tips{tr("Maker and model."), tr("As the instrument tells it: two alike are told apart by it."),
+                          tr("As it stands on the certificate."), tr("Who issued it.")};
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+        const auto& text = kCertificateTexts[i];
+        texts_[i] = field(titled(qtext(text.title)), qtext(text.key), tips[i]);
+    }
+    date_ = field(tr("Date"), "date", tr("Of the calibration, as 2026-11-21."));
+    due_ = field(tr("Due"), "due", tr("The last day on which it is used, as 2027-11-20."));
+    for (auto* day : {date_, due_}) day->setPlaceholderText("2026-11-21");
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+        const auto& figure = kCertificateFigures[i];
+        figures_[i] =
+            field(figureTitle(figure), figure.option,
+                  tr("Expanded uncertainty with k = 2, above 0 to %1 %2.").arg(figure.most).arg(qtext(figure.unit)));
+        if (!figure.required) figures_[i]->setPlaceholderText(tr("not stated"));
+    }
+    static_cast<QVBoxLayout*>(layout())->addLayout(form);
+}
+
+Result<Certificate> CertificateDialog::written() const {
+    Certificate out;
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+        auto& text = out.*kCertificateTexts[i].member;
+        text = texts_[i]->text().trimmed().toStdString();
+        if (text.empty()) return fail(ErrorCode::InvalidArgument, "the {} is missing", kCertificateTexts[i].title);
+    }
+    for (const auto& [edit, title, day] :
+         {std::tuple{date_, "date", &Certificate::date}, std::tuple{due_, "due date", &Certificate::due}}) {
+        const auto text = edit->text().trimmed().toStdString();
+        const auto date = parseDate(text);
+        if (!date)
+            return fail(ErrorCode::InvalidArgument, "the {} is \"{}\"; a day as 2026-11-21 is expected", title, text);
+        out.*day = *date;
+    }
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+        const auto& figure = kCertificateFigures[i];
+        const auto text = figures_[i]->text().trimmed().toStdString();
+        if (text.empty()) continue;
+        const auto u = parseNumber(text);
+        if (!u) {
+            return fail(ErrorCode::InvalidArgument, "U of the {} is \"{}\"; above 0 to {} {} is accepted", figure.title,
+                        text, figure.most, figure.unit);
+        }
+        out.*figure.member = *u;
+    }
+    if (auto sound = check(out); !sound) return failure(sound);
+    return out;
+}
+
+void CertificateDialog::judge() {
+    if (enter_ == nullptr) return;
+    const auto certificate = written();
+    enter_->setEnabled(certificate.has_value());
+    if (!certificate) return says_->setText(sentenceOf(certificate.error()));
+    const auto today = utcToday();
+    says_->setText(certificate->due < today    ? tr("It is expired: it would be kept and not used.")
+                   : certificate->date > today ? tr("It is dated in the future: it is not used before its date.")
+                                               : QString());
+}
+
+void CertificateDialog::enter() {
+    const auto certificate = written();
+    if (!certificate) return;
+    auto store = CertificateStore::open(certificateFile());
+    if (!store) return says_->setText(sentenceOf(store.error()));
+    if (const auto added = store->add(*certificate, utcToday()); !added)
+        return says_->setText(sentenceOf(added.error()));
+    list();
+    texts_[2]->clear();  // the next one has another number
+    says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
+}
+
+int CertificateDialog::chosen() const {
+    const auto rows = table_->selectionModel()->selectedRows();
+    if (rows.isEmpty()) return -1;
+    const auto* item = table_->item(rows.front().row(), 0);
+    return item->data(kStandsRole).toBool() ? item->data(kIndexRole).toInt() : -1;
+}
+
+void CertificateDialog::nameWithdraw() {
+    const int index = chosen();
+    withdraw_->setEnabled(index >= 0);
+    if (index < 0) asksWithdraw_ = false;
+    const auto number = index < 0 ? QString() : table_->item(table_->currentRow(), kNumber)->text();
+    withdraw_->setMeaning(asksWithdraw_ ? tr("Withdraw %1 for good").arg(number) : tr("&Withdraw…"), asksWithdraw_);
+}
+
+void CertificateDialog::withdraw() {
+    const int index = chosen();
+    if (index < 0 || !withdraw_->listens()) return;
+    if (!asksWithdraw_) {
+        asksWithdraw_ = true;
+        return nameWithdraw();
+    }
+    asksWithdraw_ = false;
+    auto store = CertificateStore::open(certificateFile());
+    if (!store) return says_->setText(sentenceOf(store.error()));
+    const auto certificate = store->all().at(std::size_t(index)).certificate;  // lines are only ever added
+    if (const auto done = store->withdraw(certificate.number, certificate.serial, utcToday()); !done)
+        return says_->setText(sentenceOf(done.error()));
+    list();
+    says_->setText(tr("Certificate %1 is withdrawn.").arg(qtext(certificate.number)));
+}
+
+void CertificateDialog::list() {
+    table_->setRowCount(0);
+    const auto store = CertificateStore::open(certificateFile());
+    const bool any = store && !store->all().empty();
+    empty_->setVisible(!any);
+    table_->setVisible(any);
+    withdraw_->setVisible(any);
+    if (!store) {
+        empty_->setText(tr("%1 No certificate is used.").arg(sentenceOf(store.error())));
+        return;
+    }
+    const auto today = utcToday();
+    for (std::size_t i = store->all().size(); i-- > 0;) {  // the newest entry first
+        const auto& [certificate, entered, withdrawn] = store->all()[i];
+        const auto state = store->state(i, today);
+        QStringList cells{markOf(state) + qtext(nameOf(state)),
+                          qtext(certificate.instrument),
+                          qtext(certificate.serial),
+                          qtext(certificate.number),
+                          qtext(certificate.by),
+                          qtext(dateText(certificate.date)),
+                          qtext(dateText(certificate.due))};
+        for (const auto& figure : kCertificateFigures) {
+            const auto& u = certificate.*figure.member;
+            cells << (u ? QString::number(*u, 'g', 6) : QString("–"));
+        }
+        const int row = table_->rowCount();
+        table_->insertRow(row);
+        for (int column = 0; column < kCertificateColumns; ++column) {
+            auto* item = new QTableWidgetItem(cells[column]);
+            item->setTextAlignment((column >= kFirstU ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+            // What is not used is greyed, and its state says so in words.
+            if (state != CertificateState::Counts) item->setForeground(palette().brush(QPalette::PlaceholderText));
+            item->setData(kIndexRole, int(i));
+            item->setData(kStandsRole, !withdrawn.has_value());
+            table_->setItem(row, column, item);
+        }
+    }
+    table_->resizeColumnsToContents();
+    nameWithdraw();
+}
+
+}  // namespace tacto::gui

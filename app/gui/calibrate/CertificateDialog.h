@@ -1,0 +1,56 @@
+// CertificateDialog.h - the calibration certificates of the lab's oscilloscopes: which one is in use, which expired,
+// and a form to enter another.
+//
+// What is entered is checked while it is typed, by the store's own rules, and can be withdrawn but not changed. A bench
+// that is open keeps what it was opened with.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <array>
+
+#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/look/ConfirmButton.h"
+#include "core/calibration/CertificateStore.h"
+
+namespace tacto::gui {
+
+class CertificateDialog final : public QDialog {
+    Q_OBJECT
+public:
+    /// Proposes the oscilloscope that is open on `desk`.
+    explicit CertificateDialog(BenchDesk& desk, QWidget* parent);
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    void buildForm();
+    /// As written in the form. Errors: InvalidArgument, one sentence.
+    [[nodiscard]] Result<Certificate> written() const;
+    void judge();
+    void enter();
+    void withdraw();
+    void nameWithdraw();
+    void list();
+    /// Index into the store of the row that is chosen; -1: none, or it is withdrawn.
+    [[nodiscard]] int chosen() const;
+
+    std::array<QLineEdit*, kCertificateTexts.size()> texts_{};
+    QLineEdit* date_ = nullptr;
+    QLineEdit* due_ = nullptr;
+    std::array<QLineEdit*, kCertificateFigures.size()> figures_{};
+    QLabel* empty_;
+    QTableWidget* table_ = nullptr;
+    QLabel* says_;
+    QPushButton* enter_ = nullptr;
+    ConfirmButton* withdraw_ = nullptr;
+    bool asksWithdraw_ = false;  // the button is at its second step
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,201 @@
+#include "app/report/ReportBasis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
+
+namespace tacto {
+namespace {
+
+constexpr qsizetype kNamedAtMost = 8;  // of what was not evaluated; the rest is counted
+
+struct Rule {
+    const char* kind;
+    const char* text;
+};
+constexpr std::array<Rule, 9> kRules{
+    {{"load-safety",
+      "Each value passes when value + U keeps its limit, fails when value − U does not, and is indeterminate between. "
+      "What was not measured is not evaluated and holds up a pass."},
+     {"stimulator-calibration",
+      "Each level passes when |error| + U is within the tolerance, fails when |error| − U is not, and is indeterminate "
+      "between; the worse sweep direction is judged. The verdict is the worst level's."},
+     {"separability",
+      "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one dimension and no "
+      "coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence bound, and the accuracy's 95 "
+      "% "
+      "interval begins at 95 % or above. The 5 differences and the 5 % are choices of this program."},
+     {"transitions",
+      "No step from one captured train to the next may exceed the just-noticeable differences wanted, uncertainty "
+      "included; a change must be complete in the time wanted or, where steps of that size cannot, in the fewest "
+      "trains "
+      "that they take (choice); no latency may differ from its design by more than the tolerance."},
+     {"encoding-comparison", "A comparison: the encodings are set side by side, and none is judged."},
+     {"sensor-calibration",
+      "Accepted when the 95 % interval of d′ between the two references begins at 1 or above: the scale then tells "
+      "them apart."},
+     {"variation", "A prediction: nothing is measured, and nothing is judged."},
+     {"live", "A recording: nothing is judged."},
+     {"massager", "A recording: nothing is judged."}}};
+
+bool isGuardBanded(const QString& kind) { return kind == "load-safety" || kind == "stimulator-calibration"; }
+
+QString sentence(QString key) {
+    key.replace('_', ' ');
+    if (!key.isEmpty()) key[0] = key[0].toUpper();
+    return key;
+}
+
+void readRule(const QJsonObject& results, const QString& kind, ReportBasis& basis) {
+    basis.rule.clear();
+    const auto stated = results.value("decision_rule");
+    if (stated.isString()) basis.rule.push_back({"Decision rule", stated.toString()});
+    if (stated.isArray()) {
+        QStringList lines;
+        for (const auto& line : stated.toArray()) lines << line.toString();
+        basis.rule.push_back({"Decision rule", lines.join('\n')});
+    }
+    if (stated.isObject()) {
+        const auto object = stated.toObject();
+        for (auto it = object.begin(); it != object.end(); ++it)
+            basis.rule.push_back({sentence(it.key()), cellText(it.value(), {})});
+    }
+    if (!basis.rule.empty()) return;
+    const auto known = std::find_if(kRules.begin(), kRules.end(), [&](const Rule& rule) { return kind == rule.kind; });
+    basis.rule.push_back({"Decision rule", known != kRules.end() ? QString::fromUtf8(known->text)
+                                                                 : QString("As the script gives it in its reasons.")});
+    if (!isGuardBanded(kind)) return;
+    basis.rule.push_back({"Guard band", "U on the side of the limit (ISO 14253-1)"});
+    basis.rule.push_back({"Coverage", "U is the expanded uncertainty for a coverage of 95\u202f% (GUM)"});
+}
+
+QString numberOrUnknown(const QJsonObject& object, const char* key, const QString& unit, const char* name,
+                        bool plusMinus = true) {
+    const auto value = object.value(QLatin1String(key));
+    const QString shown = value.isDouble() ? (plusMinus ? "± " : "") + settingText(value.toDouble(), unit) : "unknown";
+    return QString("%1 %2").arg(QLatin1String(name), shown);
+}
+
+/// Entries that only name a device say nothing of accuracy.
+bool saysAccuracy(const QJsonObject& entry) {
+    return entry.contains("stated_by") || entry.contains("gain_pct") || entry.contains("timebase_ppm");
+}
+
+QString statesOf(const QJsonObject& entry) {
+    QStringList states;
+    const QString unit = entry.value("unit").toString();
+    const auto add = [&](const char* key, const QString& of, const char* name, bool plusMinus = true) {
+        if (entry.contains(QLatin1String(key))) states << numberOrUnknown(entry, key, of, name, plusMinus);
+    };
+    add("gain_pct", "%", "gain");
+    add("offset", unit, "offset");
+    add("lsb", unit, "step", false);
+    add("probe_pct", "%", "probe or shunt");
+    add("timebase_ppm", "ppm", "time base");
+    return states.isEmpty() ? QString("unknown") : states.join(", ");
+}
+
+void readInstruments(const QJsonObject& results, ReportModel& model) {
+    auto& instruments = model.basis.instruments;
+    instruments.clear();
+    for (const auto& element : results.value("instruments").toArray()) {
+        const auto entry = element.toObject();
+        if (!saysAccuracy(entry)) continue;
+        const QString serial = entry.value("serial").toString(), by = entry.value("stated_by").toString();
+        instruments.push_back({entry.value("name").toString() + (serial.isEmpty() ? QString() : " " + serial),
+                               entry.value("channel").toString("–"), statesOf(entry),
+                               by.isEmpty() ? QString("unknown") : by});
+    }
+    if (!instruments.empty()) return;
+    for (const auto& device : model.devices) {
+        if (device.role != "oscilloscope") continue;
+        instruments.push_back({device.name + (device.serial.isEmpty() ? QString() : " " + device.serial), "–",
+                               "not in this session's results",
+                               device.simulated ? QString("digital twin") : QString("unknown")});
+    }
+}
+
+void addReference(const QJsonObject& results, ReportBasis& basis) {
+    const auto check = results.value("reference").toObject();
+    const auto number = [&](const char* key) { return check.value(QLatin1String(key)).toDouble(kUnknown); };
+    const QString outcome = !check.value("passed").isBool()  ? QString("not evaluated")
+                            : check.value("passed").toBool() ? QString("passed")
+                                                             : QString("failed");
+    if (check.contains("load_ohm")) {
+        const QString read = std::isfinite(number("measured_ohm"))
+                                 ? uncertainText(number("measured_ohm"), number("expanded_ohm"), "ohm")
+                                 : QString("nothing");
+        basis.restsOn.push_back({"Known load", QString("%1 read as %2; off by at most %3 is allowed: %4")
+                                                   .arg(settingText(number("load_ohm"), "ohm"), read,
+                                                        settingText(number("allowed_pct"), "%"), outcome)});
+    } else if (check.contains("mass_g")) {
+        const bool weighed = check.value("mass_g").isDouble();
+        basis.restsOn.push_back({"Known weight", weighed ? QString("%1 g, %2: %3")
+                                                               .arg(settingText(number("mass_g"), {}),
+                                                                    quantityText(number("reference_n"), "N"), outcome)
+                                                         : QString("not evaluated: no weight was given")});
+    }
+    for (const auto& element : results.value("rows").toArray()) {
+        const auto row = element.toObject();
+        if (row.value("item") != "reference") continue;
+        const double value = row.value("value").toDouble(kUnknown);
+        QString text = row.value("verdict").toString();
+        if (std::isfinite(value)) {
+            text = QString("%1 off by %2, at most %3 allowed: %4")
+                       .arg(loadText(row.value("load").toString()),
+                            uncertainText(value, row.value("expanded_uncertainty").toDouble(kUnknown), "%"),
+                            settingText(row.value("limit").toDouble(kUnknown), "%"), text);
+        }
+        basis.restsOn.push_back({"Known load", text});
+    }
+}
+
+void readRestsOn(const QJsonObject& results, ReportBasis& basis) {
+    basis.restsOn.clear();
+    addReference(results, basis);
+    QStringList lines;
+    for (const auto& line : results.value("rests_on").toArray()) lines << cellText(line, {});
+    if (!lines.isEmpty()) basis.restsOn.push_back({"Rests on", lines.join('\n')});
+}
+
+void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
+    QStringList found;
+    const auto add = [&](const QString& text) {
+        if (!text.isEmpty() && !found.contains(text)) found << text;
+    };
+    for (const auto& element : results.value("not_evaluated").toArray()) {
+        const auto object = element.toObject();
+        const QString title = object.value("title").toString(), reason = object.value("reason").toString();
+        add(element.isString() ? element.toString() : reason.isEmpty() ? title : title + ": " + reason);
+    }
+    const auto worst = results.value("worst_case").toObject();
+    if (!results.contains("not_evaluated")) {
+        for (const auto& rows : {results.value("rows").toArray(), worst.value("rows").toArray()}) {
+            for (const auto& element : rows) {
+                const auto row = element.toObject();
+                if (row.value("verdict") == "not evaluated") add(row.value("reason").toString());
+            }
+        }
+    }
+    if (found.size() > kNamedAtMost) {
+        const auto more = found.size() - kNamedAtMost;
+        found = found.mid(0, kNamedAtMost);
+        found << QString("and %1 more, which stand among the results").arg(more);
+    }
+    basis.notEvaluated = found;
+}
+
+}  // namespace
+
+void readBasis(const QJsonObject& results, ReportModel& model) {
+    const QString kind = results.value("kind").toString(model.protocol);
+    readRule(results, kind, model.basis);
+    readInstruments(results, model);
+    readRestsOn(results, model.basis);
+    readNotEvaluated(results, model.basis);
+}
+
+}  // namespace tacto

@@ -1,0 +1,23 @@
+// ReportBasis.h - what the results of a run say of the ground that its verdict stands on.
+//
+// Read, where present, from the results of the verdict:
+//   "kind": "load-safety"                                        which rule is meant where none is stated
+//   "decision_rule": text, list of texts, or {"guard_band": text, "coverage": text, ...}
+//   "rests_on": list of texts
+//   "not_evaluated": list of texts, or of {"title", "reason"}; else what "rows" holds of that verdict
+//   "instruments": [{"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct", "timebase_ppm",
+//                    "stated_by"}]
+//   "reference": as record.reference() and the sensor calibration's known-reference check
+// What is null or missing is unknown, and is said to be (hazard H9).
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "app/report/ReportModel.h"
+
+namespace tacto {
+
+/// Adds what `results` say to `model.basis`; its devices and protocol are filled in already.
+void readBasis(const QJsonObject& results, ReportModel& model);
+
+}  // namespace tacto

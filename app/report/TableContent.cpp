@@ -1,0 +1,186 @@
+#include "app/report/TableContent.h"
+
+#include <QRegularExpression>
+#include <algorithm>
+#include <cmath>
+
+#include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
+
+namespace tacto {
+namespace {
+
+/// Columns of a script's table in their order, and without those that no row has.
+QStringList columnsOf(const ReportTable& table) {
+    if (!table.columns.isEmpty()) return table.columns;
+    QStringList keys;
+    for (const auto& row : table.rows) {
+        const auto object = row.toObject();
+        for (const auto& key : object.keys()) {
+            if (!keys.contains(key)) keys << key;
+        }
+    }
+    // QJsonObject forgets the order: what names a row comes first.
+    static const QStringList first{"name", "condition", "load", "quantity", "subject", "a", "b", "n"};
+    std::stable_sort(keys.begin(), keys.end(), [](const QString& left, const QString& right) {
+        const auto rank = [](const QString& key) {
+            const auto index = first.indexOf(key);
+            return index < 0 ? first.size() + (key == "verdict" ? 1 : 0) : index;
+        };
+        return rank(left) < rank(right);
+    });
+    return keys;
+}
+
+/// Rows that each carry their own unit show it with the value, and the uncertainty there too.
+bool hasUnitOfItsOwn(const QStringList& keys) { return keys.contains("unit") && keys.contains("value"); }
+
+double numberOf(const QJsonObject& row, const char* key) { return row.value(QLatin1String(key)).toDouble(kUnknown); }
+
+QString withOwnUnit(const QJsonObject& row, const QString& key) {
+    const QString unit = row.value("unit").toString();
+    if (key != "value") return settingText(row.value(key).toDouble(kUnknown), unit);
+    const double value = numberOf(row, "value");
+    return row.contains("expanded_uncertainty") ? uncertainText(value, numberOf(row, "expanded_uncertainty"), unit)
+                                                : quantityText(value, unit);
+}
+
+void fillColumn(TableBlock& table, const ReportTable& source, const QString& key) {
+    const ColumnName name = columnName(key);
+    const bool ownUnit = hasUnitOfItsOwn(source.columns.isEmpty() ? columnsOf(source) : source.columns) &&
+                         (key == "value" || key == "limit");
+    std::vector<double> numbers;
+    bool numeric = ownUnit;
+    for (const auto& row : source.rows) {
+        const auto value = row.toObject().value(key);
+        if (value.isDouble()) numbers.push_back(value.toDouble());
+        numeric = numeric || value.isDouble() || value.isObject();
+    }
+    const auto format = columnFormat(numbers, name.unit);
+    table.columns.push_back({shownText(name.title, kShownCell), numeric});
+    for (qsizetype r = 0; r < source.rows.size(); ++r) {
+        const auto row = source.rows[r].toObject();
+        const auto value = row.value(key);
+        table.rows[static_cast<std::size_t>(r)]
+            << (ownUnit                      ? withOwnUnit(row, key)
+                : value.isDouble() && format ? quantityText(value.toDouble(), name.unit, *format)
+                : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
+                                             : shownText(cellText(value, name.unit), kShownCell));
+    }
+}
+
+/// How near to a limit is worth a second look, % of it.
+constexpr double kClose_pct = 20;
+
+MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
+    using State = MatrixBlock::State;
+    const double margin = numberOf(cell, "margin_pct");
+    const QString verdict = cell.value("verdict").toString();
+    const QString measured = uncertainText(numberOf(cell, "value"), numberOf(cell, "expanded_uncertainty"), unit);
+    if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
+    if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
+    const QString left = quantityText(margin, "%", 2);
+    if (verdict == "fail") return {"✘ " + left, measured, State::Broken};
+    if (verdict == "indeterminate") return {"◐ " + left, measured, State::Broken};
+    if (verdict == "attention") return {"▲ " + left, measured, State::Close};
+    return {left, measured, margin < kClose_pct ? State::Close : State::Plain};
+}
+
+MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
+    using State = MatrixBlock::State;
+    if (!value.isObject()) return {};
+    const auto cell = value.toObject();
+    if (cell.contains("text")) return {shownText(cell.value("text").toString(), kShownCell), {}, State::Plain};
+    const QString unit = cell.value("unit").toString(rowUnit);
+    if (cell.contains("margin_pct")) return judgedCell(cell, unit);
+    const double measured = numberOf(cell, "value");
+    if (!std::isfinite(measured)) return {"–", {}, State::Plain};
+    if (!cell.contains("expanded_uncertainty")) return {quantityText(measured, unit), {}, State::Plain};
+    const double expanded = numberOf(cell, "expanded_uncertainty");
+    if (!std::isfinite(expanded)) return {quantityText(measured, unit), "U unknown", State::Plain};
+    const QString text = uncertainText(measured, expanded, unit);
+    const auto at = text.indexOf(" ± ");
+    if (at < 0) return {text, {}, State::Plain};
+    return {text.left(at), text.mid(at + 1), State::Plain};
+}
+
+QString noteOf(const QJsonObject& row) {
+    QStringList parts;
+    if (row.value("limit").isDouble()) {
+        parts << QString(row.value("compare").toString() == "<" ? "< " : "≤ ") +
+                     settingText(numberOf(row, "limit"), row.value("unit").toString());
+    }
+    if (row.contains("set")) parts << limitSetTitle(row.value("set").toString());
+    if (row.contains("sets")) {
+        QStringList titles;
+        for (const auto& set : row.value("sets").toArray()) titles << limitSetTitle(set.toString());
+        parts << titles.join(", ");
+    }
+    if (row.contains("note")) parts << row.value("note").toString();
+    return shownText(parts.join(" · "), kShownCell);
+}
+
+}  // namespace
+
+QString limitSetTitle(const QString& id) {
+    if (id == "fda-pms") return "FDA guidance";
+    if (id == "iec-60601-2-10") return "IEC 60601-2-10";
+    if (id == "paper") return "the paper";
+    return id;
+}
+
+QString loadText(QString name) {
+    static const QRegularExpression between("(\\d) (?=[kM]?Ω|[npuµ]F)");  // a number stays with its unit
+    return name.replace("ohm", "Ω").replace("||", "∥").replace(between, QString("\\1") + QChar(0x00a0));
+}
+
+TableBlock tableOf(const ReportTable& source, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    const QStringList keys = columnsOf(source);
+    table.rows.assign(static_cast<std::size_t>(source.rows.size()), QStringList());
+    const bool merges = hasUnitOfItsOwn(keys);
+    for (const auto& key : keys) {
+        if (merges && (key == "unit" || key == "expanded_uncertainty")) continue;
+        fillColumn(table, source, key);
+    }
+    return table;
+}
+
+MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
+    MatrixBlock matrix;
+    matrix.caption = caption;
+    bool judged = false;
+    for (const auto& column : source.columns) matrix.columns << shownText(loadText(column), kShownCell);
+    for (const auto& element : source.rows) {
+        const auto object = element.toObject();
+        MatrixBlock::Row row{shownText(object.value("title").toString(), kShownCell), noteOf(object), {}};
+        for (const auto& cell : object.value("cells").toArray()) {
+            judged = judged || cell.toObject().contains("margin_pct");
+            row.cells.push_back(cellOf(cell, object.value("unit").toString()));
+        }
+        row.cells.resize(static_cast<std::size_t>(matrix.columns.size()));
+        matrix.rows.push_back(std::move(row));
+    }
+    if (judged) {
+        matrix.legend =
+            "Each cell: the margin, (limit − value − U) / limit, and below it the value ± U (95\u202f%). ✘ not kept, "
+            "◐ indeterminate, ▲ above a figure that asks for attention; shaded: less than 20\u202f% left, hatched: not "
+            "evaluated. Rows with the smallest margin come first.";
+    }
+    return matrix;
+}
+
+TableBlock eventsTable(const ReportModel& model, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Time", true}, {"What"}, {"Details"}};
+    for (const auto& event : model.events) {
+        QString text = event.text.isEmpty() ? QString("–") : event.text;
+        if (event.count > 1) text += QString(" (%1 times)").arg(event.count);
+        table.rows.push_back({QString::number(event.t_s, 'f', 3) + QChar(0x202f) + "s", event.kind, text});
+    }
+    return table;
+}
+
+}  // namespace tacto

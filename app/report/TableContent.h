@@ -1,0 +1,22 @@
+// TableContent.h - tables and matrices of a report, worded: numbers as text with their units, what needs attention
+// named.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "app/report/ReportContent.h"
+
+namespace tacto {
+
+/// A script's table. Where rows have a `value` and a `unit` of their own, value, expanded_uncertainty and unit are one
+/// column, "40.12 ± 0.46 V".
+[[nodiscard]] TableBlock tableOf(const ReportTable& source, const QString& caption);
+[[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
+[[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);
+
+/// "FDA guidance" of "fda-pms"; an id that is not shipped stands as it is.
+[[nodiscard]] QString limitSetTitle(const QString& id);
+/// "200 Ω + 10 kΩ ∥ 50 nF" of a load's name.
+[[nodiscard]] QString loadText(QString name);
+
+}  // namespace tacto

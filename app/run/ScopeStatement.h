@@ -1,0 +1,33 @@
+// ScopeStatement.h - what else is stated of the oscilloscope that is open: by its calibration certificate.
+//
+// A certificate counts for its serial number alone and from its date until it is due. Captures of a folder
+// (`capture:`) have none: which instrument took them, and when, is not known. A serial number of a simulated
+// oscilloscope (SIM-...) counts for a simulated one only. What is not used says why (hazard H9).
+//
+// Thread-safety: pure but for reading the store; keepCertificate() as SessionWriter.
+#pragma once
+
+#include <string>
+
+#include "core/devices/Driver.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto {
+
+struct KnownCertificate {
+    InstrumentStatement statement;  ///< empty unless used
+    bool used = false;
+    std::string text;  ///< one sentence; empty where no certificate can be of this oscilloscope
+};
+/// How the certificate of that device stands today.
+[[nodiscard]] KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope);
+
+/// Adds to what `devices` state of their oscilloscope; what comes last wins, figure by figure: the address, the
+/// certificate. Returns the certificate as knownCertificate().
+KnownCertificate stateOscilloscope(DeviceSet& devices);
+
+/// Writes it for the session's report; nothing where no certificate can be of this oscilloscope. Errors: as
+/// SessionWriter::event().
+[[nodiscard]] Result<void> keepCertificate(const KnownCertificate& known, SessionWriter& session, Instant at);
+
+}  // namespace tacto

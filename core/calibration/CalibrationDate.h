@@ -1,0 +1,21 @@
+// CalibrationDate.h - the days on which calibrations and certificates are made and fall due.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tacto {
+
+/// A calendar date, UTC.
+using CalibrationDate = std::chrono::year_month_day;
+/// "2026-11-21". Nothing for another form or a day that does not exist.
+[[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
+[[nodiscard]] std::string dateText(CalibrationDate date);
+/// Today, UTC.
+[[nodiscard]] CalibrationDate utcToday();
+
+}  // namespace tacto

@@ -1,0 +1,61 @@
+// RoughnessFlags.h - what limits R and P of one fingertip: the flags of science.md section 2, each with how often.
+//
+// Thread-safety: values. Trivially copyable, so that the control loop can publish them; only texts() allocates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto {
+
+enum class RoughnessFlag : std::uint8_t {
+    BandTruncated,
+    NoSpectralFeature,
+    NotForceNormalised,
+    ContactAssumed,
+    SlidingAssumed,
+    BaselineAssumed,
+    UncalibratedR,
+    UncalibratedUnits,
+    AnotherFingertip,
+    FingertipNotNamed,
+    ScalesLeftAside,
+    // From here on with a count:
+    ForceStale,
+    ForceInvalid,
+    ForceOrder,
+    AccelerationGaps,
+    AccelerationOrder,
+    AccelerationInvalid,
+    TaxelsInvalid,
+    TaxelsOrder,
+};
+inline constexpr std::size_t kRoughnessFlags = 19;
+[[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // "sliding assumed"
+
+struct RoughnessFlags {
+    std::array<std::uint32_t, kRoughnessFlags> times{};  ///< by RoughnessFlag; 0: not given
+
+    void raise(RoughnessFlag flag, bool given) noexcept { times[std::size_t(flag)] = given ? 1 : 0; }
+    void count(RoughnessFlag flag, std::size_t number) noexcept {
+        times[std::size_t(flag)] = static_cast<std::uint32_t>(number);
+    }
+    [[nodiscard]] bool has(RoughnessFlag flag) const noexcept { return times[std::size_t(flag)] > 0; }
+    /// Of each the larger count.
+    void include(const RoughnessFlags& other) noexcept;
+    /// Those that say something about the profile, and not about the samples.
+    void dropCalibration() noexcept;
+    /// As science.md names them: "sliding assumed"; with their count "gaps in acceleration: 2".
+    [[nodiscard]] std::vector<std::string> texts() const;
+};
+
+/// The last paragraph of science.md section 2. It stands wherever R is shown.
+inline constexpr const char* kKnownLimitOfR =
+    "Known limit of R: on the public sliding data tried so far its features are repeatable and specific to a material, "
+    "but do not by themselves rank felt roughness; the reference surfaces give R its meaning.";
+
+}  // namespace tacto

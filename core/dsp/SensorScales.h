@@ -1,0 +1,70 @@
+// SensorScales.h - what a sensor calibration found of one fingertip: how its force and taxels are turned into N and Pa,
+// and how far R can be trusted. Part of RoughnessSettings, and so of a profile.
+//
+// Streams are recorded as the fingertip gives them; RoughnessChain alone applies the scales.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Stream.h"
+
+namespace tacto {
+
+/// quantity = scale · reading + offset.
+struct SensorLine {
+    double scale = 1;                ///< N or Pa per unit of the reading; not 0
+    double offset = 0;               ///< N or Pa: what a reading of 0 stands for
+    std::optional<double> scaleU{};  ///< of the scale, 95 %; nothing: not known
+    [[nodiscard]] double at(double reading) const noexcept { return scale * reading + offset; }
+    bool operator==(const SensorLine&) const = default;
+};
+
+/// How far R of one slide can be off for what the references and the slide themselves repeat to: science.md section 12.
+struct RoughnessUncertainty {
+    double slideSd = 0;            ///< standard deviation of R from slide to slide, ≥ 0
+    std::size_t smoothSlides = 0;  ///< over each reference, ≥ 1
+    std::size_t roughSlides = 0;
+    double coverage = 2;  ///< k for 95 %, from the degrees of freedom of slideSd
+
+    /// U = k s √(1 + (1 − R)²/n_smooth + R²/n_rough): one slide, and the two references' means that R lies between.
+    /// Takes each feature to say the same R. NaN for R that is absent.
+    [[nodiscard]] double expanded(double R) const noexcept;
+    bool operator==(const RoughnessUncertainty&) const = default;
+};
+
+struct SensorScales {
+    std::string fingertip;                      ///< its serial number; empty: it has none
+    std::optional<SensorLine> force;            ///< to N; nothing: as the stream says
+    StreamUnit forceUnit = StreamUnit::Newton;  ///< of the readings it was measured in: N or count
+    std::vector<SensorLine> taxels;             ///< to Pa, one each; empty: as the stream says
+    StreamUnit taxelUnit = StreamUnit::Pascal;  ///< Pa or count
+    bool operator==(const SensorScales&) const = default;
+};
+
+/// Whether the scales are those of the fingertip that gives the samples.
+enum class FingertipMatch {
+    Same,
+    NotNamed,  ///< the source or the calibration has no serial number: nothing says that it is another one
+    Another
+};
+[[nodiscard]] FingertipMatch matchOf(const SensorScales& scales, std::string_view serial) noexcept;
+
+/// The `sensor` and `uncertainty` of a profile's roughness section:
+///   {"serial": "…", "force": {"unit": "N"|"count", "scale": x, "offset_n": x, "scale_u": x|null},
+///    "taxels": {"unit": "Pa"|"count", "scale": […], "offset_pa": […], "scale_u": [x|null…]}}
+///   {"slide_sd": s, "smooth_slides": n, "rough_slides": n, "coverage_factor": k}
+/// Errors: ParseError for an unknown key or a wrong type; InvalidArgument for a scale of 0 or what is not finite.
+[[nodiscard]] Result<SensorScales> sensorScalesFromJson(const nlohmann::json& section);
+[[nodiscard]] nlohmann::json toJson(const SensorScales& scales);
+[[nodiscard]] Result<RoughnessUncertainty> roughnessUncertaintyFromJson(const nlohmann::json& section);
+[[nodiscard]] nlohmann::json toJson(const RoughnessUncertainty& uncertainty);
+
+}  // namespace tacto

@@ -1,0 +1,56 @@
+#include "core/encoding/TrainSeries.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+namespace {
+/// A pause of more of the longest intervals ends a series.
+constexpr double kSilence = 2;
+}  // namespace
+
+TrainSeries::TrainSeries(const EncodingProfile& profile, const KnownLines& calibration)
+    : encoder_(profile), calibration_(calibration) {}
+
+bool TrainSeries::goesOn(Instant onset) const noexcept {
+    return last_ && Seconds(onset - last_->onset) <= kSilence * encoder_.profile().intervalMax;
+}
+
+Command TrainSeries::limited(Instant onset) const noexcept {
+    return goesOn(onset) ? encoder_.limited(last_->command, *wanted_, Seconds(onset - last_->onset)) : *wanted_;
+}
+
+void TrainSeries::want(const Command& wanted, Instant now) noexcept {
+    const bool starting = !wanted_;
+    wanted_ = wanted;
+    command_ = limited(now);
+    const Seconds interval = toldFor(command_->interval, calibration_);
+    if (starting)
+        scheduler_.start(now, interval);
+    else
+        scheduler_.setInterval(interval, now);
+}
+
+void TrainSeries::wantNothing() noexcept {
+    wanted_.reset();
+    command_.reset();
+    scheduler_.off();
+}
+
+Command TrainSeries::begin(Instant onset) noexcept {
+    command_ = limited(onset);
+    begun_ = Train{*command_, onset};
+    if (goesOn(onset)) {
+        const Seconds late = Seconds(onset - last_->onset) - toldFor(command_->interval, calibration_);
+        const Seconds longest = std::max(command_->interval, encoder_.profile().intervalMax);
+        begun_->command.interval = std::clamp(command_->interval + late, command_->interval, longest);
+    }
+    scheduler_.trainAt(onset);
+    return *command_;
+}
+
+void TrainSeries::delivered() noexcept {
+    if (begun_) last_ = begun_;
+}
+
+}  // namespace tacto

@@ -1,0 +1,65 @@
+// TrainSeries.h - successive trains on their way to what is wanted: the command of the next one, and when it is due.
+//
+// The one mechanism of the live loop (core/bench/TrainPlanner), of the computed sweep (Transitions) and of the designed
+// step (StepResponse). A train is limited against the train before it as it was delivered: a train that came later than
+// its interval, because the finger pressed when more than the new interval had already passed, was felt at the interval
+// that passed. A silence of more than twice the longest interval ends the series (choice): nothing is left to compare
+// the next train with, and it begins anew at what is wanted. Limits are the profile's, 0 = none.
+//
+// Thread-safety: none; its owner's thread. Never allocates.
+#pragma once
+
+#include <optional>
+
+#include "core/encoding/Encoder.h"
+#include "core/encoding/StimulatorCalibration.h"
+#include "core/encoding/TrainScheduler.h"
+
+namespace tacto {
+
+class TrainSeries {
+public:
+    /// `profile` has passed validate(). With a `calibration` the schedule keeps the intervals that make the stimulator
+    /// deliver the commands'.
+    explicit TrainSeries(const EncodingProfile& profile, const KnownLines& calibration = {});
+
+    [[nodiscard]] const Encoder& encoder() const noexcept { return encoder_; }
+
+    /// What is wanted from `now` on. Moves the pending train, or starts the series.
+    void want(const Command& wanted, Instant now) noexcept;
+    /// No train until the next want(). The last train is remembered.
+    void wantNothing() noexcept;
+
+    /// When the next train is due; nothing while none is wanted.
+    [[nodiscard]] std::optional<Instant> due() const noexcept { return scheduler_.due(); }
+    /// The command of the next train; nothing while none is wanted.
+    [[nodiscard]] const std::optional<Command>& command() const noexcept { return command_; }
+
+    /// The command of the train that begins at `onset`, wanted before. The next is due an interval later, whether this
+    /// one is delivered or not.
+    [[nodiscard]] Command begin(Instant onset) noexcept;
+    /// The train that begin() began goes out: the next is limited against it. Not called for a train that was refused.
+    void delivered() noexcept;
+    /// The last train that went out, with the interval that it was felt at.
+    [[nodiscard]] std::optional<Command> last() const noexcept {
+        return last_ ? std::optional(last_->command) : std::nullopt;
+    }
+
+private:
+    [[nodiscard]] bool goesOn(Instant onset) const noexcept;
+    [[nodiscard]] Command limited(Instant onset) const noexcept;
+
+    const Encoder encoder_;
+    const KnownLines calibration_;
+    TrainScheduler scheduler_;
+    std::optional<Command> wanted_;
+    std::optional<Command> command_;  // wanted_ under the limits
+    struct Train {
+        Command command;
+        Instant onset{0};
+    };
+    std::optional<Train> last_;   // delivered; its interval is the one that was felt
+    std::optional<Train> begun_;  // by begin()
+};
+
+}  // namespace tacto

@@ -1,0 +1,99 @@
+#include "core/formats/Utf16.h"
+
+#include <cstdint>
+
+namespace tacto {
+
+namespace {
+
+constexpr std::uint32_t kReplacement = 0xFFFD;
+
+void appendCodePoint(std::uint32_t c, std::string& text) {
+    const auto byte = [&](std::uint32_t value) { text.push_back(static_cast<char>(value)); };
+    if (c < 0x80) {
+        byte(c);
+    } else if (c < 0x800) {
+        byte(0xC0U | c >> 6U);
+        byte(0x80U | (c & 0x3FU));
+    } else if (c < 0x10000) {
+        byte(0xE0U | c >> 12U);
+        byte(0x80U | (c >> 6U & 0x3FU));
+        byte(0x80U | (c & 0x3FU));
+    } else {
+        byte(0xF0U | c >> 18U);
+        byte(0x80U | (c >> 12U & 0x3FU));
+        byte(0x80U | (c >> 6U & 0x3FU));
+        byte(0x80U | (c & 0x3FU));
+    }
+}
+
+bool isUtf8(std::string_view text) noexcept {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const std::size_t length = first < 0x80                     ? 1
+                                   : first >= 0xC2 && first < 0xE0  ? 2
+                                   : first >= 0xE0 && first < 0xF0  ? 3
+                                   : first >= 0xF0 && first <= 0xF4 ? 4
+                                                                    : 0;
+        if (length == 0 || i + length > text.size()) return false;
+        for (std::size_t k = 1; k < length; ++k) {
+            if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80) return false;
+        }
+        i += length;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::optional<Utf16Order> utf16OrderOf(std::string_view bytes) noexcept {
+    if (bytes.starts_with("\xFF\xFE")) return Utf16Order::Little;
+    if (bytes.starts_with("\xFE\xFF")) return Utf16Order::Big;
+    return std::nullopt;
+}
+
+std::size_t appendAsUtf8(std::string_view bytes, Utf16Order order, std::string& text) {
+    const auto unitAt = [&](std::size_t i) {
+        const auto first = static_cast<unsigned char>(bytes[i]);
+        const auto second = static_cast<unsigned char>(bytes[i + 1]);
+        return static_cast<std::uint32_t>(order == Utf16Order::Little ? first | second << 8U : first << 8U | second);
+    };
+    const auto isHigh = [](std::uint32_t unit) { return unit >= 0xD800 && unit < 0xDC00; };
+    const auto isLow = [](std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; };
+    std::size_t i = 0;
+    while (i + 1 < bytes.size()) {
+        const auto unit = unitAt(i);
+        if (!isHigh(unit)) {
+            appendCodePoint(isLow(unit) ? kReplacement : unit, text);
+            i += 2;
+            continue;
+        }
+        if (i + 3 >= bytes.size()) break;
+        const auto next = unitAt(i + 2);
+        if (isLow(next)) {
+            appendCodePoint(0x10000 + ((unit - 0xD800) << 10U) + (next - 0xDC00), text);
+            i += 4;
+        } else {
+            appendCodePoint(kReplacement, text);
+            i += 2;
+        }
+    }
+    return i;
+}
+
+std::string asUtf8(std::string_view bytes) {
+    const auto order = utf16OrderOf(bytes);
+    if (!order) return std::string(bytes);
+    std::string text;
+    (void)appendAsUtf8(bytes.substr(2), *order, text);  // half a character at the end of a head is nothing to miss
+    return text;
+}
+
+std::string latin1AsUtf8(std::string_view text) {
+    if (isUtf8(text)) return std::string(text);
+    std::string result;
+    for (const char c : text) appendCodePoint(static_cast<unsigned char>(c), result);
+    return result;
+}
+
+}  // namespace tacto

@@ -1,0 +1,31 @@
+// Utf16.h - text in UTF-16, as spreadsheets save it, turned into the UTF-8 that everything here reads.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tacto {
+
+enum class Utf16Order { Little, Big };
+
+/// By the byte-order mark that `bytes` begin with; nothing where there is none.
+[[nodiscard]] std::optional<Utf16Order> utf16OrderOf(std::string_view bytes) noexcept;
+
+/// Bytes of UTF-8 that two bytes of UTF-16 become at most.
+constexpr std::size_t kUtf8PerUtf16 = 3;
+
+/// Appends `bytes` as UTF-8 and returns how many of them were used: a last odd byte, and the first half of a pair whose
+/// second half is to come, stay. Half a pair alone becomes U+FFFD.
+[[nodiscard]] std::size_t appendAsUtf8(std::string_view bytes, Utf16Order order, std::string& text);
+
+/// `bytes` themselves, or as UTF-8 where they begin with the mark of UTF-16; without the mark then.
+[[nodiscard]] std::string asUtf8(std::string_view bytes);
+
+/// `text` as UTF-8: itself where it is that, else read as Latin-1, as old programs write µ.
+[[nodiscard]] std::string latin1AsUtf8(std::string_view text);
+
+}  // namespace tacto

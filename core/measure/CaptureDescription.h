@@ -1,0 +1,41 @@
+// CaptureDescription.h - what a capture is besides its samples, as JSON: beside its samples in a session, and in the
+// header of a capture file that this program wrote, as one comment line after the line of column names:
+//
+//   time_s,voltage_v,current_a
+//   # tactoscope {"channels":[{"gain_tolerance":0.005,"high":52,"low":-52,"lsb":0.025,...}],"simulated":true,...}
+//
+// A figure that was not stated is null.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/measure/Capture.h"
+
+namespace tacto {
+
+/// {"rate_hz", "start_s", "trigger_s", "simulated", "timebase_tolerance", "stamp_tolerance_s", "channels": [{"name",
+/// "unit", "low", "high", "lsb", "gain_tolerance", "offset_tolerance", "linearity_tolerance", "probe_tolerance",
+/// "stated_by"}]}
+[[nodiscard]] nlohmann::json describeCapture(const Capture& capture);
+
+/// Takes over what `description` says, channels without samples. What it lacks stays not stated. No exception whatever
+/// the JSON. Nothing where it has no list of channels.
+[[nodiscard]] std::optional<Capture> captureDescribed(const nlohmann::json& description);
+
+/// The comment line, with its line end; empty for a capture of which nothing is stated: "not simulated" would then be a
+/// claim without a source.
+[[nodiscard]] std::string captureHeader(const Capture& capture);
+
+/// What the header in `text`, a file's beginning, says; nothing where there is none that can be read.
+[[nodiscard]] std::optional<Capture> headerIn(std::string_view text);
+
+/// Gives `capture`, as it was read from a file, what `header` says of it: trigger, origin and, where its channels are
+/// those of the header, their ranges, steps and tolerances.
+void takeHeader(Capture& capture, const Capture& header);
+
+}  // namespace tacto

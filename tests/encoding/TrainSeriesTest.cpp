@@ -1,0 +1,194 @@
+// The limits on a step, train by train: what the live loop, the sweep and the design share.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "core/encoding/StepPace.h"
+#include "core/encoding/TrainSeries.h"
+#include "core/encoding/Transitions.h"
+
+namespace tacto {
+namespace {
+
+EncodingProfile limited() {
+    EncodingProfile profile;
+    profile.amplitudeRatioPerTrain = 1.2;
+    profile.intervalRatioPerTrain = 1.34;
+    return profile;
+}
+
+Command command(double volts, double seconds) { return {Volts(volts), Seconds(seconds)}; }
+Instant seconds(double s) { return toInstant(Seconds(s)); }
+
+struct Seen {
+    Instant onset;
+    Volts amplitude;
+};
+
+/// Trains from a first one at `before`, with `after` wanted from `step_s` on, as a loop that looks every 5 ms.
+std::vector<Seen> trainsOf(TrainSeries& series, const Command& before, const Command& after, double step_s,
+                           double until_s) {
+    std::vector<Seen> trains;
+    for (Instant now{0}; now < seconds(until_s); now += std::chrono::milliseconds(5)) {
+        series.want(now < seconds(step_s) ? before : after, now);
+        if (*series.due() > now) continue;
+        trains.push_back({now, series.begin(now).amplitude});
+        series.delivered();
+    }
+    return trains;
+}
+
+TEST(TrainSeries, ReachesTheOtherEndInEqualStepsOfPerception) {
+    RecordProperty("hazard", "H6");
+    TrainSeries series(limited());
+    const auto trains = trainsOf(series, command(10, 0.5), command(40, 0.5), 0.1, 6);
+    ASSERT_GT(trains.size(), 9U);
+    for (std::size_t k = 1; k <= 7; ++k) {
+        EXPECT_NEAR(trains[k].amplitude.value(), 10 * std::pow(1.2, k), 1e-9) << k;
+    }
+    EXPECT_EQ(trains[8].amplitude, Volts(40)) << "the eighth train after the change";
+    EXPECT_EQ(toSeconds(trains[8].onset), 4);
+}
+
+TEST(TrainSeries, NoTrainStepsBeyondTheLimitsWhateverIsWantedAndWhenever) {
+    RecordProperty("hazard", "H6");
+    rc::check("ratio of neighbours, as delivered",
+              [](const std::vector<std::tuple<std::uint8_t, std::uint8_t, std::uint8_t>>& moves) {
+                  const EncodingProfile profile = limited();
+                  TrainSeries series(profile);
+                  const Encoder encoder(profile);
+                  std::vector<Seen> trains;
+                  Instant now{0};
+                  for (const auto& [r, p, wait] : moves) {
+                      const Command wanted = *encoder.encode(r / 255.0, p / 255.0);
+                      for (int step = 0; step <= wait; ++step, now += std::chrono::milliseconds(5)) {
+                          series.want(wanted, now);
+                          if (*series.due() > now) continue;
+                          trains.push_back({now, series.begin(now).amplitude});
+                          series.delivered();
+                      }
+                  }
+                  for (std::size_t k = 1; k < trains.size(); ++k) {
+                      RC_ASSERT(amplitudeDistance(trains[k].amplitude, trains[k - 1].amplitude) <= 2);
+                      if (k < 2) continue;
+                      const auto interval = [&](std::size_t i) {
+                          return Seconds(trains[i].onset - trains[i - 1].onset);
+                      };
+                      // The loop looks every 5 ms: that much an interval is longer than its command.
+                      const double slack = std::log1p(0.006 / interval(k).count()) / std::log(1.16);
+                      RC_ASSERT(intervalDistance(interval(k), interval(k - 1)) <= 2 + slack);
+                  }
+              });
+}
+
+TEST(TrainSeries, ATrainPulledForwardLateIsFeltAtTheIntervalThatPassed) {
+    RecordProperty("hazard", "H6");
+    TrainSeries series(limited());
+    const auto trains = trainsOf(series, command(20, 2), command(20, 0.5), 1.9, 12);
+    EXPECT_EQ(toSeconds(trains[1].onset), 1.9) << "at once";
+    // Not from the 1.49 s that it might have come after.
+    EXPECT_NEAR(toSeconds(trains[2].onset - trains[1].onset), 1.9 / 1.34, 0.005);
+}
+
+TEST(TrainSeries, AfterASilenceATrainBeginsAnew) {
+    TrainSeries series(limited());
+    ASSERT_EQ(trainsOf(series, command(10, 0.5), command(10, 0.5), 1, 0.2).size(), 1U);
+    series.wantNothing();
+    EXPECT_FALSE(series.due());
+    series.want(command(40, 0.5), seconds(3.9));
+    EXPECT_EQ(series.command()->amplitude, Volts(12)) << "an interval of the series, however long";
+    series.wantNothing();
+    series.want(command(40, 0.5), seconds(4.1));
+    EXPECT_EQ(series.command()->amplitude, Volts(40)) << "no train within 4 s to compare it with";
+}
+
+TEST(TrainSeries, ARefusedTrainIsNoneToStepFrom) {
+    RecordProperty("hazard", "H6");
+    TrainSeries series(limited());
+    series.want(command(10, 0.5), seconds(0));
+    static_cast<void>(series.begin(seconds(0)));
+    series.delivered();
+    for (const double refused_s : {0.5, 1.0}) {
+        series.want(command(40, 0.5), seconds(refused_s));
+        EXPECT_EQ(series.begin(seconds(refused_s)).amplitude, Volts(12)) << refused_s;
+    }
+}
+
+TEST(TrainSeries, ACalibratedScheduleKeepsTheIntervalsThatAreTold) {
+    StimulatorCalibration calibration;
+    calibration.amplitude = {1, 0, 1, 50};
+    calibration.interval = CalibrationLine{1.01, 0, 0.4, 3};
+    TrainSeries series(EncodingProfile{}, calibration);
+    series.want(command(20, 2), seconds(0));
+    static_cast<void>(series.begin(seconds(0)));
+    series.delivered();
+    series.want(command(20, 1), seconds(0.1));
+    EXPECT_NEAR(toSeconds(*series.due()), toldFor(Seconds(1), calibration).count(), 1e-8);
+    EXPECT_EQ(series.command()->interval, Seconds(1));
+}
+
+TEST(StepPace, CountsTheTrainsAndTheTimeThatTwoDifferencesTake) {
+    // ln 4 / ln 1.1 = 14.5 differences of amplitude.
+    const auto slow = fastestPace({Seconds(0), command(10, 2), command(40, 2)}, 2);
+    EXPECT_EQ(slow.trains, 8);
+    EXPECT_NEAR(slow.complete.count(), 16, 1e-9);
+    const auto quick = fastestPace({Seconds(0.4), command(10, 0.5), command(40, 0.5)}, 2);
+    EXPECT_EQ(quick.trains, 8);
+    EXPECT_NEAR(quick.complete.count(), 3.6, 1e-9) << "even at the shortest interval";
+    // 2 s to 0.5 s: 2 / 1.16² is 1.486, then 1.105, 0.821, 0.610, and 0.5.
+    const auto press = fastestPace({Seconds(0), command(25, 2), command(25, 0.5)}, 2);
+    EXPECT_EQ(press.trains, 5);
+    EXPECT_NEAR(press.complete.count(), 1.4863 + 1.1045 + 0.8209 + 0.6100 + 0.5, 1e-3);
+    // However late the press: what has passed counts as the first interval.
+    for (const double since : {0.0, 0.5, 1.0, 1.4863, 1.7, 2.0}) {
+        EXPECT_GT(fastestPace({Seconds(since), command(25, 2), command(25, 0.5)}, 2).complete, Seconds(3)) << since;
+    }
+    const auto release = fastestPace({Seconds(0), command(25, 0.5), command(25, 2)}, 2);
+    EXPECT_EQ(release.trains, 5);
+    EXPECT_NEAR(release.complete.count(), 2 + 1.4863 + 1.1045 + 0.8209 + 0.6100, 1e-3);
+    // 0.8 s to 0.5 s: 0.594 comes first, unless that much has passed already.
+    EXPECT_EQ(fastestPace({Seconds(0.4), command(25, 0.8), command(25, 0.5)}, 2).trains, 2);
+    EXPECT_NEAR(fastestPace({Seconds(0.4), command(25, 0.8), command(25, 0.5)}, 2).complete.count(), 0.6945, 1e-3);
+    EXPECT_EQ(fastestPace({Seconds(0.6), command(25, 0.8), command(25, 0.5)}, 2).trains, 1);
+    EXPECT_EQ(fastestPace({Seconds(0.1), command(10, 0.5), command(12, 0.5)}, 2).trains, 1);
+    EXPECT_NEAR(fastestPace({Seconds(0.1), command(10, 1), command(12.1, 0.8)}, 2).complete.count(), 0.7, 1e-9);
+}
+
+TEST(StepPace, IsNeverSlowerThanASeriesUnderTheSameLimits) {
+    EncodingProfile profile;
+    profile.amplitudeRatioPerTrain = 1.21;
+    profile.intervalRatioPerTrain = 1.3456;
+    for (const double since : {0.01, 0.3, 0.49}) {
+        for (const Command& from :
+             {command(10, 0.5), command(40, 0.5), command(10, 2), command(40, 2), command(20, 1)}) {
+            for (const Command& to :
+                 {command(10, 0.5), command(40, 0.5), command(10, 2), command(40, 2), command(20, 1)}) {
+                if (from == to) continue;
+                const StepEnds ends{Seconds(since), from, to};
+                const auto found = respond(ends, designedTrains(profile, ends).value(), 0.001);
+                const auto bound = fastestPace(ends, 2);
+                ASSERT_TRUE(found.trains && found.complete);
+                EXPECT_LE(bound.trains, *found.trains);
+                EXPECT_LE(bound.complete.count(), found.complete->count() + 1e-6);
+            }
+        }
+    }
+}
+
+TEST(StepPace, TheShippedLimitsTakeNoMoreTrainsThanTwoDifferencesDo) {
+    const EncodingProfile profile = limited();
+    for (double since = 0; since <= 2; since += 0.01) {
+        for (const auto& [from, to] :
+             {std::pair{command(25, 2), command(25, 0.5)}, std::pair{command(25, 0.5), command(25, 2)},
+              std::pair{command(10, 2), command(40, 0.5)}, std::pair{command(40, 2), command(10, 2)}}) {
+            if (since > from.interval.count()) continue;
+            const StepEnds ends{Seconds(since), from, to};
+            const auto found = respond(ends, designedTrains(profile, ends).value());
+            EXPECT_LE(found.trains.value(), fastestPace(ends, 2).trains)
+                << since << " " << from.amplitude.value() << " V, " << from.interval.count() << " s";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tacto

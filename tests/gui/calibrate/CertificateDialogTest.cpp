@@ -1,0 +1,149 @@
+// The certificates of oscilloscopes in the window: entered, refused in place, expired ones shown as such, withdrawn.
+#include <QLineEdit>
+#include <QTableWidget>
+#include <QTest>
+#include <gmock/gmock.h>
+
+#include "app/gui/calibrate/CertificateDialog.h"
+#include "app/gui/look/Look.h"
+#include "tests/gui/calibrate/CalibrationLab.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class CertificateWindow : public testing::Test {
+protected:
+    void showDialog() {
+        dialog = std::make_unique<gui::CertificateDialog>(desk, nullptr);
+        dialog->show();
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(dialog.get()));
+    }
+    void write(const char* field, const QString& text) {
+        auto* edit = dialog->findChild<QLineEdit*>(field);
+        ASSERT_NE(edit, nullptr) << field;
+        edit->setText(text);
+    }
+    void writeAll(const char* number, int date, int due) {
+        write("instrument", "Rigol DS1054Z");
+        write("serial", "DS1ZA1");
+        write("number", number);
+        write("by", "DAkkS Lab");
+        write("date", QString::fromStdString(dateText(daysFromNow(date))));
+        write("due", QString::fromStdString(dateText(daysFromNow(due))));
+        write("gain-u", "0.5");
+    }
+    [[nodiscard]] QPushButton& enter() { return *dialog->findChild<QPushButton*>("enterCertificate"); }
+    [[nodiscard]] QTableWidget& table() { return *dialog->findChild<QTableWidget*>("certificates"); }
+    [[nodiscard]] std::string says() { return dialog->findChild<QLabel*>("certificateSays")->text().toStdString(); }
+    [[nodiscard]] static CertificateStore kept() { return CertificateStore::open(certificateFile()).value(); }
+
+    OwnDataHome home;
+    gui::BenchDesk desk{simulatedRegistry};
+    std::unique_ptr<gui::CertificateDialog> dialog;
+};
+
+TEST_F(CertificateWindow, EntersWhatIsComplete) {
+    showDialog();
+    EXPECT_FALSE(enter().isEnabled());
+    writeAll("4711", -10, 355);
+    ASSERT_TRUE(enter().isEnabled()) << says();
+    write("probe-u", "1");
+    click(enter());
+    ASSERT_EQ(kept().all().size(), 1U);
+    const auto& one = kept().all()[0].certificate;
+    EXPECT_EQ(one.number, "4711");
+    EXPECT_EQ(one.gain_pct, 0.5);
+    EXPECT_EQ(one.probe_pct, 1.0);
+    EXPECT_FALSE(one.shunt_pct || one.timeBase_ppm);  // left empty: not stated
+    ASSERT_EQ(table().rowCount(), 1);
+    EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("in use"));
+    EXPECT_FALSE(enter().isEnabled());  // the next one has another number
+}
+
+TEST_F(CertificateWindow, RefusesInPlace) {
+    RecordProperty("hazard", "H9");
+    showDialog();
+    writeAll("4711", -10, 355);
+    for (const auto* u : {"0", "-1", "nan", "51", "0,5", ""}) {
+        write("gain-u", u);
+        EXPECT_FALSE(enter().isEnabled()) << u;
+        EXPECT_THAT(says(), HasSubstr("above 0 to 50 %")) << u;
+    }
+    write("gain-u", "0.5");
+    write("due", "2027-13-01");
+    EXPECT_THAT(says(), HasSubstr("2027-13-01"));
+    write("due", QString::fromStdString(dateText(daysFromNow(-11))));
+    EXPECT_THAT(says(), HasSubstr("before its date"));
+    write("serial", " ");
+    EXPECT_THAT(says(), HasSubstr("serial number is missing"));
+    EXPECT_TRUE(kept().all().empty());
+}
+
+TEST_F(CertificateWindow, AnExpiredOneIsGreyAndSaysSo) {
+    RecordProperty("hazard", "H9");
+    showDialog();
+    writeAll("4711", -400, -1);
+    EXPECT_TRUE(enter().isEnabled());
+    EXPECT_THAT(says(), HasSubstr("expired"));
+    click(enter());
+    ASSERT_EQ(table().rowCount(), 1);
+    EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("expired"));
+    const auto grey = [this] { return dialog->palette().color(QPalette::PlaceholderText); };
+    EXPECT_EQ(table().item(0, 0)->foreground().color(), grey());
+    gui::applyTheme(gui::Theme::Dark);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(table().item(0, 0)->foreground().color(), grey());
+    gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
+    auto store = kept();
+    ASSERT_TRUE(store.add({"X", "S", "4711", "L", daysFromNow(0), daysFromNow(9), 1.0, {}, {}, {}}, daysFromNow(0)));
+    showDialog();
+    auto* withdraw = dialog->findChild<QPushButton*>("withdrawCertificate");
+    EXPECT_FALSE(withdraw->isEnabled());
+    table().selectRow(0);
+    click(*withdraw);
+    EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Counts);
+    EXPECT_THAT(withdraw->text().toStdString(), HasSubstr("4711"));
+    QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
+    click(*withdraw);
+    EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Withdrawn);
+    EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("withdrawn"));
+    EXPECT_FALSE(withdraw->isEnabled());
+}
+
+TEST_F(CertificateWindow, LooksRightInBothThemes) {
+    auto store = kept();
+    const auto today = daysFromNow(0);
+    ASSERT_TRUE(store.add(
+        {"Rigol DS1054Z", "DS1ZA1", "K-2025-17", "DAkkS Lab", daysFromNow(-400), daysFromNow(-35), 1.0, {}, {}, {}},
+        today));
+    ASSERT_TRUE(store.add({"Siglent SDS1104X-E",
+                           "SDSM1",
+                           "K-2025-99",
+                           "DAkkS Lab",
+                           daysFromNow(-380),
+                           daysFromNow(-15),
+                           0.8,
+                           5.0,
+                           {},
+                           {}},
+                          today));
+    ASSERT_TRUE(store.add(
+        {"Rigol DS1054Z", "DS1ZA1", "K-2026-18", "DAkkS Lab", daysFromNow(-10), daysFromNow(355), 0.5, 2.0, 0.1, 1.0},
+        today));
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        showDialog();
+        writeAll("K-2026-19", -1, 364);
+        shot(*dialog, theme == gui::Theme::Dark ? "certificates-dark" : "certificates-light");
+        EXPECT_LE(dialog->width(), 1024);
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+}  // namespace
+}  // namespace tacto::test
