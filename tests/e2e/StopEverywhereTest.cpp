@@ -80,7 +80,8 @@ protected:
             [&] { return window.desk().activity() == gui::Activity::Live && window.desk().open() != before; }));
     }
     void deliver() {
-        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; }));
+        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; }))
+            << nameOf(state()) << ": " << window.desk().telemetry().reason.c_str();
         ArmRequest request;
         request.operatorConfirmed = true;
         window.desk().arm(request);

@@ -75,11 +75,11 @@ TEST(MeasurementGrid, TheStatedUncertaintyCoversNineteenReadingsOfTwenty) {
         }
     }
     ASSERT_GT(n, 500);
-    EXPECT_LT(amplitude, 0.08 * n);
+    EXPECT_LT(amplitude, 0.05 * n);
     EXPECT_LT(width, 0.05 * n);
-    EXPECT_LT(charge, 0.08 * n);
-    EXPECT_LT(gap, 0.08 * nGap);
-    EXPECT_LT(imbalance, 0.08 * nGap);
+    EXPECT_LT(charge, 0.05 * n);
+    EXPECT_LT(gap, 0.05 * nGap);
+    EXPECT_LT(imbalance, 0.05 * nGap);
 }
 
 TEST(MeasurementGrid, NoiseAboveTheLimitIsAveragedWherePhasesAreLongEnough) {

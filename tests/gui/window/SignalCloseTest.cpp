@@ -49,8 +49,9 @@ void deliverUntilSignalled() {
         }
         EXPECT_EQ(app.state(), InterlockState::Disarmed);
         // The reason comes with the control loop's next step.
-        EXPECT_TRUE(comesTrue(
-            [&] { return std::string_view(app.window.desk().telemetry().reason.c_str()) == "operator (signal)"; }));
+        EXPECT_TRUE(comesTrue([&] {
+            return std::string_view(app.window.desk().telemetry().reason.c_str()) == "operator (signal)";
+        })) << app.window.desk().telemetry().reason.c_str();
         EXPECT_FALSE(app.window.isVisible());
     }
     QProcess verify;
