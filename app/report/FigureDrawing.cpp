@@ -26,7 +26,7 @@ QString conditionsLegend(const ConditionsFigure& figure) {
         }
         return text;
     }
-    QString text = "Heights and spacings are the measured means ± s.d.";
+    QString text = "Heights and spacings are the measured means, ± s.d. where there is room.";
     double least = kUnknown, most = kUnknown;
     for (const auto& condition : figure.conditions) {
         if (!std::isfinite(condition.n)) continue;

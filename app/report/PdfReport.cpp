@@ -50,10 +50,12 @@ public:
 
     void operator()(const HeadingBlock& block) {
         const QFont font = textFont(17, true);
-        const double height = PdfPages::textHeight(PdfPages::kWidth, block.text, font);
-        pages_.require(height + 10 + keepWithNext_);
-        if (!pages_.atTop()) pages_.advance(10);
-        pages_.advance(pages_.text(0, PdfPages::kWidth, block.text, font, ink::kText) + 6);
+        constexpr double kAbove = 10, kBelow = 6;
+        const double height = PdfPages::textHeight(PdfPages::kWidth, block.text, font) + kBelow;
+        pages_.require(kAbove + height + keepWithNext_);
+        if (!pages_.atTop()) pages_.advance(kAbove);
+        pages_.text(0, PdfPages::kWidth, block.text, font, ink::kText);
+        pages_.advance(height);
     }
 
     void operator()(const ParagraphBlock& block) {

@@ -140,16 +140,18 @@ void addReference(const QJsonObject& results, ReportBasis& basis) {
     }
     for (const auto& element : results.value("rows").toArray()) {
         const auto row = element.toObject();
-        if (row.value("item") != "reference") continue;
+        const bool ofTime = row.value("item") == "time_reference";
+        if (row.value("item") != "reference" && !ofTime) continue;
         const double value = row.value("value").toDouble(kUnknown);
         QString text = row.value("verdict").toString();
         if (std::isfinite(value)) {
-            text = QString("%1 off by %2, at most %3 allowed: %4")
-                       .arg(loadText(row.value("load").toString()),
-                            uncertainText(value, row.value("expanded_uncertainty").toDouble(kUnknown), "%"),
-                            settingText(row.value("limit").toDouble(kUnknown), "%"), text);
+            text =
+                QString("%1 off by %2, at most %3 allowed: %4")
+                    .arg(ofTime ? QString("interval by the computer's clock") : loadText(row.value("load").toString()),
+                         uncertainText(value, row.value("expanded_uncertainty").toDouble(kUnknown), "%"),
+                         settingText(row.value("limit").toDouble(kUnknown), "%"), text);
         }
-        basis.restsOn.push_back({"Known load", text});
+        basis.restsOn.push_back({ofTime ? "Time base" : "Known load", text});
     }
 }
 

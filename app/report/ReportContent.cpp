@@ -179,7 +179,9 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
 
 /// What the gate computed is no measurement, and is never titled as one (science.md section 12).
 void addComputed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
-    if (model.exposure.empty()) return;
+    const bool anyJudged = std::any_of(model.exposure.begin(), model.exposure.end(),
+                                       [](const auto& row) { return !row.evaluated() || row.limit > 0; });
+    if (!anyJudged) return;  // a session without a stimulator
     blocks.emplace_back(captions.heading("Computed from approved trains"));
     blocks.emplace_back(ParagraphBlock{
         "What the gate computed for the trains that it approved, worst case over the permitted loads. None of it was "

@@ -98,4 +98,11 @@ Result<std::string> Arguments::text(const nlohmann::json& object, std::string_vi
     return member->get<std::string>();
 }
 
+Result<bool> Arguments::flag(const nlohmann::json& object, std::string_view key, bool fallback) const {
+    const auto member = object.find(key);
+    if (member == object.end()) return fallback;
+    if (!member->is_boolean()) return wrong(key, *member, "true or false");
+    return member->get<bool>();
+}
+
 }  // namespace tacto

@@ -44,6 +44,7 @@ public:
                                         NumberRange range = {}) const;
     [[nodiscard]] Result<std::string> text(const nlohmann::json& object, std::string_view key,
                                            std::string_view fallback) const;
+    [[nodiscard]] Result<bool> flag(const nlohmann::json& object, std::string_view key, bool fallback) const;
 
     [[nodiscard]] tl::unexpected<Error> wrong(std::string_view name, const nlohmann::json& value,
                                               std::string_view accepted) const;

@@ -116,16 +116,44 @@ Result<ScopeSettings> scopeSettings(ScriptSession& session, const Arguments& arg
     return settings;
 }
 
+constexpr int kTrainsInOne = 8;  // of a record that holds several
+
+/// One record that holds `trains` trains at the interval of now: from one record to another their distance is known
+/// only as well as the records' time stamps are (science.md section 12).
+Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
+    constexpr double kBefore = 0.05, kSpare = 0.1;  // of the record; of an interval
+    constexpr double kMostSamples = 5e5, kLeastRate_hz = 1e5;
+    const double interval_s = bench.telemetry().interval_s;
+    if (!(interval_s > 0) || !std::isfinite(interval_s))
+        return fail(ErrorCode::InvalidArgument, "bench.capture: intervals are wanted and nothing is driven");
+    const double seconds = (trains - 1 + kSpare) * interval_s / (1 - kBefore);
+    const double rate_hz = std::min(settings.sampleRate.value(), std::max(kLeastRate_hz, kMostSamples / seconds));
+    settings.sampleRate = Hertz(rate_hz);
+    settings.samples = static_cast<std::size_t>(std::ceil(rate_hz * seconds));
+    settings.preTrigger = kBefore;
+    return bench.capture(1, settings);
+}
+
 Result<Json> capture(ScriptSession& session, const Json& list) {
     const Arguments arguments("bench.capture", list);
-    auto options =
-        arguments.options(0, {"trains", "rate_hz", "samples", "voltage_range_v", "current_range_ma", "trigger_v"});
+    auto options = arguments.options(
+        0, {"trains", "rate_hz", "samples", "voltage_range_v", "current_range_ma", "trigger_v", "intervals"});
     if (!options) return failure(options);
-    auto trains = arguments.number(*options, "trains", 1, {1, static_cast<double>(ScriptSession::kHeldCaptures), true});
+    auto intervals = arguments.flag(*options, "intervals", false);
+    if (!intervals) return failure(intervals);
+    const auto allowed = *intervals ? NumberRange{2, kTrainsInOne, true}
+                                    : NumberRange{1, static_cast<double>(ScriptSession::kHeldCaptures), true};
+    auto trains = arguments.number(*options, "trains", allowed.min, allowed);
     if (!trains) return failure(trains);
     auto settings = scopeSettings(session, arguments, *options);
     if (!settings) return failure(settings);
-    auto captures = session.bench().capture(static_cast<int>(*trains), *settings);
+    const auto count = static_cast<int>(*trains);
+    if (!*intervals || session.scopeSeen().stampsStated()) {
+        auto captures = session.bench().capture(count, *settings);
+        if (!captures) return failure(captures);
+        if (!*intervals || std::isfinite(captures->front().stampTolerance_s)) return session.hold(std::move(*captures));
+    }
+    auto captures = captureInOne(session.bench(), count, *settings);
     if (!captures) return failure(captures);
     return session.hold(std::move(*captures));
 }
@@ -191,7 +219,12 @@ std::vector<HostFunction> benchFunctions() {
            true},
           {"options.current_range_ma", "number", "mA", "full scale is ± this; from command and |Z| where left out",
            true},
-          {"options.trigger_v", "number", "V", "trigger level; a fifth of the command where left out", true}},
+          {"options.trigger_v", "number", "V", "trigger level; a fifth of the command where left out", true},
+          {"options.intervals", "flag", "",
+           "the intervals between the trains, 2 to 8, are wanted: where the oscilloscope does not state how good the "
+           "time stamps of its records are, one record holds them all, at a lower rate where it would be longer than "
+           "half a million samples",
+           true}},
          "Waits for the next trains and takes one oscilloscope record of each.",
          "List of captures { capture, start_s, trigger_s, rate_hz, samples, stamp_tolerance_s, not_stated }, for "
          "measure.train(): stamp_tolerance_s is how good trigger_s is against other records, null where the "

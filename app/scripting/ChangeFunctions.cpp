@@ -228,10 +228,10 @@ Result<Json> changes(ScriptSession&, const Json& list) {
     ChangeLimits limits;
     auto complete = arguments.number(*options, "complete_s", limits.complete_s, {0.01, 600});
     if (!complete) return failure(complete);
-    const Json alone = options->value("seconds_alone", Json(false));
-    if (!alone.is_boolean()) return arguments.wrong("seconds_alone", alone, "true or false");
+    auto alone = arguments.flag(*options, "seconds_alone", false);
+    if (!alone) return failure(alone);
     limits.complete_s = *complete;
-    limits.secondsAlone = alone.get<bool>();
+    limits.secondsAlone = *alone;
 
     auto asked = groupsAsked<ChangeGroup>(arguments, *options);
     if (!asked) return failure(asked);

@@ -121,6 +121,7 @@ Result<Json> loadSafety(ScriptSession& session, const Json& list) {
         auto reference = loadRecordFrom((*options)["reference"]);
         if (!reference) return failure(reference);
         input.reference = judgeReference(*reference, input);
+        input.time = judgeTimeReference(*reference, input);
     }
     if (options->contains("absolute")) {
         auto row = absoluteRowFrom((*options)["absolute"]);

@@ -123,6 +123,17 @@ Result<Json> quantity(ScriptSession&, const Json& list) {
     return Json(measuredText(*value, *expanded, *unit));
 }
 
+Result<Json> rounded(ScriptSession&, const Json& list) {
+    const Arguments arguments("report.rounded", list);
+    auto value = numberOrNaN(arguments, 0, "value");
+    if (!value) return failure(value);
+    auto unit = arguments.text(1, "unit");
+    if (!unit) return failure(unit);
+    auto digits = arguments.number(2, "digits", {1, 15, true});
+    if (!digits) return failure(digits);
+    return Json(scaledText(*value, *unit, static_cast<int>(*digits)));
+}
+
 Result<Json> text(ScriptSession& session, const Json& list) {
     auto paragraph = Arguments("report.text", list).text(0, "text");
     if (!paragraph) return failure(paragraph);
@@ -209,6 +220,16 @@ std::vector<HostFunction> recordFunctions() {
          "A text: \"40.12 ± 0.46 V\", \"16.8 µs\".",
          "",
          quantity},
+        {"report",
+         "rounded",
+         HostKind::Function,
+         {{"value", "number", "", "null where it is not known"},
+          {"unit", "text", "", "as for quantity(); may be empty"},
+          {"digits", "number", "", "significant digits, 1 to 15"}},
+         "Writes a number that has no U with so many digits, in a scaled unit.",
+         "A text: \"0.26 %\".",
+         "",
+         rounded},
         {"report",
          "text",
          HostKind::Function,

@@ -4,6 +4,7 @@
 // Thread-safety: none; as ScriptSession, which holds it.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +20,8 @@ public:
     /// What an absolute reference came to, as a sentence.
     void setAbsolute(std::string text) { absolute_ = std::move(text); }
     [[nodiscard]] bool any() const noexcept { return !channels_.empty(); }
+    /// Whether each record so far stated how good its time stamp is; true before the first.
+    [[nodiscard]] bool stampsStated() const noexcept { return !std::isnan(stamp_s_); }
 
     /// A row per channel: {"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct",
     /// "linearity", "timebase_ppm", "stamp_s", "stated_by"}: the largest of all captures, null where one does not state

@@ -113,9 +113,9 @@ Result<Json> keepProfile(ScriptSession& session, const Json& list) {
     inForce.name = profile.name;
     if (auto replaced = session.bench().setProfile(inForce, RBefore::Measuring); !replaced) return failure(replaced);
     Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
-    const Json store = options->value("store", Json(false));
-    if (!store.is_boolean()) return arguments.wrong("store", store, "true or false");
-    if (store != Json(true)) return out;
+    auto store = arguments.flag(*options, "store", false);
+    if (!store) return failure(store);
+    if (!*store) return out;
     const auto stem = "fingertip-" + fileWord(identity.serial.empty() ? identity.name : identity.serial) + "-" + today;
     auto path = writeNew(calibrationFile().parent_path() / "profiles", stem, out["profile"].dump(2) + "\n");
     if (!path) return failure(path);

@@ -69,8 +69,8 @@ Result<Json> transitions(ScriptSession& session, const Json& list) {
     if (!lines) return failure(lines);
     auto traverse = arguments.number(*options, "traverse_s", 5, {0.1, 600});
     if (!traverse) return failure(traverse);
-    const Json jumps = options->value("jumps", Json(true));
-    if (!jumps.is_boolean()) return arguments.wrong("jumps", jumps, "true or false");
+    auto jumps = arguments.flag(*options, "jumps", true);
+    if (!jumps) return failure(jumps);
     const auto& encoding = session.bench().profile().encoding;
     const TransitionSweep sweep{static_cast<int>(*lines), Seconds(*traverse)};
     const auto report = sweepTransitions(encoding, sweep);
@@ -79,13 +79,13 @@ Result<Json> transitions(ScriptSession& session, const Json& list) {
     if (!map) return failure(map);
 
     auto reasons = tooLarge(report->gradual, "moving through the plane");
-    if (jumps.get<bool>()) {
+    if (*jumps) {
         for (auto& reason : tooLarge(report->abrupt, "jumping between its corners")) reasons.push_back(reason);
     }
     return Json{{"wanted_jnd", kWanted},
                 {"lines", sweep.lines},
                 {"traverse_s", *traverse},
-                {"jumps_judged", jumps},
+                {"jumps_judged", *jumps},
                 {"amplitude_ratio_per_train", encoding.amplitudeRatioPerTrain},
                 {"amplitude_slew_v_per_s", encoding.amplitudeSlew_V_per_s},
                 {"interval_ratio_per_train", encoding.intervalRatioPerTrain},

@@ -13,7 +13,8 @@ namespace {
 using nlohmann::json;
 
 bool isOfALimit(const SafetyRow& row) {
-    return std::isfinite(row.limit) && row.limit > 0 && !row.load.empty() && row.item != "reference";
+    return std::isfinite(row.limit) && row.limit > 0 && !row.load.empty() && row.item != "reference" &&
+           row.item != "time_reference";
 }
 
 LimitCell cellOf(const SafetyRow& row) {

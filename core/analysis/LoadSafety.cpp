@@ -61,7 +61,9 @@ bool waitsForArea(const SafetyRow& row, const LoadSafetyInput& input) {
     return !input.area_cm2 && quantity && needsArea(*quantity) && row.verdict == RowVerdict::NotEvaluated;
 }
 
-bool isReference(const SafetyRow& row) { return row.item == "reference" || row.item == "absolute_reference"; }
+bool isReference(const SafetyRow& row) {
+    return row.item == "reference" || row.item == "absolute_reference" || row.item == "time_reference";
+}
 
 void decide(const LoadSafetyInput& input, LoadSafety& out) {
     bool areaSaid = false;
@@ -179,7 +181,8 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     } else {
         out.rows.push_back(missing("", "reference", "known-reference check", "the known-reference check was not made"));
     }
-    if (input.absolute) out.rows.push_back(*input.absolute);
+    for (const auto& also : {input.time, input.absolute})
+        if (also) out.rows.push_back(*also);
     for (auto& row : openCircuitRows(input)) out.rows.push_back(std::move(row));
     for (auto& row : tripRows(input)) out.rows.push_back(std::move(row));
     if (input.limits.empty()) {

@@ -112,6 +112,7 @@ struct LoadSafetyTolerances {
     double resistor_pct = 1;   ///< how far a resistor may lie from its nominal value, where no DMM read it; half-width
     double amplitude_pct = 2;  ///< delivered above commanded; the laboratory's figure (science.md section 9)
     double timing_pct = 1;     ///< phase wider, or interval shorter, than commanded
+    double clock_pct = 0.5;    ///< interval of the reference's trains against the computer's clock (choice)
     double imbalance_pct = 1;  ///< net charge of phase charge (hazard H5)
     double imbalanceUncertainty_pct = 0.5;  ///< above it the net charge is not evaluated (hazard H5)
     double area_pct = 5;                    ///< of the electrode's area, 95 %; a choice, where nobody measured it
@@ -129,6 +130,7 @@ struct LoadSafetyInput {
     LoadSafetyTolerances tolerances;
     std::optional<SafetyRow> reference;  ///< the known-reference check
     std::optional<SafetyRow> absolute;   ///< a voltage of known size, where one was read
+    std::optional<SafetyRow> time;       ///< judgeTimeReference(), where a reference was read
     std::vector<LoadRecord> loads;
     std::vector<TripTrial> trips;
     /// The strongest train that went into an open circuit, and the command that it was; not measured otherwise.
@@ -180,6 +182,9 @@ struct LoadSafety {
 
 /// The known-reference check: a load whose value is known, measured first. Passes within tolerances.load_pct.
 [[nodiscard]] SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input);
+/// The interval of its trains, which the computer's clock hands out: what an oscilloscope whose time base is wrong by
+/// more than it states reads wrong, and with it every width and charge.
+[[nodiscard]] SafetyRow judgeTimeReference(const LoadRecord& record, const LoadSafetyInput& input);
 
 /// A value against an upper limit with its guard band. NaN in value or U is not evaluated: a value without U proves
 /// nothing, on whichever side of the limit.

@@ -362,6 +362,16 @@ SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input)
     return rows.front();
 }
 
+SafetyRow judgeTimeReference(const LoadRecord& record, const LoadSafetyInput& input) {
+    Reading error;
+    if (!record.steps.empty()) error = rateError(record.steps.front());
+    error.value = std::abs(error.value);
+    std::vector<SafetyRow> rows;
+    addUpper(rows, record, rowOf(record, "time_reference", "time reference: error of the interval", error, "%"),
+             input.tolerances.clock_pct, false, "laboratory", "the computer's clock, which hands out the trains");
+    return rows.front();
+}
+
 std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input) {
     std::vector<SafetyRow> rows;
     if (!record.notApplicable.empty()) {

@@ -72,7 +72,7 @@ function measureAll(trials, encoding) {
   const rows = [];
   for (const place of progress(trials, encoding.name)) {
     bench.present(place, { source: "direct" });
-    const measured = measure.train(bench.capture({ trains: 2 }));
+    const measured = measure.train(bench.capture({ trains: 2, intervals: true }));
     record.trial(place.name, Object.assign({ encoding: encoding.name }, measured));
     rows.push(Object.assign({ condition: place.name }, measured));
   }

@@ -59,7 +59,7 @@ function lanesOf(p, found) {
 }
 
 function conditionRow(condition) {
-  const percent = (x) => report.quantity(Number((100 * x).toPrecision(2)), "%");
+  const percent = (x) => report.rounded(100 * x, "%", 2);
   const bounded = (x, most) => (x === null ? "–" : percent(x) + ", at most " + (most === null ? "unknown" : percent(most)));
   return {
     condition: condition.name,
@@ -108,7 +108,7 @@ function run(p) {
   for (const condition of progress(trials, "Trials")) {
     const state = bench.present(condition, { source: p.source });
     if (!state.settled) unsettled += 1;
-    const captures = bench.capture({ trains: 2, rate_hz: RATES[p.rate] });
+    const captures = bench.capture({ trains: 2, rate_hz: RATES[p.rate], intervals: true });
     record.trial(condition.name, measure.train(captures));
   }
   const found = analysis.separability(record.trials(), {

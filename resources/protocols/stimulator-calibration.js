@@ -59,6 +59,7 @@ protocol({
 });
 
 const RATES = { "500k": 500e3, "1M": 1e6, "2M": 2e6, "5M": 5e6, "10M": 10e6 };
+const CLOCK_PCT = 0.5; // how far intervals may be from the computer's clock
 const KEYS = { amplitude: "amplitude", interval: "interval_s", width: "width_s", gap: "gap_s" };
 const TITLES = { amplitude: "Amplitude", interval: "Interval", width: "Phase width", gap: "Inter-phase gap" };
 
@@ -95,11 +96,8 @@ function read(p, trains, record) {
 
 // Two records, or both trains in one where the oscilloscope does not state how good the time stamps of records are.
 function readInterval(p, interval_s) {
-  if (p.stamped) return read(p, 2);
-  bench.wait(2 * interval_s); // the record begins with whatever train comes first: it has the new interval by then
-  const seconds = 1.3 * interval_s;
-  const rate_hz = Math.min(RATES[p.rate], Math.max(2e5, 1e6 / seconds));
-  return read(p, 1, { rate_hz: rate_hz, samples: Math.floor(rate_hz * seconds) });
+  if (!p.stamped) bench.wait(2 * interval_s); // a record of both begins with whatever train comes first: it has the new interval by then
+  return read(p, 2, { intervals: true });
 }
 
 // What the levels of a quantity are set with. Width and gap are part of the profile and want a disarmed output.
@@ -264,7 +262,7 @@ function write(quantity, found) {
 
 // A share of the largest command; two digits tell enough.
 function brief(percent) {
-  return plain(percent === null ? null : Number(percent.toPrecision(2)), "%");
+  return report.rounded(percent, "%", 2);
 }
 
 // All quantities side by side; U of gain and offset beside them.
@@ -350,6 +348,16 @@ function checkRanges(p) {
   }
 }
 
+// Trains are handed out by the computer's clock: a time base that reads it wrong reads every time wrong.
+function judgeTimeBase(results) {
+  const found = results.interval;
+  if (found === undefined) return null;
+  const off_pct = 100 * Math.abs(found.gain - 1), u_pct = 100 * (found.gain_expanded_uncertainty === null ? NaN : found.gain_expanded_uncertainty);
+  if (off_pct + u_pct <= CLOCK_PCT) return null;
+  return "the time base is not sure: intervals by the computer's clock are read " + report.quantity(off_pct, "%", u_pct) +
+    " off, at most " + CLOCK_PCT + " % is allowed (choice)";
+}
+
 function worst(verdicts) {
   if (verdicts.includes("fail")) return "fail";
   return verdicts.includes("indeterminate") ? "indeterminate" : "pass";
@@ -398,12 +406,13 @@ function run(p) {
   for (const quantity of quantities) write(quantity, results[quantity]);
   report.figure("Measured waveforms", plot.waveforms());
   report.figure("Exposure against limits", plot.exposure());
-  if (p.store) {
+  const clock = judgeTimeBase(results);
+  if (p.store && clock === null) {
     results.stored = record.calibration(results, { valid_days: p.valid_days, scope_due: p.scope_due });
     record.event("calibration stored", results.stored);
   }
-  results.verdict = worst(quantities.map((quantity) => results[quantity].verdict));
-  results.reasons = [];
+  results.verdict = worst(quantities.map((quantity) => results[quantity].verdict).concat(clock === null ? [] : ["indeterminate"]));
+  results.reasons = clock === null ? [] : [clock + (p.store ? "; nothing was stored" : "")];
   for (const quantity of quantities) {
     for (const reason of results[quantity].reasons) results.reasons.push(quantity + ": " + reason);
   }

@@ -20,6 +20,16 @@ ScriptOutcome ran(const std::string& protocol, const std::string& device, std::m
     return outcome;
 }
 
+/// What a script logs last, or its error.
+std::string logged(const std::string& device, const std::string& body) {
+    RunBench rig(true, device, 1, false, kElectric);
+    auto request = rig.request(withRun(body));
+    std::string last;
+    request.onLog = [&last](const std::string& text) { last = text; };
+    const auto outcome = runProtocol(std::move(request)).value();
+    return outcome.error ? outcome.error->message : last;
+}
+
 TEST(UnknownAccuracy, NoProcedurePasses) {
     RecordProperty("hazard", "H9");
     const std::set<Role> all{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
@@ -53,13 +63,60 @@ TEST(UnknownAccuracy, TheKeysOfTheAddressStateIt) {
     EXPECT_THAT(outcome.results["rests_on"].dump(), HasSubstr("No absolute reference was read"));
 }
 
+/// All that a data sheet gives, but not how good the time stamps of records are: most instruments on a line.
+constexpr const char* kUnstamped =
+    "sim:oscilloscope?accuracy=unknown&gain_pct=0.5&probe_pct=0&shunt_pct=0.1&timebase_ppm=50";
+
 TEST(UnknownAccuracy, WithoutTimeStampsTheIntervalIsMeasuredInOneRecord) {
     RecordProperty("hazard", "H9");
-    const auto outcome =
-        ran("load-safety", "sim:oscilloscope?accuracy=unknown&gain_pct=0.5&probe_pct=0&shunt_pct=0.1&timebase_ppm=50",
-            {{"area", "3"}, {"steps", "2"}});
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
-    EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
+    const std::set<Role> all{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
+    const auto safety = ran("load-safety", kUnstamped, {{"area", "3"}, {"steps", "2"}});
+    const auto conditions = ran("separability", kUnstamped, {{"source", "direct"}, {"repeats", "5"}}, all);
+    const auto interval = ran("stimulator-calibration", kUnstamped, {{"quantities", "interval"}, {"repeats", "5"}});
+    for (const auto* outcome : {&safety, &interval}) {
+        ASSERT_FALSE(outcome->error) << outcome->error->message;
+        EXPECT_EQ(outcome->verdict, ScriptVerdict::Pass) << outcome->results["reasons"].dump(1);
+    }
+    ASSERT_FALSE(conditions.error) << conditions.error->message;
+    EXPECT_LT(conditions.results["floor"]["interval_s"].get<double>(), 1e-3) << "as the time base allows";
+    EXPECT_THAT(conditions.reasons, testing::ElementsAre(HasSubstr("fewer than 73 trials")))
+        << "and nothing else is open";
+    for (const auto& trial : conditions.results["trials"]) {
+        ASSERT_TRUE(trial["interval_u_s"].is_number());
+        EXPECT_LT(trial["interval_u_s"].get<double>(), 1e-4);
+    }
+}
+
+TEST(UnknownAccuracy, OneRecordOfSeveralTrainsIsTakenWhereTheirIntervalsAreWanted) {
+    constexpr const char* kScript = R"(
+  bench.setEncoding({ amplitude_ratio_per_train: 0, amplitude_slew_v_per_s: 0, interval_ratio_per_train: 0 });
+  bench.arm(); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(3);
+  const apart = bench.capture({ trains: 3 });
+  const together = bench.capture({ trains: 3, intervals: true });
+  bench.disarm();
+  log(JSON.stringify([apart.length, together.length, measure.train(together).trains,
+    Math.abs(measure.train(together).interval_s - 0.5) < 1e-3, measure.train(apart).interval_u_s === null,
+    measure.train(together).interval_u_s < 1e-4]));)";
+    EXPECT_EQ(logged(kUnstamped, kScript), "[3,1,3,true,true,true]");
+    EXPECT_EQ(logged("sim:oscilloscope", kScript), "[3,3,3,true,false,true]");
+    EXPECT_THAT(logged("sim:oscilloscope", "bench.capture({ trains: 1, intervals: true });"),
+                HasSubstr("trains is 1, a whole number from 2 to 8 is expected"));
+    EXPECT_THAT(logged("sim:oscilloscope", "bench.capture({ intervals: 1 });"),
+                HasSubstr("intervals is 1, true or false is expected"));
+}
+
+TEST(TimeReference, FindsATimeBaseThatIsWrongByMoreThanItStates) {
+    RecordProperty("hazard", "H9");
+    const std::string lying = "sim:oscilloscope?timebase=1.009";
+    const auto safety = ran("load-safety", lying, {{"area", "3"}, {"steps", "2"}});
+    ASSERT_FALSE(safety.error) << safety.error->message;
+    EXPECT_EQ(safety.verdict, ScriptVerdict::Fail);
+    ASSERT_FALSE(safety.reasons.empty());
+    EXPECT_THAT(safety.reasons.front(), HasSubstr("time reference: error of the interval into 1 kohm is 0.9"));
+    const auto calibration = ran("stimulator-calibration", lying, {{"quantities", "interval"}, {"repeats", "5"}});
+    ASSERT_FALSE(calibration.error) << calibration.error->message;
+    EXPECT_EQ(calibration.verdict, ScriptVerdict::Indeterminate);
+    EXPECT_THAT(calibration.reasons.front(), HasSubstr("by the computer's clock are read 0.90"));
 }
 
 TEST(AbsoluteReference, FindsAGainThatAKnownLoadCannotShow) {
