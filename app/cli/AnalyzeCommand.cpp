@@ -29,7 +29,7 @@ int separability(const std::string& file, bool asJson) {
     return exitForVerdict(nameOf(found->verdict));
 }
 
-/// Nobody stated a tolerance or what the instrument may contribute, so nothing is judged.
+/// Neither a tolerance nor what the instrument may contribute was stated, so nothing is judged.
 int calibration(const std::string& file, bool asJson) {
     const auto readings = readCalibrationReadings(file);
     if (!readings) return couldNotRun(readings.error());

@@ -16,7 +16,7 @@ namespace tacto::cli {
 
 namespace {
 constexpr int kLook_ms = 50;
-constexpr std::size_t kLineMost = 256;
+constexpr std::size_t kMaxLine = 256;
 }  // namespace
 
 bool canAsk() { return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0; }
@@ -32,9 +32,9 @@ Answer askFor(std::string_view word, std::string_view prompt, Seconds within, co
         if (steady_clock::now() >= deadline) return Answer::TooLate;
         pollfd input{STDIN_FILENO, POLLIN, 0};
         if (poll(&input, 1, kLook_ms) <= 0) continue;
-        std::array<char, kLineMost> chunk{};
+        std::array<char, kMaxLine> chunk{};
         const auto got = read(STDIN_FILENO, chunk.data(), chunk.size());
-        if (got <= 0 || line.size() > kLineMost) return interrupts.signalled() ? Answer::Signalled : Answer::Otherwise;
+        if (got <= 0 || line.size() > kMaxLine) return interrupts.signalled() ? Answer::Signalled : Answer::Otherwise;
         line.append(chunk.data(), static_cast<std::size_t>(got));
         if (const auto end = line.find('\n'); end != std::string::npos) {
             if (interrupts.signalled()) break;

@@ -10,7 +10,7 @@
 
 namespace tacto::cli {
 
-/// Whether somebody can be asked: input and messages are a terminal.
+/// Whether the operator can be asked: input and messages are a terminal.
 [[nodiscard]] bool canAsk();
 
 enum class Answer { Confirmed, Otherwise, TooLate, Signalled };

@@ -65,8 +65,8 @@ json toJson(const PulseFinding& finding) {
 /// As wide as the terminal, at most 80 columns.
 int plotColumns() {
     winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kColumnsMost;
-    return std::min<int>(size.ws_col, kColumnsMost);
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMaxColumns;
+    return std::min<int>(size.ws_col, kMaxColumns);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Listened {
     SensorBoardReport report;
 };
 
-/// Listens for `time`, or until somebody presses Ctrl+C. Errors: as SensorBoard::read().
+/// Listens for `time`, or until Ctrl+C is pressed. Errors: as SensorBoard::read().
 [[nodiscard]] Result<Listened> listenTo(SensorBoard& board, Seconds time, const SignalStop& interrupts);
 
 }  // namespace tacto::cli

@@ -20,10 +20,10 @@ struct TextPlot {
 };
 
 inline constexpr int kColumnsLeast = 40;
-inline constexpr int kColumnsMost = 80;
+inline constexpr int kMaxColumns = 80;
 
 /// The drawing, lines ending in '\n', none longer than `columns` (taken as 40 to 80). `rows` of curve, at least 3. The
 /// y axis begins at 0 and ends at the first of 1, 2, 2.5, 4, 5, 8 times a power of ten that holds every value.
-[[nodiscard]] std::string draw(const TextPlot& plot, int columns = kColumnsMost, int rows = 13);
+[[nodiscard]] std::string draw(const TextPlot& plot, int columns = kMaxColumns, int rows = 13);
 
 }  // namespace tacto::cli

@@ -24,7 +24,7 @@ namespace tacto {
 /// known is said to be unknown (hazard H9).
 [[nodiscard]] QString uncertainText(double value, double expanded, const QString& unit);
 
-/// What somebody set, without padding zeros: "1 kΩ", "25", "0.15 N".
+/// A setting, without padding zeros: "1 kΩ", "25", "0.15 N".
 [[nodiscard]] QString settingText(double value, const QString& unit);
 
 /// "99.0 % (94.6 to 99.8 %)" of an estimate of a proportion.

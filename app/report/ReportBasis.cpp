@@ -10,7 +10,7 @@
 namespace tacto {
 namespace {
 
-constexpr qsizetype kNamedAtMost = 8;  // of what was not evaluated; the rest is counted
+constexpr qsizetype kMaxNamedAt = 8;  // of what was not evaluated; the rest is counted
 
 struct Rule {
     const char* kind;
@@ -182,9 +182,9 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
             }
         }
     }
-    if (found.size() > kNamedAtMost) {
-        const auto more = found.size() - kNamedAtMost;
-        found = found.mid(0, kNamedAtMost);
+    if (found.size() > kMaxNamedAt) {
+        const auto more = found.size() - kMaxNamedAt;
+        found = found.mid(0, kMaxNamedAt);
         found << QString("and %1 more, which stand among the results").arg(more);
     }
     basis.notEvaluated = found;

@@ -17,7 +17,7 @@
 
 namespace tacto {
 
-/// All that somebody asks for, checked.
+/// What the operator asks for, checked.
 struct RunOrder {
     ProtocolSource script;
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before

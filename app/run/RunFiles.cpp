@@ -66,14 +66,14 @@ Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& prot
 
 Result<RunSession> makeRunSession(const std::string& out, const std::string& protocol, const SessionAbout& about,
                                   const Clock& clock) {
-    constexpr int kMostTries = 100;
+    constexpr int kMaxTries = 100;
     for (int i = 1;; ++i) {
         auto files = prepareRunFiles(out, protocol);
         if (!files) return failure(files);
         auto writer = SessionWriter::create(files->session, about, clock);
         if (writer) return RunSession{std::move(*files), std::move(*writer)};
         const bool taken = writer.error().code == ErrorCode::InvalidArgument && fs::exists(files->session);
-        if (!taken || i == kMostTries) return failure(writer);
+        if (!taken || i == kMaxTries) return failure(writer);
     }
 }
 

@@ -52,8 +52,8 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     settings.voltageRange = Volts(range_V);
     settings.triggerLevel = 0.98 * range_V;  // nothing reaches it
     if (auto asked = bench.requestCaptures(1, settings, Seconds(0.2)); !asked) return failure(asked);
-    constexpr double kPatience_s = 10, kLook_s = 0.05;
-    for (double waited = 0; waited < kPatience_s; waited += kLook_s) {
+    constexpr double kTimeout_s = 10, kLook_s = 0.05;
+    for (double waited = 0; waited < kTimeout_s; waited += kLook_s) {
         if (auto passed = bench.wait(Seconds(kLook_s)); !passed) return failure(passed);
         auto captures = bench.takeCaptures();
         if (!captures) return failure(captures);
@@ -72,7 +72,7 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
         return level;
     }
     bench.cancelCaptures();
-    return fail(ErrorCode::Timeout, "bench.readReference: the oscilloscope gave no record in {} s", kPatience_s);
+    return fail(ErrorCode::Timeout, "bench.readReference: the oscilloscope gave no record in {} s", kTimeout_s);
 }
 
 /// The difference of both levels; an offset cancels in it.

@@ -16,8 +16,8 @@ namespace tacto {
 namespace {
 
 /// For what only declares something.
-constexpr std::size_t kMostMemory = std::size_t{512} << 20;
-constexpr std::size_t kMostAnswer = 4'000'000;  // bytes
+constexpr std::size_t kMaxMemory = std::size_t{512} << 20;
+constexpr std::size_t kMaxAnswer = 4'000'000;  // bytes
 
 /// Takes protocol() and refuses everything else: a declaration has no bench.
 class DeclarationPort final : public HostPort {
@@ -89,16 +89,16 @@ Result<nlohmann::json> declareElsewhere(const ProtocolSource& source, std::chron
     const QDeadlineTimer deadline(limit + kAround);
     std::string answer;
     bool more = true;
-    while (more && answer.size() <= kMostAnswer) {
+    while (more && answer.size() <= kMaxAnswer) {
         more = reader.waitForReadyRead(static_cast<int>(deadline.remainingTime()));
         answer += reader.readAllStandardOutput().toStdString();
     }
-    if (answer.size() > kMostAnswer) {
+    if (answer.size() > kMaxAnswer) {
         reader.kill();
         reader.waitForFinished();
         return fail(ErrorCode::ParseError,
                     "{}:1: the lines outside run(p) declare more than the {} bytes that are accepted", fileOf(source),
-                    kMostAnswer);
+                    kMaxAnswer);
     }
     if (reader.state() != QProcess::NotRunning && !reader.waitForFinished(static_cast<int>(deadline.remainingTime()))) {
         reader.kill();
@@ -122,7 +122,7 @@ nlohmann::json answerOf(const Result<nlohmann::json>& declared) {
 }
 
 Result<nlohmann::json> readAnswer(std::string_view answer, std::string_view from) {
-    auto read = parseJson(answer, from, {.bytes = kMostAnswer, .depth = 64});
+    auto read = parseJson(answer, from, {.bytes = kMaxAnswer, .depth = 64});
     if (!read) return failure(read);
     if (!read->is_object()) *read = nlohmann::json::object();
     if (read->contains("declared") && (*read)["declared"].is_array() && (*read)["declared"].size() == 3)
@@ -160,14 +160,14 @@ Result<nlohmann::json> declareHere(const ProtocolSource& source, std::chrono::mi
                 tooLarge = true;
                 thread.interrupt();
             },
-            kMostMemory);
+            kMaxMemory);
         end = thread.wait(limit);
     }
     if (tooLarge) {
         if (end == ScriptThread::End::Running) end = thread.wait();
         const bool abandoned = end == ScriptThread::End::Abandoned;
         return fail(ErrorCode::Timeout, "{}:1: the lines outside run(p) took more than {} MiB of memory{}", file,
-                    kMostMemory >> 20, abandoned ? ", and did not end when told to" : "");
+                    kMaxMemory >> 20, abandoned ? ", and did not end when told to" : "");
     }
     if (end == ScriptThread::End::Running) {
         thread.interrupt();

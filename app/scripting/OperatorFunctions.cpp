@@ -17,10 +17,10 @@ Result<OperatorQuestion> questionFrom(const Arguments& arguments, OperatorQuesti
     if (!name) return failure(name);
     auto text = arguments.text(1, "text");
     if (!text) return failure(text);
-    constexpr std::size_t kMostText = 2000;  // more than one reads, and than a window draws at once
-    if (text->size() > kMostText) {
+    constexpr std::size_t kMaxText = 2000;  // more than one reads, and than a window draws at once
+    if (text->size() > kMaxText) {
         return fail(ErrorCode::InvalidArgument, "the question \"{}\" has {} characters; at most {} are accepted", *name,
-                    text->size(), kMostText);
+                    text->size(), kMaxText);
     }
     OperatorQuestion question;
     question.kind = kind;

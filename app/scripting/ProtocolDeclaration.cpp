@@ -33,8 +33,8 @@ Result<void> onlyKeys(const Json& object, std::string_view where, const std::vec
 }
 
 // More than one reads, and than a report or a window shows well.
-constexpr std::size_t kMostTitle = 200;
-constexpr std::size_t kMostText = 2000;
+constexpr std::size_t kMaxTitle = 200;
+constexpr std::size_t kMaxText = 2000;
 
 Result<void> noLonger(std::string_view where, std::string_view what, const std::string& text, std::size_t most) {
     if (text.size() <= most) return {};
@@ -43,7 +43,7 @@ Result<void> noLonger(std::string_view where, std::string_view what, const std::
 }
 
 Result<std::string> textOf(const Json& object, std::string_view where, const char* key, bool required,
-                           std::size_t most = kMostText) {
+                           std::size_t most = kMaxText) {
     const auto at = object.find(key);
     if (at == object.end() && !required) return std::string();
     if (at == object.end() || !at->is_string() || (required && at->get_ref<const std::string&>().empty())) {
@@ -162,7 +162,7 @@ Result<void> readChoices(const Json& given, const Json& order, ProtocolParameter
     }
     for (const auto& [key, text] : out.choices) {
         for (const auto& one : {key, text}) {
-            if (const auto fits = noLonger("parameter " + out.name, "a choice", one, kMostText); !fits)
+            if (const auto fits = noLonger("parameter " + out.name, "a choice", one, kMaxText); !fits)
                 return failure(fits);
         }
     }
@@ -183,7 +183,7 @@ bool isName(std::string_view name) {
 }
 
 Result<ProtocolParameter> readParameter(const std::string& name, const Json& given, const Json& choiceOrder) {
-    if (const auto fits = noLonger("parameters", "a name", name, kMostTitle); !fits) return failure(fits);
+    if (const auto fits = noLonger("parameters", "a name", name, kMaxTitle); !fits) return failure(fits);
     const std::string where = "parameter " + name;
     if (!isName(name)) {
         return fail(ErrorCode::InvalidArgument, "{}: a name has letters, digits and _ only, a letter first", where);
@@ -217,7 +217,7 @@ Result<ProtocolParameter> readParameter(const std::string& name, const Json& giv
     const auto value = given.find("value");
     if (value == given.end()) return fail(ErrorCode::InvalidArgument, "{} has no value, its default", where);
     if (value->is_string()) {
-        const auto fits = noLonger(where, "value", value->get_ref<const std::string&>(), kMostText);
+        const auto fits = noLonger(where, "value", value->get_ref<const std::string&>(), kMaxText);
         if (!fits) return failure(fits);
     }
     auto usual = accepted(out, *value);
@@ -302,7 +302,7 @@ Result<ProtocolDeclaration> parseDeclaration(const Json& given, const Json& orde
         return failure(known);
     }
     ProtocolDeclaration out;
-    auto title = textOf(given, "protocol()", "title", true, kMostTitle);
+    auto title = textOf(given, "protocol()", "title", true, kMaxTitle);
     if (!title) return failure(title);
     out.title = *title;
     auto purpose = textOf(given, "protocol()", "purpose", false);

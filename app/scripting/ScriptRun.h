@@ -51,7 +51,7 @@ struct RunRequest {
     /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
-    Bench* bench = nullptr;               ///< not owned; used by nobody else until the run is over, stop() apart
+    Bench* bench = nullptr;               ///< not owned; not used elsewhere until the run is over, stop() apart
     StopMark asked = {};                  ///< of the bench's stops(): when the operator asked for the run
     SessionWriter* session = nullptr;     ///< not owned; null records nothing
     Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails with its name

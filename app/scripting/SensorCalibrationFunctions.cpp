@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 class Listening {
 public:
     explicit Listening(Bench& bench) : bench_(bench), tap_(std::make_unique<BenchTap>()) { bench_.listen(tap_.get()); }
-    /// The finger drives nothing afterwards that nobody asked it to.
+    /// The finger drives nothing afterwards that it was not asked to.
     ~Listening() {
         bench_.listen(nullptr);
         static_cast<void>(bench_.drive(DriveSource::Off));

@@ -55,8 +55,8 @@ Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, cons
                                        const std::string& text) {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
-    constexpr int kMostADay = 1000;
-    for (int i = 1; i < kMostADay; ++i) {
+    constexpr int kMaxADay = 1000;
+    for (int i = 1; i < kMaxADay; ++i) {
         const auto path = folder / (stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".json");
         std::FILE* file = std::fopen(path.c_str(), "wxe");
         if (file == nullptr && errno == EEXIST) continue;
@@ -69,7 +69,7 @@ Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, cons
         std::filesystem::remove(path, problem);
         return fail(ErrorCode::Io, "{} cannot be written to its end; room on the disk is expected", path.string());
     }
-    return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMostADay);
+    return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMaxADay);
 }
 
 Result<Json> keepProfile(ScriptSession& session, const Json& list) {

@@ -252,9 +252,9 @@ Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,
         return fail(ErrorCode::InvalidArgument, "calibration: resolution {}; 0 or more was expected",
                     options.resolution);
     }
-    if (readings.size() > kMostReadings) {
+    if (readings.size() > kMaxReadings) {
         return fail(ErrorCode::InvalidArgument, "calibration: {} readings; at most {} are expected", readings.size(),
-                    kMostReadings);
+                    kMaxReadings);
     }
     if (auto sane = check(readings); !sane) return failure(sane);
     Calibration found;

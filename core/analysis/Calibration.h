@@ -84,9 +84,9 @@ struct CalibrationOptions {
 };
 
 /// Repeats are compared pair by pair.
-inline constexpr std::size_t kMostReadings = 5000;
+inline constexpr std::size_t kMaxReadings = 5000;
 
-/// Errors: InvalidArgument for more than kMostReadings, a command or reading that is not finite (NaN readings apart), a
+/// Errors: InvalidArgument for more than kMaxReadings, a command or reading that is not finite (NaN readings apart), a
 /// negative uncertainty, fewer than two levels with a measured reading, commands that are all 0, or options that are
 /// not 0 or more.
 [[nodiscard]] Result<Calibration> fitCalibration(std::span<const CalibrationReading> readings,

@@ -32,7 +32,7 @@ struct InstrumentErrors {
     /// A clock that runs freely shows it in the scatter of the readings already; it is a row of its own only where s
     /// is under half of step/√6, which means that every reading met the same sampling phase.
     double samplingStep = 0;
-    std::string unit{};  ///< of the readings, for sentences; empty where nobody says it
+    std::string unit{};  ///< of the readings, for sentences; empty where it is not known
 };
 
 struct JudgedLevel {

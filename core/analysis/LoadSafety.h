@@ -115,7 +115,7 @@ struct LoadSafetyTolerances {
     double clock_pct = 0.5;    ///< interval of the reference's trains against the computer's clock (choice)
     double imbalance_pct = 1;  ///< net charge of phase charge (hazard H5)
     double imbalanceUncertainty_pct = 0.5;  ///< above it the net charge is not evaluated (hazard H5)
-    double area_pct = 5;                    ///< of the electrode's area, 95 %; a choice, where nobody measured it
+    double area_pct = 5;                    ///< of the electrode's area, 95 %; a choice, where it was not measured
 };
 
 struct LoadSafetyInput {

@@ -81,7 +81,7 @@ std::vector<double> roughnesses(const SlidSurface& surface, const RoughnessSetti
 }
 
 ReferenceSurface certificate(const SlidSurface& surface) {
-    // A profile writes 0 for an Rz that nobody stated.
+    // A profile writes 0 for an Rz that was not stated.
     return {surface.name, Micrometres(surface.ra_um), Micrometres(surface.rz_um > 0 ? surface.rz_um : 0)};
 }
 

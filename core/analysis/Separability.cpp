@@ -15,7 +15,7 @@ namespace {
 constexpr double kJndNeeded = 5;
 constexpr double kLargestVariation = 0.05;
 constexpr double kAccuracyNeeded = 0.95;
-constexpr std::size_t kMostFolds = 10;
+constexpr std::size_t kMaxFolds = 10;
 constexpr double kUnstatedUncertainty = 0.001;  // of the pooled mean
 constexpr std::array<std::string_view, 4> kPaperConditions{"smooth-low", "smooth-high", "rough-low", "rough-high"};
 
@@ -171,7 +171,7 @@ void comparePairs(const LinearDiscriminant& discriminant, std::span<const Separa
 void crossValidate(const Points& points, const Eigen::Vector2d& floor, Separability& result) {
     const std::size_t classes = result.conditions.size();
     result.confusion.assign(classes, std::vector<std::size_t>(classes, 0));
-    std::size_t smallest = kMostFolds;
+    std::size_t smallest = kMaxFolds;
     for (const auto& condition : result.conditions) smallest = std::min(smallest, condition.n);
     if (smallest < 2) {
         result.accuracy = wilsonInterval(0, 0);

@@ -114,7 +114,7 @@ struct Variation {
     Estimate discomfort_ma;
     Estimate intolerance_ma;
 
-    /// The first 1000, for whoever computes it again.
+    /// The first 1000, so that it can be computed again.
     std::vector<ParticipantPrediction> people;
 };
 

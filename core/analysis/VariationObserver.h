@@ -20,7 +20,7 @@
 
 namespace tacto {
 
-/// What somebody says who felt nothing.
+/// The answer of a participant who felt nothing.
 enum class GuessBehaviour {
     None,     ///< "none": a column of its own, counted as wrong
     Uniform,  ///< any of the names, as in a forced choice

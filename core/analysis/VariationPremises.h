@@ -14,7 +14,7 @@ namespace tacto {
 enum class PremiseMark {
     Source,  ///< the value is the source's
     Choice,  ///< no source was found, or several would do: replace it with the laboratory's own
-    Set,     ///< other than shipped: whoever ran it answers for it
+    Set,     ///< other than shipped: the operator answers for it
 };
 [[nodiscard]] std::string_view nameOf(PremiseMark mark) noexcept;  // "source", "choice", "set"
 

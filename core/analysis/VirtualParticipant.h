@@ -26,7 +26,7 @@ namespace tacto {
 /// Log-normal. `median` in the unit its name says.
 struct LogNormal {
     double median = 1;  ///< > 0
-    double spread = 1;  ///< geometric standard deviation, 1 (nobody differs) to 10
+    double spread = 1;  ///< geometric standard deviation, 1 (all alike) to 10
 
     /// `z`: a draw from the standard normal distribution.
     [[nodiscard]] double at(double z) const noexcept;
@@ -77,9 +77,9 @@ struct VirtualParticipant {
     double noise_jnd = 1;
 };
 
-/// Participant `index` of the population that `seed` makes: the same whoever is drawn before or beside it. `model` has
-/// passed validate(); `width` > 0 is the phase width of the pulses they will get, `area` > 0 that of each electrode
-/// (nothing: `skinArea`). Thresholds do not depend on the area.
+/// Participant `index` of the population that `seed` makes: the same whichever others are drawn before it or beside it.
+/// `model` has passed validate(); `width` > 0 is the phase width of the pulses they will get, `area` > 0 that of each
+/// electrode (nothing: `skinArea`). Thresholds do not depend on the area.
 [[nodiscard]] VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t seed, std::size_t index,
                                                  Micros width, std::optional<SquareCentimetres> area = {});
 

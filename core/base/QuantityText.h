@@ -21,7 +21,7 @@ namespace tacto {
 /// "2.26 mA", "10.0 kΩ", "12.3 %" with `digits` significant digits; whole numbers without a prefix stay whole.
 [[nodiscard]] std::string scaledText(double value, std::string_view unit, int digits = 4);
 
-/// What somebody set or allows, without padding zeros: "10 mA", "100 µs", "0.25 W/cm²".
+/// A setting or a limit, without padding zeros: "10 mA", "100 µs", "0.25 W/cm²".
 [[nodiscard]] std::string exactText(double value, std::string_view unit);
 
 /// "40.12 ± 0.46 V", "0.0 ± 0.6 %". An `expanded` of 0 means that the value is exact, as a command is; one that is not

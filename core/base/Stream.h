@@ -27,7 +27,7 @@ struct StreamInfo {
     std::string name;      ///< for people: "fingertip accelerometer"
 };
 
-/// Consecutive samples of one stream. Buffers are reused by whoever reads in a loop, so that a steady state
+/// Consecutive samples of one stream. A caller that reads in a loop reuses its buffers, so that a steady state
 /// does not allocate: clear() keeps capacity.
 struct SampleBlock {
     std::vector<double> t_s;     ///< time stamps, seconds on the session's time base, one per sample
@@ -47,7 +47,7 @@ struct TimeInterval {
     [[nodiscard]] bool contains(double t_s) const noexcept { return t_s >= begin_s && t_s <= end_s; }
 };
 
-/// What whoever made the data states about it, on the same time base as its stamps.
+/// What the maker of the data states about it, on the same time base as its stamps.
 struct DeclaredIntervals {
     std::optional<TimeInterval> baseline;              ///< at rest, nothing touched
     std::optional<std::vector<TimeInterval>> contact;  ///< in time order; absent = not stated

@@ -148,7 +148,7 @@ public:
     /// failed; LimitExceeded when a manually driven train was refused (driven by a sensor it is skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
     /// Lets time pass as wait() does, but also after a stop or a fault: a display goes on when output does not. Never
-    /// fails. For a bench on the virtual clock that nobody else moves.
+    /// fails. For a bench whose virtual clock has no other mover.
     void idle(Seconds duration) noexcept;
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
     /// oscilloscope; Timeout when fewer came; as wait().

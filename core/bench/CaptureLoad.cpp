@@ -25,7 +25,7 @@ std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, 
 }
 
 /// As IEC 60601-2-10 asks of an amplitude.
-constexpr double kMostOff = 0.20;
+constexpr double kMaxOff = 0.20;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ Result<Ohms> loadConfirmedBy(const Capture& capture, const PulseTrain& commanded
     }
     const double off = std::abs(shown.amplitude.mean - wanted);
     const double uncertainty = std::isfinite(shown.uncertainty.amplitude) ? kCoverage * shown.uncertainty.amplitude : 0;
-    if (!(off <= kMostOff * wanted + uncertainty)) {
+    if (!(off <= kMaxOff * wanted + uncertainty)) {
         return fail(ErrorCode::NotArmed,
                     "the check pulse is not confirmed: {:.3g} {} was commanded and the oscilloscope shows {:.3g} {}",
                     wanted, shown.unit, shown.amplitude.mean, shown.unit);

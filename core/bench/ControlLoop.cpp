@@ -170,7 +170,7 @@ void ControlLoop::takeCommands(Instant now) noexcept {
     Inbox taken;
     {
         const std::unique_lock lock(inboxMutex_, std::try_to_lock);
-        if (!lock) return;  // next step: the loop waits for nobody
+        if (!lock) return;  // next step: the loop never waits
         taken = std::exchange(inbox_, {});
         inboxFull_.store(false, std::memory_order_release);
     }
@@ -327,7 +327,7 @@ void ControlLoop::readFinger(Instant now) noexcept {
     shown_.flags.include(finger_->flags());
 }
 
-/// A sensor that is gone ends the output, whatever drives it: somebody pulled a plug at the finger.
+/// A sensor that is gone ends the output, whatever drives it: a plug was pulled at the finger.
 void ControlLoop::watchSensor(Instant now) noexcept {
     if (!finger_) return;
     const auto& session = finger_->session();

@@ -69,7 +69,7 @@ public:
         SessionRecorder* recorder;      ///< may be null
         int frameStream;                ///< of the recorder, for roughness frames
         std::vector<int> sensorStreams;
-        BenchTap* tap = nullptr;                        ///< may be null: nobody looks
+        BenchTap* tap = nullptr;                        ///< may be null: no view is open
         MassagerSession* massager = nullptr;            ///< in place of a stimulator, else null
         const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
         /// A stop after the order to arm holds back every check pulse and train of it. Null: only the interlock does.

@@ -12,7 +12,7 @@ namespace {
 
 /// IEC 60601-2-10 asks for an amplitude within 20 %; more than that beside the command, and the limits were judged on
 /// a train that is not the one delivered, or the device does not do what it is told.
-constexpr double kMostDeviation = 0.20;
+constexpr double kMaxDeviation = 0.20;
 
 ElectrodeReading readingOf(ElectrodeState state) noexcept {
     switch (state) {
@@ -139,7 +139,7 @@ bool ControlLoop::judgeAmplitude(const SeenAmplitude& seen, Instant now) noexcep
     const double off = seen.amplitude - seen.expected;
     const auto& stated = parts_.stimulator->device().traits().accuracy.amplitude;
     const double uncertainty = seen.uncertainty + (stated ? stated->absolute : 0);
-    if (std::abs(off) <= kMostDeviation * seen.expected + uncertainty) return false;
+    if (std::abs(off) <= kMaxDeviation * seen.expected + uncertainty) return false;
     if (seen.onset < armedAt_ || parts_.interlock.state() == InterlockState::Faulted) return false;
     const auto* unit = parts_.stimulator->device().traits().drive == Drive::Current ? "mA" : "V";
     trip(off < 0 ? FaultCause::DeviceFault : FaultCause::LimitBroken,

@@ -1,5 +1,5 @@
 // ScopeSession.h - the only caller of an oscilloscope: arms it, and keeps the captures its triggers make
-// until somebody takes them.
+// until they are taken.
 //
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); the rest
 // any thread. Captures are large: no more than kMaxCaptures may be asked for at once.
@@ -25,7 +25,7 @@ public:
         : device_(device), forced_(dynamic_cast<ForcedTrigger*>(&device)), seen_(std::move(seen)) {}
 
     /// Asks for `wanted` captures triggered from `now` on, with these settings; throws away older ones. The device
-    /// is disarmed with the last of them, so that none is taken that nobody asked for.
+    /// is disarmed with the last of them, so that none is taken that was not asked for.
     /// With `untriggeredAfter`, a record is taken without a trigger when none has come for that long since the request
     /// or the capture before; only where canForce().
     void request(const ScopeSettings& settings, Instant now, std::size_t wanted,

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
-constexpr Instant kLookEvery = std::chrono::milliseconds(100);  // whether somebody asks for a device that failed
+constexpr Instant kLookEvery = std::chrono::milliseconds(100);  // whether a device that failed was asked for
 constexpr double kRingSeconds = 1;
 }  // namespace
 

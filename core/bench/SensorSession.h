@@ -1,7 +1,7 @@
 // SensorSession.h - the only caller of a fingertip: reads it and hands its samples to the control loop
 // through one ring per stream (overflow drops the oldest and counts).
 //
-// A device that failed is left alone until somebody asks how it is: then it is looked for again, by identity.
+// A device that failed is not read again until askHealth(), which looks for it by identity.
 //
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); collect()
 // has one caller, the control loop; the rest any thread.

@@ -17,14 +17,14 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
 namespace {
 
 /// What the stimulator is told stays this near to the command, whatever a calibration says.
-constexpr double kMostCorrection = 0.2;
+constexpr double kMaxCorrection = 0.2;
 
 double levelOf(const PulseTrain& train) noexcept {
     return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
 }
 
 Result<void> staysNear(std::string_view what, double told, double command) {
-    if (std::abs(told - command) <= kMostCorrection * command) return {};
+    if (std::abs(told - command) <= kMaxCorrection * command) return {};
     return fail(ErrorCode::LimitExceeded,
                 "the calibration would have the stimulator told {:.4g} for {} {:.4g}; at most 20 % beside it is "
                 "accepted: the stimulator is out of order, or the calibration is not its own",

@@ -28,7 +28,7 @@ struct DeviceReport {
     }
     [[nodiscard]] std::span<const ReportRow> rows() const noexcept { return {all.data(), count}; }
 
-    std::uint64_t losses = 0;  ///< things lost or spoilt so far: when it has grown, somebody should know
+    std::uint64_t losses = 0;  ///< things lost or spoilt so far: when it has grown, the operator should know
     std::array<ReportRow, kMost> all{};
     std::size_t count = 0;
 };

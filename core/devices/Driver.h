@@ -19,7 +19,7 @@
 
 namespace tacto {
 
-/// Connected until somebody says otherwise.
+/// Connected until the operator says otherwise.
 inline constexpr const char* kDefaultLoad = "1 kohm";
 
 /// What drivers may know of the run they open devices for.

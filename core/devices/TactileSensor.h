@@ -21,7 +21,7 @@ public:
     /// Errors: Device when unplugged or the data are garbage.
     [[nodiscard]] virtual Result<void> read(std::span<SampleBlock> blocks) = 0;
 
-    /// What whoever made the data states about rest and contact, on the session's time base; a live finger states
+    /// What the maker of the data states about rest and contact, on the session's time base; a live finger states
     /// nothing.
     [[nodiscard]] virtual DeclaredIntervals declared() const { return {}; }
 

@@ -16,7 +16,7 @@ namespace tacto {
 
 class Transport {
 public:
-    static constexpr std::size_t kUrgentMost = 64;  ///< bytes of one writeUrgent()
+    static constexpr std::size_t kMaxUrgent = 64;  ///< bytes of one writeUrgent()
 
     virtual ~Transport() = default;
 
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] virtual Result<std::size_t> read(std::span<std::uint8_t> into, Seconds timeout) = 0;
     [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
 
-    /// Queues `bytes` (at most kUrgentMost) for sending at once, behind a transfer that is already under way and
+    /// Queues `bytes` (at most kMaxUrgent) for sending at once, behind a transfer that is already under way and
     /// ahead of any later one. Returns without waiting; never throws, never allocates. For the stop.
     virtual void writeUrgent(std::span<const std::uint8_t> bytes) noexcept = 0;
 };

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 constexpr double kAccelerationKept_s = 2.5;  // more than any frame waits
-constexpr std::size_t kMostWaiting = 512;
+constexpr std::size_t kMaxWaiting = 512;
 // Below this rate the upper edge would come too near to half the rate.
 constexpr double kFullBandRate_hz = 2 * AccelerationTrack::kHigh_hz / 0.9;
 
@@ -27,7 +27,7 @@ AccelerationTrack::AccelerationTrack(const StreamInfo& info)
       filter_(kLow_hz, upperEdge_, rate_, axes_),
       grid_(info.rate_hz),
       stamps_(std::max(rounded(kAccelerationKept_s * info.rate_hz) + 2 * length_, softLimit_) + kChunk),
-      windows_(kMostWaiting) {
+      windows_(kMaxWaiting) {
     for (std::size_t a = 0; a < axes_; ++a) filtered_[a].resize(stamps_.size());
     clear();
 }

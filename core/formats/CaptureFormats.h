@@ -12,7 +12,7 @@ namespace tacto {
 
 class CaptureFormats {
 public:
-    /// Behind those already there: whoever recognises more narrowly comes first.
+    /// Behind those already there: the format that recognises more narrowly comes first.
     void add(std::unique_ptr<CaptureFormat> format);
 
     [[nodiscard]] const std::vector<std::unique_ptr<CaptureFormat>>& all() const noexcept { return formats_; }
@@ -23,7 +23,7 @@ public:
     [[nodiscard]] bool knowsSuffix(const std::filesystem::path& path) const;
 
     /// The format that options name, else the first that recognises the file.
-    /// Errors: NotFound, Io; InvalidArgument for an unknown id; ParseError when nobody recognises it. Both list what
+    /// Errors: NotFound, Io; InvalidArgument for an unknown id; ParseError when no format recognises it. Both list what
     /// is known.
     [[nodiscard]] Result<const CaptureFormat*> formatOf(const std::filesystem::path& path,
                                                         const ReadOptions& options) const;
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options = {},
                                               const ReadWatch& watch = {}) const;
 
-    /// The format that writes files of this suffix. Errors: InvalidArgument listing the suffixes that somebody writes.
+    /// The format that writes files of this suffix. Errors: InvalidArgument listing the suffixes that are written.
     [[nodiscard]] Result<const CaptureFormat*> writerOf(const std::filesystem::path& path) const;
 
     /// Writes in the format of the suffix: the whole file or none of it.

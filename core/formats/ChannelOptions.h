@@ -21,7 +21,7 @@ struct ChannelPlan {
     std::size_t number = 0;   ///< by which options name it: of the column or the channel, from 1
     std::string unit;         ///< "V", "A" or ""
     double factor = 1;        ///< the file's numbers times this are in `unit`
-    std::string unknownUnit;  ///< what the file says and nobody understands; empty once an option says better
+    std::string unknownUnit;  ///< what the file says and is not understood; empty once an option says better
     double low = 0;           ///< the input range by the options, in `unit`; equal = as the file says
     double high = 0;
 };

@@ -12,7 +12,7 @@ struct CsvColumn {
     std::string name;  ///< without its unit
     std::string unit;  ///< "s", "V", "A" or ""
     double factor = 1;
-    std::string unknownUnit;  ///< a bracketed unit that nobody understands
+    std::string unknownUnit;  ///< a bracketed unit that is not understood
 };
 
 [[nodiscard]] CsvColumn columnNamed(std::string_view text);

@@ -149,7 +149,7 @@ std::string wavHeaderOf(const Capture& capture, std::uint32_t rate_hz) {
     append(rest, 3, 2);  // float
     append(rest, channels, 2);
     append(rest, rate_hz, 4);
-    append(rest, rate_hz * channels * kSampleBytes, 4);  // wraps for rates that no sound card has; nobody needs it
+    append(rest, rate_hz * channels * kSampleBytes, 4);  // wraps for rates that no sound card has; not needed
     append(rest, channels * kSampleBytes, 2);
     append(rest, 8 * kSampleBytes, 2);
     rest += "LIST";

@@ -19,7 +19,7 @@ constexpr double kTailsApart = 2.073;    // of a Gaussian, in standard deviation
 constexpr double kMedianSpread = 1.25;   // of a median, in σ/√n
 constexpr double kMovesFor = 6;          // standard deviations of a median, to be a wandering baseline
 constexpr double kRests = 1.4;           // times the noise: no more is left about a baseline that fits
-constexpr double kMostBend = 0.2;        // of the span
+constexpr double kMaxBend = 0.2;         // of the span
 constexpr double kAsGood = 1.05;         // as the best of all
 
 double quantile(std::vector<double>& values, double share) {
@@ -61,7 +61,7 @@ bool bendsLittle(const BaselineDrift& drift, double still) {
     for (std::size_t b = 2; b < drift.medians.size(); ++b) {
         bends.push_back(std::abs(drift.medians[b] - 2 * drift.medians[b - 1] + drift.medians[b - 2]));
     }
-    return quantile(bends, 0.9) <= kMostBend * drift.span + still;
+    return quantile(bends, 0.9) <= kMaxBend * drift.span + still;
 }
 
 /// Spread of the middle seven tenths of the samples about the baseline, as a standard deviation.

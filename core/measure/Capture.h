@@ -22,7 +22,7 @@ struct CaptureChannel {
     double offsetTolerance = kNaN;  ///< in the channel's unit
     double linearityTolerance = 0;  ///< in the channel's unit, of a difference of two levels, beside the gain
     double probeTolerance = kNaN;   ///< relative, of the probe or shunt before the input; 0: there is none
-    std::string statedBy{};         ///< who states the tolerances: "the data sheet of ..."; empty: nobody
+    std::string statedBy{};         ///< who states the tolerances: "the data sheet of ..."; empty: not stated
 };
 
 struct Capture {

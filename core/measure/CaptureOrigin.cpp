@@ -11,15 +11,15 @@ namespace tacto {
 namespace {
 
 constexpr const char* kFile = "origin.json";
-constexpr std::size_t kMostBytes = 4096;
-constexpr std::size_t kMostHeader = 16'384;
+constexpr std::size_t kMaxBytes = 4096;
+constexpr std::size_t kMaxHeader = 16'384;
 
 std::optional<bool> readOrigin(const std::filesystem::path& folder) {
     std::ifstream stream(folder / kFile, std::ios::binary);
-    std::string text(kMostBytes + 1, '\0');
+    std::string text(kMaxBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    const auto origin = parseJson(text, kFile, {.bytes = kMostBytes, .depth = 1});
+    const auto origin = parseJson(text, kFile, {.bytes = kMaxBytes, .depth = 1});
     if (!origin || !origin->is_object()) return std::nullopt;
     const auto said = origin->find("simulated");
     return said != origin->end() && said->is_boolean() ? std::optional(said->get<bool>()) : std::nullopt;
@@ -39,7 +39,7 @@ Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simula
 
 std::optional<bool> statedSimulated(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    std::string text(kMostHeader, '\0');
+    std::string text(kMaxHeader, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     const auto header = headerIn(text);

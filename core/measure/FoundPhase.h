@@ -25,7 +25,7 @@ struct PhaseSpan {
     [[nodiscard]] double to_s() const noexcept { return view->timeOf(static_cast<double>(end)); }
 };
 
-/// Grows without moving what it holds, and takes no more memory than that: nobody knows how many there will be.
+/// Grows without moving what it holds, and takes no more memory than that: how many there will be is not known.
 using PhaseSpans = std::deque<PhaseSpan>;
 
 struct FoundPhase : PhaseSpan {

@@ -18,8 +18,8 @@ using ProfileJson = nlohmann::json;
 
 constexpr std::array<std::string_view, 4> kSheetConfidences{"high", "medium", "medium-low", "low"};
 constexpr std::array<std::string_view, 2> kGainOf{"reading", "full scale"};
-constexpr double kMostPct = 50;
-constexpr double kMostPpm = 1e5;
+constexpr double kMaxPct = 50;
+constexpr double kMaxPpm = 1e5;
 
 bool sameLetters(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b,
@@ -124,7 +124,7 @@ void readGain(SheetReader& parent, InstrumentProfile& into) {
     reader.only({"pct", "of", "condition", "source", "address", "confidence"});
     std::string of;
     reader.oneOf("of", kGainOf, of);
-    reader.number("pct", kMostPct, 1e-2, into.gain.value);
+    reader.number("pct", kMaxPct, 1e-2, into.gain.value);
     readSheetSource(reader, into.gain);
     into.gainOfFullScale = of == "full scale";
     parent.take(reader.fault());
@@ -135,8 +135,8 @@ void readTimeBase(SheetReader& parent, InstrumentProfile& into) {
     if (object == nullptr) return;
     SheetReader reader(*object, parent.where() + ": time_base");
     reader.only({"ppm", "ppm_per_year", "condition", "source", "address", "confidence"});
-    reader.number("ppm", kMostPpm, 1e-6, into.timeBase.value);
-    reader.number("ppm_per_year", kMostPpm, 1e-6, into.timeBase.perYear, false);
+    reader.number("ppm", kMaxPpm, 1e-6, into.timeBase.value);
+    reader.number("ppm_per_year", kMaxPpm, 1e-6, into.timeBase.perYear, false);
     readSheetSource(reader, into.timeBase);
     parent.take(reader.fault());
 }

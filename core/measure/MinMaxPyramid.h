@@ -8,7 +8,7 @@
 // The samples stay the caller's: extend() is told of the whole record each time it grows (or moves in memory), and
 // only what is new is read.
 //
-// Thread-safety: extend() and clear() by one owner; several threads may ask while nobody extends.
+// Thread-safety: extend() and clear() by one owner; several threads may read while it is not extended.
 #pragma once
 
 #include <cstddef>

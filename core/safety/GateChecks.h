@@ -71,7 +71,7 @@ enum Check : int {
     IntervalValue,
     IntervalBelowTrain,
     OnsetAhead,
-    ImpedanceDisowned,
+    ImpedanceRejected,
     PersonMonophasic,
     PersonNoImpedance,
     PersonStaleImpedance,

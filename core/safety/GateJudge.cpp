@@ -9,7 +9,7 @@ namespace tacto {
 
 using namespace gate;
 
-/// What is left of the residual voltage by `now`, on the load that keeps it longest. Nobody knows since when another
+/// What is left of the residual voltage by `now`, on the load that keeps it longest. It is not known since when another
 /// source is connected: what one left that rests in high impedance may have stayed so until now.
 double SafetyGate::State::carriedAt(Instant now) const noexcept {
     double left = 0;

@@ -33,8 +33,8 @@ struct SafetyGate::State {
 
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
-    std::optional<Ohms> lastGood;  // Since configure(), whatever came after it
-    bool disowned = false;         // The last reading was no number or out of range
+    std::optional<Ohms> lastGood;    // Since configure(), whatever came after it
+    bool impedanceRejected = false;  // The last reading was no number or out of range
 
     std::map<std::string, AcceptedLevels> people;  // Who comes back has not forgotten
     AcceptedLevels nobody;                         // Permits nothing

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLargestFile = 1'000'000;
-constexpr std::size_t kMostRows = 1000;
+constexpr std::size_t kMaxRows = 1000;
 constexpr std::array<std::string_view, 2> kJudged{"load_range", "500_ohm"};
 constexpr std::array<std::string_view, 3> kActions{"refuse", "warn", "disclose"};
 constexpr std::array<std::string_view, 4> kConfidences{"high", "medium", "medium-low", "low"};
@@ -162,8 +162,8 @@ template <class Row, class Read>
 Result<void> readRows(const Json& document, const char* key, std::string_view file, std::vector<Row>& rows, Read read) {
     const auto found = document.find(key);
     if (found == document.end()) return {};
-    if (!found->is_array() || found->size() > kMostRows) {
-        return Place{file, {}}.refuse("\"{}\" must be a list of at most {} rows", key, kMostRows);
+    if (!found->is_array() || found->size() > kMaxRows) {
+        return Place{file, {}}.refuse("\"{}\" must be a list of at most {} rows", key, kMaxRows);
     }
     for (std::size_t i = 0; i < found->size(); ++i) {
         auto row = read((*found)[i], Place{file, fmt::format("{}[{}]", key, i)});

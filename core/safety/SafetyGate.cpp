@@ -13,7 +13,7 @@ using namespace gate;
 
 namespace {
 constexpr Instant kImpedanceAge = std::chrono::seconds(5);
-constexpr double kMostStretch = 2;    // the next request may need more than this one
+constexpr double kMaxStretch = 2;     // the next request may need more than this one
 constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
 
 std::uint64_t firstEpoch() noexcept {
@@ -44,7 +44,7 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
     s.impedance.reset();
     s.lastGood.reset();
     s.impedanceAt = Instant(std::numeric_limits<Instant::rep>::min());
-    s.disowned = false;
+    s.impedanceRejected = false;
     if (setup.mode == OutputMode::Person && setup.person) {
         const PersonSetup& person = *setup.person;
         s.load = LoadRange::between(person.impedanceLow, person.impedanceHigh);
@@ -66,7 +66,7 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured");
     const double ohm = magnitude.value();
     const auto refuse = [&](ErrorCode code, const std::string& message) -> Result<void> {
-        s.disowned = true;
+        s.impedanceRejected = true;
         s.impedance.reset();
         latchStop();
         return fail(code, "{}", message);
@@ -107,7 +107,7 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
                             before, ohm));
         }
     }
-    s.disowned = false;
+    s.impedanceRejected = false;
     s.impedance = s.lastGood = magnitude;
     s.impedanceAt = at;
     if (s.person())
@@ -128,7 +128,7 @@ Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
         return fail(ErrorCode::InvalidArgument, "the train is planned {:.3g} s ahead; an approval lasts 0.1 s",
                     toSeconds(request.onset - now));
     }
-    if (checks(ImpedanceDisowned) && s.disowned) {
+    if (checks(ImpedanceRejected) && s.impedanceRejected) {
         return fail(ErrorCode::LimitExceeded,
                     "the last impedance reading was out of range; a good one is needed first");
     }
@@ -206,7 +206,7 @@ Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interva
             s.record->whyQuiet(), toSeconds(s.record->quietUntil() - now));
     }
     request.stretch = bounds.stretch(interval);
-    s.meter.forget(now, std::max(request.stretch, kMostStretch));
+    s.meter.forget(now, std::max(request.stretch, kMaxStretch));
     if (checks(MeterFull) && !s.meter.canBook()) {
         return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
                     s.meter.size());

@@ -31,7 +31,7 @@ public:
     StopCounter(const StopCounter&) = delete;
     StopCounter& operator=(const StopCounter&) = delete;
 
-    /// A stop. Whoever stops raises the counter first and switches off afterwards, so that what is started in between
+    /// A stop. The caller raises the counter first and switches off afterwards, so that what is started in between
     /// finds it raised.
     void raise() noexcept { count_.fetch_add(1, std::memory_order_acq_rel); }
     /// Now. Taken when the operator asks, not when the order is carried out.

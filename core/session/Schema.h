@@ -2,7 +2,7 @@
 //
 // Everything is a row of `entries`, in the order it was written, linked by hashes (Chain.h). Sample chunks and captures
 // keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people with
-// another SQLite program. Triggers refuse changes and deletions: by accident nobody alters a session.
+// another SQLite program. Triggers refuse changes and deletions: no session is altered by accident.
 #pragma once
 
 #include <cstdint>

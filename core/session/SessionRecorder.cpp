@@ -20,7 +20,7 @@ namespace {
 
 /// How long the recorder sleeps when the ring is empty: 10 ms of ring filling at most.
 constexpr auto kPoll = std::chrono::milliseconds(10);
-constexpr auto kDrainPatience = std::chrono::seconds(5);
+constexpr auto kDrainTimeout = std::chrono::seconds(5);
 
 enum class RecordKind : std::uint8_t { Samples, Command, Event };
 
@@ -271,7 +271,7 @@ Result<void> SessionRecorder::drain() {
         std::unique_lock lock(state_->mutex);
         const auto mine = ++state_->drainsWanted;
         state_->changed.notify_all();
-        if (!state_->changed.wait_for(lock, kDrainPatience, [&] { return state_->drainsDone >= mine; })) {
+        if (!state_->changed.wait_for(lock, kDrainTimeout, [&] { return state_->drainsDone >= mine; })) {
             return fail(ErrorCode::Timeout, "the session was not written within 5 s: the disk does not answer");
         }
     }

@@ -16,7 +16,7 @@ namespace tacto {
 namespace {
 
 /// Enough to see what happened; a broken first row would otherwise give a sentence for every row after it.
-constexpr std::size_t kMostProblems = 40;
+constexpr std::size_t kMaxProblems = 40;
 
 /// No recording gets there; beyond it, counting on would overflow.
 constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
@@ -51,7 +51,7 @@ public:
     template <class... Args>
     void problem(fmt::format_string<Args...> text, Args&&... args) {
         ++found_;
-        if (report_.problems.size() < kMostProblems) {
+        if (report_.problems.size() < kMaxProblems) {
             report_.problems.push_back(fmt::format(text, std::forward<Args>(args)...));
         }
     }

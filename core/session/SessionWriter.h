@@ -37,7 +37,7 @@ public:
     /// Errors: InvalidArgument when `path` exists (never overwritten); Io naming the path and the reason.
     [[nodiscard]] static Result<std::unique_ptr<SessionWriter>> create(const std::filesystem::path& path,
                                                                        SessionAbout about, const Clock& clock);
-    /// Closes as close() does, when nobody has.
+    /// Closes as close() does, where that was not called.
     ~SessionWriter();
     SessionWriter(const SessionWriter&) = delete;
     SessionWriter& operator=(const SessionWriter&) = delete;

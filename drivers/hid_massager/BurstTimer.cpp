@@ -36,7 +36,7 @@ void BurstTimer::wrote(HidWrite what, Instant began, Instant ended, bool taken) 
         }
         return;
     }
-    if (!taken) return askStop();             // nobody knows what the device made of it
+    if (!taken) return askStop();             // what the device made of it is not known
     if (what == HidWrite::Burst && asked_) {  // unless it was stopped meanwhile
         end_ = ended + *asked_;
         asked_.reset();

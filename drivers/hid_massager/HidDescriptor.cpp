@@ -6,9 +6,9 @@ namespace tacto::hid {
 
 namespace {
 
-constexpr std::size_t kPushesMost = 16;
-constexpr std::size_t kUsagesMost = 1024;  // waiting for one main item
-constexpr std::size_t kDepthMost = 32;
+constexpr std::size_t kMaxPushes = 16;
+constexpr std::size_t kMaxUsages = 1024;  // waiting for one main item
+constexpr std::size_t kMaxDepth = 32;
 
 // HID 1.11 section 6.2.2: an item's tag and type, without its size bits.
 enum Item : std::uint8_t {
@@ -48,9 +48,9 @@ public:
     explicit Parser(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
     Result<HidDescriptor> run() {
-        if (bytes_.empty() || bytes_.size() > kDescriptorMost) {
+        if (bytes_.empty() || bytes_.size() > kMaxDescriptor) {
             return fail(ErrorCode::ParseError, "HID report descriptor: {} bytes; 1 to {} were expected", bytes_.size(),
-                        kDescriptorMost);
+                        kMaxDescriptor);
         }
         while (at_ < bytes_.size()) {
             if (auto read = item(); !read) return failure(read);
@@ -129,7 +129,7 @@ private:
                 now_.report = static_cast<std::uint8_t>(value);
                 return {};
             case kPush:
-                if (pushed_.size() == kPushesMost) return wrong("more than {} pushes", kPushesMost);
+                if (pushed_.size() == kMaxPushes) return wrong("more than {} pushes", kMaxPushes);
                 pushed_.push_back(now_);
                 return {};
             case kPop:
@@ -158,8 +158,8 @@ private:
     }
 
     Result<void> addUsages(Usage first, Usage last) {
-        if (last < first || last - first >= kUsagesMost - usages_.size()) {
-            return wrong("usages {:#x} to {:#x}; at most {} in order were expected", first, last, kUsagesMost);
+        if (last < first || last - first >= kMaxUsages - usages_.size()) {
+            return wrong("usages {:#x} to {:#x}; at most {} in order were expected", first, last, kMaxUsages);
         }
         for (Usage usage = first;; ++usage) {
             usages_.push_back(usage);
@@ -168,8 +168,8 @@ private:
     }
 
     Result<void> openCollection(std::uint32_t type) {
-        if (out_.collections.size() == kCollectionsMost || depth_ == kDepthMost) {
-            return wrong("more than {} collections, or {} inside each other", kCollectionsMost, kDepthMost);
+        if (out_.collections.size() == kMaxCollections || depth_ == kMaxDepth) {
+            return wrong("more than {} collections, or {} inside each other", kMaxCollections, kMaxDepth);
         }
         out_.collections.push_back({usages_.empty() ? 0 : usages_.front(), static_cast<std::uint8_t>(type), open_});
         open_ = static_cast<std::uint16_t>(out_.collections.size() - 1);
@@ -189,9 +189,9 @@ private:
         if (now_.report == 0) unnumbered_ = true;
         auto& report = reportOf(kind);
         const std::uint64_t wanted = std::uint64_t{now_.size} * now_.count;
-        if (wanted > kReportBitsMost - report.bits) {
+        if (wanted > kMaxReportBits - report.bits) {
             return wrong("{} controls of {} bits make {} report {} longer than {} bytes", now_.count, now_.size,
-                         nameOf(kind), now_.report, kReportBitsMost / 8);
+                         nameOf(kind), now_.report, kMaxReportBits / 8);
         }
         const std::uint32_t first = report.bits;
         report.bits += static_cast<std::uint32_t>(wanted);
@@ -205,7 +205,7 @@ private:
 
     Result<void> addFields(ReportKind kind, std::uint32_t flags, std::uint32_t first) {
         if (now_.size > 32) return {};  // a buffer (contact images, descriptors): no control of ours
-        if (now_.count > kFieldsMost - out_.fields.size()) return wrong("more than {} controls", kFieldsMost);
+        if (now_.count > kMaxFields - out_.fields.size()) return wrong("more than {} controls", kMaxFields);
         HidField field;
         field.kind = kind;
         field.report = now_.report;

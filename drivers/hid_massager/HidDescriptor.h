@@ -68,10 +68,10 @@ struct HidDescriptor {
     [[nodiscard]] std::uint16_t enclosing(std::uint16_t collection, Usage usage) const noexcept;
 };
 
-inline constexpr std::size_t kDescriptorMost = 4096;  ///< bytes; as Linux's HID_MAX_DESCRIPTOR_SIZE
-inline constexpr std::size_t kFieldsMost = 4096;
-inline constexpr std::size_t kCollectionsMost = 512;
-inline constexpr std::uint32_t kReportBitsMost = 8 * 4096;
+inline constexpr std::size_t kMaxDescriptor = 4096;  ///< bytes; as Linux's HID_MAX_DESCRIPTOR_SIZE
+inline constexpr std::size_t kMaxFields = 4096;
+inline constexpr std::size_t kMaxCollections = 512;
+inline constexpr std::uint32_t kMaxReportBits = 8 * 4096;
 
 /// Errors: ParseError naming the place and what is wrong there.
 [[nodiscard]] Result<HidDescriptor> parseHidDescriptor(std::span<const std::uint8_t> bytes);

@@ -86,9 +86,9 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     if (!clock_.isVirtual()) endBurstAfterStandstill();
     if (fault_ && !std::exchange(faultTold_, true)) return tl::unexpected<Error>(*fault_);
     // A write that an earlier call gave up may still be under way.
-    if (!changed_.wait_for(lock, kPatience, [&] { return !writing_; })) {
+    if (!changed_.wait_for(lock, kTimeout, [&] { return !writing_; })) {
         return fail(ErrorCode::Timeout, "{} is still taking the report before; within {:.0f} ms was expected",
-                    identity_.name, kPatience.count() * 1e3);
+                    identity_.name, kTimeout.count() * 1e3);
     }
     if (fault_) {
         if (auto again = reconnect(lock); !again) return again;
@@ -106,7 +106,7 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
         lock.lock();
     } else {
         changed_.notify_all();
-        changed_.wait_for(lock, kPatience, [&] { return job_->done.has_value(); });
+        changed_.wait_for(lock, kTimeout, [&] { return job_->done.has_value(); });
     }
     const auto done = std::exchange(job_, std::nullopt)->done;
     if (done) return *done;
@@ -114,7 +114,7 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     timer_.askStop();  // behind the write, if one is under way
     changed_.notify_all();
     return fail(ErrorCode::Timeout, "{} did not take the report within {:.0f} ms", identity_.name,
-                kPatience.count() * 1e3);
+                kTimeout.count() * 1e3);
 }
 
 Result<void> HidMassager::reconnect(std::unique_lock<std::mutex>& lock) {
@@ -240,7 +240,7 @@ void HidMassager::run() {
         }
         serve(clock_.now());
         std::unique_lock lock(state_);
-        // A last stop that the device did not take has nobody left who could be told.
+        // A last stop that the device did not take can no longer be reported.
         if (quitting_ && (farewell_ || !timer_.stopDue())) return;
         if (quitting_) continue;
         const Instant now = clock_.now();

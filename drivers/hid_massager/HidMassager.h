@@ -5,18 +5,18 @@
 // the device was too slow to take, opening and closing; one that fails is tried again every 50 ms.
 //
 // A fault is told from slowness: a write that fails, or that the device takes only part of, is Device; one that is
-// still under way after kPatience is Timeout, its burst is given up and stopped when the write returns.
+// still under way after kTimeout is Timeout, its burst is given up and stopped when the write returns.
 //
 // A watchdog holds the stop as well, for when this program dies or stands still. It is started when the device is
 // opened, and without one nothing is written but the stop. A burst that was under way while this program stood still
 // for longer than Watchdog::kSilence is over: it is not repeated, the device is stopped again, and the next vibrate()
 // says so.
 //
-// After a fault the next vibrate() opens the device again, by identity; what failed while nobody asked (a stop, a
+// After a fault the next vibrate() opens the device again, by identity; what failed unasked (a stop, a
 // repetition) is the error of the vibrate() after it, once.
 //
 // Thread-safety: as Massager; forceOff() waits for no write. On a VirtualClock there is no thread and the owner calls
-// serve(); elsewhere nobody does.
+// serve(); it is called nowhere else.
 #pragma once
 
 #include <condition_variable>
@@ -37,7 +37,7 @@ namespace tacto::hid {
 class HidMassager final : public Massager {
 public:
     /// How long vibrate() waits for the device: an approval lives for 100 ms.
-    static constexpr Seconds kPatience{0.05};
+    static constexpr Seconds kTimeout{0.05};
 
     /// Opens the device and stops it. `open` is called again after a fault. `clock` outlives the device.
     /// Errors: as `open`; InvalidArgument for reports that are not valid(); Device, Timeout when it takes no stop; as

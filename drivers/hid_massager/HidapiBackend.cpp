@@ -17,12 +17,12 @@ namespace tacto::hid {
 
 namespace {
 
-constexpr std::size_t kTextMost = 126;  // characters of a USB string descriptor: (255 - 2) / 2
+constexpr std::size_t kMaxText = 126;  // characters of a USB string descriptor: (255 - 2) / 2
 
 /// A device's own text: untrusted, and other alphabets are not worth a conversion.
 std::string plain(const wchar_t* text) {
     std::string out;
-    for (; text != nullptr && *text != L'\0' && out.size() < kTextMost; ++text) {
+    for (; text != nullptr && *text != L'\0' && out.size() < kMaxText; ++text) {
         out += *text >= L' ' && *text <= L'~' ? static_cast<char>(*text) : '?';
     }
     return out;
@@ -43,7 +43,7 @@ Result<std::vector<std::uint8_t>> readDescriptor(const std::filesystem::path& fo
     if (!in) {
         return fail(ErrorCode::NotFound, "{}: the system shows no report descriptor at {}", label, folder.string());
     }
-    std::vector<std::uint8_t> bytes(kDescriptorMost + 1);  // one more, so that too long is seen
+    std::vector<std::uint8_t> bytes(kMaxDescriptor + 1);  // one more, so that too long is seen
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (in.bad()) return fail(ErrorCode::Io, "{}: its report descriptor cannot be read", label);
     bytes.resize(static_cast<std::size_t>(in.gcount()));

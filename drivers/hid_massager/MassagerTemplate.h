@@ -47,7 +47,7 @@ struct MassagerTemplate {
     [[nodiscard]] Result<VibrationReports> reportsFor(const HidDescriptor& descriptor) const;
 };
 
-inline constexpr std::size_t kTemplateMost = 65536;  ///< bytes
+inline constexpr std::size_t kMaxTemplate = 65536;  ///< bytes
 
 /// `file` names the text in messages, and the key is made of it. Errors: ParseError "FILE: place: what is wrong".
 [[nodiscard]] Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file);

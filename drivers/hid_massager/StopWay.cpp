@@ -8,7 +8,7 @@ namespace tacto::hid {
 
 namespace {
 
-constexpr std::size_t kBytesMost = 4096;
+constexpr std::size_t kMaxBytes = 4096;
 constexpr std::string_view kNone = "-";
 
 template <class Bytes>
@@ -33,7 +33,7 @@ std::optional<std::uint8_t> byteOf(std::string_view text) {
 std::optional<std::vector<std::uint8_t>> bytesOf(std::string_view text) {
     std::vector<std::uint8_t> bytes;
     if (text == kNone) return bytes;
-    if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kBytesMost) return std::nullopt;
+    if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kMaxBytes) return std::nullopt;
     for (std::size_t i = 0; i < text.size(); i += 2) {
         const auto byte = byteOf(text.substr(i, 2));
         if (!byte) return std::nullopt;

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kListMost = 64;
-constexpr std::size_t kTextMost = 2000;
+constexpr std::size_t kMaxList = 64;
+constexpr std::size_t kMaxText = 2000;
 
 /// Where in the file a message points.
 struct Place {
@@ -45,7 +45,7 @@ const Json& member(const Json& object, const char* key) {
 Result<std::string> textOf(const Json& object, const char* key, const Place& place) {
     const auto* text = member(object, key).get_ptr<const std::string*>();
     if (text == nullptr || text->empty()) return place.refuse("\"{}\" must be a text", key);
-    if (text->size() > kTextMost) return place.refuse("\"{}\" is longer than {} bytes", key, kTextMost);
+    if (text->size() > kMaxText) return place.refuse("\"{}\" is longer than {} bytes", key, kMaxText);
     return *text;
 }
 
@@ -118,8 +118,8 @@ Result<std::vector<T>> listOf(const Json& object, const char* key, std::size_t l
     const Json& list = member(object, key);
     std::vector<T> all;
     if (list.is_null() && least == 0) return all;
-    if (!list.is_array() || list.size() < least || list.size() > kListMost) {
-        return place.refuse("\"{}\" must be a list of {} to {} entries", key, least, kListMost);
+    if (!list.is_array() || list.size() < least || list.size() > kMaxList) {
+        return place.refuse("\"{}\" must be a list of {} to {} entries", key, least, kMaxList);
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
         auto entry = read(list[i], place.at(key, i));
@@ -142,7 +142,7 @@ Result<TemplateDevice> readDevice(const Json& json, const Place& place) {
 
 Result<MassagerTemplate::Constant> readConstant(const Json& json, const Place& place) {
     if (auto keys = onlyKeys(json, {"byte", "hex"}, place); !keys) return failure(keys);
-    const auto byte = wholeOf(json, "byte", 1, static_cast<std::int64_t>(kReportMost), std::nullopt, place);
+    const auto byte = wholeOf(json, "byte", 1, static_cast<std::int64_t>(kMaxReport), std::nullopt, place);
     if (!byte) return failure(byte);
     auto bytes = bytesOf(json, "hex", place);
     if (!bytes) return failure(bytes);
@@ -163,7 +163,7 @@ Result<ReportField> readField(const Json& json, const Place& place) {
         known = true;
     }
     if (!known) return place.refuse("\"role\" is \"{}\"; intensity, weak and strong are accepted", *role);
-    const auto byte = wholeOf(json, "byte", 1, static_cast<std::int64_t>(kReportMost), std::nullopt, place);
+    const auto byte = wholeOf(json, "byte", 1, static_cast<std::int64_t>(kMaxReport), std::nullopt, place);
     if (!byte) return failure(byte);
     const auto bit = wholeOf(json, "bit", 0, 7, 0, place);
     if (!bit) return failure(bit);
@@ -194,7 +194,7 @@ Result<void> readReport(const Json& json, MassagerTemplate& into, const Place& p
     into.report = static_cast<std::uint8_t>(*number);
     auto lengths = listOf<std::size_t>(json, "lengths", 1, place, [](const Json& entry, const Place& at) {
         const Json wrapped{{"length", entry}};
-        return wholeOf(wrapped, "length", 2, static_cast<std::int64_t>(kReportMost), std::nullopt, at)
+        return wholeOf(wrapped, "length", 2, static_cast<std::int64_t>(kMaxReport), std::nullopt, at)
             .map([](std::int64_t length) { return static_cast<std::size_t>(length); });
     });
     if (!lengths) return failure(lengths);
@@ -233,7 +233,7 @@ Result<void> readUsage(const Json& json, MassagerTemplate& into, const Place& pl
 
 Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file) {
     const Place place{file, {}};
-    const auto read = parseJson(text, file, {.bytes = kTemplateMost});
+    const auto read = parseJson(text, file, {.bytes = kMaxTemplate});
     if (!read) return failure(read);
     const Json& json = *read;
     if (auto keys = onlyKeys(
@@ -277,7 +277,7 @@ Result<MassagerTemplate> loadMassagerTemplate(const std::filesystem::path& file)
     if (!in)
         return fail(ErrorCode::NotFound, "no massager template {}; a file as resources/massagers/*.json is expected",
                     file.string());
-    std::string text(kTemplateMost + 1, '\0');
+    std::string text(kMaxTemplate + 1, '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (in.bad() || (text.empty() && !in.eof())) return fail(ErrorCode::Io, "cannot read {}", file.string());

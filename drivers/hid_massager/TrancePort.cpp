@@ -27,7 +27,7 @@ Result<std::size_t> TrancePort::write(std::span<const std::uint8_t> report) {
         return fail(ErrorCode::InvalidArgument, "Trance Vibrator: a report of {} bytes; 2 were expected, 0 and speed",
                     report.size());
     }
-    if (auto sent = control_->send(report[1], kPatience); !sent) return failure(sent);
+    if (auto sent = control_->send(report[1], kTimeout); !sent) return failure(sent);
     return report.size();
 }
 

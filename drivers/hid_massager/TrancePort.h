@@ -23,7 +23,7 @@ inline constexpr std::uint16_t kTranceProduct = 0x064F;
 class TrancePort final : public HidPort {
 public:
     /// A control request of a full-speed bus takes a few milliseconds; a device that takes longer hangs.
-    static constexpr Seconds kPatience{0.2};
+    static constexpr Seconds kTimeout{0.2};
 
     /// Errors: as UsbControl::open().
     [[nodiscard]] static Result<std::unique_ptr<HidPort>> open(std::shared_ptr<UsbContext> context,

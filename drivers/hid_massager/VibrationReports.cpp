@@ -60,8 +60,8 @@ const char* nameOf(VibrationRole role) noexcept {
 
 Result<void> validate(const VibrationReports& reports) {
     const std::size_t length = reports.start.size();
-    if (length < 2 || length > kReportMost) {
-        return invalid("the report has {} bytes; 2 to {} are accepted, its number included", length, kReportMost);
+    if (length < 2 || length > kMaxReport) {
+        return invalid("the report has {} bytes; 2 to {} are accepted, its number included", length, kMaxReport);
     }
     if (reports.stop.size() != length) {
         return invalid("the stop report has {} bytes and the start report {}; equal lengths are accepted",
@@ -93,9 +93,9 @@ Result<void> validate(const VibrationReports& reports) {
         return invalid("the keep-alive is {} s; 0 (none) or {} to 60 s are accepted", keep, kKeepAliveLeast.count());
     }
     const double shortest = reports.shortestWrite.count();
-    if (!(shortest >= 0 && shortest <= kShortestWriteMost.count())) {
+    if (!(shortest >= 0 && shortest <= kMaxShortestWrite.count())) {
         return invalid("the shortest write interval is {} s; 0 to {} s are accepted", shortest,
-                       kShortestWriteMost.count());
+                       kMaxShortestWrite.count());
     }
     if (keep != 0 && !(keep >= shortest)) {
         return invalid("the keep-alive of {} s comes before the shortest write interval of {} s", keep, shortest);

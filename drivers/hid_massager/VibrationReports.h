@@ -57,8 +57,8 @@ struct VibrationReports {
     friend bool operator==(const VibrationReports&, const VibrationReports&) = default;
 };
 
-inline constexpr std::size_t kReportMost = 4096;    ///< bytes
-inline constexpr Seconds kShortestWriteMost{0.04};  ///< a burst must still begin within the 50 ms of its approval
+inline constexpr std::size_t kMaxReport = 4096;    ///< bytes
+inline constexpr Seconds kMaxShortestWrite{0.04};  ///< a burst must still begin within the 50 ms of its approval
 inline constexpr Seconds kKeepAliveLeast{0.005};
 
 /// Errors: InvalidArgument naming the field and what would fit: outside its report, over another field, over the report

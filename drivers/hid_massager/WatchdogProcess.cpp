@@ -38,7 +38,7 @@ int spawn(const std::filesystem::path& program, const StopWay& way, int end, pid
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, end, kWatchdogSocket);
-    // It outlives this program, and must not keep a pipe open on which somebody waits for this program's end.
+    // It outlives this program, and must not keep a pipe open whose reader waits for this program's end.
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
     }

@@ -27,7 +27,7 @@ using SteadyTime = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kRetry{20};
-constexpr std::chrono::seconds kRetriesMost{60};  // a device that takes no stop for so long is beyond this program
+constexpr std::chrono::seconds kMaxRetries{60};  // a device that takes no stop for so long is beyond this program
 constexpr unsigned kTransfer_ms = 200;
 
 enum class Sent { Taken, Gone, Failed };
@@ -139,7 +139,7 @@ int watch(Device& device) {
         if (length < 0 && errno == EINTR) continue;
         if (length <= 0) {
             orphaned = stopDue = true;
-            giveUpAt = SteadyTime::now() + kRetriesMost;
+            giveUpAt = SteadyTime::now() + kMaxRetries;
         } else if (word == static_cast<char>(WatchdogWord::Beat)) {
             on = true;
             silentAt = SteadyTime::now() + kWatchdogSilence;

@@ -42,7 +42,7 @@ Result<Channel> Channel::of(int number) {
 
 Result<Cycles> Cycles::of(Micros time, const char* what) {
     const double cycles = time / kCycle;
-    if (!(cycles >= 0 && cycles <= kCyclesMost)) {
+    if (!(cycles >= 0 && cycles <= kMaxCycles)) {
         return fail(ErrorCode::InvalidArgument, "{} {:.6g} us; 0 to 3600 s are accepted", what, time.count());
     }
     const double whole = std::round(cycles);
@@ -55,10 +55,10 @@ Result<Cycles> Cycles::of(Micros time, const char* what) {
 
 Result<VoltageCode> VoltageCode::of(Volts volts) {
     const double v = volts.value();
-    if (!(v >= -kVoltsMost && v <= kVoltsMost)) {
-        return fail(ErrorCode::InvalidArgument, "{:.6g} V; {} to {} V are accepted", v, -kVoltsMost, kVoltsMost);
+    if (!(v >= -kMaxVolts && v <= kMaxVolts)) {
+        return fail(ErrorCode::InvalidArgument, "{:.6g} V; {} to {} V are accepted", v, -kMaxVolts, kMaxVolts);
     }
-    const double exact = (v + kVoltsMost) / (2 * kVoltsMost) * kStepsOfRange;
+    const double exact = (v + kMaxVolts) / (2 * kMaxVolts) * kStepsOfRange;
     const double nearest = std::round(exact);
     // What lies within a millionth of a step of a code is on it.
     const double toward = std::abs(exact - nearest) <= 1e-6 ? nearest : v > 0 ? std::floor(exact) : std::ceil(exact);
@@ -68,7 +68,7 @@ Result<VoltageCode> VoltageCode::of(Volts volts) {
 
 Volts voltsOf(std::uint16_t code) noexcept {
     if (code == kZeroVolts) return Volts(0);
-    return Volts(code * (2 * kVoltsMost) / kStepsOfRange - kVoltsMost);
+    return Volts(code * (2 * kMaxVolts) / kStepsOfRange - kMaxVolts);
 }
 
 Volts VoltageCode::volts() const noexcept { return voltsOf(code_); }

@@ -23,10 +23,10 @@ namespace tacto::pulsepal {
 
 inline constexpr std::uint8_t kStart = 0xD5;
 inline constexpr int kChannels = 4;
-inline constexpr Micros kCycle{50};       ///< everything happens on this grid
-inline constexpr double kVoltsMost = 10;  ///< output range is ± this
+inline constexpr Micros kCycle{50};      ///< everything happens on this grid
+inline constexpr double kMaxVolts = 10;  ///< output range is ± this
 inline constexpr std::uint16_t kZeroVolts = 32768;
-inline constexpr std::uint32_t kCyclesMost = 72'000'000;  ///< 3600 s; the device's own menu allows no more
+inline constexpr std::uint32_t kMaxCycles = 72'000'000;  ///< 3600 s; the device's own menu allows no more
 
 /// A command's bytes; none is longer.
 struct CommandBytes {

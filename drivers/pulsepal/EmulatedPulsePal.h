@@ -43,8 +43,8 @@ public:
     [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now);
 
     void clickJoystick(Instant now);
-    /// Somebody chooses "continuous" in its menu: the channel's parameters play until they are aborted, and whatever is
-    /// triggered later as well.
+    /// As if "continuous" were chosen in its menu: the channel's parameters play until they are aborted, and whatever
+    /// is triggered later as well.
     void setContinuous(int channel, bool on, Instant now);
     /// The mains go: parameters, bytes and trains are forgotten.
     void powerCycle(Instant now);

@@ -12,8 +12,8 @@ namespace {
 constexpr Instant kTriggerDelay = std::chrono::microseconds(200);
 /// By how much the device's clock may run slow, and ours still tells a train's end: 100 ppm twice (two crystals).
 constexpr double kClockError = 200e-6;
-/// A device that says nothing for so long has answered all that somebody asked before us: it takes a command every
-/// 50 µs, and a USB frame is 1 ms.
+/// A device that says nothing for so long has answered all that another program asked before us: it takes a command
+/// every 50 µs, and a USB frame is 1 ms.
 constexpr Seconds kQuiet{0.005};
 
 }  // namespace
@@ -37,8 +37,8 @@ Result<std::unique_ptr<PulsePalStimulator>> PulsePalStimulator::open(Connect con
 PulsePalStimulator::~PulsePalStimulator() {
     forceOff();
     if (lost_) return;
-    // Waited for, so that the bytes are out before the transport closes. Nobody is left to be told of an error.
-    const Instant deadline = clock_.now() + toInstant(kPatience);
+    // Waited for, so that the bytes are out before the transport closes. An error could no longer be reported.
+    const Instant deadline = clock_.now() + toInstant(kTimeout);
     static_cast<void>(write(abortTwice(), deadline));
     static_cast<void>(write(disconnect(), deadline));
 }
@@ -58,15 +58,15 @@ Result<Handshake> PulsePalStimulator::reconnect() {
         transport_ = std::move(*transport);
     }
     const auto offs = offs_.load(std::memory_order_acquire);
-    if (auto aborted = write(abortTwice(), clock_.now() + toInstant(kPatience)); !aborted) return failure(aborted);
-    auto found = greet(kGreetingPatience, kQuiet);
+    if (auto aborted = write(abortTwice(), clock_.now() + toInstant(kTimeout)); !aborted) return failure(aborted);
+    auto found = greet(kGreetingTimeout, kQuiet);
     if (!found) return found;
     std::vector<CommandBytes> commands;
     for (int number = 1; number <= kChannels; ++number) {
         for (const auto& command : quietChannel(*Channel::of(number))) commands.push_back(command);
     }
-    if (auto quiet = program(commands, kGreetingPatience); !quiet) return failure(quiet);
-    if (auto named = write(clientName("TACTO"), clock_.now() + toInstant(kPatience)); !named) return failure(named);
+    if (auto quiet = program(commands, kGreetingTimeout); !quiet) return failure(quiet);
+    if (auto named = write(clientName("TACTO"), clock_.now() + toInstant(kTimeout)); !named) return failure(named);
     lost_ = false;
     silent_ = true;
     silentOffs_ = offs;
@@ -144,7 +144,7 @@ tl::unexpected<Error> PulsePalStimulator::lost(const Error& error) {
 Result<void> PulsePalStimulator::ensureSilence() {
     const auto offs = offs_.load(std::memory_order_acquire);
     if (silent_ && silentOffs_ == offs) return {};
-    if (auto aborted = write(abortTwice(), clock_.now() + toInstant(kPatience)); !aborted) return aborted;
+    if (auto aborted = write(abortTwice(), clock_.now() + toInstant(kTimeout)); !aborted) return aborted;
     silent_ = true;
     silentOffs_ = offs;
     return {};
@@ -171,7 +171,7 @@ Result<void> PulsePalStimulator::start(const ApprovedTrain& train, std::uint64_t
     if (!wanted) return fail(ErrorCode::Device, "{}", wanted.error().message);
     if (auto silent = ensureSilence(); !silent) return lost(silent.error());
     drain(Seconds(0));
-    if (auto programmed = program(wanted->commands, kPatience); !programmed) return lost(programmed.error());
+    if (auto programmed = program(wanted->commands, kTimeout); !programmed) return lost(programmed.error());
     if (stoppedSince(offs)) return {};
     const Instant now = clock_.now();
     if (!(now <= train.expires())) {
@@ -180,7 +180,7 @@ Result<void> PulsePalStimulator::start(const ApprovedTrain& train, std::uint64_t
     }
     silent_ = false;
     trainOffs_ = offs;
-    const auto triggered = write(trigger(channel_.mask()), now + toInstant(kPatience));
+    const auto triggered = write(trigger(channel_.mask()), now + toInstant(kTimeout));
     // A stop that came between may stand before the trigger; then it is repeated behind it.
     if (stoppedSince(offs)) sendAbort();
     if (!triggered) return lost(triggered.error());
@@ -202,7 +202,7 @@ Result<StimulatorStatus> PulsePalStimulator::status() {
     status.delivering = playing(clock_.now());
     if (!status.delivering) {
         if (auto silent = ensureSilence(); !silent) return lost(silent.error());
-        if (const auto there = greet(kPatience, Seconds(0)); !there) return lost(there.error());
+        if (const auto there = greet(kTimeout, Seconds(0)); !there) return lost(there.error());
     }
     status.at = clock_.now();
     return status;

@@ -3,7 +3,7 @@
 //
 // Each train is programmed as a whole, every parameter of its channel, and triggered only after the device has
 // acknowledged each: what was turned at its joystick meanwhile does not count. Trains are finite; continuous mode is
-// never used, and the first status() after a train aborts, so that one somebody left on at the joystick ends there.
+// never used, and the first status() after a train aborts, so that one left on at the joystick ends there.
 // The device reports nothing of its output: that a train runs is known from the clock alone, and while one does the
 // wire is left alone, for serial traffic shifts its pulses.
 //
@@ -35,9 +35,9 @@ using Connect = std::function<Result<std::unique_ptr<Transport>>()>;
 
 class PulsePalStimulator final : public Stimulator {
 public:
-    static constexpr Seconds kPatience{0.045};  ///< for one exchange; status() has 50 ms
+    static constexpr Seconds kTimeout{0.045};  ///< for one exchange; status() has 50 ms
     /// The firmware gives up a half-received command after 0.5 s.
-    static constexpr Seconds kGreetingPatience{0.6};
+    static constexpr Seconds kGreetingTimeout{0.6};
 
     /// Connects, ends whatever the device was doing, asks what it is and quiets all four channels. `uri` is what opens
     /// it again, `serial` its USB serial number. `clock` outlives the device.

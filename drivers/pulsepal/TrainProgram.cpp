@@ -23,8 +23,8 @@ SourceTraits sourceTraits() noexcept {
     traits.drive = Drive::Voltage;
     traits.gap = GapState::HoldsZero;  // the resting voltage is driven
     traits.amplitudeStep = 0;          // 16 bits over 20 V: 0.31 mV
-    traits.amplitudeMax = kVoltsMost;
-    traits.compliance = Volts(kVoltsMost);
+    traits.amplitudeMax = kMaxVolts;
+    traits.compliance = Volts(kMaxVolts);
     traits.widthStep = kCycle;
     traits.widthMin = kCycle * static_cast<double>(kPhaseCyclesLeast);
     traits.widthMax = Micros(100'000);

@@ -42,9 +42,8 @@ std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size
 }
 
 Result<void> checkCount(const Points& points) {
-    if (points.count >= 1 && points.count <= kPointsMost) return {};
-    return fail(ErrorCode::InvalidArgument, "a ScienceMode pulse has {} points: 1 to {} fit", points.count,
-                kPointsMost);
+    if (points.count >= 1 && points.count <= kMaxPoints) return {};
+    return fail(ErrorCode::InvalidArgument, "a ScienceMode pulse has {} points: 1 to {} fit", points.count, kMaxPoints);
 }
 
 }  // namespace

@@ -45,10 +45,10 @@ inline constexpr double kCurrentMost_mA = 130;
 inline constexpr double kCurrentStep_mA = 0.5;
 inline constexpr int kPointLeast_us = 10;
 inline constexpr int kPointMost_us = 4095;  // 12 bits
-inline constexpr std::size_t kPointsMost = 16;
+inline constexpr std::size_t kMaxPoints = 16;
 inline constexpr std::size_t kChannels = 4;     // LL: 2 bits, and a connector bit
 inline constexpr std::size_t kMidChannels = 8;  // ML: a bit each
-inline constexpr Seconds kPeriodMost{16.3835};  // 15 bits of 0.5 ms
+inline constexpr Seconds kMaxPeriod{16.3835};   // 15 bits of 0.5 ms
 
 /// A stretch of constant current. Several make a pulse.
 struct Point {
@@ -59,7 +59,7 @@ struct Point {
 
 /// The points of one pulse.
 struct Points {
-    std::array<Point, kPointsMost> items{};
+    std::array<Point, kMaxPoints> items{};
     std::size_t count = 0;
     [[nodiscard]] std::span<const Point> span() const noexcept { return {items.data(), count}; }
     [[nodiscard]] Micros duration() const noexcept;
@@ -67,7 +67,7 @@ struct Points {
 };
 
 struct Payload {
-    std::array<std::uint8_t, kPayloadMost> bytes;  // Not cleared: only the first `size` mean anything
+    std::array<std::uint8_t, kMaxPayload> bytes;  // Not cleared: only the first `size` mean anything
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
     void push(unsigned byte) noexcept { bytes[size++] = static_cast<std::uint8_t>(byte & 0xFFU); }

@@ -38,7 +38,7 @@ void EmulatedOutput::fit(const Load& load, Instant now) {
 const EmittedPulse& EmulatedOutput::play(const Points& points, int channel, bool midLevel, Instant onset,
                                          ChannelConfigAck* into, bool stepIsTotal) {
     const double duration_us = points.duration().count();
-    std::array<DriveSegment, kPointsMost> segments;
+    std::array<DriveSegment, kMaxPoints> segments;
     for (std::size_t i = 0; i < points.count; ++i) segments[i] = segmentOf(points.items[i]);
     const SourceLimits limits{compliance_.value(), kCurrentMost_mA * 1e-3};
     auto circuit = circuitAt(load_, toSeconds(onset - fitted_), {segments.data(), points.count}, limits);

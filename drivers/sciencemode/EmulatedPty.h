@@ -1,5 +1,5 @@
 // EmulatedPty.h - the emulated stimulator behind a pseudo-terminal, for programs that open a terminal: this project's
-// own, in another process, or somebody else's.
+// own, in another process, or another program's.
 //
 // Thread-safety: every function from any thread. A thread of its own carries the bytes.
 #pragma once

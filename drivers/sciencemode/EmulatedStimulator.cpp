@@ -245,7 +245,7 @@ void EmulatedStimulator::acknowledge(const Packet& to, const Payload& payload, I
     if (fault == AckFault::Drop) return;
     Payload sent = payload;
     Packet packet{ackOf(static_cast<Command>(to.command)), to.number, {}};
-    if (fault == AckFault::WrongNumber) packet.number = static_cast<std::uint8_t>((packet.number + 7) & kNumberMost);
+    if (fault == AckFault::WrongNumber) packet.number = static_cast<std::uint8_t>((packet.number + 7) & kMaxNumber);
     if (fault == AckFault::WrongCommand) packet.command = ackOf(Command::Reset);
     if (fault == AckFault::Truncated) --sent.size;
     if (fault == AckFault::WrongChannel && sent.size > 1) sent.bytes[1] ^= 0x01;

@@ -26,7 +26,7 @@ struct StopFrames {
     FrameBytes lowLevel;
     FrameBytes midLevel;
     /// The two behind each other: one message, since a transport keeps but the newest that waits.
-    std::array<std::uint8_t, Transport::kUrgentMost> both{};
+    std::array<std::uint8_t, Transport::kMaxUrgent> both{};
     std::size_t bothSize = 0;
     [[nodiscard]] std::span<const std::uint8_t> everything() const noexcept { return {both.data(), bothSize}; }
 };
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] ExchangeCounts counts() const noexcept;
 
 private:
-    static constexpr std::size_t kGarbageMost = 262'144;  ///< bytes read for one ack; USB gives 60 kB in 50 ms
+    static constexpr std::size_t kMaxGarbage = 262'144;  ///< bytes read for one ack; USB gives 60 kB in 50 ms
 
     [[nodiscard]] Result<std::size_t> refill(Seconds left);
     [[nodiscard]] tl::unexpected<Error> silence(std::uint64_t junkBefore) const;

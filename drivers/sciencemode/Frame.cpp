@@ -34,17 +34,17 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
 }
 
 Result<void> encodeFrame(const Packet& packet, FrameBytes& into) {
-    if (packet.command > kCommandMost) {
+    if (packet.command > kMaxCommand) {
         return fail(ErrorCode::InvalidArgument, "ScienceMode command {} does not fit 10 bits: at most {}",
-                    packet.command, kCommandMost);
+                    packet.command, kMaxCommand);
     }
-    if (packet.number > kNumberMost) {
+    if (packet.number > kMaxNumber) {
         return fail(ErrorCode::InvalidArgument, "ScienceMode packet number {} does not fit 6 bits: at most {}",
-                    packet.number, kNumberMost);
+                    packet.number, kMaxNumber);
     }
-    if (packet.payload.size() > kPayloadMost) {
+    if (packet.payload.size() > kMaxPayload) {
         return fail(ErrorCode::InvalidArgument, "a ScienceMode payload of {} bytes is too long: at most {}",
-                    packet.payload.size(), kPayloadMost);
+                    packet.payload.size(), kMaxPayload);
     }
     std::size_t at = kHeader;
     const auto put = [&](std::uint8_t byte) {
@@ -81,7 +81,7 @@ FrameDecoder::Finding FrameDecoder::examine() noexcept {
             if (examined_ % 2 == 1 && byte != kEscape) return Finding::Broken;
             if (examined_ == 4) {
                 length_ = wordAt(&buffer_[2]);
-                if (length_ < kFrameLeast || length_ > kFrameMost) return Finding::Broken;
+                if (length_ < kFrameLeast || length_ > kMaxFrame) return Finding::Broken;
             }
         } else if (examined_ + 1 == length_) {
             const std::span<const std::uint8_t> stuffed(buffer_.data() + kHeader, length_ - kFrameOverhead);
@@ -132,7 +132,7 @@ std::optional<Packet> FrameDecoder::take(std::span<const std::uint8_t>& input) n
             case Finding::Complete: {
                 drop(length_);
                 const unsigned head = (static_cast<unsigned>(body_[0]) << 8U) | body_[1];
-                return Packet{static_cast<std::uint16_t>(head & kCommandMost), static_cast<std::uint8_t>(head >> 10U),
+                return Packet{static_cast<std::uint16_t>(head & kMaxCommand), static_cast<std::uint8_t>(head >> 10U),
                               std::span<const std::uint8_t>(body_.data() + 2, bodySize_ - 2)};
             }
             case Finding::Broken:

@@ -20,22 +20,22 @@
 namespace tacto::sciencemode {
 
 /// The longest message there is: ML_UPDATE of 8 channels with 16 points of 4 bytes each.
-inline constexpr std::size_t kPayloadMost = 1 + 8 * (3 + 16 * 4);
-inline constexpr std::size_t kBodyMost = 2 + kPayloadMost;
+inline constexpr std::size_t kMaxPayload = 1 + 8 * (3 + 16 * 4);
+inline constexpr std::size_t kMaxBody = 2 + kMaxPayload;
 inline constexpr std::size_t kFrameOverhead = 10;
 inline constexpr std::size_t kFrameLeast = kFrameOverhead + 2;
-inline constexpr std::size_t kFrameMost = kFrameOverhead + 2 * kBodyMost;  // every byte stuffed
-inline constexpr std::uint16_t kCommandMost = 1023;
-inline constexpr std::uint8_t kNumberMost = 63;
+inline constexpr std::size_t kMaxFrame = kFrameOverhead + 2 * kMaxBody;  // every byte stuffed
+inline constexpr std::uint16_t kMaxCommand = 1023;
+inline constexpr std::uint8_t kMaxNumber = 63;
 
 /// A frame ready to be sent.
 struct FrameBytes {
-    std::array<std::uint8_t, kFrameMost> bytes;  // Not cleared: only the first `size` mean anything
+    std::array<std::uint8_t, kMaxFrame> bytes;  // Not cleared: only the first `size` mean anything
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
 };
 
-/// What a frame carries. `payload` points into whoever gave it.
+/// What a frame carries. `payload` points into the caller's bytes.
 struct Packet {
     std::uint16_t command = 0;
     std::uint8_t number = 0;
@@ -45,7 +45,7 @@ struct Packet {
 /// CRC-16/XMODEM: polynomial 1021, initial value 0, no reflection, no final xor.
 [[nodiscard]] std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept;
 
-/// Errors: InvalidArgument for a command above 1023, a packet number above 63, a payload above kPayloadMost bytes.
+/// Errors: InvalidArgument for a command above 1023, a packet number above 63, a payload above kMaxPayload bytes.
 [[nodiscard]] Result<void> encodeFrame(const Packet& packet, FrameBytes& into);
 
 /// Finds frames in a stream of bytes. What is not a frame with a fitting length and CRC is skipped up to the next F0
@@ -68,11 +68,11 @@ private:
     void drop(std::size_t bytes) noexcept;
     void resynchronise() noexcept;
 
-    std::array<std::uint8_t, kFrameMost> buffer_{};  // begins with F0, or is empty
+    std::array<std::uint8_t, kMaxFrame> buffer_{};  // begins with F0, or is empty
     std::size_t size_ = 0;
     std::size_t examined_ = 0;  // bytes of the buffer that fit a frame
     std::size_t length_ = 0;    // as the header says; 0 before it is known
-    std::array<std::uint8_t, kBodyMost> body_{};
+    std::array<std::uint8_t, kMaxBody> body_{};
     std::size_t bodySize_ = 0;
     std::uint64_t junk_ = 0;
     std::uint64_t broken_ = 0;

@@ -16,10 +16,10 @@ Result<void> addStretch(Points& points, std::string_view what, Micros duration, 
                     duration.count(), kPointLeast_us);
     }
     const int pieces = static_cast<int>(std::ceil(us / kPointMost_us));
-    if (!(pieces <= static_cast<int>(kPointsMost - points.count))) {
+    if (!(pieces <= static_cast<int>(kMaxPoints - points.count))) {
         return fail(ErrorCode::Device,
                     "the stimulator refused a pulse whose {} of {} µs does not fit its {} points of at most {} µs",
-                    what, us, kPointsMost, kPointMost_us);
+                    what, us, kMaxPoints, kPointMost_us);
     }
     const int total = static_cast<int>(us);
     for (int piece = 0; piece < pieces; ++piece) {
@@ -88,10 +88,10 @@ Result<PulsePlan> planPulse(const PulseTrain& train) {
 Result<Points> planRepetition(const PulseTrain& train) {
     const auto plan = planPulse(train);
     if (!plan) return failure(plan);
-    if (train.pulses > static_cast<int>(kPointsMost)) {
+    if (train.pulses > static_cast<int>(kMaxPoints)) {
         return fail(ErrorCode::Device,
                     "the stimulator refused to repeat a train of {} pulses: its {} points hold fewer", train.pulses,
-                    kPointsMost);
+                    kMaxPoints);
     }
     Points points;
     for (int pulse = 0; pulse < train.pulses; ++pulse) {

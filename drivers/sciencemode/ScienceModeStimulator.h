@@ -4,14 +4,14 @@
 // deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, so that nothing lies
 // between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
 // electrode that is found off, an ack that is missing or a refusal ends the train there. Pulses never follow each other
-// faster than the approved rate, and a train whose next pulse is kLateMost late (a host that slept) is given up.
+// faster than the approved rate, and a train whose next pulse is kMaxLate late (a host that slept) is given up.
 // repeat() uses mid level, for bench loads, and only where the device was opened for it.
 //
 // A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
 // the fault does.
 //
 // Thread-safety: as Stimulator; forceOff() waits for no transfer. On a VirtualClock there is no thread and the owner
-// calls serve(); elsewhere nobody does.
+// calls serve(); it is called nowhere else.
 #pragma once
 
 #include <atomic>
@@ -53,7 +53,7 @@ struct Identification {
 
 class ScienceModeStimulator final : public Stimulator, public RepeatingStimulator {
 public:
-    static constexpr Seconds kLateMost{0.04};
+    static constexpr Seconds kMaxLate{0.04};
 
     /// Connects, asks the device who it is, ends whatever it was doing and initialises low level. `wanted`, unless
     /// empty, is the identity that it must have. `uri` is what opens it again. `clock` outlives the device.

@@ -129,16 +129,16 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     PulseReading reading;
     Instant written{0};
     Result<Sent> fired = Sent::Stopped;
-    if (late > toInstant(kLateMost)) {
+    if (late > toInstant(kMaxLate)) {
         fired = fail(ErrorCode::Device,
                      "the train was given up: pulse {} of {} would have been {:.0f} ms late, at most {:.0f} ms is "
                      "accepted",
-                     play.sent + 1, play.pulses, toSeconds(late) * 1e3, kLateMost.count() * 1e3);
+                     play.sent + 1, play.pulses, toSeconds(late) * 1e3, kMaxLate.count() * 1e3);
     } else {
         fired = firePulse(play.plan, play.request, play.offs, reading, written);
     }
     if (!fired) {
-        // Nobody waits for this answer, so nobody else would switch off.
+        // No caller waits for this answer, so no other would switch off.
         forceOff();
         level_ = Level::None;
     }

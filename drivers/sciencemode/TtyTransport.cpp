@@ -142,7 +142,7 @@ bool TtyTransport::takeUrgent(Message& into) noexcept {
 void TtyTransport::sendUrgent() noexcept {
     Message message;
     while (takeUrgent(message)) {
-        // A terminal takes this few bytes at once; one that does not has no reader, and nobody may wait here.
+        // A terminal takes this few bytes at once; one that does not has no reader, and waiting is not allowed here.
         std::size_t sent = 0;
         for (int attempt = 0; attempt < 4 && sent < message.size; ++attempt) {
             const auto part = ::write(terminal_, message.bytes.data() + sent, message.size - sent);
@@ -152,7 +152,7 @@ void TtyTransport::sendUrgent() noexcept {
 }
 
 void TtyTransport::writeUrgent(std::span<const std::uint8_t> bytes) noexcept {
-    if (!bytes.empty() && bytes.size() <= kUrgentMost) {
+    if (!bytes.empty() && bytes.size() <= kMaxUrgent) {
         const std::scoped_lock queue(queue_);
         const auto waiting = std::span(urgent_).first(urgentCount_);
         const bool queued = std::ranges::any_of(waiting, [&](const Message& message) {
@@ -164,7 +164,7 @@ void TtyTransport::writeUrgent(std::span<const std::uint8_t> bytes) noexcept {
             message.size = bytes.size();
         }
     }
-    // Whoever holds the line sends what is queued before and after letting go; looked at again after each release, so
+    // The holder of the line sends what is queued before and after letting go; looked at again after each release, so
     // that none stays behind.
     for (;;) {
         if (!line_.try_lock()) return;

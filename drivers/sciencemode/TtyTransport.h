@@ -34,7 +34,7 @@ public:
 
 private:
     struct Message {
-        std::array<std::uint8_t, kUrgentMost> bytes{};
+        std::array<std::uint8_t, kMaxUrgent> bytes{};
         std::size_t size = 0;
     };
     TtyTransport(int terminal, std::string path) : terminal_(terminal), path_(std::move(path)) {}

@@ -79,7 +79,7 @@ Result<bool> BoardLink::fill(Seconds timeout) {
         return fail(ErrorCode::Device, "{}", got.error().message);
     }
     arrival_ = looked_;
-    // Whoever waits sees it come.
+    // A waiting caller sees it come.
     doubt_ = timeout > Seconds(0) ? Seconds(0) : Seconds(arrival_ - before);
     pending_ = std::span(buffer_).first(std::min(*got, buffer_.size()));
     return true;
@@ -102,7 +102,7 @@ Result<Frame> BoardLink::ask(Command command, Reply answer, std::span<const std:
         const auto frame = await(command, answer, token_);
         if (!frame) return failure(frame);
         if (*frame) return **frame;
-        if (counts().bytes - before.bytes > kNoiseMost) break;
+        if (counts().bytes - before.bytes > kMaxNoise) break;
     }
     const auto sound = counts().frames - before.frames;
     const auto bytes = counts().bytes - before.bytes;
@@ -130,7 +130,7 @@ Result<std::optional<Frame>> BoardLink::await(Command command, Reply answer, std
             return fail(ErrorCode::Device, "it refuses {}: {}", nameOf(command), refusal->text());
         }
         const Instant left = deadline - clock_.now();
-        if (left <= Instant(0) || counts().bytes - begin > kNoiseMost) return std::optional<Frame>{};
+        if (left <= Instant(0) || counts().bytes - begin > kMaxNoise) return std::optional<Frame>{};
         const auto came = fill(Seconds(left));
         if (!came) return failure(came);
         // The transport waited as long as it was told to, whatever the clock says.

@@ -26,7 +26,7 @@ class BoardLink {
 public:
     static constexpr Seconds kAttempt{0.3};
     static constexpr int kAttempts = 3;
-    static constexpr std::size_t kNoiseMost = 65536;
+    static constexpr std::size_t kMaxNoise = 65536;
 
     BoardLink(std::unique_ptr<Transport> transport, const Clock& clock)
         : transport_(std::move(transport)), clock_(clock) {}

@@ -170,7 +170,7 @@ void ClockFit::follow(double x, double y) {
         pushKnot(reached);
         // On the line's own slope, plus what brings the mapping onto the line.
         const double behind = line - reached.correction;
-        rate_ = std::clamp(slope_ + behind / kSettle_s, slope_ - kSlewMost, slope_ + kSlewMost);
+        rate_ = std::clamp(slope_ + behind / kSettle_s, slope_ - kMaxSlew, slope_ + kMaxSlew);
     }
     if (const double early = correctionAt(x) - y; early > 0) {
         shiftBack(x, early);

@@ -68,7 +68,7 @@ public:
     static constexpr std::size_t kFirstWindows = 16;
     static constexpr std::size_t kWindows = 300;     ///< 10 minutes, nearly
     static constexpr std::size_t kWindowsLeast = 8;  ///< before there is a drift
-    static constexpr double kSlewMost = 0.005;
+    static constexpr double kMaxSlew = 0.005;
     static constexpr double kMargin_s = 0.5e-3;
 
 private:

@@ -106,8 +106,8 @@ Result<BoardIdentity> readIdentity(const Frame& frame) {
     identity.serial = in.text(kSerialBytes);
     identity.firmware = in.text(kFirmwareBytes);
     if (!in.whole()) return wrong("its identity has {} bytes; 60 were expected", frame.payload.size());
-    if (identity.streams < 1 || identity.streams > kStreamsMost) {
-        return wrong("it says that it has {} streams; 1 to {} were expected", identity.streams, kStreamsMost);
+    if (identity.streams < 1 || identity.streams > kMaxStreams) {
+        return wrong("it says that it has {} streams; 1 to {} were expected", identity.streams, kMaxStreams);
     }
     if (identity.serial.empty())
         return wrong("it has no serial number; 1 to {} characters were expected", kSerialBytes);
@@ -122,7 +122,7 @@ Result<StreamConfiguration> readConfiguration(const Frame& frame) {
     made.enabled = (flags & 1U) != 0;
     const auto kind = in.u8(), unit = in.u8(), format = in.u8(), columns = in.u8();
     made.rate_mhz = in.u32();
-    if (columns > kColumnsMost) return wrong("stream {} has {} columns; 1 to 16 were expected", made.stream, columns);
+    if (columns > kMaxColumns) return wrong("stream {} has {} columns; 1 to 16 were expected", made.stream, columns);
     for (int i = 0; i < columns; ++i) {
         Column column;
         column.scale = in.f32();
@@ -178,7 +178,7 @@ Result<StreamCalibration> readCalibration(const Frame& frame) {
     const auto columns = in.u8();
     made.date = in.text(kDateBytes);
     made.reference = in.text(kReferenceBytes);
-    if (columns < 1 || columns > kColumnsMost) {
+    if (columns < 1 || columns > kMaxColumns) {
         return wrong("the calibration of stream {} has {} columns; 1 to 16 were expected", made.stream, columns);
     }
     for (int i = 0; i < columns; ++i) made.uncertainty.push_back(in.f32());

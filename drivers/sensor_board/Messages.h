@@ -16,8 +16,8 @@
 
 namespace tacto::sensorboard {
 
-inline constexpr std::size_t kStreamsMost = 8;
-inline constexpr std::size_t kColumnsMost = 16;
+inline constexpr std::size_t kMaxStreams = 8;
+inline constexpr std::size_t kMaxColumns = 16;
 
 /// How the serial number of an emulated board begins (PROTOCOL.md, section 4).
 inline constexpr std::string_view kEmulatedSerial = "EMU-";

@@ -51,7 +51,7 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
             }
         }
         // A board can send faster than the line it names, but not make this loop last for ever.
-        if (link_.counts().bytes - begin >= kReadMost) return {};
+        if (link_.counts().bytes - begin >= kMaxRead) return {};
         const auto came = link_.fill(Seconds(0));
         if (!came) return failure(came);
         if (!*came) return {};
@@ -60,7 +60,7 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
 
 Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> blocks) {
     const auto block = readBlock(frame);
-    const int which = block && block->stream < kStreamsMost ? trackOf_[block->stream] : -1;
+    const int which = block && block->stream < kMaxStreams ? trackOf_[block->stream] : -1;
     if (which < 0) {
         ++current_.foreign;
         return {};
@@ -73,7 +73,7 @@ Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> b
             track.append(*block, fit_, blocks[at]);
             return {};
         case StreamTrack::Verdict::Late:
-            if (track.lateInARow() < kLateMost) return {};
+            if (track.lateInARow() < kMaxLate) return {};
             return fail(ErrorCode::Device, "it began again: {} blocks of its {} stream in a row count from anew",
                         track.lateInARow(), tacto::nameOf(track.configuration().kind));
         case StreamTrack::Verdict::Unsound:

@@ -8,7 +8,7 @@
 //
 // Errors of read() are lasting: after one the board must be opened anew. They are: the line failed (unplugged);
 // kGarbageBytes of noise and no sound frame for kGarbageTime; a board that began again, whose clock jumped by more than
-// kJumpMost ahead, or runs wrong by more than kDriftMost.
+// kMaxJump ahead, or runs wrong by more than kMaxDrift.
 //
 // Thread-safety: as TactileSensor; report() from any thread.
 #pragma once
@@ -27,7 +27,7 @@ namespace tacto {
 
 /// What a board and its line have been like since open().
 struct SensorBoardReport {
-    std::array<sensorboard::StreamCounts, sensorboard::kStreamsMost> streams;  ///< by SensorBoard::streams()
+    std::array<sensorboard::StreamCounts, sensorboard::kMaxStreams> streams;  ///< by SensorBoard::streams()
     sensorboard::LineCounts line;
     sensorboard::BoardStatus board;  ///< the last STATUS
     std::uint64_t dropped = 0;       ///< bytes that the host did not read in time, about
@@ -53,8 +53,8 @@ public:
     static constexpr Seconds kGarbageTime{0.5};
     static constexpr double kJumpMost_s = 0.1;
     static constexpr double kDriftMost_ppm = 10'000;
-    static constexpr std::uint64_t kLateMost = 8;    ///< late blocks in a row: the board began again
-    static constexpr std::size_t kReadMost = 65536;  ///< bytes taken by one read()
+    static constexpr std::uint64_t kMaxLate = 8;    ///< late blocks in a row: the board began again
+    static constexpr std::size_t kMaxRead = 65536;  ///< bytes taken by one read()
 
     /// `clock` outlives the board. Waits for answers, about a second at most for a board that is well. Errors: Timeout
     /// (it does not answer); Device (garbage, wrong units, refused, unplugged); Unsupported (wrong version of the
@@ -99,7 +99,7 @@ private:
     std::vector<StreamInfo> infos_;
     std::vector<sensorboard::StreamTrack> tracks_;
     std::vector<sensorboard::StreamCalibration> calibrations_;
-    std::array<int, sensorboard::kStreamsMost> trackOf_{};  // by the board's number; -1: not one of ours
+    std::array<int, sensorboard::kMaxStreams> trackOf_{};  // by the board's number; -1: not one of ours
     sensorboard::ClockFit fit_;
     Instant lastSound_{0};           // when a sound frame last came
     std::uint64_t soundFrames_ = 0;  // by then

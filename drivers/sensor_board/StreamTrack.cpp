@@ -33,8 +33,8 @@ bool StreamTrack::sound(const DataBlock& block) const noexcept {
     if (block.samples.size() != bytes) return false;
     if (!(std::abs(block.interval_ns - nominal_ns_) <= kIntervalTolerance * nominal_ns_)) return false;
     // A time near the end of 64 bits is no time since power-up: sums with it would wrap.
-    constexpr std::uint64_t kTimeMost = std::uint64_t{1} << 53U;
-    if (block.time_us > kTimeMost) return false;
+    constexpr std::uint64_t kMaxTime = std::uint64_t{1} << 53U;
+    if (block.time_us > kMaxTime) return false;
     if (!begun_) return true;
     return block.time_us > last_us_ && ahead(block.index, nextIndex_) >= 0;
 }

@@ -46,7 +46,7 @@ std::optional<Frame> FrameDecoder::finish() noexcept {
     if (held_ == 0) return std::nullopt;
     const auto size = unstuff();
     held_ = 0;
-    if (!size || *size < kContentLeast || *size > kContentMost) {
+    if (!size || *size < kContentLeast || *size > kMaxContent) {
         ++counts_.malformed;
         return std::nullopt;
     }
@@ -75,7 +75,7 @@ std::optional<std::size_t> FrameDecoder::unstuff() noexcept {
 }
 
 std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token, std::span<const std::uint8_t> payload) {
-    assert(payload.size() < kPayloadMost);
+    assert(payload.size() < kMaxPayload);
     std::vector<std::uint8_t> content{kVersion, static_cast<std::uint8_t>(command), token};
     content.insert(content.end(), payload.begin(), payload.end());
     putU32(content, crcOf(content));

@@ -18,10 +18,10 @@
 namespace tacto::sensorboard {
 
 inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::size_t kContentMost = 254;  ///< version to CRC
-inline constexpr std::size_t kContentLeast = 6;   ///< version, type, CRC
-inline constexpr std::size_t kStuffedMost = 255;  ///< before the delimiter
-inline constexpr std::size_t kPayloadMost = kContentMost - kContentLeast;
+inline constexpr std::size_t kMaxContent = 254;  ///< version to CRC
+inline constexpr std::size_t kContentLeast = 6;  ///< version, type, CRC
+inline constexpr std::size_t kMaxStuffed = 255;  ///< before the delimiter
+inline constexpr std::size_t kMaxPayload = kMaxContent - kContentLeast;
 
 enum class Command : std::uint8_t {
     Hello = 0x01,
@@ -78,15 +78,15 @@ private:
     [[nodiscard]] std::optional<Frame> finish() noexcept;
     [[nodiscard]] std::optional<std::size_t> unstuff() noexcept;
 
-    std::array<std::uint8_t, kStuffedMost> stuffed_{};
-    std::array<std::uint8_t, kStuffedMost> content_{};
+    std::array<std::uint8_t, kMaxStuffed> stuffed_{};
+    std::array<std::uint8_t, kMaxStuffed> content_{};
     std::size_t held_ = 0;
     bool skipping_ = false;  // too long already
     LineCounts counts_;
 };
 
 /// A command's bytes, delimiter and a leading 00 included: the zero ends whatever junk came before it.
-/// `payload` (after the token): at most kPayloadMost - 1 bytes.
+/// `payload` (after the token): at most kMaxPayload - 1 bytes.
 [[nodiscard]] std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token,
                                                       std::span<const std::uint8_t> payload = {});
 

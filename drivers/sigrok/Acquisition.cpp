@@ -118,7 +118,7 @@ Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t nu
             auto found = trigger.next();
             if (!found) throw std::runtime_error(found.error().message);
             if (!*found) return false;
-            if (!queue.hasRoom()) continue;  // a stream does not wait: what nobody fetches is not kept
+            if (!queue.hasRoom()) continue;  // a stream does not wait: what is not fetched is not kept
             queue.push(number, std::move(**found));
         }
         return true;

@@ -1,7 +1,7 @@
 // SigrokLibrary.h - libsigrok, started: the one context of the process, and what it complains about.
 //
-// One per process, whoever asks: libsigrok's drivers are process-wide variables, and ending a second context would
-// clean up the devices of the first. It lives as long as somebody holds it.
+// One per process: libsigrok's drivers are process-wide variables, and ending a second context would
+// clean up the devices of the first. It lives as long as it is held.
 //
 // libsigrok's calls throw, sigrok::Error for a code and Glib::Error besides; what escapes from one of its C callbacks
 // would end the program. guarded() turns all of it into a Result.

@@ -10,11 +10,11 @@ namespace tacto::sigrok_driver {
 namespace {
 
 // libsigrok's rigol-ds driver waits 3 s for a trigger in one go, asking all the time; its largest pause is 1 s.
-constexpr Seconds kLoopPatience(5);
+constexpr Seconds kLoopTimeout(5);
 constexpr Seconds kSilence(3);
-constexpr Seconds kLoopPatienceUnseen(10);  // without a relay that sees the bytes: a long read cannot be told from none
-constexpr Seconds kOpenPatience(9);
-constexpr Seconds kArmPatience(6);  // an earlier wait for a trigger may have 3 s to go
+constexpr Seconds kLoopTimeoutUnseen(10);  // without a relay that sees the bytes: a long read cannot be told from none
+constexpr Seconds kOpenTimeout(9);
+constexpr Seconds kArmTimeout(6);  // an earlier wait for a trigger may have 3 s to go
 
 class SigrokOscilloscope : public Oscilloscope {
 public:
@@ -52,10 +52,10 @@ public:
         const auto number = acquisition_->queue.arm();
         thread_->post([acquisition = acquisition_, plan = *plan_, number] { acquisition->acquire(plan, number); });
         // A pulse that comes before the instrument is ready would be missed without a word.
-        if (acquisition_->queue.waitStarted(number, kArmPatience)) return {};
+        if (acquisition_->queue.waitStarted(number, kArmTimeout)) return {};
         if (const auto well = check(); !well) return well;
         acquisition_->queue.fail({ErrorCode::Timeout, fmt::format("{} has not begun to wait for a trigger for {:.0f} s",
-                                                                  identity_.name, kArmPatience.count())});
+                                                                  identity_.name, kArmTimeout.count())});
         return check();
     }
 
@@ -79,7 +79,7 @@ protected:
             if (const auto fault = relay_->fault()) queue.fail(*fault);
         }
         const bool silent = !relay_ || relay_->silence() > kSilence;
-        const Seconds patience = relay_ ? kLoopPatience : kLoopPatienceUnseen;
+        const Seconds patience = relay_ ? kLoopTimeout : kLoopTimeoutUnseen;
         if (queue.armed() && silent && queue.sinceTurn() > patience) {
             queue.fail({ErrorCode::Timeout, fmt::format("{} has said nothing for {:.0f} s in the middle of a record",
                                                         identity_.name, queue.sinceTurn().count())});
@@ -143,7 +143,7 @@ Result<std::unique_ptr<Oscilloscope>> openOscilloscope(const ScopeUri& uri, cons
     const auto acquisition = std::make_shared<Acquisition>(clock);
     auto opened =
         thread->run([acquisition, uri, options]() -> Result<void> { return acquisition->open(uri, options); },
-                    kOpenPatience, fmt::format("libsigrok's {} driver looking for the instrument", uri.driver));
+                    kOpenTimeout, fmt::format("libsigrok's {} driver looking for the instrument", uri.driver));
     if (!opened) {
         acquisition->closing = true;
         const auto fault = relay ? relay->fault() : std::nullopt;

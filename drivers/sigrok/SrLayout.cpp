@@ -12,8 +12,8 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-constexpr std::size_t kMostText = 1'000'000;
-constexpr std::uint64_t kMostChannels = 1024;
+constexpr std::size_t kMaxText = 1'000'000;
+constexpr std::uint64_t kMaxChannels = 1024;
 
 using Values = std::map<std::string, std::string, std::less<>>;
 
@@ -98,11 +98,11 @@ private:
 
 Result<SrLayout> layoutFrom(const Reader& reader, const Values& device) {
     SrLayout layout;
-    const auto probes = numberIn(device, "total probes", 0, kMostChannels);
-    const auto analog = numberIn(device, "total analog", 0, kMostChannels);
-    const auto unit = numberIn(device, "unitsize", 0, kMostChannels);
+    const auto probes = numberIn(device, "total probes", 0, kMaxChannels);
+    const auto analog = numberIn(device, "total analog", 0, kMaxChannels);
+    const auto unit = numberIn(device, "unitsize", 0, kMaxChannels);
     if (!probes || !analog || !unit || *probes + *analog == 0) {
-        return reader.broken("its metadata has no sensible number of channels; 1 to {} were expected", kMostChannels);
+        return reader.broken("its metadata has no sensible number of channels; 1 to {} were expected", kMaxChannels);
     }
     for (std::uint64_t i = 0; i < *analog; ++i) {
         layout.analog.push_back(reader.piecesOf(fmt::format("analog-1-{}", *probes + i + 1)));
@@ -157,7 +157,7 @@ Result<SrLayout> readSrLayout(const std::filesystem::path& path) {
     const auto number = unpack(*file, *version, 100);
     if (!number) return failure(number);
     if (trimmed(*number) != "2") return reader.broken("version {} of .sr; 2 was expected", trimmed(*number));
-    const auto text = unpack(*file, *metadata, kMostText);
+    const auto text = unpack(*file, *metadata, kMaxText);
     if (!text) return failure(text);
     const auto device = deviceOf(*text);
     if (!device) return reader.broken("its metadata does not describe one device");

@@ -14,7 +14,7 @@ namespace {
 
 namespace driver = sigrok_driver;
 
-constexpr std::size_t kMostSamples = 500'000'000;  // libsigrok counts the bytes of a packet in an int
+constexpr std::size_t kMaxSamples = 500'000'000;  // libsigrok counts the bytes of a packet in an int
 
 bool isLogic(const CaptureChannel& channel) {
     return channel.unit.empty() &&
@@ -77,9 +77,9 @@ Result<void> SigrokFormat::write(const std::filesystem::path& path, const Captur
         return fail(ErrorCode::InvalidArgument, "{}: a .sr holds whole rates from 1 Hz; the capture has {} Hz",
                     path.string(), capture.rate_hz);
     }
-    if (capture.samples() > kMostSamples) {
+    if (capture.samples() > kMaxSamples) {
         return fail(ErrorCode::InvalidArgument, "{}: a .sr is written with at most {} samples; the capture has {}",
-                    path.string(), kMostSamples, capture.samples());
+                    path.string(), kMaxSamples, capture.samples());
     }
     const auto library = driver::SigrokLibrary::get();
     if (!library) return failure(library);

@@ -256,7 +256,7 @@ void TcpRelay::carry() noexcept {
         }
     }
     hangUp();
-    // Ends a conversation too that nobody has accepted yet.
+    // Ends a conversation too that was not accepted yet.
     ::close(listener_);
 }
 

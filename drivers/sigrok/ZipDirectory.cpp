@@ -7,10 +7,10 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-constexpr std::size_t kEndBytes = 22;       // the end record without its comment, which has at most 65535
-constexpr std::size_t kCentralBytes = 46;   // an entry of the directory without its names
-constexpr std::size_t kLocalBytes = 30;     // a local header without its names
-constexpr std::uint64_t kMostByOne = 1032;  // deflate's best
+constexpr std::size_t kEndBytes = 22;      // the end record without its comment, which has at most 65535
+constexpr std::size_t kCentralBytes = 46;  // an entry of the directory without its names
+constexpr std::size_t kLocalBytes = 30;    // a local header without its names
+constexpr std::uint64_t kMaxByOne = 1032;  // deflate's best
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at, std::size_t count) {
     std::uint32_t value = 0;
@@ -67,7 +67,7 @@ Result<std::vector<ZipEntry>> zipDirectory(ByteFile& file) {
         if (directory->size() - at < kCentralBytes + name + rest) return broken(file, "its directory is cut short");
         entry.name = directory->substr(at + kCentralBytes, name);
         at += kCentralBytes + name + rest;
-        const std::uint64_t most = entry.method == 0 ? entry.compressed : entry.compressed * kMostByOne + 64;
+        const std::uint64_t most = entry.method == 0 ? entry.compressed : entry.compressed * kMaxByOne + 64;
         if ((entry.method != 0 && entry.method != 8) || entry.size > most || entry.compressed > file.size()) {
             return broken(file, "its entry {} cannot be unpacked to {} bytes", entry.name, entry.size);
         }

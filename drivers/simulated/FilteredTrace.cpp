@@ -115,7 +115,7 @@ void FilteredTrace::sample(double start_s, double step_s, std::vector<double>& o
         const double filterStep = std::exp(-step_s / filter_s_);
         double line = piece.a + piece.b * t;
         const double lineStep = piece.b * step_s;
-        constexpr double kGone = 1e-12;  // volts or amperes nobody can see; keeps denormals out of the loop
+        constexpr double kGone = 1e-12;  // volts or amperes too small to be seen; keeps denormals out of the loop
         for (; k < end && (std::abs(own) > kGone || std::abs(filter) > kGone); ++k) {
             out[k] = line + own + filter;
             line += lineStep;

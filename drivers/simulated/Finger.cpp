@@ -120,7 +120,7 @@ Result<void> Finger::present(std::string_view material, MillimetresPerSecond spe
     }
     const double at = toSeconds(now);
     const double earliest = opened_ + kFirstContact.count();
-    // What was planned up to now still happens in ticks that nobody has read yet; what comes later does not.
+    // What was planned up to now still happens in ticks that were not read yet; what comes later does not.
     while (!presented_ && settings_.lift.count() > 0 && !targets_.empty() && targets_.back().from_s <= at) {
         planStroke(targets_.back().from_s + settings_.lift.count());
     }

@@ -89,7 +89,7 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     if (const double step = traits.amplitudeStep * unit; step > 0) magnitude = std::round(magnitude / step) * step;
     double gain = settings_.gain;
     if (const auto since = settings_.faults.since(Fault::Drift, now)) {
-        gain *= 1 + std::min(kMostDrift, kDriftPerSecond * toSeconds(now - *since));
+        gain *= 1 + std::min(kMaxDrift, kDriftPerSecond * toSeconds(now - *since));
     }
     gain *= 1 + settings_.coldGain * std::exp(-toSeconds(now - opened_) / kWarmUp.count());
     // An amplitude of 0 is an output that stays off, whatever the offset.

@@ -56,8 +56,8 @@ struct StimulatorStatement {
 class SimulatedStimulator final : public Stimulator, public RepeatingStimulator, public WorldMember {
 public:
     static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
-    static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMostDrift
-    static constexpr double kMostDrift = 0.5;
+    static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMaxDrift
+    static constexpr double kMaxDrift = 0.5;
     static constexpr Seconds kOvershoot{3e-6};
     static constexpr Seconds kWarmUp{120};
 

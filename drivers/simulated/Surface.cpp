@@ -18,7 +18,7 @@ constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses eve
 constexpr double kRidge = 60e-6;           // contact of one asperity with a ridge: low-pass in space
 constexpr double kTaxelSide = 5e-3;
 constexpr double kBearingFraction = 0.05;  // of the summits carry the load
-constexpr double kMostUneven = 0.75;       // a taxel's pressure never falls to nothing while the finger presses
+constexpr double kMaxUneven = 0.75;        // a taxel's pressure never falls to nothing while the finger presses
 
 double metres(Micrometres length) { return length.value() * 1e-6; }
 double rms(Micrometres ra) { return metres(ra) * std::sqrt(std::numbers::pi / 2); }  // Gaussian profile
@@ -90,7 +90,7 @@ void Surface::makeBearing(std::uint64_t seed) {
     const double spacing = metres(material_.asperitySpacing);
     const double rq = rms(material_.ra);
     const double summits = kBearingFraction * kTaxelSide * kTaxelSide / (spacing * spacing);
-    const double amount = std::min(kMostUneven, rq / (rq + kTaxelCompliance) / std::sqrt(summits));
+    const double amount = std::min(kMaxUneven, rq / (rq + kTaxelCompliance) / std::sqrt(summits));
     FastNoise noise(seed, "summits under taxels");
     std::vector<float> white(kBearingCells);
     for (auto& w : white) w = static_cast<float>(noise.normal());

@@ -1,7 +1,7 @@
 // Permission.h - what lets this user open a device that the system keeps from them: the sentence that every driver
 // gives, and the command in it.
 //
-// The shipped udev rules give devices to whoever sits at the computer (uaccess). That does nothing for a login over
+// The shipped udev rules give devices to the user at the computer (uaccess). That does nothing for a login over
 // ssh, which has no seat; a group does.
 //
 // Thread-safety: pure but for reading the environment.

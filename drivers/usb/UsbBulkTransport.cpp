@@ -14,19 +14,19 @@ constexpr std::uint8_t kSetControlLineState = 0x22;
 constexpr std::uint16_t kDtr = 1;
 constexpr std::uint16_t kRts = 2;
 
-constexpr Seconds kSetupPatience{0.5};
-constexpr Seconds kFarewellPatience{0.1};
-constexpr std::size_t kInTransfersMost = 64;
-constexpr std::size_t kRingMost = std::size_t{16} << 20;
+constexpr Seconds kSetupTimeout{0.5};
+constexpr Seconds kFarewellTimeout{0.1};
+constexpr std::size_t kMaxInTransfers = 64;
+constexpr std::size_t kMaxRing = std::size_t{16} << 20;
 
 Result<void> check(const UsbBulkOptions& options) {
-    if (options.inTransfers < 1 || options.inTransfers > kInTransfersMost) {
+    if (options.inTransfers < 1 || options.inTransfers > kMaxInTransfers) {
         return fail(ErrorCode::InvalidArgument, "USB: {} input transfers at once; 1 to {} were expected",
-                    options.inTransfers, kInTransfersMost);
+                    options.inTransfers, kMaxInTransfers);
     }
-    if (options.ringBytes < 1 || options.ringBytes > kRingMost) {
+    if (options.ringBytes < 1 || options.ringBytes > kMaxRing) {
         return fail(ErrorCode::InvalidArgument, "USB: a ring of {} bytes; 1 to {} were expected", options.ringBytes,
-                    kRingMost);
+                    kMaxRing);
     }
     return {};
 }
@@ -46,10 +46,10 @@ Result<void> setUpSerial(UsbDevice& device, std::uint8_t interface, const UsbBul
                                    0,   // no parity
                                    8};  // data bits
     // Line coding means nothing to a device without a UART behind it, and it may stall the request (PSTN 1.2, 6.3.10).
-    const auto coded = device.controlOut({kClassToInterface, kSetLineCoding, 0, interface}, coding, kSetupPatience);
+    const auto coded = device.controlOut({kClassToInterface, kSetLineCoding, 0, interface}, coding, kSetupTimeout);
     if (!coded && coded.error().code != ErrorCode::Device) return coded;
     if (!options.dataTerminalReady) return {};
-    return setLineState(device, interface, true, kSetupPatience);
+    return setLineState(device, interface, true, kSetupTimeout);
 }
 
 }  // namespace
@@ -101,8 +101,8 @@ UsbBulkTransport::~UsbBulkTransport() {
         return parts_->line.gone;
     }();
     if (parts_->lowersReady && !gone) {
-        // A device that does not answer cannot be told, and there is nobody left to tell that.
-        (void)setLineState(*parts_->device, *parts_->pair.communication, false, kFarewellPatience);
+        // A device that does not answer cannot be told, and that can no longer be reported.
+        (void)setLineState(*parts_->device, *parts_->pair.communication, false, kFarewellTimeout);
     }
 }
 

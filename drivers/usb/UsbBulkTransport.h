@@ -22,7 +22,7 @@ namespace tacto {
 
 struct UsbBulkOptions {
     UsbFunction function = UsbFunction::CdcAcm;
-    /// CDC: tells the device that somebody listens. Pulse Pal sends no reply without it.
+    /// CDC: tells the device that the host listens. Pulse Pal sends no reply without it.
     bool dataTerminalReady = true;
     /// CDC: bit/s for SET_LINE_CODING, 8 bits, no parity, 1 stop bit. A device that knows no line coding may refuse it.
     std::uint32_t bitRate = 115200;

@@ -1,8 +1,8 @@
 // UsbContext.h - libusb, running: one context with an event thread of its own, and the list of what is plugged in.
 //
-// Every transfer's callback runs on the event thread; none of them calls into a driver or a program. Whoever wants to
-// know of plugging and unplugging compares generation() from time to time (a window), or waits in waitForChange() (a
-// command, a thread).
+// Every transfer's callback runs on the event thread; none of them calls into a driver or a program. A caller that
+// wants to know of plugging and unplugging compares generation() from time to time (a window), or waits in
+// waitForChange() (a command, a thread).
 //
 // Ownership: shared; open devices hold it, so that it ends after the last of them. It must not be let go on the event
 // thread; nothing of this library does.

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kControlMost = 4096;  // usbfs takes a page at most
+constexpr std::size_t kMaxControl = 4096;  // usbfs takes a page at most
 
 /// The end of one transfer, for the thread that waits for it. libusb's own synchronous calls are not used: they may
 /// run everybody's callbacks in the calling thread.
@@ -90,9 +90,9 @@ Result<std::size_t> UsbDevice::control(const UsbRequest& request, std::span<std:
         return fail(ErrorCode::InvalidArgument, "{}: the time-out of {} is {} s; {}", label_, what, timeout.count(),
                     kTimeoutRange);
     }
-    if (data.size() > kControlMost) {
+    if (data.size() > kMaxControl) {
         return fail(ErrorCode::InvalidArgument, "{}: {} has {} bytes; at most {} were expected", label_, what,
-                    data.size(), kControlMost);
+                    data.size(), kMaxControl);
     }
     std::vector<std::uint8_t> bytes(LIBUSB_CONTROL_SETUP_SIZE + data.size());
     libusb_fill_control_setup(bytes.data(), request.type, request.request, request.value, request.index,

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kTextMost = 126;  // characters of a USB string descriptor: (255 - 2) / 2
+constexpr std::size_t kMaxText = 126;  // characters of a USB string descriptor: (255 - 2) / 2
 
 std::string socketOf(libusb_device* device) {
     std::array<std::uint8_t, 7> ports{};  // USB 3.1 section 8.9: at most 5 hubs deep; libusb wants room for 7
@@ -30,7 +30,7 @@ std::string kernelText(const std::string& socket, const char* attribute) {
     std::ifstream file("/sys/bus/usb/devices/" + socket + "/" + attribute);
     std::string line;
     std::getline(file, line);
-    line.resize(std::min(line.size(), kTextMost));
+    line.resize(std::min(line.size(), kMaxText));
     std::ranges::replace_if(
         line, [](char c) { return c < ' ' || c > '~'; }, '?');
     return line;

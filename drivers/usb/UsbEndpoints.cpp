@@ -15,7 +15,7 @@ constexpr std::uint8_t kClassData = 0x0A;
 constexpr std::uint8_t kClassVendor = 0xFF;
 constexpr std::uint8_t kFunctionalDescriptor = 0x24;
 constexpr std::uint8_t kUnion = 0x06;
-constexpr std::uint8_t kInterfaceMost = 31;  // usbfs keeps claimed interfaces in 32 bits
+constexpr std::uint8_t kMaxInterface = 31;  // usbfs keeps claimed interfaces in 32 bits
 constexpr std::array<std::size_t, 6> kBulkPackets{8, 16, 32, 64, 512, 1024};
 
 std::span<const libusb_interface> interfacesOf(const libusb_config_descriptor& configuration) {
@@ -53,9 +53,9 @@ Result<std::optional<std::uint8_t>> unionOf(const libusb_interface_descriptor& c
 
 /// Fills the pair from the interface's endpoints; false where one of the two directions is missing.
 Result<bool> takeEndpoints(const libusb_interface_descriptor& interface, std::string_view device, UsbBulkPair& pair) {
-    if (interface.bInterfaceNumber > kInterfaceMost) {
+    if (interface.bInterfaceNumber > kMaxInterface) {
         return fail(ErrorCode::Device, "{}: an interface has number {}; 0 to {} was expected", device,
-                    interface.bInterfaceNumber, kInterfaceMost);
+                    interface.bInterfaceNumber, kMaxInterface);
     }
     pair.interface = interface.bInterfaceNumber;
     // libusb leaves the list out where the descriptors break off, and the number as the device said it.
@@ -101,9 +101,9 @@ Result<UsbBulkPair> findSerial(const libusb_config_descriptor& configuration, st
             setting->bInterfaceSubClass != kSubclassAcm) {
             continue;
         }
-        if (setting->bInterfaceNumber > kInterfaceMost) {
+        if (setting->bInterfaceNumber > kMaxInterface) {
             return fail(ErrorCode::Device, "{}: an interface has number {}; 0 to {} was expected", device,
-                        setting->bInterfaceNumber, kInterfaceMost);
+                        setting->bInterfaceNumber, kMaxInterface);
         }
         auto data = unionOf(*setting, device);
         if (!data) return failure(data);

@@ -62,7 +62,7 @@ UsbOutbox::~UsbOutbox() { close(); }
 
 void UsbOutbox::fill(libusb_transfer* transfer, std::span<std::uint8_t> buffer, bool urgent) noexcept {
     const auto callback = urgent ? &Callbacks::urgentSent : &Callbacks::sent;
-    // No time-out of libusb's: whoever waits cancels.
+    // No time-out of libusb's: the waiting caller cancels.
     if (endpoint_ == 0) {
         libusb_fill_control_transfer(transfer, device_.handle(), buffer.data(), callback, this, 0);
     } else {
@@ -77,9 +77,9 @@ Result<void> UsbOutbox::send(std::span<const std::uint8_t> bytes, Seconds timeou
         return fail(ErrorCode::InvalidArgument, "{}: the time-out of a write is {} s; {}", device_.label(),
                     timeout.count(), kTimeoutRange);
     }
-    if (bytes.empty() || bytes.size() > kSendMost) {
+    if (bytes.empty() || bytes.size() > kMaxSend) {
         return fail(ErrorCode::InvalidArgument, "{}: a write has {} bytes; 1 to {} were expected", device_.label(),
-                    bytes.size(), kSendMost);
+                    bytes.size(), kMaxSend);
     }
     std::unique_lock lock(line_.mutex);
     tend(lock);

@@ -1,4 +1,4 @@
-// UsbOutbox.h - what goes to one device: a transfer that somebody waits for, and an urgent one that nobody waits for.
+// UsbOutbox.h - what goes to one device: a transfer that is waited for, and an urgent one that is not.
 // Over a bulk OUT endpoint, or over the control endpoint (then the bytes are a SETUP packet). Inside drivers/usb only.
 //
 // The urgent transfer is made once. It is submitted in its caller's thread, so that it stands in the kernel's queue
@@ -26,7 +26,7 @@ namespace tacto {
 class UsbOutbox {
 public:
     /// The most that one send() takes; usbfs lends 16 MiB to all devices together.
-    static constexpr std::size_t kSendMost = 65536;
+    static constexpr std::size_t kMaxSend = 65536;
 
     /// `endpoint` 0 is the control endpoint. Both references outlive the outbox.
     UsbOutbox(UsbDevice& device, UsbLine& line, std::uint8_t endpoint);
@@ -37,7 +37,7 @@ public:
     /// One transfer. Errors: InvalidArgument (nothing or too much to send, time-out); Timeout (the rest was cancelled);
     /// Device (gone, stalled, took fewer bytes). A stall is cleared, so that the next send() has a chance.
     [[nodiscard]] Result<void> send(std::span<const std::uint8_t> bytes, Seconds timeout);
-    /// 1 to Transport::kUrgentMost bytes; others are a mistake of the program and are not sent.
+    /// 1 to Transport::kMaxUrgent bytes; others are a mistake of the program and are not sent.
     void sendUrgent(std::span<const std::uint8_t> bytes) noexcept;
     /// Urgent messages that the device took.
     [[nodiscard]] std::uint64_t delivered() const noexcept;
@@ -70,8 +70,8 @@ private:
     std::chrono::steady_clock::time_point submittedAt_{};
 
     UsbTransferPtr urgent_;
-    std::array<std::uint8_t, Transport::kUrgentMost> urgentBytes_{};  // what urgent_ refers to
-    std::array<std::uint8_t, Transport::kUrgentMost> next_{};         // what goes out after it
+    std::array<std::uint8_t, Transport::kMaxUrgent> urgentBytes_{};  // what urgent_ refers to
+    std::array<std::uint8_t, Transport::kMaxUrgent> next_{};         // what goes out after it
     std::size_t urgentLength_ = 0;
     std::size_t nextLength_ = 0;  // 0: nothing waits
     bool urgentNow_ = false;

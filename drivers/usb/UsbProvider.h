@@ -13,7 +13,7 @@ namespace tacto {
 /// Errors: as UsbContext::start(), each time: USB may come later.
 using UsbProvider = std::function<Result<std::shared_ptr<UsbContext>>()>;
 
-/// The context lives as long as somebody holds it or the provider.
+/// The context lives as long as it or the provider is held.
 [[nodiscard]] UsbProvider makeUsbProvider();
 
 }  // namespace tacto

@@ -1,4 +1,4 @@
-// What does this fingertip read on surfaces that somebody else has measured?
+// What does this fingertip read on surfaces measured by a profilometer?
 //
 // Rest, known weights, reference surfaces slid over again and again. The scales of force and taxels are put into use
 // before the surfaces are read, so that these are read as they will be. Definitions: science.md sections 2.6 and 12.
@@ -153,7 +153,7 @@ function setUp(p, surfaces) {
   );
 }
 
-// Before anything is believed: the largest weight must read as what it is. In counts nobody knows what it should read;
+// Before anything is believed: the largest weight must read as what it is. In counts it is not known what it should read;
 // then it must stand out from rest.
 function checkReference(p, rest, masses) {
   const check = { mass_g: null, reference_n: null, measured: null, deviation_pct: null, allowed_pct: p.reference_tolerance_pct, passed: null };

@@ -245,7 +245,7 @@ TEST(CalibrationVerdict, SamplingCountsWhereTheScatterDoesNotShowIt) {
 TEST(Calibration, MoreReadingsThanAnybodyTakesAreRefusedAtOnce) {
     RecordProperty("hazard", "H10");
     // A repeat is compared with every other: 400 000 in one level would take the memory and the stop's time.
-    std::vector<CalibrationReading> many(kMostReadings + 1);
+    std::vector<CalibrationReading> many(kMaxReadings + 1);
     for (std::size_t i = 0; i < many.size(); ++i) {
         many[i].commanded = 1 + static_cast<double>(i % 2);
         many[i].measured = many[i].commanded;

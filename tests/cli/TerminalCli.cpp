@@ -14,7 +14,7 @@
 namespace tacto::test {
 
 namespace {
-constexpr auto kPatience = std::chrono::seconds(20);
+constexpr auto kTimeout = std::chrono::seconds(20);
 }
 
 TerminalCli::TerminalCli(const Desk& desk, const Words& words, unsigned short columns) {
@@ -77,7 +77,7 @@ bool TerminalCli::readSome(int within_ms) {
 }
 
 bool TerminalCli::waitFor(std::string_view text) {
-    const auto limit = std::chrono::steady_clock::now() + kPatience;
+    const auto limit = std::chrono::steady_clock::now() + kTimeout;
     while (screen_.find(text) == std::string::npos) {
         if (std::chrono::steady_clock::now() > limit || !readSome(100)) return screen_.find(text) != std::string::npos;
     }
@@ -90,7 +90,7 @@ void TerminalCli::type(std::string_view keys) {
 }
 
 int TerminalCli::wait() {
-    const auto limit = std::chrono::steady_clock::now() + kPatience;
+    const auto limit = std::chrono::steady_clock::now() + kTimeout;
     bool more = true;
     while (more && std::chrono::steady_clock::now() < limit) more = readSome(100);
     if (more) kill(pid_, SIGKILL);

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (descriptor.error().code != tacto::ErrorCode::ParseError || descriptor.error().message.empty()) std::abort();
         return 0;
     }
-    if (descriptor->fields.size() > kFieldsMost || descriptor->collections.size() > kCollectionsMost) std::abort();
+    if (descriptor->fields.size() > kMaxFields || descriptor->collections.size() > kMaxCollections) std::abort();
     for (const auto& field : descriptor->fields) {
         const auto length = descriptor->lengthOf(field.kind, field.report);
         if (!length || field.bits < 1 || field.bits > 32 || field.bit < 8) std::abort();

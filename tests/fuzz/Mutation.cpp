@@ -61,7 +61,7 @@ void change(Bytes& input, const std::vector<Bytes>& corpus, Random& random) {
 Bytes mutated(const std::vector<Bytes>& corpus, Random& random) {
     Bytes input = corpus[random.below(corpus.size())];
     for (auto changes = 1 + random.below(8); changes > 0; --changes) change(input, corpus, random);
-    if (input.size() > kFileMost) input.resize(kFileMost);
+    if (input.size() > kMaxFile) input.resize(kMaxFile);
     return input;
 }
 

@@ -14,10 +14,10 @@ namespace tacto::fuzz {
 using Bytes = std::vector<std::uint8_t>;
 
 /// The longest file of a corpus.
-inline constexpr std::size_t kFileMost = 65'536;
+inline constexpr std::size_t kMaxFile = 65'536;
 
-/// One of `corpus` (not empty, files of kFileMost bytes at most) after 1 to 8 changes: a bit flipped, a byte replaced,
-/// bytes inserted, deleted, cut off or repeated, or the end of another. Never longer than kFileMost.
+/// One of `corpus` (not empty, files of kMaxFile bytes at most) after 1 to 8 changes: a bit flipped, a byte replaced,
+/// bytes inserted, deleted, cut off or repeated, or the end of another. Never longer than kMaxFile.
 [[nodiscard]] Bytes mutated(const std::vector<Bytes>& corpus, Random& random);
 
 }  // namespace tacto::fuzz

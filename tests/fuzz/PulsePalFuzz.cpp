@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         at += length;
         now += std::chrono::milliseconds(1);
         for (int channel = 1; channel <= kChannels; ++channel) {
-            if (!(std::abs(device.level(channel, now).value()) <= kVoltsMost)) std::abort();
+            if (!(std::abs(device.level(channel, now).value()) <= kMaxVolts)) std::abort();
         }
     }
     std::uint8_t answers[64];

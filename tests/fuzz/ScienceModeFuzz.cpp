@@ -108,11 +108,11 @@ void request(std::span<const std::uint8_t> input) {
     Instant now{0};
     std::array<std::uint8_t, 2048> answers{};
     while (input.size() >= 3) {
-        const auto length = std::min<std::size_t>({input[0], input.size() - 3, kPayloadMost});
+        const auto length = std::min<std::size_t>({input[0], input.size() - 3, kMaxPayload});
         FrameBytes frame;
         const auto command = static_cast<std::uint16_t>(input[1] % 70);
         require(
-            encodeFrame({command, static_cast<std::uint8_t>(input[2] & kNumberMost), input.subspan(3, length)}, frame)
+            encodeFrame({command, static_cast<std::uint8_t>(input[2] & kMaxNumber), input.subspan(3, length)}, frame)
                 .has_value());
         device.receive(frame.view(), now);
         now += std::chrono::milliseconds(input[2]);

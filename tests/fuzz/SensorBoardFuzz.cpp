@@ -32,10 +32,10 @@ std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {
 /// What is read is within its ranges, and what is made of it again is the same.
 void parse(const Frame& frame) {
     if (const auto identity = readIdentity(frame)) {
-        require(identity->streams >= 1 && identity->streams <= kStreamsMost && identity->name.size() <= 24);
+        require(identity->streams >= 1 && identity->streams <= kMaxStreams && identity->name.size() <= 24);
     }
     if (const auto configuration = readConfiguration(frame)) {
-        require(!configuration->columns.empty() && configuration->columns.size() <= kColumnsMost);
+        require(!configuration->columns.empty() && configuration->columns.size() <= kMaxColumns);
         require(configuration->rate_hz() >= 1 && configuration->rate_hz() <= 1e6);
         for (const auto& column : configuration->columns) require(std::isfinite(column.scale * 1e3 + column.offset));
         auto payload = configurationPayload(*configuration);
@@ -102,7 +102,7 @@ void decode(std::span<const std::uint8_t> input) {
 template <class Take>
 void frames(std::span<const std::uint8_t> input, Take&& take) {
     while (input.size() >= 3) {
-        const auto length = std::min<std::size_t>({input[0] + std::size_t{2}, input.size() - 1, kContentMost - 4});
+        const auto length = std::min<std::size_t>({input[0] + std::size_t{2}, input.size() - 1, kMaxContent - 4});
         if (length < 2) return;
         take(sealed(input.subspan(1, length)));
         input = input.subspan(1 + length);

@@ -47,7 +47,7 @@ struct Shared {
     std::uint64_t corpus;
     std::uint64_t mutated;
     std::size_t size;
-    std::uint8_t input[tacto::fuzz::kFileMost];
+    std::uint8_t input[tacto::fuzz::kMaxFile];
 };
 
 std::optional<Options> optionsFrom(int count, char** words) {
@@ -81,9 +81,9 @@ std::vector<Bytes> corpusAt(const std::filesystem::path& where) {
     for (const auto& file : files) {
         std::ifstream stream(file, std::ios::binary);
         corpus.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-        if (!stream || corpus.back().size() > tacto::fuzz::kFileMost) {
+        if (!stream || corpus.back().size() > tacto::fuzz::kMaxFile) {
             std::fprintf(stderr, "%s: cannot be read, or has more than %zu bytes\n", file.c_str(),
-                         tacto::fuzz::kFileMost);
+                         tacto::fuzz::kMaxFile);
             std::exit(kMisused);
         }
     }

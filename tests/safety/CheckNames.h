@@ -66,7 +66,7 @@ inline constexpr std::array kCheckNames{
     TACTO_CHECK(IntervalValue),
     TACTO_CHECK(IntervalBelowTrain),
     TACTO_CHECK(OnsetAhead),
-    TACTO_CHECK(ImpedanceDisowned),
+    TACTO_CHECK(ImpedanceRejected),
     TACTO_CHECK(PersonMonophasic),
     TACTO_CHECK(PersonNoImpedance),
     TACTO_CHECK(PersonStaleImpedance),

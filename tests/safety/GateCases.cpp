@@ -179,7 +179,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return rig.gate.updateImpedance(Ohms(1190), rig.clock.now()).has_value() &&
                refuses(rig.gate.updateImpedance(Ohms(100), rig.clock.now()), ErrorCode::LimitExceeded, "declared load");
     });
-    add(ImpedanceDisowned, "a train after a bad reading", [] {
+    add(ImpedanceRejected, "a train after a bad reading", [] {
         Rig rig(benchSetup());
         (void)rig.gate.updateImpedance(Ohms(100), rig.clock.now());
         const bool refused = refuses(rig.ask(volts(10)), ErrorCode::LimitExceeded, "out of range");

@@ -112,7 +112,7 @@ TEST(TimeReference, FindsATimeBaseThatIsWrongByMoreThanItStates) {
     ASSERT_FALSE(safety.error) << safety.error->message;
     EXPECT_EQ(safety.verdict, ScriptVerdict::Fail);
     ASSERT_FALSE(safety.reasons.empty());
-    EXPECT_THAT(safety.reasons.front(), HasSubstr("time reference: error of the interval into 1 kohm is 0.9"));
+    EXPECT_THAT(safety.reasons.front(), HasSubstr("time reference: error of the interval into 1 kohm is 0.899"));
     const auto calibration = ran("stimulator-calibration", lying, {{"quantities", "interval"}, {"repeats", "5"}});
     ASSERT_FALSE(calibration.error) << calibration.error->message;
     EXPECT_EQ(calibration.verdict, ScriptVerdict::Indeterminate);

@@ -145,7 +145,7 @@ signals:
     void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
     void armed();
     void checked(double impedance_ohm);  ///< of the electrodes; NaN where the source does not measure it
-    /// The finger slides over another surface, whoever asked for it. An empty material: it is lifted.
+    /// The finger slides over another surface, for the window or a script. An empty material: it is lifted.
     void presented(const QString& material, double speed_mm_s, double force_n);
     void captured(std::shared_ptr<const tacto::Capture> capture);
     /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output

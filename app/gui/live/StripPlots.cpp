@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kMostTaxels = TapSample::kMaxChannels;
+constexpr std::size_t kMaxTaxels = TapSample::kMaxChannels;
 constexpr double kGapSteps = 2.5;  // of a stream's own step: beyond, a sample is missing
 constexpr double kFrameGap_s = 0.1;
 // How much of the height each strip gets.
@@ -65,7 +65,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     };
     for (std::size_t i = 0; i < 3; ++i) acceleration_.push_back(graphIn(kAcceleration));
     force_.push_back(graphIn(kForce));
-    for (std::size_t i = 0; i < kMostTaxels; ++i) taxels_.push_back(graphIn(kTaxels));
+    for (std::size_t i = 0; i < kMaxTaxels; ++i) taxels_.push_back(graphIn(kTaxels));
     spectrogram_ = std::make_unique<Spectrogram>(*strips_[kSpectrum].axes);
     roughness_ = graphIn(kIndices);
     pressure_ = graphIn(kIndices);

@@ -1,7 +1,7 @@
 #include "app/gui/look/TableText.h"
 
 #include <QHeaderView>
-#include <QStyle>
+#include <QScrollBar>
 
 namespace tacto::gui {
 
@@ -19,7 +19,12 @@ void fitToRows(QTableWidget& table) {
     int width = 2 * table.frameWidth();
     for (int column = 0; column < table.columnCount(); ++column) width += table.columnWidth(column);
     table.setMaximumWidth(width);
-    table.setFixedHeight(height + table.style()->pixelMetric(QStyle::PM_ScrollBarExtent) / 2);
+    auto* across = table.horizontalScrollBar();
+    const auto giveRoom = [&table, across, height](int, int most) {
+        table.setFixedHeight(height + (most > 0 ? across->sizeHint().height() : 0));
+    };
+    QObject::connect(across, &QScrollBar::rangeChanged, &table, giveRoom);
+    giveRoom(0, across->maximum());
 }
 
 }  // namespace tacto::gui

@@ -78,7 +78,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         wiring_->show({});
         purpose_->setText(QString::fromStdString(source.name));
         const auto why = QString::fromStdString(declaration.error().message);
-        panel_->say(why + tr(" It cannot run before that is mended."), lineOf(why));
+        panel_->say(why + tr(" Fix this before running."), lineOf(why));
     } else {
         declaration_ = *declaration;
         panel_->say({});

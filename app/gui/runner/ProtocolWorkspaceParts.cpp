@@ -245,7 +245,7 @@ void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
     placeWave();
 }
 
-/// Beside the trials where there is room, else a tab: plots too narrow to read help nobody. A calibration has two
+/// Beside the trials where there is room, else a tab: a plot too narrow to read is no help. A calibration has two
 /// of its own. Nowhere in a run without an oscilloscope.
 void ProtocolWorkspace::placeWave() {
     const int room = width() - fontMetrics().averageCharWidth() * kPathChars;

@@ -150,8 +150,6 @@ QTableWidget* ResultTables::addTable(const QString& title, int rows, const QStri
     return table;
 }
 
-namespace {}  // namespace
-
 void ResultTables::addRows(const QString& title, const nlohmann::json& rows) {
     const auto columns = columnsOf(rows);
     QStringList titles;

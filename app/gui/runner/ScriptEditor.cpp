@@ -92,7 +92,7 @@ void ScriptEditor::checked(const Result<ProtocolDeclaration>& declaration) {
         return;
     }
     const auto why = QString::fromStdString(declaration.error().message);
-    // Somebody may be typing: the mark comes, the cursor stays.
+    // The user may be typing: the mark comes, the cursor stays.
     const auto cursor = code_->textCursor();
     showError(lineOf(why), why);
     if (code_->hasFocus()) code_->setTextCursor(cursor);

@@ -12,7 +12,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kCheckAfter_ms = 600;  // of quiet, while somebody types
+constexpr int kCheckAfter_ms = 600;  // without a key press
 }
 
 ScriptEditor::ScriptEditor(QWidget* parent)

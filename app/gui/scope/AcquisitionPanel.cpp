@@ -22,8 +22,8 @@ constexpr double kUsualSamples = 20'000;  ///< what Auto aims at in a short reco
 constexpr double kUsualRate_hz = 500e3;   ///< and in a long one: 100 samples in a phase of 200 µs
 constexpr double kLowestRate_hz = 1000;
 constexpr double kLowestLevel = 1e-6;
-constexpr double kMostVolts = 200;
-constexpr double kMostAmps = 0.5;
+constexpr double kMaxVolts = 200;
+constexpr double kMaxAmps = 0.5;
 constexpr double kLowestListed_hz = 10e3;
 
 void choose(QComboBox* combo, double value) {
@@ -40,7 +40,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
       traits_{Hertz(2e6), 1'000'000, 8, Hertz(0)},
       source_(combo(tr("Trigger source"), tr("The channel that is watched: a capture begins where its magnitude rises "
                                              "through the level."))),
-      level_(new QuantitySpin("V", kLowestLevel, kMostVolts, this)),
+      level_(new QuantitySpin("V", kLowestLevel, kMaxVolts, this)),
       preTrigger_(new QSpinBox(this)),
       length_(combo(tr("Record length"), tr("The time that one capture covers. To measure an interval it must hold two "
                                             "trains."))),
@@ -151,12 +151,12 @@ bool AcquisitionPanel::triggersOnCurrent() const { return source_->currentData()
 void AcquisitionPanel::sourceChanged() {
     const bool current = triggersOnCurrent();
     const QSignalBlocker quiet(level_);
-    level_->setUnit(current ? "A" : "V", kLowestLevel, current ? kMostAmps : kMostVolts);
+    level_->setUnit(current ? "A" : "V", kLowestLevel, current ? kMaxAmps : kMaxVolts);
     level_->setValue(current ? 1e-3 : 1);
 }
 
 void AcquisitionPanel::setLevel(double level) {
-    // Three digits: it follows what is commanded, and nobody compares the fourth.
+    // Three digits: it follows what is commanded; a fourth would not be read.
     const QSignalBlocker quiet(level_);
     level_->setValue(QString::number(level, 'g', 3).toDouble());
 }

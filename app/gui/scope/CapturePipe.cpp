@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kMostPending = 8;
+constexpr int kMaxPending = 8;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ CapturePipe::~CapturePipe() {
 
 void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
     if (!capture || capture->samples() == 0 || !(capture->rate_hz > 0)) return;
-    if (pending_ >= kMostPending) {
+    if (pending_ >= kMaxPending) {
         ++skipped_;
         return;
     }

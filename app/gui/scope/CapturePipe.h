@@ -24,7 +24,7 @@ public:
     explicit CapturePipe(QObject* parent = nullptr);
     ~CapturePipe() override;  ///< waits for the work at hand
 
-    void setWish(const MathWish& wish) { wish_ = wish; }
+    void setWish(const MathOptions& wish) { wish_ = wish; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
     /// A file that is being read is read no further, and not shown.
@@ -51,7 +51,7 @@ private:
     void tellRead(double part);  // on the thread that reads
 
     QThreadPool thread_;  // one, so that results come in order
-    MathWish wish_;
+    MathOptions wish_;
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kDecimals = 12;  // of the value that is held
 constexpr int kDigits = 4;     // significant digits of it that are shown
 
-/// Nobody sets a level to a millionth, and nobody reads one.
+/// No user sets a level to a millionth, or reads one.
 double asShown(double value) { return QString::number(value, 'g', kDigits).toDouble(); }
 
 }  // namespace
@@ -56,7 +56,7 @@ QString QuantitySpin::textFromValue(double value) const {
 }
 
 double QuantitySpin::valueFromText(const QString& text) const {
-    // The digits that are not shown stay as long as nobody types others.
+    // The digits that are not shown stay until the user types others.
     if (text == textFromValue(value())) return value();
     return parseQuantity(text, unit_).value_or(value());
 }

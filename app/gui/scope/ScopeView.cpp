@@ -9,9 +9,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kMostInRoll = 600;
+constexpr std::size_t kMaxInRoll = 600;
 constexpr double kRollPerDivision_s = 1;  ///< at least
-constexpr std::size_t kMostSamplesKept = 40'000'000;
+constexpr std::size_t kMaxSamplesKept = 40'000'000;
 
 QString letterFor(const Trace& trace, const std::vector<TracePtr>& all) {
     if (trace.key == "math/power") return "P";
@@ -87,12 +87,12 @@ void ScopeView::show(ShownPtr shown) {
 }
 
 void ScopeView::dropOldest() {
-    const std::size_t most = roll_ ? kMostInRoll : static_cast<std::size_t>(kMostBehind);
+    const std::size_t most = roll_ ? kMaxInRoll : static_cast<std::size_t>(kMaxBehind);
     std::size_t keep = 0;
     std::size_t samples = 0;
     while (keep < older_.size() && keep < most) {
         samples += older_[keep]->capture->samples() * older_[keep]->traces.size();
-        if (samples > kMostSamplesKept) break;
+        if (samples > kMaxSamplesKept) break;
         ++keep;
     }
     older_.resize(keep);
@@ -258,7 +258,7 @@ void ScopeView::setActiveLane(const QString& key) {
 }
 
 void ScopeView::setPersistence(int captures) {
-    persistence_ = std::clamp(captures, 0, kMostBehind);
+    persistence_ = std::clamp(captures, 0, kMaxBehind);
     fillGraphs();
     apply();
 }

@@ -46,7 +46,7 @@ struct CursorReadout {
     [[nodiscard]] double dy() const noexcept { return y2 - y1; }
 };
 
-/// What somebody chose to see of the bench's captures, where it is not the whole.
+/// What the user chose to see of the bench's captures, where it is not the whole.
 struct ChosenView {
     struct Time {
         double left_s = 0, perDivision_s = 0;
@@ -58,7 +58,7 @@ struct ChosenView {
 class ScopeView final : public QCustomPlot {
     Q_OBJECT
 public:
-    static constexpr int kMostBehind = 32;
+    static constexpr int kMaxBehind = 32;
 
     explicit ScopeView(QWidget* parent = nullptr);
 
@@ -197,7 +197,7 @@ private:
     Viewport view_;
     ChosenView chosen_;
     ViewHistory history_;
-    bool untouched_ = true;  ///< the view is a fit and nobody has changed it: it grows with the signal
+    bool untouched_ = true;  ///< the view is a fit and was not changed: it grows with the signal
     bool boxZoom_ = false;
     Drag drag_ = Drag::None;
     GripAt grip_;

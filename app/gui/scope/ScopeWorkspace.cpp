@@ -110,10 +110,10 @@ std::optional<Seconds> ScopeWorkspace::untriggeredAfter() const {
     return kFreeRunIntervals * desk_.profile().encoding.intervalMax;
 }
 
-/// The oscilloscope failed. The bench goes on, and so does the output: only nobody sees it any more.
+/// The oscilloscope failed. The bench goes on, and so does the output: it is only no longer seen.
 void ScopeWorkspace::stopped(const QString& why) {
     running_ = false;
-    wanted_ = false;  // no use asking again and again: somebody has to look at it first
+    wanted_ = false;  // asking again is no use before the user has looked at it
     failed_ = true;
     done_.clear();
     auto what = why;

@@ -3,7 +3,7 @@
 // Takes the captures of the open bench while it runs, opens captures from files, and shows what others hand it. "Hold"
 // keeps the picture and touches no output: only STOP does that.
 //
-// What somebody chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
+// What the user chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
 //
 // Keys: A auto, N normal, S single; the screen's own are in ScopeView.h.
 //
@@ -50,14 +50,14 @@ public:
 
     /// At 30 Hz while this is visible; also while it is not, where setWatched().
     void refresh(const Telemetry& telemetry);
-    /// Somebody else shows what captureShown() tells: captures are taken though this is not visible.
+    /// Another view shows what captureShown() tells: captures are taken though this is not visible.
     void setWatched(bool watched);
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.
     bool openCaptureFile(const QString& path);
     /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
     [[nodiscard]] static QString captureGlobs();
-    /// Shows somebody else's capture; holds the bench's.
+    /// Shows a capture that is not the bench's; holds the bench's.
     void show(std::shared_ptr<const Capture> capture, const QString& source);
     void show(std::shared_ptr<const Capture> capture) { show(std::move(capture), tr("capture")); }
     using QWidget::show;
@@ -129,7 +129,7 @@ private:
     bool wanted_ = true;  ///< runs as soon as there is a bench
     bool running_ = false;
     bool watched_ = false;
-    bool failed_ = false;  ///< the oscilloscope stopped by itself; until somebody lets it run again
+    bool failed_ = false;  ///< the oscilloscope stopped by itself; until the user lets it run again
     Telemetry telemetry_;
     ScopeSettings requested_;
     std::optional<Seconds> requestedWait_;

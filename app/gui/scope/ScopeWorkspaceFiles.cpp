@@ -20,7 +20,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kMostCopied = 200'000;  ///< samples a channel, as text on the clipboard
+constexpr std::size_t kMaxCopied = 200'000;  ///< samples a channel, as text on the clipboard
 
 }  // namespace
 
@@ -97,9 +97,9 @@ void ScopeWorkspace::copyData() {
     const QTemporaryDir folder;
     const auto path = folder.filePath("copied.csv");
     if ((std::min(to, shown->end_s()) - std::max(from, shown->capture->start_s)) * shown->capture->rate_hz >
-        static_cast<double>(kMostCopied)) {
+        static_cast<double>(kMaxCopied)) {
         problem_ = tr("More than %1 samples are on the screen, too many to copy: zoom in, or save them as CSV.")
-                       .arg(kMostCopied);
+                       .arg(kMaxCopied);
     } else if (const auto wrong = saveData(*shown, from, to, path)) {
         problem_ = *wrong;
     } else if (QFile file(path); file.open(QIODevice::ReadOnly)) {

@@ -16,7 +16,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::array<const char*, 4> kModes{"auto", "normal", "single", "roll"};  // in ScopeMode's order
-constexpr int kMostLanes = 64;
+constexpr int kMaxLanes = 64;
 constexpr double kFurthest = 1000;  ///< divisions from the middle that a lane's zero may lie
 
 /// A scale is a step of the ladder; anything else was not written by us.
@@ -49,7 +49,7 @@ ChosenView restoredView(QSettings& settings) {
     const auto perDivision = rememberedStep(settings, "time/perDivision", 1e-9, 1e4);
     const auto left = rememberedNumber(settings, "time/left", -1e7, 1e7);
     if (perDivision && left) chosen.time = ChosenView::Time{*left, *perDivision};
-    const int lanes = std::clamp(settings.beginReadArray("lanes"), 0, kMostLanes);
+    const int lanes = std::clamp(settings.beginReadArray("lanes"), 0, kMaxLanes);
     for (int i = 0; i < lanes; ++i) {
         settings.setArrayIndex(i);
         const auto key = settings.value("key").toString();

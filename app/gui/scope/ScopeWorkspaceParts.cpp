@@ -147,7 +147,7 @@ ScopeWorkspace::ScopeWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(paren
     benchChanged();
 }
 
-/// The view loses the focus while it is taken down, and says so: by then nobody is here to listen.
+/// The view loses the focus while it is taken down, and says so: by then this object is gone.
 ScopeWorkspace::~ScopeWorkspace() {
     save();
     disconnect(view_, nullptr, this, nullptr);

@@ -91,7 +91,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
         return;
     }
     // A power of two is quick whatever the zoom, and the same plan serves the next frame.
-    const std::size_t length = std::min(std::bit_floor(seen), kMostSamples);
+    const std::size_t length = std::min(std::bit_floor(seen), kMaxSamples);
     first += (seen - length) / 2;
     if (trace.pyramid.over(first, first + length).gap) {
         spectrum_.note = tr("Samples are missing on the screen: zoom into a part without gaps.");

@@ -33,7 +33,7 @@ struct Spectrum {
 class SpectrumPanel final : public QWidget {
     Q_OBJECT
 public:
-    static constexpr std::size_t kMostSamples = std::size_t{1} << 17;
+    static constexpr std::size_t kMaxSamples = std::size_t{1} << 17;
 
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;

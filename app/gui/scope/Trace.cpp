@@ -90,7 +90,8 @@ std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const
     return trace;
 }
 
-ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options, const MathWish& wish) {
+ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
+                        const MathOptions& wish) {
     auto shown = std::make_shared<ShownCapture>();
     shown->zero_s = std::isfinite(capture->trigger_s) ? capture->trigger_s : capture->start_s;
     auto measured = measureCapture(*capture, {}, options);
@@ -104,7 +105,7 @@ ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOpt
     return shown;
 }
 
-ShownPtr withMath(const ShownCapture& shown, const MathWish& wish) {
+ShownPtr withMath(const ShownCapture& shown, const MathOptions& wish) {
     auto again = std::make_shared<ShownCapture>(shown);
     std::erase_if(again->traces, [](const TracePtr& trace) { return trace->key.startsWith("math/"); });
     addMath(again->traces, wish);

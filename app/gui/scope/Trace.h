@@ -53,7 +53,7 @@ struct Trace {
 using TracePtr = std::shared_ptr<const Trace>;
 
 /// What to calculate beside the channels.
-struct MathWish {
+struct MathOptions {
     bool power = false;   ///< first channel in V times first in A
     bool charge = false;  ///< of the first channel in A
     QString minuend;      ///< key of a channel; empty for no difference
@@ -78,9 +78,9 @@ using ShownPtr = std::shared_ptr<const ShownCapture>;
 
 /// Measures every channel, builds every pyramid. Takes as long as the capture is; call it off the window's thread.
 [[nodiscard]] ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
-                                      const MathWish& wish);
+                                      const MathOptions& wish);
 /// The same measurement with other calculations.
-[[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathWish& wish);
+[[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathOptions& wish);
 
 /// A trace of its own: `samples` with a pyramid over them.
 [[nodiscard]] std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const QString& unit,

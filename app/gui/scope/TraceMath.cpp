@@ -73,7 +73,7 @@ TracePtr differenceTrace(const Trace& a, const Trace& b) {
                       a);
 }
 
-void addMath(std::vector<TracePtr>& traces, const MathWish& wish) {
+void addMath(std::vector<TracePtr>& traces, const MathOptions& wish) {
     const auto volts = firstIn(traces, "V");
     const auto amps = firstIn(traces, "A");
     std::vector<TracePtr> more;

@@ -34,7 +34,7 @@ ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
     persistence_->setAccessibleName(tr("Captures that stay"));
     persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: what jitters shows as a band."));
     persistence_->addItem(tr("newest only"), 0);
-    for (const int n : {4, 8, 16, ScopeView::kMostBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
+    for (const int n : {4, 8, 16, ScopeView::kMaxBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
     power_->setToolTip(tr("Voltage times current, sample by sample, in watts."));
     charge_->setToolTip(
         tr("The current added up from the record's begin, in coulombs: a balanced pulse returns to "
@@ -108,8 +108,8 @@ void ViewPanel::offerDifferences() {
     if (wanted >= 0 || (same < 0 && !chosen.toStringList().isEmpty())) emit wishChanged();
 }
 
-MathWish ViewPanel::wish() const {
-    MathWish wish;
+MathOptions ViewPanel::wish() const {
+    MathOptions wish;
     wish.power = power_->isChecked();
     wish.charge = charge_->isChecked();
     const auto difference = difference_->currentData().toStringList();
@@ -136,7 +136,7 @@ void ViewPanel::save(QSettings& settings) const {
 }
 
 void ViewPanel::restore(const QSettings& settings) {
-    if (const auto captures = rememberedNumber(settings, "persistence", 0, ScopeView::kMostBehind)) {
+    if (const auto captures = rememberedNumber(settings, "persistence", 0, ScopeView::kMaxBehind)) {
         if (const int at = persistence_->findData(static_cast<int>(*captures)); at >= 0) {
             persistence_->setCurrentIndex(at);
             view_.setPersistence(persistence_->currentData().toInt());

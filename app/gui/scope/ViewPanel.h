@@ -21,7 +21,7 @@ class ViewPanel final : public QWidget {
 public:
     /// `view` outlives this.
     ViewPanel(ScopeView& view, QWidget* parent);
-    [[nodiscard]] MathWish wish() const;
+    [[nodiscard]] MathOptions wish() const;
     [[nodiscard]] bool wantsSpectrum() const;
 
     void save(QSettings& settings) const;

@@ -27,7 +27,7 @@ constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
 constexpr int kSerialRole = Qt::UserRole + 4;
 constexpr qint64 kDescribeEvery_ms = 500;  // what a device reports on itself
 
-/// Not so a recording or a folder of captures, whose name somebody has to give.
+/// Not so a recording or a folder of captures, whose name the user has to give.
 bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty() && !device.placeholder; }
 
 }  // namespace
@@ -190,7 +190,7 @@ void DeviceDock::describe() {
             lines << tr("Serial %1").arg(serial.toHtmlEscaped());
         lines << tr("Not open.");
     }
-    // The same text would throw away what somebody has marked in it.
+    // The same text would throw away the user's selection.
     if (const auto text = lines.join("<br>"); text != facts_->text()) facts_->setText(text);
 }
 

@@ -98,7 +98,7 @@ void MainWindow::buildHelpMenu() {
         auto* about = new QMessageBox(
             QMessageBox::NoIcon, tr("About Tactoscope"),
             tr("<h3>Tactoscope %1</h3><p>A desktop bench for tactile-feedback stimulation.</p><p><b>Not a medical "
-               "device.</b> A research bench, certified by nobody. Its drivers for hardware "
+               "device.</b> A research bench, not certified. Its drivers for hardware "
                "have been tried on emulated devices only.</p>"
                "<p>GPL-3.0-or-later</p>")
                 .arg(TACTOSCOPE_VERSION),

@@ -67,7 +67,8 @@ bool StopKeys::returnPressed(QObject* watched, bool repeated) {
     return true;
 }
 
-/// True when nobody else is to see the key. Called for the window, then for the widget: stopping twice does no harm.
+/// True when no other widget is to see the key. Called for the window, then for the widget: stopping twice does no
+/// harm.
 bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     const auto* focus = QApplication::focusWidget();
     switch (key.key()) {

@@ -45,7 +45,7 @@ TEST(ScienceModeAck, ChannelConfigPutsEachValueInItsPlace) {
 TEST(ScienceModeAck, ChannelConfigOfAnyOtherLengthIsRefused) {
     RecordProperty("hazard", "H10");
     const auto payload = payloadOf(measuredAck());
-    for (std::size_t length = 0; length <= kPayloadMost; ++length) {
+    for (std::size_t length = 0; length <= kMaxPayload; ++length) {
         std::vector<std::uint8_t> bytes(length);
         std::copy_n(payload.bytes.begin(), std::min(length, payload.size), bytes.begin());
         ChannelConfigAck read;

@@ -110,7 +110,7 @@ TEST(ScienceModeRequest, ChannelConfigPutsEachParameterInItsPlace) {
         for (int connector = 0; connector < 2; ++connector) {
             for (const bool execute : {false, true}) {
                 Points points;
-                for (std::size_t count = 1; count <= kPointsMost; ++count) {
+                for (std::size_t count = 1; count <= kMaxPoints; ++count) {
                     ASSERT_TRUE(points.add({Micros(10.0 * static_cast<double>(count)), Milliamps(0.5)}));
                     const auto payload = payloadOf(ChannelConfig{channel, connector, execute, points});
                     ASSERT_TRUE(payload.has_value());

@@ -67,7 +67,7 @@ private:
     std::unique_ptr<Device> device_;
     bool plugged_ = true;
     std::uint64_t session_ = 0;  // plug() makes old transports useless
-    std::array<std::array<std::uint8_t, Transport::kUrgentMost>, 4> urgent_{};
+    std::array<std::array<std::uint8_t, Transport::kMaxUrgent>, 4> urgent_{};
     std::array<std::size_t, 4> urgentSize_{};
     std::size_t urgentCount_ = 0;
     std::vector<std::vector<std::uint8_t>> written_;

@@ -25,7 +25,7 @@ protected:
         FrameBytes frame;
         EXPECT_TRUE(encodeFrame({static_cast<std::uint16_t>(command), number_, payload.view()}, frame));
         device_.receive(frame.view(), now_);
-        number_ = static_cast<std::uint8_t>((number_ + 1) & kNumberMost);
+        number_ = static_cast<std::uint8_t>((number_ + 1) & kMaxNumber);
         std::array<std::uint8_t, 2048> bytes{};
         now_ = device_.nextTransmit().value_or(now_);
         std::span<const std::uint8_t> got(bytes.data(), device_.transmit(bytes, now_));

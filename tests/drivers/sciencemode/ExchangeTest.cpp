@@ -167,7 +167,7 @@ TEST(ScienceModeExchangeBounds, NoiseWithoutAPauseEndsEvenIfTheClockStands) {
 TEST(ScienceModeStopFrames, AreReadyAndFitOneUrgentTransfer) {
     RecordProperty("hazard", "H2");
     for (const auto& [frame, command] : {std::pair{stopFrames().lowLevel, 4}, {stopFrames().midLevel, 34}}) {
-        EXPECT_LE(frame.size, Transport::kUrgentMost);
+        EXPECT_LE(frame.size, Transport::kMaxUrgent);
         FrameDecoder decoder;
         auto view = frame.view();
         const auto packet = decoder.take(view);

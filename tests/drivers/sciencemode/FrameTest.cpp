@@ -82,7 +82,7 @@ TEST(ScienceModeFrame, CrcIsXmodem) {
 
 TEST(ScienceModeFrame, EveryPacketNumberComesBack) {
     for (unsigned round = 0; round < 3; ++round) {
-        for (std::uint8_t number = 0; number <= kNumberMost; ++number) {
+        for (std::uint8_t number = 0; number <= kMaxNumber; ++number) {
             FrameDecoder decoder;
             const auto all = takeAll(decoder, frameOf(Command::MidLevelStop, number));
             ASSERT_EQ(all.size(), 1U) << static_cast<int>(number);
@@ -94,9 +94,9 @@ TEST(ScienceModeFrame, EveryPacketNumberComesBack) {
 
 TEST(ScienceModeFrame, WhatIsEncodedDecodesToTheSameWhateverItsBytes) {
     const bool held = rc::check("frame round trip", [] {
-        const auto command = *rc::gen::inRange<int>(0, kCommandMost + 1);
-        const auto number = *rc::gen::inRange<int>(0, kNumberMost + 1);
-        const auto length = *rc::gen::inRange<std::size_t>(0, kPayloadMost + 1);
+        const auto command = *rc::gen::inRange<int>(0, kMaxCommand + 1);
+        const auto number = *rc::gen::inRange<int>(0, kMaxNumber + 1);
+        const auto length = *rc::gen::inRange<std::size_t>(0, kMaxPayload + 1);
         // Half of the bytes are those that must be stuffed.
         const auto payload = *rc::gen::container<std::vector<std::uint8_t>>(
             length, rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),
@@ -116,11 +116,11 @@ TEST(ScienceModeFrame, RefusesWhatTheFrameCannotCarry) {
     FrameBytes frame;
     EXPECT_FALSE(encodeFrame({1024, 0, {}}, frame).has_value());
     EXPECT_FALSE(encodeFrame({0, 64, {}}, frame).has_value());
-    const std::vector<std::uint8_t> tooLong(kPayloadMost + 1);
+    const std::vector<std::uint8_t> tooLong(kMaxPayload + 1);
     EXPECT_FALSE(encodeFrame({0, 0, tooLong}, frame).has_value());
-    const std::vector<std::uint8_t> worst(kPayloadMost, 0xF0);
+    const std::vector<std::uint8_t> worst(kMaxPayload, 0xF0);
     EXPECT_TRUE(encodeFrame({1023, 63, worst}, frame).has_value());
-    EXPECT_LE(frame.size, kFrameMost);
+    EXPECT_LE(frame.size, kMaxFrame);
 }
 
 TEST(ScienceModeDecoder, FindsTheNextFrameAfterAnyJunk) {

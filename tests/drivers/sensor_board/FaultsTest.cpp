@@ -227,7 +227,7 @@ TEST(SensorBoardFaults, AMinuteOfNoiseWithoutEndStaysBounded) {
     for (const auto end = begin + std::chrono::minutes(1); bench.clock.now() < end;) {
         const auto before = turning.noise();
         const auto read = (*board)->read(blocks);
-        ASSERT_LE(turning.noise() - before, SensorBoard::kReadMost + 4096) << "of one read()";
+        ASSERT_LE(turning.noise() - before, SensorBoard::kMaxRead + 4096) << "of one read()";
         if (!read) {
             EXPECT_THAT(read.error().message, HasSubstr("garbage"));
             if (!refused) {

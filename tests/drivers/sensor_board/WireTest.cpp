@@ -121,7 +121,7 @@ TEST(SensorBoardWire, WhatIsTooLongIsPassedOverAndCountedOnce) {
 TEST(SensorBoardWire, TheLongestFrameFitsAndAByteMoreDoesNot) {
     // Content without a zero: one full group.
     Bytes content{1, 0x7F};
-    while (content.size() < kContentMost - 4) content.push_back(0x33);
+    while (content.size() < kMaxContent - 4) content.push_back(0x33);
     for (std::uint8_t last = 1; last < 255; ++last) {
         content.back() = last;
         auto sealed = content;

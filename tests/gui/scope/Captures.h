@@ -33,7 +33,7 @@ inline Capture twoPulses(double start_s = 99.999, double level = 40) {
     return capture;
 }
 
-inline gui::ShownPtr prepared(Capture capture, const gui::MathWish& wish = {}) {
+inline gui::ShownPtr prepared(Capture capture, const gui::MathOptions& wish = {}) {
     return gui::prepareCapture(std::make_shared<const Capture>(std::move(capture)), {}, wish);
 }
 

@@ -174,7 +174,7 @@ protected:
     Exports() {
         view.resize(900, 500);
         view.QWidget::show();
-        gui::MathWish wish;
+        gui::MathOptions wish;
         wish.power = true;
         view.show(prepared(twoPulses(), wish));
     }

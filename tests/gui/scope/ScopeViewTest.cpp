@@ -270,7 +270,7 @@ TEST_F(Screen, RollStringsCapturesOnTheSessionsTime) {
 }
 
 TEST_F(Screen, CalculatedLanesComeAndGo) {
-    gui::MathWish wish;
+    gui::MathOptions wish;
     wish.power = true;
     wish.charge = true;
     view.replaceMath(gui::withMath(*view.shown(), wish));

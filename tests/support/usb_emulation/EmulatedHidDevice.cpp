@@ -11,7 +11,7 @@ namespace tacto::test {
 
 namespace {
 
-constexpr auto kHidPatience = std::chrono::seconds(5);
+constexpr auto kHidTimeout = std::chrono::seconds(5);
 constexpr std::uint8_t kInputEndpoint = 0x81;
 
 void check(GError* error) {
@@ -129,7 +129,7 @@ void EmulatedHidDevice::hold(bool held) {
 
 std::vector<UsbBytes> EmulatedHidDevice::waitForReports(std::size_t count) const {
     std::unique_lock lock(emulation_->mutex);
-    emulation_->changed.wait_for(lock, kHidPatience, [&] { return emulation_->reports.size() >= count; });
+    emulation_->changed.wait_for(lock, kHidTimeout, [&] { return emulation_->reports.size() >= count; });
     return emulation_->reports;
 }
 

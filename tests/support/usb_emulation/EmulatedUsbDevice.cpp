@@ -12,7 +12,7 @@ namespace tacto::test {
 
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(5);
+constexpr auto kTimeout = std::chrono::seconds(5);
 
 void check(GError* error, const char* what) {
     if (error == nullptr) return;
@@ -177,14 +177,14 @@ std::filesystem::path EmulatedUsbDevice::nodeFile() const {
 bool EmulatedUsbDevice::waitForWaiting(std::uint8_t endpoint, std::size_t transfers) const {
     auto& e = *emulation_;
     std::unique_lock lock(e.mutex);
-    return e.changed.wait_for(lock, kPatience, [&] {
+    return e.changed.wait_for(lock, kTimeout, [&] {
         return (endpoint == 0 ? e.heldControls.size() : e.wire.waitingAt(endpoint)) >= transfers;
     });
 }
 
 std::vector<UsbBytes> EmulatedUsbDevice::waitForReceived(std::size_t transfers) const {
     std::unique_lock lock(emulation_->mutex);
-    emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->received.size() >= transfers; });
+    emulation_->changed.wait_for(lock, kTimeout, [&] { return emulation_->received.size() >= transfers; });
     return emulation_->received;
 }
 
@@ -195,13 +195,13 @@ std::vector<UsbSetup> EmulatedUsbDevice::requests() const {
 
 std::vector<UsbSetup> EmulatedUsbDevice::waitForRequests(std::size_t count) const {
     std::unique_lock lock(emulation_->mutex);
-    emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->requests.size() >= count; });
+    emulation_->changed.wait_for(lock, kTimeout, [&] { return emulation_->requests.size() >= count; });
     return emulation_->requests;
 }
 
 bool EmulatedUsbDevice::waitForKernelDriver() const {
     std::unique_lock lock(emulation_->mutex);
-    return emulation_->changed.wait_for(lock, kPatience, [&] { return emulation_->kernelBound; });
+    return emulation_->changed.wait_for(lock, kTimeout, [&] { return emulation_->kernelBound; });
 }
 
 bool EmulatedUsbDevice::kernelDriverBound() const {
