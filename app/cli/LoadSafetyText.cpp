@@ -16,11 +16,11 @@ using nlohmann::json;
 json listOf(const json& results, const char* key) { return results.value(key, json::array()); }
 
 void printLoads(const json& loads) {
-    say("\n  {:<27} {:>10} {:>9} {:>10} {:>10} {:>10} {:>11} {:>10}   {}\n", "load", "measured", "peak", "peak",
-        "5 s RMS", "charge", "net charge", "energy", "verdict");
+    say("\n  {:<27} {:>10} {:>13} {:>13} {:>10} {:>10} {:>11} {:>10}   {}\n", "load", "measured", "peak voltage",
+        "peak current", "5 s RMS", "charge", "net charge", "energy", "verdict");
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0.0);
-        say("  {:<27} {:>10} {:>9} {:>10} {:>10} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
+        say("  {:<27} {:>10} {:>13} {:>13} {:>10} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
             resultQuantity(load, "measured_ohm", "ohm"), resultQuantity(load, "peak_v", "V"),
             resultQuantity(load, "peak_ma", "mA"), resultQuantity(load, "rms_5s_ma", "mA"),
             resultQuantity(load, "charge_uc", "uC"), resultQuantity(load, "net_charge_uc", "uC"),
