@@ -2,11 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
-#include "core/analysis/CalibrationFile.h"
-#include "core/analysis/CalibrationJson.h"
-#include "core/analysis/ResultJson.h"
-#include "core/analysis/TrialFile.h"
+#include "core/analysis/calibration/CalibrationFile.h"
+#include "core/analysis/calibration/CalibrationJson.h"
+#include "core/analysis/separability/SeparabilityJson.h"
+#include "core/analysis/separability/TrialFile.h"
 
 namespace tacto::cli {
 
@@ -39,12 +40,13 @@ int calibration(const std::string& file, bool asJson) {
         printJson(toJson(*found));
         return kDone;
     }
-    say("\n  {:>12} {:>5} {:>14} {:>12} {:>12}\n", "commanded", "n", "mean", "residual", "down - up");
+    TextTable table({">commanded", ">n", ">mean", ">residual", ">down - up"});
     for (const auto& level : found->levels) {
         const double turned = level.meanDown - level.meanUp;
-        say("  {:>12.6g} {:>5} {:>14.6g} {:>12.3g} {:>12}\n", level.commanded, level.n, level.mean, level.residual,
-            std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned));
+        table.add({fmt::format("{:.6g}", level.commanded), fmt::to_string(level.n), fmt::format("{:.6g}", level.mean),
+                   fmt::format("{:.3g}", level.residual), std::isnan(turned) ? "–" : fmt::format("{:.3g}", turned)});
     }
+    table.print();
     const auto percent = [](double value) { return std::isnan(value) ? "not known" : fmt::format("{:.4g} %", value); };
     say("\n  gain              {:.7g} ± {:.2g} (standard error{})\n", found->gain, found->gainStandardError,
         found->weighted ? ", weighted fit" : "");

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "core/base/Text.h"
+#include "core/base/QuantityText.h"
 #include "core/devices/DeviceUri.h"
 #include "core/safety/TrainCheck.h"
 #include "drivers/sciencemode/ReadBack.h"
@@ -30,7 +30,7 @@ TrainReadBack readBackOf(const TrainReport& report) noexcept {
     return read;
 }
 
-std::string ohmText(Ohms value) { return formatQuantity(value.value(), "ohm", 4); }
+std::string ohmText(Ohms value) { return scaledText(value.value(), "ohm", 4); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/report/WholeFile.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {
@@ -68,10 +69,9 @@ Result<double> numberOption(const QCommandLineParser& parser, const char* name) 
 }
 
 void printJson(const nlohmann::json& value) {
-    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    auto text = value.dump(2, ' ', false, kReplace);
+    auto text = dumpJson(value, 2);
     // What a terminal would act on is written with JSON's own escapes, so that the value stays the same.
-    if (printable(text, Newlines::Keep) != text) text = value.dump(2, ' ', true, kReplace);
+    if (printable(text, Newlines::Keep) != text) text = dumpJson(value, 2, true);
     say("{}\n", lines(text));
     std::fflush(stdout);
 }

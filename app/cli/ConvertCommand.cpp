@@ -5,7 +5,7 @@
 #include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
 #include "app/run/CaptureFormatsList.h"
-#include "core/base/Text.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto::cli {
 
@@ -46,7 +46,7 @@ int runConvert(const QCommandLineParser& parser) {
     }
     say("{}: {} of {} at {} from {} written\n", out,
         capture.channels.size() == 1 ? "a channel" : fmt::format("{} channels", capture.channels.size()),
-        fmt::format("{} samples", capture.samples()), formatQuantity(capture.rate_hz, "S/s", 4), reading->formatName);
+        fmt::format("{} samples", capture.samples()), scaledText(capture.rate_hz, "S/s", 4), reading->formatName);
     for (const auto& warning : reading->warnings) say(stderr, "{}\n", warning);
     return kDone;
 }

@@ -2,8 +2,8 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/Profiles.h"
-#include "core/analysis/ResultJson.h"
-#include "core/base/Text.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
 #include "core/encoding/Encoder.h"
 #include "core/safety/SafetyGate.h"
 
@@ -85,9 +85,9 @@ int runEncode(const QCommandLineParser& parser) {
                    {"approved", approved.has_value()},
                    {"refusal", approved ? nlohmann::json(nullptr) : nlohmann::json(approved.error().message)}});
     } else {
-        say("amplitude  {}  ({} into {})\ninterval   {}\n", formatQuantity(command->amplitude.value(), "V", 4),
-            formatQuantity(amplitude_ma * 1e-3, "A", 4), load->text(),
-            formatQuantity(command->interval.count(), "s", 4));
+        say("amplitude  {}  ({} into {})\ninterval   {}\n", scaledText(command->amplitude.value(), "V", 4),
+            scaledText(amplitude_ma * 1e-3, "A", 4), load->text(),
+            scaledText(command->interval.count(), "s", 4));
         if (approved)
             say("approved   yes, from 80 to 120 % of the declared load\n");
         else

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Text.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 

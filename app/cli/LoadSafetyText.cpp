@@ -5,6 +5,7 @@
 
 #include "app/cli/ResultText.h"
 #include "app/cli/Say.h"
+#include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
 
 namespace tacto::cli {
@@ -13,21 +14,20 @@ namespace {
 
 using nlohmann::json;
 
-json listOf(const json& results, const char* key) { return results.value(key, json::array()); }
-
 void printLoads(const json& loads) {
-    say("\n  {:<27} {:>10} {:>13} {:>13} {:>10} {:>10} {:>11} {:>10}   {}\n", "load", "measured", "peak voltage",
-        "peak current", "5 s RMS", "charge", "net charge", "energy", "verdict");
+    TextTable table({"load", ">measured", ">peak voltage", ">peak current", ">5 s RMS", ">charge", ">net charge",
+                     ">energy", "verdict"});
     for (const auto& load : loads) {
         const auto refused = load.value("commands_refused", 0.0);
-        say("  {:<27} {:>10} {:>13} {:>13} {:>10} {:>10} {:>11} {:>10}   {}{}\n", resultText(load, "name"),
-            resultQuantity(load, "measured_ohm", "ohm"), resultQuantity(load, "peak_v", "V"),
-            resultQuantity(load, "peak_ma", "mA"), resultQuantity(load, "rms_5s_ma", "mA"),
-            resultQuantity(load, "charge_uc", "uC"), resultQuantity(load, "net_charge_uc", "uC"),
-            resultQuantity(load, "energy_mj", "mJ"), resultText(load, "verdict"),
-            refused > 0 ? fmt::format(" ({} refused as expected)", resultNumber(load, "commands_refused"))
-                        : std::string());
+        table.add({resultText(load, "name"), resultQuantity(load, "measured_ohm", "ohm"),
+                   resultQuantity(load, "peak_v", "V"), resultQuantity(load, "peak_ma", "mA"),
+                   resultQuantity(load, "rms_5s_ma", "mA"), resultQuantity(load, "charge_uc", "uC"),
+                   resultQuantity(load, "net_charge_uc", "uC"), resultQuantity(load, "energy_mj", "mJ"),
+                   resultText(load, "verdict") +
+                       (refused > 0 ? fmt::format(" ({} refused as expected)", resultNumber(load, "commands_refused"))
+                                    : "")});
     }
+    table.print();
 }
 
 void printDisclosed(const json& outputs) {
@@ -63,9 +63,9 @@ void printRows(const json& rows, const char* heading) {
 }  // namespace
 
 void printLoadSafety(const json& results) {
-    printLoads(listOf(results, "loads"));
-    printDisclosed(listOf(results, "disclosed"));
-    printRows(listOf(results, "rows"), "limits, tolerances, refusals and trips");
+    printLoads(resultList(results, "loads"));
+    printDisclosed(resultList(results, "disclosed"));
+    printRows(resultList(results, "rows"), "limits, tolerances, refusals and trips");
     const auto worst = results.value("worst_case", json::object());
     if (worst.contains("rows")) {
         printRows(worst["rows"], fmt::format("worst case over {} to {} ohm", resultNumber(worst, "load_low_ohm"),

@@ -3,8 +3,8 @@
 #include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
 #include "app/cli/MeasureLoad.h"
-#include "core/analysis/ResultJson.h"
-#include "core/base/Text.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
 #include "core/devices/StatementKeys.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
@@ -51,12 +51,6 @@ nlohmann::json toJson(const ChannelMeasurement& m) {
             {"baseline", numberOrNull(m.states.baseline)},
             {"amplitude_uncertainty", numberOrNull(m.uncertainty.amplitude)},
             {"width_uncertainty_s", numberOrNull(m.uncertainty.width_s)}};
-}
-
-void printStatistic(const char* name, const Statistics& s, const std::string& unit) {
-    if (s.n == 0) return;
-    say("  {:<11} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
-        formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
 }
 
 Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
@@ -151,7 +145,7 @@ int runMeasure(const QCommandLineParser& parser) {
     say("{}\n", reading->formatName);
     if (simulated.value_or(false)) say("SIMULATED: no number here was measured on hardware.\n");
     for (const auto& m : found.channels) {
-        say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, formatQuantity(m.rate_hz, "S/s", 4),
+        say("{}: {} samples at {}, {} pulses\n", m.name, m.samples, scaledText(m.rate_hz, "S/s", 4),
             m.measuredPulses);
         printStatistic("amplitude", m.amplitude, m.unit);
         printStatistic("width", m.width_s, "s");

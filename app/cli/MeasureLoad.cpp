@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "app/cli/Say.h"
-#include "core/analysis/ResultJson.h"
-#include "core/base/Text.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto::cli {
 
@@ -17,13 +17,13 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
         std::count_if(m.pulses.begin(), m.pulses.end(), [&](const auto& p) { return flag(p.flags); }));
 }
 
-void printFigure(const char* name, const Statistics& s, const char* unit) {
-    if (s.n == 0) return;
-    say("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, formatQuantity(s.mean, unit, 4),
-        formatQuantity(s.sd, unit, 2), formatQuantity(s.min, unit, 4), formatQuantity(s.max, unit, 4), s.n);
-}
-
 }  // namespace
+
+void printStatistic(const char* name, const Statistics& s, std::string_view unit) {
+    if (s.n == 0) return;
+    say("  {:<13} {:>12}  (sd {}, {} to {}, n = {})\n", name, scaledText(s.mean, unit, 4),
+        scaledText(s.sd, unit, 2), scaledText(s.min, unit, 4), scaledText(s.max, unit, 4), s.n);
+}
 
 void addTrust(nlohmann::json& channel, const ChannelMeasurement& m) {
     const auto& u = m.uncertainty;
@@ -52,7 +52,7 @@ void printTrust(const ChannelMeasurement& m) {
     if (m.measuredPulses == 0) return;
     const auto& u = m.uncertainty;
     const auto text = [](double standard, std::string_view unit) {
-        return std::isfinite(standard) ? formatQuantity(kCoverage * standard, unit, 2) : std::string("not known");
+        return std::isfinite(standard) ? scaledText(kCoverage * standard, unit, 2) : std::string("not known");
     };
     say("  uncertainty (k = {:.0f}): amplitude {}, width {}", kCoverage, text(u.amplitude, m.unit),
         text(u.width_s, "s"));
@@ -89,14 +89,14 @@ void printLoad(const LoadMeasurement& load) {
     if (load.measuredPulses == 0) return;
     say("load: {} over {}, {} pulses, uncertainty (k = {:.0f}) {}\n", load.voltage, load.current, load.measuredPulses,
         kCoverage,
-        std::isfinite(load.loadUncertainty_ohm) ? formatQuantity(kCoverage * load.loadUncertainty_ohm, "ohm", 2)
+        std::isfinite(load.loadUncertainty_ohm) ? scaledText(kCoverage * load.loadUncertainty_ohm, "ohm", 2)
                                                 : "not known");
-    printFigure("load", load.load_ohm, "ohm");
-    printFigure("impedance", load.impedance_ohm, "ohm");
-    printFigure("charge", load.charge_c, "C");
-    printFigure("second charge", load.secondCharge_c, "C");
-    printFigure("net charge", load.netCharge_c, "C");
-    printFigure("energy", load.energy_j, "J");
+    printStatistic("load", load.load_ohm, "ohm");
+    printStatistic("impedance", load.impedance_ohm, "ohm");
+    printStatistic("charge", load.charge_c, "C");
+    printStatistic("second charge", load.secondCharge_c, "C");
+    printStatistic("net charge", load.netCharge_c, "C");
+    printStatistic("energy", load.energy_j, "J");
 }
 
 }  // namespace tacto::cli

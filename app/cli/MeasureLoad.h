@@ -5,6 +5,8 @@
 // channels[].quality {snr_db, averaged, averaged_second, drift, unrest, level_after, doubtful}, channels[].flagged
 // {clipped, truncated, incomplete, under_sampled, coarse, flat_top}; load {voltage, current, pulses, load_ohm,
 // load_uncertainty_ohm, impedance_ohm, charge_c, second_charge_c, net_charge_c, energy_j} or null.
+//
+// Thread-safety: pure functions; the printing ones as Say.h.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,6 +17,9 @@
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto::cli {
+
+/// A line of `measure`; nothing where nothing was measured.
+void printStatistic(const char* name, const Statistics& s, std::string_view unit);
 
 /// Adds the keys of one channel to what `measure` prints of it.
 void addTrust(nlohmann::json& channel, const ChannelMeasurement& m);

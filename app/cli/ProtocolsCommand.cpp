@@ -1,8 +1,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
-#include "app/scripting/ProtocolLibrary.h"
-#include "app/scripting/ScriptRun.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "app/scripting/engine/ScriptRun.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::cli {
 
@@ -18,7 +19,7 @@ std::string textOf(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);
     if (found == object.end() || found->is_null()) return {};
     if (found->is_number()) return fmt::format("{:g}", found->get<double>());
-    return found->is_string() ? found->get<std::string>() : found->dump();
+    return found->is_string() ? found->get<std::string>() : dumpJson(*found);
 }
 
 std::string rangeOf(const nlohmann::json& parameter) {

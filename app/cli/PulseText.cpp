@@ -10,7 +10,7 @@
 #include "app/cli/Say.h"
 #include "app/cli/TextPlot.h"
 #include "app/cli/Verdicts.h"
-#include "core/base/Text.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto::cli {
 
@@ -116,7 +116,7 @@ void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIde
            const std::string& file) {
     const auto& finding = outcome.last();
     const auto range = order.expected();
-    const auto ohms = [](Ohms value) { return formatQuantity(value.value(), "ohm", 4); };
+    const auto ohms = [](Ohms value) { return scaledText(value.value(), "ohm", 4); };
     if (finding.samples) {
         TextPlot plot;
         plot.title =

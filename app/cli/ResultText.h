@@ -13,6 +13,27 @@
 
 namespace tacto::cli {
 
+/// NaN where there is no number of that name.
+[[nodiscard]] inline double resultValue(const nlohmann::json& object, const char* key) {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+}
+
+/// Empty where there is none of that name.
+[[nodiscard]] inline nlohmann::json resultObject(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_object() ? *found : nlohmann::json::object();
+}
+[[nodiscard]] inline nlohmann::json resultList(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_array() ? *found : nlohmann::json::array();
+}
+
+/// "12.3"; "–" for what is not known.
+[[nodiscard]] inline std::string decimalText(double value, int decimals) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
+}
+
 /// Empty where there is no text of that name.
 [[nodiscard]] inline std::string resultText(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);

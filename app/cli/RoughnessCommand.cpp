@@ -6,7 +6,7 @@
 #include "app/cli/Command.h"
 #include "app/cli/Profiles.h"
 #include "core/acquisition/Recording.h"
-#include "core/analysis/ResultJson.h"
+#include "core/analysis/statistics/StatisticsJson.h"
 #include "core/dsp/RoughnessAnalysis.h"
 
 namespace tacto::cli {

@@ -12,8 +12,8 @@
 #include "app/run/AllDrivers.h"
 #include "app/run/ProtocolRun.h"
 #include "app/run/SignalStop.h"
-#include "app/scripting/Arming.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/Arming.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Printable.h"
 #include "core/session/Origin.h"
 
@@ -32,6 +32,7 @@ void declareRun(QCommandLineParser& parser) {
     parser.addOption({"realtime", "Runs on the real clock even where a virtual one could serve."});
     parser.addOption({"profile", "Profile to use instead of the shipped one.", "F"});
     parser.addOption({"operator", "Who does the run, for its report.", "NAME"});
+    parser.addOption({"sample", "What is measured, by the laboratory's own id, for its report.", "ID"});
     parser.addOption({"reviewer", "Who checks it, for its report.", "NAME"});
     parser.addOption({"ambient", "Ambient conditions, for its report: \"22.5 °C, 45 % RH\".", "TEXT"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
@@ -113,8 +114,8 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser) {
     order.limits = std::move(*limits);
     if (const auto added = addedLimitsText(order.limits); !added.empty()) say(stderr, "{}\n", added);
     order.out = parser.value("out").toStdString();
-    order.notes = {parser.value("operator").toStdString(), parser.value("reviewer").toStdString(),
-                   parser.value("ambient").toStdString()};
+    order.notes = {parser.value("operator").toStdString(), parser.value("sample").toStdString(),
+                   parser.value("reviewer").toStdString(), parser.value("ambient").toStdString()};
     if (const auto checked = checkNotes(order.notes); !checked)
         return tl::unexpected(usage("run: " + checked.error().message));
     return order;
@@ -173,38 +174,46 @@ int exitFor(const RunResult& result) {
     return result.outcome.error ? static_cast<int>(kCouldNotRun) : exitForVerdict(result.verdict());
 }
 
+/// How results of a kind are shown.
+struct Shown {
+    void (*print)(const json& results) = printResults;  ///< of a kind that is not known: as they are
+    bool saysReasons = false;                           ///< they are among what it prints
+};
+
+Shown shownAs(const json& results) {
+    static const std::map<std::string, Shown> kKinds{{"variation", {printVariation, true}},
+                                                     {"separability", {printSeparability}},
+                                                     {"load-safety", {printLoadSafety}},
+                                                     {"stimulator-calibration", {printCalibration}},
+                                                     {"transitions", {printTransitions}},
+                                                     {"encoding-comparison", {printEncodingComparison}},
+                                                     {"sensor-calibration", {printSensorCalibration}}};
+    const auto kind = results.is_object() ? results.find("kind") : results.end();
+    if (kind == results.end() || !kind->is_string()) return {};
+    const auto found = kKinds.find(kind->get<std::string>());
+    return found != kKinds.end() ? found->second : Shown{};
+}
+
 /// A script may return anything under any name; its verdict stands all the same.
-void printAnyResults(const json& results) {
+void printAnyResults(const json& results, const Shown& shown) {
     if (!results.is_object()) return;
     try {
-        // By what they are; a script of the user's that names no kind is printed as it is.
-        static const std::map<std::string, void (*)(const json&)> kPrinters{
-            {"variation", printVariation},
-            {"separability", printSeparability},
-            {"load-safety", printLoadSafety},
-            {"stimulator-calibration", printCalibration},
-            {"transitions", printTransitions},
-            {"encoding-comparison", printEncodingComparison},
-            {"sensor-calibration", printSensorCalibration}};
-        const auto printer = kPrinters.find(results.value("kind", ""));
-        (printer != kPrinters.end() ? printer->second : printResults)(results);
+        shown.print(results);
     } catch (const json::exception& problem) {
         say("\n  The results do not have the shape that is shown here ({}); the session holds them as they are.\n",
             printable(problem.what()));
     }
 }
 
-/// The reasons are the results' headline, which stands above the tables.
-bool saidFirst(const json& results) { return results.is_object() && results.contains("headline"); }
-
 void printSummary(const ScriptOutcome& outcome, const json& value) {
-    printAnyResults(outcome.results);
+    const auto shown = shownAs(outcome.results);
+    printAnyResults(outcome.results, shown);
     say("\n");
     for (const auto& mark : value["marks"]) say("  {}\n", mark.get<std::string>());
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",
-                 outcome.error || saidFirst(outcome.results) ? std::vector<std::string>{} : outcome.reasons);
+                 outcome.error || shown.saysReasons ? std::vector<std::string>{} : outcome.reasons);
     say("  session  {}\n", value["session"].get<std::string>());
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
@@ -294,12 +303,13 @@ int runRun(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kRun{"run",
-                   "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--realtime] [--reset-fault] "
-                   "[--out DIR] [--report none|html|pdf] [--json]",
-                   "Runs a protocol script, records it and writes its report",
-                   true,
-                   declareRun,
-                   runRun};
+const Command kRun{
+    "run",
+    "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
+    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--report none|html|pdf] [--json]",
+    "Runs a protocol script, records it and writes its report",
+    true,
+    declareRun,
+    runRun};
 
 }  // namespace tacto::cli

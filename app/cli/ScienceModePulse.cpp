@@ -122,7 +122,7 @@ void declarePulse(QCommandLineParser& parser) {
     parser.addOption({"gap", "Time between the phases in us; 0, or 10 and more.", "US"});
     parser.addOption(
         {"load", "The bench load that is connected, in ohm; the limits are judged at ± 20 % of it.", "OHM"});
-    parser.addOption({"yes-bench-load", "Confirms, where nobody can be asked, that a bench load is connected."});
+    parser.addOption({"yes-bench-load", "Confirms, where no question can be asked, that a bench load is connected."});
     parser.addOption({"out", "Saves the samples that were read back as a capture.", "FILE.csv"});
 }
 
@@ -146,7 +146,7 @@ int pulse(const QCommandLineParser& parser) {
     if (!uri) return failWith(uri.error());
     if (!parser.isSet("yes-bench-load") && !canAsk()) {
         return usage(
-            "sciencemode pulse: nobody can be asked here, without a terminal; --yes-bench-load confirms that a "
+            "sciencemode pulse: without a terminal no question can be asked; --yes-bench-load confirms that a "
             "bench load is connected, and no person");
     }
     auto out = parser.value("out").toStdString();

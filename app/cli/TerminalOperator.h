@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "app/run/SignalStop.h"
-#include "app/scripting/Operator.h"
+#include "app/scripting/engine/Operator.h"
 
 namespace tacto::cli {
 

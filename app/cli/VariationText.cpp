@@ -4,7 +4,9 @@
 
 #include "app/cli/ResultText.h"
 #include "app/cli/Say.h"
+#include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::cli {
 
@@ -26,37 +28,37 @@ std::string range(const json& object, const char* key, const char* middle = "val
 
 void printAim(const char* aim, const json& alone, const json& pooled) {
     const bool reached = pooled.value("total", json()).is_number();
-    say("  {:<34} one participant {:>6}, pooled {}\n", aim, alone.is_number() ? alone.dump() : "–",
+    say("  {:<34} one participant {:>6}, pooled {}\n", aim, alone.is_number() ? dumpJson(alone) : "–",
         reached ? fmt::format("{:>6} ({} each)", resultNumber(pooled, "total"), resultNumber(pooled, "per_participant"))
                 : fmt::format("not with so few: at least {} participants", resultNumber(pooled, "participants_least")));
 }
 
 /// What is too strong decides more than anything else.
 void printReadings(const json& results) {
-    const json readings = results.value("readings", json::array());
+    const json readings = resultList(results, "readings");
     if (readings.empty()) return;
-    say("\n  {:<28} {:>8} {:>14} {:>17}   {}\n", "too strong from", "mA", "fixed: served", "own range: served",
-        "accuracy of these, %");
+    TextTable table({"too strong from", ">mA", ">fixed: served", ">own range: served", "accuracy of these, %"});
     for (const auto& row : readings) {
-        say("  {:<28} {:>8} {:>14} {:>17}   {}\n", resultText(row, "too_strong_from"), resultNumber(row, "median_ma"),
-            resultNumber(row, "fixed_served"), resultNumber(row, "personal_served"),
-            range(row, "accuracy", "median", 100));
+        table.add({resultText(row, "too_strong_from"), resultNumber(row, "median_ma"),
+                   resultNumber(row, "fixed_served"), resultNumber(row, "personal_served"),
+                   range(row, "accuracy", "median", 100)});
     }
+    table.print();
 }
 
 void printPilots(const json& results) {
-    const json pilots = results.value("pilots", json::array());
+    const json pilots = resultList(results, "pilots");
     if (pilots.empty()) return;
     const auto percent = [](const json& row, const char* key) {
         const auto value = row.value(key, json());
         return value.is_number() ? fmt::format("{:.0f} %", 100 * value.get<double>()) : "–";
     };
-    say("\n  {:<8} {:>15} {:>22}   {}\n", "pilot of", "all are served", "... and above chance",
-        "then such people who can do it (95 %)");
+    TextTable table({"pilot of", ">all are served", ">... and above chance", "then such people who can do it (95 %)"});
     for (const auto& row : pilots) {
-        say("  {:<8} {:>15} {:>22}   at least {}\n", resultNumber(row, "people"), percent(row, "all_served"),
-            percent(row, "all_above_chance"), percent(row, "prevalence_all"));
+        table.add({resultNumber(row, "people"), percent(row, "all_served"), percent(row, "all_above_chance"),
+                   "at least " + percent(row, "prevalence_all")});
     }
+    table.print();
     const json& one = pilots.front();
     say("  One person's 95 % interval after {} trials is {} % wide; {} right answers are above chance.\n",
         resultNumber(one, "trials"), range(one, "width", "value", 100), resultNumber(one, "right_from"));
@@ -77,9 +79,9 @@ void printTrials(const json& results) {
 }  // namespace
 
 void printVariation(const json& results) {
-    if (const auto headline = results.find("headline"); headline != results.end() && headline->is_string()) {
+    if (const auto reasons = resultList(results, "reasons"); !reasons.empty()) {
         say("\n");
-        for (const auto& sentence : results.value("reasons", json::array())) {
+        for (const auto& sentence : reasons) {
             if (sentence.is_string()) say("  {}\n", sentence.get<std::string>());
         }
     } else {
@@ -88,11 +90,12 @@ void printVariation(const json& results) {
             resultNumber(results, "participants_refused"), resultNumber(results, "participants_not_feeling"));
     }
     printReadings(results);
-    say("\n  {:<28} {:>26} {:>26} {:>26}\n", "pair, JND", "together", "amplitude", "interval");
-    for (const auto& pair : results.value("separability", json::array())) {
-        say("  {:<28} {:>26} {:>26} {:>26}\n", resultText(pair, "a") + " / " + resultText(pair, "b"),
-            range(pair, "jnd"), range(pair, "amplitude_jnd"), range(pair, "interval_jnd"));
+    TextTable table({"pair, JND", ">together", ">amplitude", ">interval"});
+    for (const auto& pair : resultList(results, "separability")) {
+        table.add({resultText(pair, "a") + " / " + resultText(pair, "b"), range(pair, "jnd"),
+                   range(pair, "amplitude_jnd"), range(pair, "interval_jnd")});
     }
+    table.print();
     say("\n  accuracy of the served {} %, information {} bits\n", range(results, "accuracy", "median", 100),
         range(results, "information_bits", "median"));
     printPilots(results);

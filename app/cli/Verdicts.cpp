@@ -6,6 +6,8 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/ResultText.h"
+#include "core/base/JsonText.h"
+#include "app/cli/TextTable.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto::cli {
@@ -17,17 +19,18 @@ int exitForVerdict(std::string_view verdict) noexcept {
     return kDone;
 }
 
-namespace {
-double at(const nlohmann::json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+void printKnownLoad(const nlohmann::json& results) {
+    const auto reference = resultObject(results, "reference");
+    const double load = resultValue(reference, "load_ohm"), measured = resultValue(reference, "measured_ohm");
+    if (!std::isfinite(load)) return;
+    say("\n  known load {} read as {}\n", exactText(load, "ohm"),
+        std::isfinite(measured) ? measuredText(measured, resultValue(reference, "expanded_ohm"), "ohm") : "nothing");
 }
-}  // namespace
 
 void printResults(const nlohmann::json& results) {
     say("\n");
     for (const auto& [key, value] : results.items()) {
-        if (key != "verdict") say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+        if (key != "verdict") say("  {:<18} {}\n", key, value.is_string() ? value.get<std::string>() : dumpJson(value));
     }
 }
 
@@ -37,42 +40,41 @@ void printVerdict(std::string_view verdict, const std::vector<std::string>& reas
 }
 
 void printCalibration(const nlohmann::json& results) {
-    const auto reference = results.value("reference", nlohmann::json::object());
-    const double measured = at(reference, "measured_ohm");
-    if (std::isfinite(at(reference, "load_ohm"))) {
-        say("\n  known load {} read as {}\n", exactText(at(reference, "load_ohm"), "ohm"),
-            std::isfinite(measured) ? measuredText(measured, at(reference, "expanded_ohm"), "ohm") : "nothing");
-    }
-    say("\n  {:<12} {:>10} {:>12} {:>12} {:>14} {:>12} {:>18}   {}\n", "", "gain", "offset", "residual %",
-        "repeatability %", "hysteresis %", "U at the largest", "verdict");
+    printKnownLoad(results);
+    TextTable table(
+        {"", ">gain", ">offset", ">residual %", ">repeatability %", ">hysteresis %", ">U at the largest", "verdict"});
     for (const char* name : {"amplitude", "interval", "width", "gap"}) {
         const auto found = results.value(name, nlohmann::json::object());
         if (!found.contains("gain")) continue;
         const auto unit = resultText(found, "unit");
-        say("  {:<12} {:>10.6f} {:>12} {:>12.4f} {:>14.4f} {:>12.4f} {:>18}   {}\n", name, at(found, "gain"),
-            resultQuantity(found, "offset", unit, 3), at(found, "residual_max_pct_fs"),
-            at(found, "repeatability_pct_fs"), at(found, "hysteresis_pct_fs"),
-            resultQuantity(found, "expanded_uncertainty", unit, 2), resultText(found, "verdict"));
+        table.add({name, decimalText(resultValue(found, "gain"), 6), resultQuantity(found, "offset", unit, 3),
+                   decimalText(resultValue(found, "residual_max_pct_fs"), 4),
+                   decimalText(resultValue(found, "repeatability_pct_fs"), 4),
+                   decimalText(resultValue(found, "hysteresis_pct_fs"), 4),
+                   resultQuantity(found, "expanded_uncertainty", unit, 2), resultText(found, "verdict")});
     }
+    table.print();
 }
 
 void printSeparability(const nlohmann::json& results) {
-    say("\n  {:<14} {:>4} {:>12} {:>10} {:>12} {:>10}\n", "condition", "n", "amplitude", "sd", "interval", "sd");
-    for (const auto& c : results.value("conditions", nlohmann::json::array())) {
+    TextTable conditions({"condition", ">n", ">amplitude", ">sd", ">interval", ">sd"});
+    for (const auto& c : resultList(results, "conditions")) {
         const auto& amplitude = c.at("amplitude_v");
         const auto& interval = c.at("interval_s");
-        say("  {:<14} {:>4} {:>12} {:>10} {:>12} {:>10}\n", c.value("name", ""), resultNumber(c, "n"),
-            resultQuantity(amplitude, "mean", "V", 5), resultQuantity(amplitude, "sd", "V", 2),
-            resultQuantity(interval, "mean", "s", 6), resultQuantity(interval, "sd", "s", 2));
+        conditions.add({c.value("name", ""), resultNumber(c, "n"), resultQuantity(amplitude, "mean", "V", 5),
+                        resultQuantity(amplitude, "sd", "V", 2), resultQuantity(interval, "mean", "s", 6),
+                        resultQuantity(interval, "sd", "s", 2)});
     }
-    say("\n  {:<28} {:>12} {:>15} {:>14}\n", "pair", "Mahalanobis", "amplitude JND", "interval JND");
-    for (const auto& p : results.value("pairs", nlohmann::json::array())) {
-        say("  {:<28} {:>12.1f} {:>15.1f} {:>14.1f}\n", p.value("a", "") + " / " + p.value("b", ""),
-            at(p, "mahalanobis"), at(p, "amplitude_jnd"), at(p, "interval_jnd"));
+    conditions.print();
+    TextTable pairs({"pair", ">Mahalanobis", ">amplitude JND", ">interval JND"});
+    for (const auto& p : resultList(results, "pairs")) {
+        pairs.add({p.value("a", "") + " / " + p.value("b", ""), decimalText(resultValue(p, "mahalanobis"), 1),
+                   decimalText(resultValue(p, "amplitude_jnd"), 1), decimalText(resultValue(p, "interval_jnd"), 1)});
     }
-    const auto accuracy = results.value("accuracy", nlohmann::json::object());
-    say("\n  accuracy {:.1f} % (95 %: {:.1f} to {:.1f} %)\n", 100 * at(accuracy, "value"), 100 * at(accuracy, "low"),
-        100 * at(accuracy, "high"));
+    pairs.print();
+    const auto accuracy = resultObject(results, "accuracy");
+    const auto percent = [&](const char* key) { return decimalText(100 * resultValue(accuracy, key), 1); };
+    say("\n  accuracy {} % (95 %: {} to {} %)\n", percent("value"), percent("low"), percent("high"));
 }
 
 }  // namespace tacto::cli

@@ -1,4 +1,6 @@
 // Verdicts.h - verdicts as exit codes and as text.
+//
+// Thread-safety: pure functions; the printing ones as Say.h.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +15,8 @@ namespace tacto::cli {
 
 /// The verdict in a word, then why.
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons);
+/// What the reference load was read as; nothing where there was none.
+void printKnownLoad(const nlohmann::json& results);
 /// The results of a calibration, a line per quantity, without the verdict.
 void printCalibration(const nlohmann::json& results);
 /// The results of a load-safety check, a line per load, what is to be disclosed, and every row that did not pass.

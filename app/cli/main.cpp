@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "app/cli/Command.h"
-#include "app/scripting/ScriptRun.h"
+#include "app/scripting/engine/ScriptRun.h"
 #include "core/base/StandardStreams.h"
 
 namespace tacto::cli {

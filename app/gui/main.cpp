@@ -2,7 +2,7 @@
 #include <QApplication>
 #include <QSettings>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SignalClose.h"
 #include "app/run/AllDrivers.h"
@@ -21,6 +21,9 @@ int main(int argc, char** argv) {
     tacto::gui::MainWindow window(tacto::allDrivers());
     const tacto::gui::SignalClose closesAtSignals(stops, window);
     window.show();
-    if (!QSettings().value("tourDone").toBool()) window.beginTour();
+    if (QSettings().value("tourDone").toBool())
+        window.askForDay(true);
+    else
+        window.beginTour();
     return QApplication::exec();
 }

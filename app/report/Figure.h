@@ -85,7 +85,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/analysis/Estimate.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "core/base/Result.h"
 #include "core/measure/Capture.h"
 

@@ -1,7 +1,9 @@
 // Fonts.h - the faces a report is set in, and the check that they are there: without a font Qt writes pages that have
 // lost their text and says nothing.
 //
-// Sizes are in the report's unit, 1/96 inch. Thread-safety: the GUI thread.
+// Sizes are in the report's unit, 1/96 inch.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFont>

@@ -39,6 +39,9 @@ FactsBlock factsOf(const ReportModel& model) {
         open << "exposure was not computed: this session holds no approved train";
     block.facts.push_back(
         {"Not evaluated", open.isEmpty() ? QString("nothing, as far as this session says") : open.join(";\n") + "."});
+    block.facts.push_back({"Sample", orNotRecorded(basis.sample)});
+    if (!basis.note.isEmpty()) block.facts.push_back({"Note, added after the recording", basis.note});
+    if (!basis.tags.isEmpty()) block.facts.push_back({"Tags, added after the recording", basis.tags});
     block.facts.push_back({"Ambient conditions", orNotRecorded(basis.ambient)});
     return block;
 }

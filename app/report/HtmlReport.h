@@ -1,7 +1,9 @@
 // HtmlReport.h - the report as one HTML page that needs no other file: styles and figures are inside it. Follows the
 // reader's light or dark theme for text (figures keep paper white), and prints well.
 //
-// Well-formed XML, so that any tool can read it. Thread-safety: the GUI thread.
+// Well-formed XML, so that any tool can read it.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QByteArray>

@@ -30,8 +30,10 @@ Split splitUnit(const QString& shown) {
 
 QString fixed(double value, int decimals) {
     QString text = QString::number(value, 'f', std::max(0, decimals));
-    if (text.startsWith('-')) text.replace(0, 1, kMinus);
-    return text;
+    if (!text.startsWith('-')) return text;
+    // What rounds to zero is zero: there is no "−0.00".
+    const bool zero = std::all_of(text.begin() + 1, text.end(), [](QChar c) { return c == '0' || c == '.'; });
+    return text.replace(0, 1, zero ? QString() : QString(kMinus));
 }
 
 QString withUnit(const QString& number, const QString& unit) {

@@ -1,4 +1,6 @@
-// PdfMatrix.h - sets a matrix on pages. Thread-safety: the GUI thread.
+// PdfMatrix.h - sets a matrix on pages.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include "app/report/PdfPages.h"

@@ -1,6 +1,8 @@
 // PdfPages.h - A4 pages to set blocks on: breaks, running head and foot with page x of y, text and figures as vectors.
 //
-// Positions are in 1/96 inch. Thread-safety: the GUI thread.
+// Positions are in 1/96 inch.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QIODevice>

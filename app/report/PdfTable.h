@@ -1,4 +1,6 @@
-// PdfTable.h - sets a table on pages. Thread-safety: the GUI thread.
+// PdfTable.h - sets a table on pages.
+//
+// Thread-safety: the GUI thread.
 #pragma once
 
 #include "app/report/PdfPages.h"

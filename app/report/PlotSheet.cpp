@@ -10,7 +10,7 @@ ConditionStyle conditionStyle(const QString& name, int index) {
         {"smooth-low", {QColor(0x56, 0xb4, 0xe9), Qt::DotLine, S::ssCircle}},
         {"smooth-high", {QColor(0x00, 0x72, 0xb2), Qt::DashLine, S::ssSquare}},
         {"rough-low", {QColor(0xe6, 0x9f, 0x00), Qt::DashDotLine, S::ssTriangle}},
-        {"rough-high", {QColor(0xd5, 0x5e, 0x00), Qt::SolidLine, S::ssDisc}}};
+        {"rough-high", {QColor(0xd5, 0x5e, 0x00), Qt::SolidLine, S::ssDiamond}}};
     if (const auto found = known.find(name); found != known.end()) return found->second;
     static const std::array<ConditionStyle, 8> further{
         {{QColor(0x00, 0x9e, 0x73), Qt::SolidLine, S::ssDiamond},

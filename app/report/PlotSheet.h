@@ -2,7 +2,9 @@
 // conditions told apart by colour, dash and marker, "SIMULATED" across every plot of a simulated session.
 //
 // Drawn as vectors onto a page or into an SVG. Everything drawn lies inside its axes: SVG knows no clipping here.
-// Sizes are in the report's unit, 1/96 inch. Thread-safety: the GUI thread (plots are widgets).
+// Sizes are in the report's unit, 1/96 inch.
+//
+// Thread-safety: the GUI thread (plots are widgets).
 #pragma once
 
 #include <memory>

@@ -1,8 +1,9 @@
 // ReportContent.h - the report as a sequence of blocks, worded once: PDF and HTML only set them.
 //
 // Order: title, verdict with its reasons, decision rule and what the verdict rests on, signatures; then the script's
-// figures and tables, what was computed from approved trains, events, what was used, how to reproduce. Thread-safety:
-// the GUI thread (drawn figures are widgets).
+// figures and tables, what was computed from approved trains, events, what was used, how to reproduce.
+//
+// Thread-safety: the GUI thread (drawn figures are widgets).
 #pragma once
 
 #include <QString>

@@ -78,9 +78,12 @@ struct ReportBasis {
     std::vector<ReportInstrument> instruments;
     QString certificate;       ///< of the oscilloscope, and whether it was used; empty: none
     QStringList notEvaluated;  ///< a sentence each; empty: nothing is known to be left out
-    QString operatorName;      ///< these three as they were entered; empty: not recorded
+    QString operatorName;      ///< these as they were entered; empty: not recorded
+    QString sample;
     QString reviewer;
     QString ambient;
+    QString note;  ///< added to the session afterwards
+    QString tags;
 };
 
 /// A fault, refusal, stop or remark.

@@ -8,6 +8,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
+#include "core/base/JsonText.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
@@ -20,7 +21,7 @@ QString text(const std::string& value) { return QString::fromStdString(value); }
 
 /// Replaces what no JSON text can hold (a broken byte in a name) instead of throwing.
 QJsonObject objectOf(const nlohmann::json& json) {
-    const std::string dumped = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string dumped = dumpJson(json);
     return QJsonDocument::fromJson(QByteArray::fromStdString(dumped)).object();
 }
 
@@ -129,8 +130,8 @@ public:
         } else if (kind == "notes") {
             auto& basis = model_.basis;
             for (const auto& [key, into] :
-                 {std::pair("operator", &basis.operatorName), std::pair("reviewer", &basis.reviewer),
-                  std::pair("ambient", &basis.ambient)})
+                 {std::pair("operator", &basis.operatorName), std::pair("sample", &basis.sample),
+                  std::pair("reviewer", &basis.reviewer), std::pair("ambient", &basis.ambient)})
                 if (item.contains(QLatin1String(key))) *into = item[QLatin1String(key)].toString();
         } else if (kind == "text") {
             model_.items.emplace_back(ReportText{item["text"].toString()});
@@ -230,7 +231,7 @@ QString sentenceOf(const QJsonObject& body) {
 
 void addEvent(ReportModel& model, const SessionRow& row) {
     ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(objectOf(row.body))};
-    if (!model.events.empty()) {
+    if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // each mark is a moment of its own
         auto& last = model.events.back();
         if (last.kind == event.kind && last.text == event.text) {
             ++last.count;
@@ -238,6 +239,20 @@ void addEvent(ReportModel& model, const SessionRow& row) {
         }
     }
     model.events.push_back(std::move(event));
+}
+
+/// What was said of the session after it ended is told apart from what was entered before it began.
+void takeLabels(const SessionLabels& labels, ReportBasis& basis) {
+    const auto later = [](const std::string& now, QString& shown) {
+        if (text(now) == shown) return;
+        shown = now.empty() ? QString() : text(now) + " (entered after the recording ended)";
+    };
+    later(labels.operatorName, basis.operatorName);
+    later(labels.sample, basis.sample);
+    basis.note = text(labels.note);
+    QStringList tags;
+    for (const auto& tag : labels.tags) tags << text(tag);
+    basis.tags = tags.join(", ");
 }
 
 Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const std::vector<SessionRow>& events) {
@@ -291,6 +306,10 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     readBasis({}, model);
     ItemReader itemReader(*reader, model);
     for (const auto& row : *items) itemReader.take(objectOf(row.body));
+
+    const auto labels = reader->labels();
+    if (!labels) return failure(labels);
+    takeLabels(*labels, model.basis);
 
     const auto events = reader->events();
     if (!events) return failure(events);

@@ -8,7 +8,7 @@
 //    "columns": ["a", "b", "mahalanobis"]}                                                        columns optional
 //   {"kind": "matrix", "caption": "Limits", "columns": ["100 ohm"], "rows": [...]}               ReportMatrix
 //   {"kind": "text", "text": "..."}
-//   {"kind": "notes", "operator": "...", "reviewer": "...", "ambient": "..."}                    as it was entered
+//   {"kind": "notes", "operator": "...", "sample": "...", "reviewer": "...", "ambient": "..."}   as it was entered
 //   {"kind": "basis", "results": {...}}        what the verdict rests on, of a run without one: ReportBasis.h
 // Exposure: measurements named kExposureMeasurement, which the program alone writes, with {"rows": [...]} like those of
 // a figure of type exposure, in a section of its own, titled as computed from approved trains. Of rows alike in name,

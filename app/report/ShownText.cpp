@@ -44,7 +44,8 @@ ReportModel shownModel(ReportModel model) {
         shortenCells({&device.role, &device.name, &device.uri, &device.serial, &device.firmware, &device.origin});
     auto& basis = model.basis;
     shorten(basis.notEvaluated);
-    shortenCells({&basis.certificate, &basis.operatorName, &basis.reviewer, &basis.ambient});
+    shortenCells({&basis.certificate, &basis.operatorName, &basis.sample, &basis.reviewer, &basis.ambient, &basis.note,
+                  &basis.tags});
     for (auto& each : basis.instruments) shortenCells({&each.name, &each.channel, &each.states, &each.statedBy});
     for (auto* facts : {&model.settings, &model.identity, &basis.rule, &basis.restsOn}) {
         for (auto& fact : *facts) shortenEach({&fact.name, &fact.value});

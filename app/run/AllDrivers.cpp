@@ -1,14 +1,14 @@
 #include "app/run/AllDrivers.h"
 
 #include "app/run/CaptureFormatsList.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "drivers/hid_massager/HidDriver.h"
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
-#include "drivers/sigrok/SigrokDriver.h"
+#include "drivers/sigrok/driver/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/usb/UsbPorts.h"
 

@@ -1,13 +1,12 @@
 #include "app/run/CaptureFormatsList.h"
 
-#include "drivers/sigrok/SigrokFormat.h"
+#include "drivers/sigrok/session_file/SigrokFormat.h"
 
 namespace tacto {
 
 std::shared_ptr<const CaptureFormats> captureFormats() {
     static const std::shared_ptr<const CaptureFormats> all = [] {
         auto formats = std::make_shared<CaptureFormats>();
-        formats->add(std::make_unique<SigrokFormat>());
         // Before our own: plain CSV, the last of them, takes whatever text is left.
         formats->add(std::make_unique<SigrokFormat>());
         addOwnFormats(*formats);

@@ -7,42 +7,24 @@
 #include <memory>
 #include <vector>
 
-#include "app/run/RunFiles.h"
-#include "app/run/RunNotes.h"
-#include "app/run/Shipped.h"
-#include "app/scripting/ScriptRun.h"
-#include "core/bench/Bench.h"
-#include "core/devices/DeviceUri.h"
-#include "core/session/SessionWriter.h"
+#include "app/run/OpenedBench.h"
+#include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto {
 
 /// What the operator asks for, checked.
-struct RunOrder {
+struct RunOrder : BenchOrder {
     ProtocolSource script;
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
-    std::uint64_t seed = 1;
-    std::vector<DeviceUri> uris;
-    bool realtime = false;    ///< the steady clock even where a virtual one could serve
     bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
-    Profile profile;
-    ShippedLimits limits;
-    std::string out;  ///< folder, as prepareRunFiles() takes it
-    RunNotes notes;
-    /// Whose stops end the run, from the opening of its devices on; null: the bench's own. `asked` is when the operator
-    /// asked for the run.
-    std::shared_ptr<StopCounter> stops = nullptr;
-    StopMark asked = {};
-    std::function<bool()> watched = {};  ///< BenchConfig::watched
 };
 
 /// The load that a protocol's parameters declare: what the simulated bench starts with.
 [[nodiscard]] std::string declaredLoad(const nlohmann::json& parameters);
 
-/// What a session says before its first row. `protocol` may be null: a session without a script.
-[[nodiscard]] SessionAbout aboutSession(const DeviceSet& devices, const Profile& profile, const ShippedLimits& limits,
-                                        const RunOrder* protocol);
+/// What a session says of its script.
+[[nodiscard]] SessionAbout aboutScript(const RunOrder& order);
 
 /// What came of a run, also when it failed.
 struct RunResult {
@@ -59,12 +41,11 @@ struct RunResult {
 
 class ProtocolRun {
 public:
-    /// Opens devices, makes the session file and the bench. A stop ends the opening of devices; one that comes later is
-    /// found by start(). Errors: as openDevices(), prepareRunFiles(),
-    /// SessionWriter::create() and Bench::create().
-    /// `tap` may be null; else it outlives the run.
+    /// Opens the bench: what the protocol needs, on the load that its parameters declare. A stop ends the opening of
+    /// devices; one that comes later is found by start(). Errors: as openBench(); NotArmed for a fault in which the
+    /// stimulator was left.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
-                                                                      BenchTap* tap = nullptr);
+                                                                      std::shared_ptr<BenchTap> tap = nullptr);
     /// Ends a script that still runs; output off. A run that was not finished leaves its session without an end mark.
     ~ProtocolRun();
     ProtocolRun(const ProtocolRun&) = delete;
@@ -74,25 +55,20 @@ public:
     /// and operator are the caller's, and starts the script. What is known to fail, as a profile that the stimulator
     /// cannot reach, is said through `onLog` before. Errors: as ScriptRun::start(); finish() tells them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
-    /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench: it is
-    /// leaked on purpose, with outputs off.
+    /// Blocks until the script has ended, then closes bench and session. An abandoned script keeps its bench, with
+    /// outputs off, until its thread ends, if ever.
     [[nodiscard]] RunResult finish();
 
-    [[nodiscard]] Bench& bench() noexcept { return *bench_; }
+    [[nodiscard]] Bench& bench() noexcept { return *opened_->bench; }
     [[nodiscard]] ScriptRun* script() noexcept { return script_.get(); }
-    [[nodiscard]] const SessionAbout& about() const noexcept { return about_; }
-    [[nodiscard]] const RunFiles& files() const noexcept { return files_; }
+    [[nodiscard]] const OpenedBench& opened() const noexcept { return *opened_; }
+    [[nodiscard]] const RunFiles& files() const noexcept { return opened_->files; }
 
 private:
     [[nodiscard]] Result<void> leaveFault();
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}
     RunOrder order_;
-    RunFiles files_;
-    SessionAbout about_;
-    std::string warning_;  // of what is known before the script runs; empty: none
-    std::shared_ptr<Clock> clock_;
-    std::unique_ptr<SessionWriter> session_;
-    std::unique_ptr<Bench> bench_;
+    std::shared_ptr<OpenedBench> opened_;  // and the script's
     std::optional<Error> notStarted_;
     std::unique_ptr<ScriptRun> script_;  // Last: ends first
 };

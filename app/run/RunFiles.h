@@ -1,4 +1,6 @@
 // RunFiles.h - where a run puts its session, reports and captures. Nothing that exists is ever written over.
+//
+// Thread-safety: any thread; what is made is in files that no other run has.
 #pragma once
 
 #include <filesystem>

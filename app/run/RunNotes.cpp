@@ -1,7 +1,5 @@
 #include "app/run/RunNotes.h"
 
-#include <algorithm>
-
 #include "core/base/Printable.h"
 
 namespace tacto {
@@ -14,13 +12,9 @@ struct Note {
     std::string RunNotes::*text;
 };
 constexpr Note kNotes[] = {{"operator", "operator", &RunNotes::operatorName},
+                           {"sample", "sample", &RunNotes::sample},
                            {"reviewer", "reviewer", &RunNotes::reviewer},
                            {"ambient", "ambient conditions", &RunNotes::ambient}};
-
-std::size_t charactersOf(const std::string& utf8) {
-    return static_cast<std::size_t>(
-        std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));
-}
 
 }  // namespace
 

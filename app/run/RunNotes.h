@@ -1,5 +1,5 @@
-// RunNotes.h - what a report says of a run beside what was measured: who did it, who checks it, and the ambient
-// conditions. As they were entered; nothing here is measured, and nothing is judged by it.
+// RunNotes.h - what a report says of a run beside what was measured: who did it, of what, who checks it, and the
+// ambient conditions. As they were entered; nothing here is measured, and nothing is judged by it.
 //
 // Thread-safety: pure functions; keepNotes() as SessionWriter.
 #pragma once
@@ -14,6 +14,7 @@ namespace tacto {
 /// Each one line of at most kNoteLimit characters (Unicode code points); empty: not recorded.
 struct RunNotes {
     std::string operatorName;
+    std::string sample;  ///< what is measured, by the laboratory's own id
     std::string reviewer;
     std::string ambient;  ///< "22.5 °C, 45 % RH"
 };

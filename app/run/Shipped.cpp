@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/scripting/ProtocolLibrary.h"
 #include "app/scripting/ShippedResources.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Csv.h"
 #include "core/session/Digest.h"
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/acquisition/RecordingTable.h"
 #include "core/base/Csv.h"
-#include "core/base/JsonText.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
@@ -35,38 +34,74 @@ constexpr std::array<UnitEntry, 8> kUnits{{
     {"kPa", StreamKind::Taxels, StreamUnit::Pascal, 1000},
     {"count", StreamKind::Taxels, StreamUnit::Count, 1},
 }};
-constexpr std::array kKinds{StreamKind::Acceleration, StreamKind::Force, StreamKind::Taxels};
+constexpr Word<double> kPerSecond[] = {{"s", 1}, {"ms", 1e3}, {"us", 1e6}};
+constexpr std::size_t kMostEntries = 100'000;
 
-/// Reads one JSON file's entries; every message begins with `where`.
+/// A stream as the JSON file describes it.
+struct DescribedStream {
+    StreamKind kind = StreamKind::Acceleration;
+    std::string file;
+    std::string timeColumn;
+    double perSecond = 1;  ///< the time column's units
+    std::vector<std::string> columns;
+    std::string unit;
+};
+struct DescribedRecording : Recording {
+    std::vector<DescribedStream> described;
+};
+
+RecordFields<DescribedStream> streamFields() {
+    using S = DescribedStream;
+    RecordFields<S> all;
+    all.word("kind", &S::kind, kStreamKinds).required = true;
+    all.text("file", &S::file).required = true;
+    all.text("time_column", &S::timeColumn).required = true;
+    all.word("time_unit", &S::perSecond, kPerSecond).required = true;
+    all.list("columns", &S::columns, textKind({.mayBeEmpty = true}), 1, 1024).required = true;
+    all.text("unit", &S::unit).required = true;
+    all.passOverUnknownKeys();
+    return all;
+}
+
+RecordFields<DescribedRecording> buildRecordingFields() {
+    using R = DescribedRecording;
+    const auto interval = codedKind<TimeInterval>(
+        "[begin, end], two times in seconds with begin < end,",
+        [](const Json& value) -> std::optional<TimeInterval> {
+            if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number() ||
+                !(value[0].get<double>() < value[1].get<double>()))
+                return std::nullopt;
+            return TimeInterval{value[0].get<double>(), value[1].get<double>()};
+        },
+        [](const TimeInterval& t) {
+            return Json{t.begin_s, t.end_s};
+        });
+    RecordFields<R> all;
+    all.texts({{"title", &R::title}, {"source", &R::source}, {"licence", &R::licence}, {"fingertip", &R::fingertip}},
+              {.mayBeEmpty = true});
+    all.flag("simulated", &R::simulated);
+    all.add("baseline", in(&R::declared, &DeclaredIntervals::baseline), interval);
+    all.list("contact", in(&R::declared, &DeclaredIntervals::contact), interval, 0, kMostEntries);
+    all.list("streams", &R::described, streamFields().kind(), 1, kMostEntries).required = true;
+    all.passOverUnknownKeys();  // a recording may carry more keys; none of them can loosen a limit
+    return all;
+}
+
+/// Reads the streams that one JSON file describes; every message begins with its name.
 class Description {
 public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
 
     Result<Recording> read(const Json& root) const {
-        // A recording may carry more keys than are read here; none of them can loosen a limit.
-        if (!root.is_object())
-            return refuse("the file holds {}; an object with \"streams\" was expected", typeOf(root));
-        Recording recording;
+        static const auto fields = buildRecordingFields();
+        auto read = fields.read(root, {.file = file_.string()}).map_error(asParseError);
+        if (!read) return failure(read);
+        Recording& recording = *read;
         recording.path = file_;
-        for (auto [key, target] :
-             {std::pair{"title", &recording.title}, std::pair{"source", &recording.source},
-              std::pair{"licence", &recording.licence}, std::pair{"fingertip", &recording.fingertip}}) {
-            if (!root.contains(key)) continue;
-            if (!root[key].is_string()) return refuse("\"{}\" is {}; a text was expected", key, typeOf(root[key]));
-            *target = root[key].get<std::string>();
-        }
-        if (root.contains("simulated")) {
-            if (!root["simulated"].is_boolean())
-                return refuse("\"simulated\" is {}; true or false was expected", typeOf(root["simulated"]));
-            recording.simulated = root["simulated"].get<bool>();
-        }
         if (recording.title.empty()) recording.title = file_.stem().string();
-        if (const auto done = readDeclared(root, recording.declared); !done) return failure(done);
-        if (!root.contains("streams") || !root["streams"].is_array() || root["streams"].empty()) {
-            return refuse("\"streams\" is missing or empty; a list of at least one stream was expected");
-        }
-        for (const auto& entry : root["streams"]) {
-            auto stream = readStream(entry, recording.streams.size() + 1);
+        if (recording.declared.contact) std::ranges::sort(*recording.declared.contact, {}, &TimeInterval::begin_s);
+        for (const auto& described : read->described) {
+            auto stream = readStream(described, recording.streams.size());
             if (!stream) return failure(stream);
             if (recording.find(stream->info.kind) != nullptr) {
                 return refuse("there are two {} streams; at most one of each kind was expected",
@@ -75,50 +110,13 @@ public:
             recording.streams.push_back(std::move(*stream));
         }
         if (const auto done = checkDeclared(recording); !done) return failure(done);
-        return recording;
+        return std::move(recording);
     }
 
 private:
     template <class... Args>
     tl::unexpected<Error> refuse(fmt::format_string<Args...> text, Args&&... args) const {
-        return tl::unexpected<Error>(
-            Error{ErrorCode::ParseError,
-                  fmt::format("{}: {}", file_.string(), fmt::format(text, std::forward<Args>(args)...))});
-    }
-
-    static std::string typeOf(const Json& value) {
-        if (value.is_array()) return "a list";
-        if (value.is_object()) return "an object";
-        return fmt::format("{} {}", value.type_name(), value.dump(-1, ' ', true, Json::error_handler_t::replace));
-    }
-
-    Result<TimeInterval> interval(const Json& value, const char* key) const {
-        if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number() ||
-            !(value[0].get<double>() < value[1].get<double>())) {
-            return refuse("\"{}\" is {}; two times in seconds, [begin, end] with begin < end, were expected", key,
-                          value.is_array() ? value.dump(-1, ' ', true, Json::error_handler_t::replace) : typeOf(value));
-        }
-        return TimeInterval{value[0].get<double>(), value[1].get<double>()};
-    }
-
-    Result<void> readDeclared(const Json& root, DeclaredIntervals& out) const {
-        if (root.contains("baseline") && !root["baseline"].is_null()) {
-            const auto baseline = interval(root["baseline"], "baseline");
-            if (!baseline) return failure(baseline);
-            out.baseline = *baseline;
-        }
-        if (!root.contains("contact") || root["contact"].is_null()) return {};
-        if (!root["contact"].is_array()) {
-            return refuse("\"contact\" is {}; a list of [begin, end] in seconds was expected", typeOf(root["contact"]));
-        }
-        out.contact.emplace();
-        for (const auto& entry : root["contact"]) {
-            const auto contact = interval(entry, "contact");
-            if (!contact) return failure(contact);
-            out.contact->push_back(*contact);
-        }
-        std::ranges::sort(*out.contact, {}, &TimeInterval::begin_s);
-        return {};
+        return fail(ErrorCode::ParseError, "{}: {}", file_.string(), fmt::format(text, std::forward<Args>(args)...));
     }
 
     Result<void> checkDeclared(const Recording& recording) const {
@@ -140,76 +138,32 @@ private:
         return {};
     }
 
-    Result<std::string> text(const Json& entry, std::size_t number, const char* key, std::string_view expected) const {
-        if (!entry.contains(key) || !entry[key].is_string() || entry[key].get_ref<const std::string&>().empty()) {
-            return refuse("stream {}: \"{}\" is {}; {} was expected", number, key,
-                          entry.contains(key) ? typeOf(entry[key]) : "missing", expected);
-        }
-        return entry[key].get<std::string>();
-    }
-
-    Result<StreamKind> kindOf(const Json& entry, std::size_t number) const {
-        const auto kind = text(entry, number, "kind", "acceleration, force or taxels");
-        if (!kind) return failure(kind);
-        for (const auto candidate : kKinds) {
-            if (*kind == nameOf(candidate)) return candidate;
-        }
-        return refuse("stream {}: \"kind\" is \"{}\"; acceleration, force or taxels was expected", number, *kind);
-    }
-
-    Result<UnitEntry> unitOf(const Json& entry, std::size_t number, StreamKind kind) const {
-        std::string known;
-        for (const auto& unit : kUnits) {
-            if (unit.kind == kind) known += fmt::format("{}{}", known.empty() ? "" : ", ", unit.text);
-        }
-        const auto unit = text(entry, number, "unit", known);
-        if (!unit) return failure(unit);
+    Result<UnitEntry> unitOf(const DescribedStream& stream, std::size_t index) const {
+        std::vector<std::string_view> known;
         for (const auto& candidate : kUnits) {
-            if (candidate.kind == kind && candidate.text == *unit) return candidate;
+            if (candidate.kind != stream.kind) continue;
+            if (candidate.text == stream.unit) return candidate;
+            known.push_back(candidate.text);
         }
-        return refuse("stream {}: \"unit\" is \"{}\"; for {} one of {} was expected", number, *unit, nameOf(kind),
-                      known);
+        return refuse("streams[{}]: \"unit\" is \"{}\"; for {} one of {} was expected", index, stream.unit,
+                      nameOf(stream.kind), fmt::join(known, ", "));
     }
 
-    Result<double> timeDivisorOf(const Json& entry, std::size_t number) const {
-        const auto unit = text(entry, number, "time_unit", "s, ms or us");
-        if (!unit) return failure(unit);
-        if (*unit == "s") return 1.0;
-        if (*unit == "ms") return 1e3;
-        if (*unit == "us") return 1e6;
-        return refuse("stream {}: \"time_unit\" is \"{}\"; s, ms or us was expected", number, *unit);
-    }
-
-    Result<std::vector<std::string>> columnsOf(const Json& entry, std::size_t number, StreamKind kind) const {
-        if (!entry.contains("columns") || !entry["columns"].is_array()) {
-            return refuse("stream {}: \"columns\" is missing or no list; the names of the value columns were expected",
-                          number);
-        }
-        std::vector<std::string> columns;
-        for (const auto& column : entry["columns"]) {
-            if (!column.is_string()) {
-                return refuse("stream {}: \"columns\" holds {}; column names were expected", number, typeOf(column));
-            }
-            columns.push_back(column.get<std::string>());
-        }
-        const std::size_t fewest = kind == StreamKind::Taxels ? 2 : 1;
-        const std::size_t most = kind == StreamKind::Taxels ? 1024 : kind == StreamKind::Force ? 1 : 3;
-        if (columns.size() < fewest || columns.size() > most) {
-            return refuse("stream {}: \"columns\" names {} columns; for {} {} to {} were expected", number,
-                          columns.size(), nameOf(kind), fewest, most);
-        }
-        return columns;
+    Result<void> checkColumns(const DescribedStream& stream, std::size_t index) const {
+        const std::size_t fewest = stream.kind == StreamKind::Taxels ? 2 : 1;
+        const std::size_t most = stream.kind == StreamKind::Taxels ? 1024 : stream.kind == StreamKind::Force ? 1 : 3;
+        if (stream.columns.size() >= fewest && stream.columns.size() <= most) return {};
+        return refuse("streams[{}]: \"columns\" names {} columns; for {} {} to {} were expected", index,
+                      stream.columns.size(), nameOf(stream.kind), fewest, most);
     }
 
     /// The file beside the JSON, or a refusal: the description may come from anyone (hazard H10).
-    Result<fs::path> fileOf(const Json& entry, std::size_t number) const {
-        const auto name = text(entry, number, "file", "the name of a CSV file beside it");
-        if (!name) return failure(name);
-        const fs::path relative(*name);
+    Result<fs::path> fileOf(const std::string& name, std::size_t index) const {
+        const fs::path relative(name);
         const auto folder = file_.has_parent_path() ? file_.parent_path() : fs::path(".");
         std::error_code error;
         const auto inside = [&] {
-            if (relative.is_absolute() || name->find('\0') != std::string::npos) return false;
+            if (relative.is_absolute() || name.find('\0') != std::string::npos) return false;
             for (const auto& part : relative) {
                 if (part == "..") return false;
             }
@@ -219,41 +173,33 @@ private:
             return !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
         };
         if (!inside()) {
-            return tl::unexpected<Error>(Error{
-                ErrorCode::ParseError,
-                fmt::format("{}: stream {}: \"file\" is \"{}\"; a file inside the recording's folder was expected, "
-                            "not an absolute path or one that climbs out of it",
-                            file_.string(), number, *name)});
+            return refuse(
+                "streams[{}]: \"file\" is \"{}\"; a file inside the recording's folder was expected, not an "
+                "absolute path or one that climbs out of it",
+                index, name);
         }
         const auto path = folder / relative;
         if (!fs::is_regular_file(path, error)) {
-            return tl::unexpected<Error>(Error{
-                ErrorCode::NotFound, fmt::format("{}: stream {}: \"file\" is \"{}\", and there is no such file in {}",
-                                                 file_.string(), number, *name, folder.string())});
+            return fail(ErrorCode::NotFound, "{}: streams[{}]: \"file\" is \"{}\", and there is no such file in {}",
+                        file_.string(), index, name, folder.string());
         }
         return path;
     }
 
-    Result<RecordedStream> readStream(const Json& entry, std::size_t number) const {
-        if (!entry.is_object()) return refuse("stream {} is {}; an object was expected", number, typeOf(entry));
-        const auto kind = kindOf(entry, number);
-        if (!kind) return failure(kind);
-        const auto unit = unitOf(entry, number, *kind);
+    Result<RecordedStream> readStream(const DescribedStream& described, std::size_t index) const {
+        const auto unit = unitOf(described, index);
         if (!unit) return failure(unit);
-        const auto divisor = timeDivisorOf(entry, number);
-        if (!divisor) return failure(divisor);
-        const auto timeColumn = text(entry, number, "time_column", "the name of the column with time stamps");
-        if (!timeColumn) return failure(timeColumn);
-        const auto columns = columnsOf(entry, number, *kind);
-        if (!columns) return failure(columns);
-        const auto path = fileOf(entry, number);
+        if (auto fits = checkColumns(described, index); !fits) return failure(fits);
+        const auto path = fileOf(described.file, index);
         if (!path) return failure(path);
         const auto content = readTextFile(*path);
         if (!content) return failure(content);
-        auto samples = readTable(*content, path->string(), {*timeColumn, *divisor, *columns, unit->factor});
+        auto samples = readTable(*content, path->string(),
+                                 {described.timeColumn, described.perSecond, described.columns, unit->factor});
         if (!samples) return failure(samples);
 
-        RecordedStream stream{{*kind, unit->unit, columns->size(), 0, path->filename().string()}, {}, {}, *path};
+        RecordedStream stream{
+            {described.kind, unit->unit, described.columns.size(), 0, path->filename().string()}, {}, {}, *path};
         stream.samples = std::move(*samples);
         return examined(std::move(stream));
     }
@@ -263,10 +209,9 @@ private:
         if (coarse) spreadCoarseStamps(stream.samples.t_s);
         const double rough = roughRate_hz(stream.samples.t_s);
         if (!(rough > 0)) {
-            return tl::unexpected<Error>(
-                Error{ErrorCode::ParseError, fmt::format("{}:2: time never moves forward in the file; rising time "
-                                                         "stamps were expected",
-                                                         stream.file.string())});
+            return fail(ErrorCode::ParseError,
+                        "{}:2: time never moves forward in the file; rising time stamps were expected",
+                        stream.file.string());
         }
         StreamHealth health(rough);
         health.feed(stream.samples, stream.info.channels);

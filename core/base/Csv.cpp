@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <limits>
 #include <system_error>
 
 #include "core/base/Text.h"
 
 namespace tacto {
 
-Result<std::string> readTextFile(const std::filesystem::path& path) {
+Result<void> checkPlainFile(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) return fail(ErrorCode::NotFound, "no file {}", path.string());
@@ -20,14 +19,25 @@ Result<std::string> readTextFile(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) {  // a pipe would wait for its other end
         return fail(ErrorCode::Io, "{} is a pipe or a device; a file was expected", path.string());
     }
+    return {};
+}
+
+Result<std::string> readTextFile(const std::filesystem::path& path, std::uintmax_t maxBytes) {
+    const auto tooLarge = [&] {
+        return fail(ErrorCode::ParseError, "{} is too large; at most {} bytes were expected", path.string(), maxBytes);
+    };
+    if (auto plain = checkPlainFile(path); !plain) return failure(plain);
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return fail(ErrorCode::Io, "{} cannot be opened for reading", path.string());
     std::string text;
+    std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
+    if (!error && size > maxBytes) return tooLarge();
     if (!error) text.reserve(static_cast<std::size_t>(size));
     char buffer[1 << 16];
     while (stream.read(buffer, sizeof buffer) || stream.gcount() > 0) {
         text.append(buffer, static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > maxBytes) return tooLarge();
     }
     if (stream.bad()) return fail(ErrorCode::Io, "{} could not be read to its end", path.string());
     return text;
@@ -94,77 +104,32 @@ bool CsvReader::next() {
     return false;
 }
 
-namespace {
+NamedRows::NamedRows(std::string_view text, std::string_view name, std::string_view columns, std::string_view row)
+    : reader_(text), name_(name), columns_(columns), row_(row), empty_(!reader_.next()), header_(reader_.fields()) {}
 
-/// Fields beyond `count` may only be the empty ones that trailing separators leave.
-bool onlyEmptyBeyond(const std::vector<std::string_view>& fields, std::size_t count) {
-    return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(count), fields.end(),
-                       [](std::string_view field) { return field.empty(); });
+std::optional<std::size_t> NamedRows::find(std::initializer_list<std::string_view> names) {
+    const auto found = std::find_first_of(names.begin(), names.end(), header_.begin(), header_.end());
+    if (found == names.end()) return std::nullopt;
+    const auto column = static_cast<std::size_t>(std::ranges::find(header_, *found) - header_.begin());
+    needed_ = std::max(needed_, column + 1);
+    return column;
 }
 
-Result<std::vector<std::string>> headerOf(const std::vector<std::string_view>& fields, std::string_view name,
-                                          std::size_t line) {
-    std::vector<std::string> names(fields.begin(), fields.end());
-    while (!names.empty() && names.back().empty()) names.pop_back();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i].empty()) {
-            return fail(ErrorCode::ParseError,
-                        "{}:{}: column {} has no name; a header line naming every column was expected", name, line,
-                        i + 1);
-        }
-        if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-            names.begin() + static_cast<std::ptrdiff_t>(i)) {
-            return fail(ErrorCode::ParseError, "{}:{}: column '{}' appears twice; names must differ", name, line,
-                        names[i]);
-        }
-    }
-    if (names.empty() || parseNumber(names.front())) {
-        return fail(ErrorCode::ParseError, "{}:{}: a header line naming the columns was expected before the numbers",
-                    name, line);
-    }
-    return names;
+Result<std::size_t> NamedRows::column(std::initializer_list<std::string_view> names) {
+    if (empty_) return fail(ErrorCode::ParseError, "{}: the file is empty; {}", name_, columns_);
+    if (const auto found = find(names)) return *found;
+    return refuse("no column '{}'; {}", *names.begin(), columns_);
 }
 
-}  // namespace
-
-Result<NumericCsv> parseNumericCsv(std::string_view text, std::string_view name) {
-    CsvReader reader(text);
-    if (!reader.next()) {
-        return fail(ErrorCode::ParseError, "{}: the file is empty; a header line and rows of numbers were expected",
-                    name);
+Result<bool> NamedRows::next() {
+    if (!reader_.next()) {
+        if (any_) return false;
+        return fail(ErrorCode::ParseError, "{}: nothing after the header line; {} was expected", name_, row_);
     }
-    auto names = headerOf(reader.fields(), name, reader.line());
-    if (!names) return failure(names);
-    NumericCsv table;
-    table.names = std::move(*names);
-    table.headerLine = reader.line();
-    const std::size_t width = table.names.size();
-    table.columns.resize(width);
-
-    while (reader.next()) {
-        const auto& fields = reader.fields();
-        if (fields.size() < width || !onlyEmptyBeyond(fields, width)) {
-            return fail(ErrorCode::ParseError, "{}:{}: {} fields; {} were expected, as in the header", name,
-                        reader.line(), fields.size(), width);
-        }
-        for (std::size_t i = 0; i < width; ++i) {
-            double value = std::numeric_limits<double>::quiet_NaN();
-            if (i < fields.size() && !fields[i].empty()) {
-                const auto number = parseNumber(fields[i]);
-                if (!number) {
-                    return fail(ErrorCode::ParseError, "{}:{}: '{}' in column '{}'; a number was expected", name,
-                                reader.line(), fields[i].substr(0, 40), table.names[i]);
-                }
-                value = *number;
-            }
-            table.columns[i].push_back(value);
-        }
-        table.lines.push_back(reader.line());
-    }
-    if (table.rows() == 0) {
-        return fail(ErrorCode::ParseError, "{}: nothing after the header line; rows of numbers were expected", name);
-    }
-    return table;
+    any_ = true;
+    const auto fields = reader_.fields().size();
+    if (fields >= needed_) return true;
+    return refuse("{} fields; at least {} were expected, as in the header", fields, needed_);
 }
 
 }  // namespace tacto

@@ -9,7 +9,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,8 +22,13 @@
 
 namespace tacto {
 
-/// The whole of a file. Errors: NotFound when it is not there, Io when it cannot be read or is not a plain file.
-[[nodiscard]] Result<std::string> readTextFile(const std::filesystem::path& path);
+/// Errors: NotFound when it is not there, Io for a folder, a pipe or a device.
+[[nodiscard]] Result<void> checkPlainFile(const std::filesystem::path& path);
+
+/// The whole of a file. Errors: NotFound when it is not there, Io when it cannot be read, or is not a plain file,
+/// ParseError when it has more than `maxBytes`.
+[[nodiscard]] Result<std::string> readTextFile(const std::filesystem::path& path,
+                                               std::uintmax_t maxBytes = std::numeric_limits<std::uintmax_t>::max());
 
 /// Nothing in it, or nothing but a remark behind `#`.
 [[nodiscard]] bool isBlankOrComment(std::string_view line);
@@ -49,18 +57,36 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// A header line and columns of numbers.
-struct NumericCsv {
-    std::vector<std::string> names;            ///< of the columns, trimmed, never empty
-    std::vector<std::vector<double>> columns;  ///< equally long; NaN where the field is empty or says nan
-    std::vector<std::size_t> lines;            ///< file line of each row, 1-based
-    std::size_t headerLine = 1;
-    [[nodiscard]] std::size_t rows() const noexcept { return lines.size(); }
-};
+/// The rows of a table whose header names its columns. Every refusal names file and line.
+class NamedRows {
+public:
+    /// `text` and the words must outlive this. `name` is the file's; `columns` says what the header must name ("columns
+    /// a and b were expected"), `row` what a row is ("a row per trial").
+    NamedRows(std::string_view text, std::string_view name, std::string_view columns, std::string_view row);
 
-/// Reads `text`; `name` (the file's) begins every message.
-/// Errors: ParseError naming line and column where a field is no number, a row has too few fields (a file cut short)
-/// or too many, the header is missing, has an empty name or one twice, or there is no row at all.
-[[nodiscard]] Result<NumericCsv> parseNumericCsv(std::string_view text, std::string_view name);
+    /// The column of the first of `names` that the header has; nothing where it has none of them.
+    [[nodiscard]] std::optional<std::size_t> find(std::initializer_list<std::string_view> names);
+    /// Errors: ParseError where the header has none of them, or the file is empty.
+    [[nodiscard]] Result<std::size_t> column(std::initializer_list<std::string_view> names);
+
+    /// Moves to the next row; false at the end. Errors: ParseError for a row that lacks a column that was found, and
+    /// where there is no row at all.
+    [[nodiscard]] Result<bool> next();
+    [[nodiscard]] std::string_view operator[](std::size_t column) const { return reader_.fields()[column]; }
+
+    template <class... Args>
+    [[nodiscard]] tl::unexpected<Error> refuse(fmt::format_string<Args...> text, Args&&... args) const {
+        return fail(ErrorCode::ParseError, "{}:{}: {}", name_, reader_.line(),
+                    fmt::format(text, std::forward<Args>(args)...));
+    }
+
+private:
+    CsvReader reader_;
+    std::string_view name_, columns_, row_;
+    bool empty_;
+    std::vector<std::string_view> header_;
+    std::size_t needed_ = 0;  ///< fields of a row
+    bool any_ = false;
+};
 
 }  // namespace tacto

@@ -47,8 +47,4 @@ nlohmann::json valueOr(const nlohmann::json& object, const char* key) {
     return found != nullptr ? *found : nlohmann::json();
 }
 
-std::string lineOf(const nlohmann::json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 }  // namespace tacto

@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// Of one row of a session file: results and report items are large, and a script's values nest by themselves.
+/// Limits of one row of a session file: results and report items are large, and a script's values nest by themselves.
 inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
 
 [[nodiscard]] std::string textOr(const nlohmann::json& object, const char* key);
@@ -24,8 +24,5 @@ inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
 [[nodiscard]] std::vector<std::string> textsOr(const nlohmann::json& object, const char* key);
 /// null where there is none.
 [[nodiscard]] nlohmann::json valueOr(const nlohmann::json& object, const char* key);
-
-/// One line; bytes that are not UTF-8 become U+FFFD instead of an exception.
-[[nodiscard]] std::string lineOf(const nlohmann::json& json);
 
 }  // namespace tacto

@@ -103,10 +103,25 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
                 builder.problem());
 }
 
-Result<void> onlyKeys(const json& value, std::span<const std::string_view> known, std::string_view where) {
-    if (!value.is_object()) {
-        return fail(ErrorCode::ParseError, "{}: {} stands where an object is expected", where, shownJson(value));
+Result<std::vector<std::filesystem::path>> documentsIn(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::vector<std::filesystem::path> files;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().extension() == ".json") files.push_back(entry->path());
     }
+    if (error) return fail(ErrorCode::NotFound, "cannot read the folder {}: {}", folder.string(), error.message());
+    std::ranges::sort(files);
+    return files;
+}
+
+Result<void> expectObject(const json& value, std::string_view where) {
+    if (value.is_object()) return {};
+    return fail(ErrorCode::ParseError, "{}: {} stands where an object is expected", where, shownJson(value));
+}
+
+Result<void> onlyKeys(const json& value, std::span<const std::string_view> known, std::string_view where) {
+    if (auto object = expectObject(value, where); !object) return object;
     for (const auto& [key, member] : value.items()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         return fail(ErrorCode::ParseError, "{}: \"{}\" is not a known key; accepted are {}", where, key,
@@ -115,9 +130,13 @@ Result<void> onlyKeys(const json& value, std::span<const std::string_view> known
     return {};
 }
 
+std::string dumpJson(const json& value, int indent, bool ascii) {
+    return value.dump(indent, ' ', ascii, json::error_handler_t::replace);
+}
+
 std::string shownJson(const json& value) {
     constexpr std::size_t kMost = 60;
-    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = dumpJson(value);
     if (text.size() <= kMost) return text;
     std::size_t end = kMost - 3;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole characters only

@@ -5,15 +5,18 @@
 // that is refused, by name (hazard H10: a key that stands twice loses a ceiling, 400 000 brackets lose the stack).
 // tests/base/JsonTextTest.cpp looks that no other parser is called in core, drivers and app.
 //
-// Thread-safety: pure functions. No exception whatever the text, memory apart.
+// Thread-safety: pure functions, but for documentsIn(), which reads a folder. No exception whatever the text, memory
+// apart.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/Result.h"
 
@@ -30,7 +33,17 @@ struct JsonLimits {
 [[nodiscard]] Result<nlohmann::json> parseJson(std::string_view text, std::string_view source,
                                                const JsonLimits& limits = {});
 
-/// Whether `value` is an object that has no other keys than `known`. `where` begins the message: "lab.json: limits[2]".
+/// The *.json of a folder, by file name. Errors: NotFound for a folder that cannot be read.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> documentsIn(const std::filesystem::path& folder);
+/// `error` as a fault of the file that it was found in, or of a caller's argument.
+[[nodiscard]] inline Error asParseError(Error error) { return {ErrorCode::ParseError, std::move(error.message)}; }
+[[nodiscard]] inline Error asInvalidArgument(Error error) {
+    return {ErrorCode::InvalidArgument, std::move(error.message)};
+}
+
+/// `where` begins the message: "lab.json: limits[2]". Errors: ParseError for what is no object.
+[[nodiscard]] Result<void> expectObject(const nlohmann::json& value, std::string_view where);
+/// Whether `value` is an object that has no other keys than `known`.
 /// Errors: ParseError naming the first key that is not known, and those that are.
 [[nodiscard]] Result<void> onlyKeys(const nlohmann::json& value, std::span<const std::string_view> known,
                                     std::string_view where);
@@ -39,6 +52,8 @@ struct JsonLimits {
     return onlyKeys(value, std::span(known.begin(), known.size()), where);
 }
 
+/// Bytes that are not UTF-8 become U+FFFD instead of an exception; `indent` of -1 gives one line, `ascii` escapes.
+[[nodiscard]] std::string dumpJson(const nlohmann::json& value, int indent = -1, bool ascii = false);
 /// One line for a message, at most 60 characters, whatever the value holds.
 [[nodiscard]] std::string shownJson(const nlohmann::json& value);
 

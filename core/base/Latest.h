@@ -3,6 +3,8 @@
 // A sequence lock: the writer never waits; a reader that met a write in progress reads again. Values are
 // copied word by word through atomics (release stores, acquire loads), so a torn copy is thrown away
 // rather than undefined: a reader that saw any new word also sees the odd sequence number before it.
+//
+// Thread-safety: write() has one caller at a time; read() any thread.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
 // NaN.h - the number of what is not known.
+//
+// Thread-safety: a constant.
 #pragma once
 
 #include <limits>

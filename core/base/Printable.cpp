@@ -1,5 +1,6 @@
 #include "core/base/Printable.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
@@ -64,6 +65,11 @@ std::string printable(std::string_view text, Newlines newlines) {
         text.remove_prefix(bytes);
     }
     return out;
+}
+
+std::size_t charactersOf(std::string_view utf8) noexcept {
+    return static_cast<std::size_t>(
+        std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (byte & 0xC0) != 0x80; }));
 }
 
 }  // namespace tacto

@@ -1,9 +1,10 @@
 // Printable.h - text from a file or a device as a terminal may show it: what would move the cursor, change colours or
 // turn the reading direction is spelled out instead (hazard H10).
 //
-// Thread-safety: pure function.
+// Thread-safety: pure functions.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,8 @@ enum class Newlines { Escape, Keep };
 /// `text` with C0 and C1 control characters, DEL and bytes that are no UTF-8 written as "\x1b", and characters that
 /// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
+
+/// Of a UTF-8 text: its code points.
+[[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 
 }  // namespace tacto

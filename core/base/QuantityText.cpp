@@ -9,8 +9,8 @@ namespace tacto {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kScaled{"V",  "A", "s", "Ω", "Hz",    "C",     "J",
-                                                   "Pa", "N", "W", "F", "W/cm²", "A/cm²", "V/s"};
+constexpr std::array<std::string_view, 15> kScaled{"V",  "A", "s", "Ω", "Hz",    "C",     "J",  "Pa",
+                                                   "N", "W", "F", "W/cm²", "A/cm²", "V/s", "S/s"};
 constexpr std::array<UnitPrefix, 8> kPrefixOf{
     {{-12, "p"}, {-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
 

@@ -41,7 +41,7 @@ struct UnitPrefix {
 };
 /// The prefix for numbers of 10^exponent and up, p to G.
 [[nodiscard]] UnitPrefix prefixOf(int exponent) noexcept;
-/// Of `value` rounded to `digits` significant digits: 999.96 with four is 3. 0 for 0.
+/// The decimal exponent of `value` rounded to `digits` significant digits: 999.96 with four is 3. 0 for 0.
 [[nodiscard]] int decimalExponent(double value, int digits);
 
 }  // namespace tacto

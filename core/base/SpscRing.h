@@ -13,6 +13,8 @@
 // discarded torn copy defined behaviour rather than a data race; the words are stored with release and
 // loaded with acquire, so a consumer that saw any new word also sees the `tail_` moved before it was
 // written, and its exchange must fail. (Fences would do too; the thread sanitizer cannot see those.)
+//
+// Thread-safety: one producer thread and one consumer thread; see each function.
 #pragma once
 
 #include <atomic>

@@ -38,8 +38,8 @@ struct Within {
     }
 };
 
-/// Of many readings a thousand say nearly where the median lies; then only the few thereabouts are put in order. Where
-/// it lies elsewhere (readings that repeat in step with the thousand), all are.
+/// Where there are many readings, a thousand say nearly where the median lies; then only the few thereabouts are put in
+/// order. Where it lies elsewhere (readings that repeat in step with the thousand), all are.
 double medianOf(std::span<const double> readings) {
     constexpr std::size_t kAsked = 1024;
     constexpr std::size_t kReach = 64;  // ranks of the thousand: four standard deviations of their median's

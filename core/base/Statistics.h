@@ -9,8 +9,8 @@
 
 namespace tacto {
 
-/// Of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard deviation
-/// when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
+/// Statistics of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard
+/// deviation when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
 struct Statistics {
     double mean = std::numeric_limits<double>::quiet_NaN();
     double sd = std::numeric_limits<double>::quiet_NaN();  ///< of the sample, with n - 1

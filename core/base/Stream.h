@@ -1,6 +1,8 @@
 // Stream.h - sampled data of one kind at one rate, with the time stamps it came with.
 //
 // In base because acquisition makes streams, dsp reads them, and the two know nothing of each other.
+//
+// Thread-safety: values; pure functions.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Words.h"
+
 namespace tacto {
 
 enum class StreamKind { Acceleration, Force, Taxels };
@@ -16,8 +20,14 @@ enum class StreamKind { Acceleration, Force, Taxels };
 /// Units after conversion on reading. Count: uncalibrated, used as it is and said so.
 enum class StreamUnit { MetrePerSecondSquared, Newton, Pascal, Count };
 
-[[nodiscard]] std::string_view nameOf(StreamKind kind) noexcept;    // "acceleration", "force", "taxels"
-[[nodiscard]] std::string_view symbolOf(StreamUnit unit) noexcept;  // "m/s2", "N", "Pa", "count"
+inline constexpr Word<StreamKind> kStreamKinds[] = {
+    {"acceleration", StreamKind::Acceleration}, {"force", StreamKind::Force}, {"taxels", StreamKind::Taxels}};
+inline constexpr Word<StreamUnit> kStreamUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSquared},
+                                                    {"N", StreamUnit::Newton},
+                                                    {"Pa", StreamUnit::Pascal},
+                                                    {"count", StreamUnit::Count}};
+[[nodiscard]] std::string_view nameOf(StreamKind kind) noexcept;
+[[nodiscard]] std::string_view symbolOf(StreamUnit unit) noexcept;
 
 struct StreamInfo {
     StreamKind kind;

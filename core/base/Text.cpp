@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/QuantityText.h"
+
 namespace tacto {
 
 std::string_view trimmed(std::string_view text) {
@@ -42,8 +44,6 @@ struct Prefix {
 };
 constexpr std::array<Prefix, 9> kParsed{
     {{"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"k", 3}, {"M", 6}, {"G", 9}}};
-constexpr std::array<Prefix, 8> kPrinted{
-    {{"p", -12}, {"n", -9}, {"µ", -6}, {"m", -3}, {"", 0}, {"k", 3}, {"M", 6}, {"G", 9}}};
 }  // namespace
 
 std::optional<double> parseQuantity(std::string_view text, std::string_view unit) {
@@ -58,22 +58,6 @@ std::optional<double> parseQuantity(std::string_view text, std::string_view unit
         return parseNumber(number);
     }
     return std::nullopt;
-}
-
-std::string formatQuantity(double value, std::string_view unit, int significantDigits) {
-    if (!std::isfinite(value)) return "–";
-    // Round first: 999.96 is 1.00 k, not 1000.
-    const std::string rounded = fmt::format("{:.{}e}", value, significantDigits - 1);
-    const auto mark = rounded.find('e');
-    const int exponent = value == 0 ? 0 : std::stoi(rounded.substr(mark + 1));
-    const int group = static_cast<int>(std::floor(exponent / 3.0)) * 3;
-    const Prefix* prefix = &kPrinted[4];
-    for (const auto& candidate : kPrinted) {
-        if (candidate.exponent == group) prefix = &candidate;
-    }
-    const int decimals = std::max(0, significantDigits - 1 - (exponent - prefix->exponent));
-    return fmt::format("{:.{}f}{}{}{}", value * std::pow(10.0, -prefix->exponent), decimals,
-                       unit.empty() && prefix->symbol.empty() ? "" : " ", prefix->symbol, unit);
 }
 
 }  // namespace tacto

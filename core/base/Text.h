@@ -18,10 +18,6 @@ namespace tacto {
 /// Prefixes p n u µ m k M G. Nothing when the text is something else.
 [[nodiscard]] std::optional<double> parseQuantity(std::string_view text, std::string_view unit);
 
-/// Three or four significant digits with an engineering prefix and a space: "2.26 mA", "10.0 kΩ".
-/// A value that is not finite gives "–".
-[[nodiscard]] std::string formatQuantity(double value, std::string_view unit, int significantDigits = 3);
-
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 

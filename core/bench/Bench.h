@@ -8,8 +8,8 @@
 // Every call that starts output is done for an order of the operator, which begin() names by the moment at which it was
 // given. A stop ends that order for good; only an order from after the stop runs.
 //
-// Thread-safety: stop(), pause(), resume(), stops(), telemetry() and deviceReport() from any thread; everything else
-// has one caller (a script's thread, or the program).
+// Thread-safety: stop(), pause(), resume(), markMoment(), stops(), telemetry() and deviceReport() from any thread;
+// everything else has one caller (a script's thread, or the program).
 #pragma once
 
 #include <chrono>
@@ -105,6 +105,9 @@ public:
     void stop(const char* by) noexcept;
     void pause() noexcept;
     void resume() noexcept;
+    /// Notes in the session that the operator marked the moment `at` with a word. Touches no output, and waits for no
+    /// disk. False where nothing is recorded.
+    [[nodiscard]] bool markMoment(Instant at, std::string word);
     /// Leaves Faulted. A device that was unplugged is looked for again, by identity, which may take two seconds.
     /// Errors: NotArmed while the cause persists.
     [[nodiscard]] Result<void> resetFault();

@@ -29,9 +29,9 @@ struct SeenAmplitude {
     Instant onset{0};
 };
 
-/// Of the voltage, or of the current, in a capture that was triggered on a train. `expected` is left to the caller.
-/// Nothing for a record without a trigger, without exactly one channel in V and one in A, or without a pulse that was
-/// measured.
+/// The amplitude of the voltage, or of the current, in a capture that was triggered on a train. `expected` is left to
+/// the caller. Nothing for a record without a trigger, without exactly one channel in V and one in A, or without a
+/// pulse that was measured.
 [[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, Drive drive);
 
 /// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.

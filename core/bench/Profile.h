@@ -4,10 +4,10 @@
 //    "safety": {"load_low_ohm": 500, "load_high_ohm": 10000, "electrode_area_cm2": 3,
 //               "ceilings": {"peak_current": 20}}}
 //
-// The sections `roughness` and `encoding` are described in core/dsp/RoughnessSettings.h and
-// core/encoding/EncodingProfile.h; a ceiling's key is a quantity of core/safety/Quantity.h, its value in that
-// quantity's unit. What a file leaves out keeps the shipped value (resources/encodings/default.json), but
-// for the limits on a step from train to train: a file that names none has none.
+// The tables of fields say what each key accepts: roughnessFields(), encodingFields(), profileFields(). A ceiling's key
+// is a quantity of core/safety/Quantity.h, its value in that quantity's unit. What a file leaves out keeps the shipped
+// value (resources/encodings/default.json), but for the limits on a step from train to train: a file that names none
+// has none.
 //
 // Thread-safety: values; pure functions but for reading files.
 #pragma once
@@ -33,6 +33,8 @@ struct Profile {
     Ceilings ceilings;
 };
 
+/// Every section and key, with what it accepts.
+[[nodiscard]] const RecordFields<Profile>& profileFields();
 /// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument naming the field, its value and what is
 /// accepted. `source` begins the message of text that is not JSON.
 [[nodiscard]] Result<Profile> parseProfile(std::string_view text, std::string_view source);

@@ -32,6 +32,7 @@ public:
                  std::optional<Instant> untriggeredAfter = {});
     /// Whether the device can take a record without a trigger.
     [[nodiscard]] bool canForce() const noexcept { return forced_ != nullptr; }
+    [[nodiscard]] const Oscilloscope& device() const noexcept { return device_; }
     /// No more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
@@ -48,7 +49,7 @@ public:
 private:
     void serveDevice(Instant now);
     [[nodiscard]] Result<void> forceWhenDue(Instant now);
-    /// Of an earlier request.
+    /// Belongs to an earlier request.
     [[nodiscard]] bool stale(const Capture& capture) const;
 
     Oscilloscope& device_;

@@ -26,24 +26,10 @@ bool isPlausible(const StimulatorStatus& status) noexcept {
 }
 }  // namespace
 
-StimulatorSession::StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat,
-                                     const Clock& clock, std::function<void()> wake)
-    : device_(device), gate_(gate), heartbeat_(heartbeat), clock_(clock), wake_(std::move(wake)) {}
-
 void StimulatorSession::post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept {
     const Instant latest = onset + kBeginsWithin + durationOf(train.train());
     trainEnd_.store(latest.count(), std::memory_order_release);
-    {
-        const std::scoped_lock lock(mailbox_);
-        pending_.emplace(Pending{std::move(train), onset, isCheck});
-        busy_.store(true, std::memory_order_release);
-    }
-    if (wake_) wake_();
-}
-
-void StimulatorSession::forceOff() noexcept {
-    offs_.fetch_add(1, std::memory_order_acq_rel);
-    device_.forceOff();
+    OutputSession::post({std::move(train), onset, isCheck});
 }
 
 Instant StimulatorSession::serve(Instant now) noexcept {
@@ -56,53 +42,31 @@ Instant StimulatorSession::serve(Instant now) noexcept {
         else
             next = std::min(next, statusDue_);
     }
-    std::optional<Pending> due;
-    {
-        const std::scoped_lock lock(mailbox_);
-        if (pending_ && !awaitingStatus_) {
-            if (now >= pending_->onset) {
-                due = std::move(pending_);
-                pending_.reset();
-            } else {
-                next = std::min(next, pending_->onset);
-            }
-        }
-    }
-    if (due) {
+    if (awaitingStatus_) return next;
+    if (auto due = takeDue(now, next)) {
         deliver(std::move(*due), now);
         if (awaitingStatus_) next = std::min(next, statusDue_);
     }
     return next;
 }
 
-void StimulatorSession::deliver(Pending&& pending, Instant now) noexcept {
+void StimulatorSession::deliver(TrainOrder&& order, Instant now) noexcept {
     TrainReport made;
-    made.isCheck = pending.isCheck;
+    made.isCheck = order.isCheck;
     made.onset = now;
-    made.amplitude = std::visit([](auto a) { return a.value(); }, pending.train.train().amplitude);
-    made.interval_s = pending.train.interval().count();
-    made.train = pending.train.train();
-    made.approvedUntil = pending.train.expires();
-    const auto offsBefore = offs_.load(std::memory_order_acquire);
-    if (!gate_.isCurrent(pending.train) || !heartbeat_.alive(clock_.elapsed())) {
-        report(made);
-        return;
-    }
-    const Instant duration = durationOf(pending.train.train());
-    const auto delivered = device_.deliver(std::move(pending.train));
-    // A stop that came while the write was in flight may have reached the device before it: off again. So may a
-    // standstill of the process, or of the computer, that the write waited through.
-    if (offs_.load(std::memory_order_acquire) != offsBefore || !heartbeat_.alive(clock_.elapsed())) {
-        device_.forceOff();
-    }
-    if (!delivered) {
-        device_.forceOff();
+    made.amplitude = std::visit([](auto a) { return a.value(); }, order.train.train().amplitude);
+    made.interval_s = order.train.interval().count();
+    made.train = order.train.train();
+    made.approvedUntil = order.train.expires();
+    const Instant duration = durationOf(made.train);
+    const auto delivered = writeIfCurrent(order.train, [&] { return device_.deliver(std::move(order.train)); });
+    if (!delivered) return report(made);
+    if (!*delivered) {
         made.outcome = TrainOutcome::Failed;
-        made.error = std::string_view(delivered.error().message);
-        report(made);
-        return;
+        made.error = std::string_view(delivered->error().message);
+        return report(made);
     }
-    // The device may have taken its time to be programmed: the train began when it had, not when it was told to.
+    // The device may have taken its time to be programmed: the train began when it had, not when it was ordered.
     made.end = std::max(now, clock_.now()) + duration;
     trainEnd_.store(made.end.count(), std::memory_order_release);
     awaitingStatus_ = made;
@@ -161,24 +125,7 @@ std::optional<Result<void>> StimulatorSession::health() {
 }
 
 void StimulatorSession::feedDeadMan(Instant now) noexcept {
-    if (!heartbeat_.alive(clock_.elapsed())) {
-        keptAliveAt_.reset();
-        // The loop is silent: whatever the device still does on its own has to end. Said once, for the loop to find
-        // when it comes back.
-        if (!std::exchange(silenced_, true) && everServed_) {
-            device_.forceOff();
-            const auto silence = heartbeat_.silence(clock_.elapsed()).value_or(Instant(0));
-            silencedAfter_.store(silence.count(), std::memory_order_relaxed);
-            TrainReport silent;
-            silent.outcome = TrainOutcome::LoopSilent;
-            silent.onset = silent.statusAt = now;
-            silent.error = std::string_view("the control loop was silent for more than 100 ms");
-            reports_.push(silent);
-        }
-        return;
-    }
-    everServed_ = true;
-    silenced_ = false;
+    if (!watchLoop(now)) return keptAliveAt_.reset();
     const auto deadMan = device_.traits().deadMan;
     if (deadMan.count() <= 0 || now < keepAliveDue_) return;
     keepAliveDue_ = now + toInstant(deadMan / 8);
@@ -194,13 +141,8 @@ void StimulatorSession::feedDeadMan(Instant now) noexcept {
         lost.outcome = TrainOutcome::Failed;
         lost.onset = lost.statusAt = now;
         lost.error = std::string_view(kept.error().message);
-        reports_.push(lost);
+        note(lost);
     }
-}
-
-void StimulatorSession::report(const TrainReport& made) noexcept {
-    reports_.push(made);
-    busy_.store(false, std::memory_order_release);
 }
 
 }  // namespace tacto

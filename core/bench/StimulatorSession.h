@@ -4,30 +4,28 @@
 // One train is in the session at a time: it is idle again when its report was made, so a status that was
 // not read holds back the next train.
 //
-// Thread-safety: askHealth() and health() any thread; serve() has one caller, the device's thread (on the virtual
-// clock, the bench). post(), idle() and takeReport() have one caller, the control loop. forceOff() any thread.
+// Thread-safety: askHealth(), health() and trainEnd() any thread; serve() has one caller, the device's thread (on the
+// virtual clock, the bench); post() has one, the control loop. The rest as OutputSession.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <mutex>
-#include <optional>
-
-#include "core/base/Clock.h"
-#include "core/base/SpscRing.h"
-#include "core/bench/TrainReport.h"
-#include "core/safety/Heartbeat.h"
+#include "core/bench/OutputSession.h"
 
 namespace tacto {
 
-class StimulatorSession {
+struct TrainOrder {
+    ApprovedTrain train;
+    Instant onset;
+    bool isCheck;
+};
+
+class StimulatorSession : public OutputSession<Stimulator, TrainOrder> {
 public:
     /// All arguments outlive the session. `wake` is called after post(), so that a thread waiting for serve()'s
     /// due time looks again; may be empty.
     StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
-                      std::function<void()> wake);
+                      std::function<void()> wake)
+        : OutputSession(device, gate, heartbeat, clock, std::move(wake)) {}
 
-    [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
     /// How long deliver() may take until the train begins: a device is programmed first.
     static constexpr Instant kBeginsWithin = std::chrono::milliseconds(200);
     /// When the train that is in the session ends at the latest, as far as it is known: its status is due from then on.
@@ -36,10 +34,6 @@ public:
 
     /// Hands over a train to be written at `onset`. The session must be idle().
     void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
-    [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
-
-    /// Output off now, and again after a write that is in flight. The bench latches the gate first.
-    void forceOff() noexcept;
 
     /// Asks the device how it is, outside any train: for leaving a fault. Answered by the next serve().
     void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
@@ -52,44 +46,18 @@ public:
         return Instant(longestGap_.load(std::memory_order_relaxed));
     }
 
-    /// How long the loop had been silent when the output had been switched off for it, the last time; 0 = never. Any
-    /// thread.
-    [[nodiscard]] Instant silencedAfter() const noexcept {
-        return Instant(silencedAfter_.load(std::memory_order_relaxed));
-    }
-
     /// Does what is due and returns when it wants to be called again.
     Instant serve(Instant now) noexcept;
 
-    [[nodiscard]] const Stimulator& device() const noexcept { return device_; }
-
 private:
-    struct Pending {
-        ApprovedTrain train;
-        Instant onset;
-        bool isCheck;
-    };
-    void deliver(Pending&& pending, Instant now) noexcept;
+    void deliver(TrainOrder&& order, Instant now) noexcept;
     void readStatus(Instant now) noexcept;
     void feedDeadMan(Instant now) noexcept;
     void answerHealth() noexcept;
-    void report(const TrainReport& made) noexcept;
 
-    Stimulator& device_;
-    const SafetyGate& gate_;
-    const Heartbeat& heartbeat_;
-    const Clock& clock_;
-    const std::function<void()> wake_;
-
-    std::atomic<bool> busy_{false};
     std::atomic<Instant::rep> trainEnd_{0};
-    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls; a write that saw one pass switches off again
-    std::mutex mailbox_;                  // guards pending_; held for a move only
-    std::optional<Pending> pending_;
-    SpscRing<TrainReport> reports_{16};
     std::atomic<bool> healthAsked_{false};
     std::atomic<Instant::rep> longestGap_{0};
-    std::atomic<Instant::rep> silencedAfter_{0};
     std::optional<Result<void>> health_;  // guarded by mailbox_
 
     // The device thread's own:
@@ -97,8 +65,6 @@ private:
     Instant statusDue_{0};
     Instant keepAliveDue_{0};
     std::optional<Instant> keptAliveAt_;
-    bool silenced_ = false;    // the heartbeat was found dead and the output switched off
-    bool everServed_ = false;  // the heartbeat was once alive
 };
 
 }  // namespace tacto

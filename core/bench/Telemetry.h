@@ -1,11 +1,14 @@
 // Telemetry.h - what the bench is doing right now, for displays and scripts. Published by the control loop
 // once a step, read without a lock.
+//
+// Thread-safety: values.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/base/Units.h"
@@ -19,8 +22,14 @@ namespace tacto {
 /// Where R and P come from.
 enum class DriveSource { Off, Manual, Sensor };
 
-/// What the stimulator was told for a train, before it delivers it.
-struct ToldTrain {
+struct DriveCommand {
+    DriveSource source = DriveSource::Off;
+    double roughness = 0;  ///< 0..1, Manual only
+    double pressure = 0;
+};
+
+/// What was programmed for a train, before it is delivered.
+struct ProgrammedTrain {
     Instant onset{0};
     double amplitude = NAN;  ///< V or mA by its drive
     double expected = NAN;   ///< the same, as it should come out: the command, to the device's step
@@ -32,7 +41,8 @@ struct Telemetry {
 
     Instant at{0};
     InterlockState state = InterlockState::Disconnected;
-    FixedText<200> reason;  ///< of a fault or the last stop; else empty
+    FixedText<200> reason;            ///< of a fault or the last stop; else empty
+    std::optional<FaultCause> fault;  ///< nothing unless faulted, or where the cause is not known
     bool paused = false;
     DriveSource driving = DriveSource::Off;  ///< every stop, disarm and fault turns it off
 
@@ -62,11 +72,12 @@ struct Telemetry {
     double imbalanceUncertainty = NAN;  ///< of it, 95 %
 
     bool uncalibratedStimulator = false;  ///< one is open, and no calibration of it holds
-    double trainAmplitude = NAN;          ///< as the stimulator was told for the last train, V or mA by its drive
-    std::array<ToldTrain, 8> told{};      ///< the last trains, in no order; those that are not there have no amplitude
-    std::uint64_t trainsDelivered = 0;    ///< or bursts
-    std::uint64_t trainsRefused = 0;      ///< by the limits
-    std::uint64_t trainsSkipped = 0;      ///< for stale or missing sensor data
+    double trainAmplitude = NAN;          ///< as programmed for the last train, V or mA by its drive
+    std::array<ProgrammedTrain, 8>
+        programmed{};                   ///< the last trains, in no order; those that are not there have no amplitude
+    std::uint64_t trainsDelivered = 0;  ///< or bursts
+    std::uint64_t trainsRefused = 0;    ///< by the limits
+    std::uint64_t trainsSkipped = 0;    ///< for stale or missing sensor data
     FixedText<200> lastRefusal;
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< found in the sensor streams

@@ -16,26 +16,26 @@ DeviceGrid gridOf(const SourceTraits& source) noexcept {
 
 namespace {
 
-/// What the stimulator is told stays this near to the command, whatever a calibration says.
+/// What is programmed stays this near to the command, whatever a calibration says.
 constexpr double kMaxCorrection = 0.2;
 
 double levelOf(const PulseTrain& train) noexcept {
     return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
 }
 
-Result<void> staysNear(std::string_view what, double told, double command) {
-    if (std::abs(told - command) <= kMaxCorrection * command) return {};
+Result<void> staysNear(std::string_view what, double programmed, double command) {
+    if (std::abs(programmed - command) <= kMaxCorrection * command) return {};
     return fail(ErrorCode::LimitExceeded,
-                "the calibration would have the stimulator told {:.4g} for {} {:.4g}; at most 20 % beside it is "
+                "the calibration would program {:.4g} for {} {:.4g}; at most 20 % beside it is "
                 "accepted: the stimulator is out of order, or the calibration is not its own",
-                told, what, command);
+                programmed, what, command);
 }
 
-Result<void> staysNear(const PulseTrain& told, const PulseTrain& command) {
-    if (auto near = staysNear("the amplitude", levelOf(told), levelOf(command)); !near) return near;
-    if (auto near = staysNear("the phase width", told.phaseWidth.count(), command.phaseWidth.count()); !near)
+Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) {
+    if (auto near = staysNear("the amplitude", levelOf(programmed), levelOf(command)); !near) return near;
+    if (auto near = staysNear("the phase width", programmed.phaseWidth.count(), command.phaseWidth.count()); !near)
         return near;
-    return staysNear("the gap", told.interPhaseGap.count(), command.interPhaseGap.count());
+    return staysNear("the gap", programmed.interPhaseGap.count(), command.interPhaseGap.count());
 }
 
 }  // namespace
@@ -73,11 +73,11 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     if (!held) return failure(held);
     const auto train = trainFor(source_.drive, encoder().profile(), *held, impedance);
     if (!train) return failure(train);
-    const PulseTrain told = toldFor(*train, calibration_);
-    if (auto near = staysNear(told, *train); !near) return failure(near);
-    const Seconds interval = toldFor(command.interval, calibration_);
+    const PulseTrain programmed = programmedFor(*train, calibration_);
+    if (auto near = staysNear(programmed, *train); !near) return failure(near);
+    const Seconds interval = programmedFor(command.interval, calibration_);
     if (auto near = staysNear("the interval", interval.count(), command.interval.count()); !near) return failure(near);
-    const auto rounded = roundToDevice(told, gridOf(source_));
+    const auto rounded = roundToDevice(programmed, gridOf(source_));
     if (!rounded) return failure(rounded);
     auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
     if (!approved) return failure(approved);

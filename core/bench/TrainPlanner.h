@@ -31,8 +31,8 @@ struct PlannedBurst {
 
 class TrainPlanner {
 public:
-    /// `profile` has passed validate(); `gate` outlives the planner. With a `calibration` the stimulator is told what
-    /// makes it deliver the command; the gate must know of the same one.
+    /// `profile` has passed validate(); `gate` outlives the planner. With a `calibration` trains are programmed
+    /// so that the command is delivered; the gate must know of the same one.
     TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                  const KnownLines& calibration = {});
 
@@ -52,9 +52,8 @@ public:
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return series_.command(); }
 
     /// Has the due train judged, for an onset at max(due, now). Whether it is approved or refused, the next one is an
-    /// interval later. Errors: as heldAmplitude(),
-    /// trainFor(), roundToDevice() and SafetyGate::approve(); LimitExceeded where the calibration would have the
-    /// stimulator told more than 20 % beside the command (hazard H1: the calibration may be wrong).
+    /// interval later. Errors: as heldAmplitude(), trainFor(), roundToDevice() and SafetyGate::approve(); LimitExceeded
+    /// where the calibration would program more than 20 % beside the command (hazard H1: it may be wrong).
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
     /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <fmt/format.h>
 
+#include "core/base/RecordFields.h"
+
 namespace tacto {
 
 std::optional<CalibrationDate> parseDate(std::string_view text) {
@@ -24,6 +26,15 @@ std::optional<CalibrationDate> parseDate(std::string_view text) {
 std::string dateText(CalibrationDate date) {
     return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
                        static_cast<unsigned>(date.day()));
+}
+
+ValueKind<CalibrationDate> dateKind() {
+    return codedKind<CalibrationDate>(
+        "a date as \"2026-11-21\"",
+        [](const nlohmann::json& value) {
+            return value.is_string() ? parseDate(value.get<std::string>()) : std::nullopt;
+        },
+        [](const CalibrationDate& date) { return nlohmann::json(dateText(date)); });
 }
 
 CalibrationDate utcToday() { return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()); }

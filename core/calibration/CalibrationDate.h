@@ -10,11 +10,16 @@
 
 namespace tacto {
 
+template <class T>
+struct ValueKind;
+
 /// A calendar date, UTC.
 using CalibrationDate = std::chrono::year_month_day;
 /// "2026-11-21". Nothing for another form or a day that does not exist.
 [[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
 [[nodiscard]] std::string dateText(CalibrationDate date);
+/// As the field of a record: its text.
+[[nodiscard]] ValueKind<CalibrationDate> dateKind();
 /// Today, UTC.
 [[nodiscard]] CalibrationDate utcToday();
 

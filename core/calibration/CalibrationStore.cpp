@@ -11,8 +11,8 @@ StimulatorCalibration linesOf(const StoredCalibration& stored) {
         CalibrationLine out = line;
         // U is stated in % of the command; what comes out may be less than that.
         double leastDelivered = 1;
-        for (const double told : {line.lowest, line.highest})
-            leastDelivered = std::min(leastDelivered, line.delivered(told) / told);
+        for (const double programmed : {line.lowest, line.highest})
+            leastDelivered = std::min(leastDelivered, line.delivered(programmed) / programmed);
         const double relative = line.uncertainty_pct / 100 / leastDelivered;
         out.spread = line.residual ? Spread{relative, *line.residual}
                                    : Spread{std::max(relative, kUnknownSpread.relative), kUnknownSpread.absolute};

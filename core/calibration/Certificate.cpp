@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/Printable.h"
+#include "core/base/RecordFields.h"
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -81,45 +82,31 @@ std::string figuresText(const Certificate& certificate) {
     return fmt::format("U (k = 2): {}{}{}", stated, not_.empty() ? "" : "; not stated: ", not_);
 }
 
-nlohmann::json toJson(const Certificate& certificate) {
-    nlohmann::json out = {{"date", dateText(certificate.date)}, {"due", dateText(certificate.due)}};
-    for (const auto& each : kCertificateTexts) out[std::string(each.key)] = certificate.*each.member;
-    for (const auto& each : kCertificateFigures) {
-        const auto& u = certificate.*each.member;
-        out[std::string(each.key)] = u ? nlohmann::json(*u) : nlohmann::json(nullptr);
-    }
-    return out;
+namespace {
+
+RecordFields<Certificate> buildCertificateFields() {
+    RecordFields<Certificate> all;
+    for (const auto& each : kCertificateTexts) all.text(each.key, each.member).required = true;
+    all.add("date", &Certificate::date, dateKind()).required = true;
+    all.add("due", &Certificate::due, dateKind()).required = true;
+    for (const auto& each : kCertificateFigures)
+        all.number(each.key, each.member, {.low = 0, .high = each.most, .openLow = true, .unit = each.unit});
+    all.passOverUnknownKeys();
+    all.rule([](const Certificate& certificate) { return check(certificate); });
+    return all;
 }
 
+const RecordFields<Certificate>& certificateFields() {
+    static const auto fields = buildCertificateFields();
+    return fields;
+}
+
+}  // namespace
+
+nlohmann::json toJson(const Certificate& certificate) { return certificateFields().write(certificate); }
+
 Result<Certificate> certificateFrom(const nlohmann::json& json) {
-    const auto wrong = [](std::string_view key, std::string_view accepted) {
-        return fail(ErrorCode::ParseError, "certificate: \"{}\" is not there or no {}", key, accepted);
-    };
-    if (!json.is_object()) return fail(ErrorCode::ParseError, "this is no certificate");
-    const auto textAt = [&](std::string_view key) -> const std::string* {
-        const auto found = json.find(key);
-        return found == json.end() ? nullptr : found->get_ptr<const std::string*>();
-    };
-    Certificate out;
-    for (const auto& each : kCertificateTexts) {
-        const auto* text = textAt(each.key);
-        if (text == nullptr) return wrong(each.key, "text");
-        out.*each.member = *text;
-    }
-    for (const auto& [key, day] : {std::pair{"date", &Certificate::date}, std::pair{"due", &Certificate::due}}) {
-        const auto* text = textAt(key);
-        const auto date = text == nullptr ? std::nullopt : parseDate(*text);
-        if (!date) return wrong(key, "date");
-        out.*day = *date;
-    }
-    for (const auto& each : kCertificateFigures) {
-        const auto found = json.find(each.key);
-        if (found == json.end() || found->is_null()) continue;
-        if (!found->is_number()) return wrong(each.key, "number");
-        out.*each.member = found->get<double>();
-    }
-    if (auto sound = check(out); !sound) return failure(sound);
-    return out;
+    return certificateFields().read(json, {.path = "certificate"});
 }
 
 }  // namespace tacto

@@ -2,23 +2,19 @@
 
 #include <fmt/ranges.h>
 
+#include "core/base/Words.h"
+
 namespace tacto {
 
-std::string_view nameOf(CertificateState state) noexcept {
-    switch (state) {
-        case CertificateState::Counts:
-            return "in use";
-        case CertificateState::Superseded:
-            return "superseded";
-        case CertificateState::Expired:
-            return "expired";
-        case CertificateState::NotYet:
-            return "dated in the future";
-        case CertificateState::Withdrawn:
-            break;
-    }
-    return "withdrawn";
-}
+namespace {
+constexpr Word<CertificateState> kCertificateStateWords[] = {{"in use", CertificateState::Counts},
+                                                             {"superseded", CertificateState::Superseded},
+                                                             {"expired", CertificateState::Expired},
+                                                             {"dated in the future", CertificateState::NotYet},
+                                                             {"withdrawn", CertificateState::Withdrawn}};
+}  // namespace
+
+std::string_view nameOf(CertificateState state) noexcept { return wordFor(kCertificateStateWords, state); }
 
 Result<CertificateStore> CertificateStore::open(std::filesystem::path file) {
     CertificateStore store(std::move(file));

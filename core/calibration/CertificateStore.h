@@ -42,7 +42,7 @@ public:
 
     /// How all()[`index`] stands on `day`.
     [[nodiscard]] CertificateState state(std::size_t index, CalibrationDate day) const;
-    /// Of that serial the newest that is not withdrawn and not dated after `day`; where there is none, the first that
+    /// The newest of that serial that is not withdrawn and not dated after `day`; where there is none, the first that
     /// begins after it. Index into all().
     [[nodiscard]] std::optional<std::size_t> newest(std::string_view serial, CalibrationDate day) const;
 

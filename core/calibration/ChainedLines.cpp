@@ -58,8 +58,8 @@ private:
     int handle_;
 };
 
-/// Of a line without its own digest.
-std::string digestOf(const nlohmann::json& line) { return sha256Hex(line.dump()); }
+/// The digest of a line without its own digest.
+std::string digestOf(const nlohmann::json& line) { return sha256Hex(dumpJson(line)); }
 
 }  // namespace
 
@@ -117,7 +117,7 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     (*body)["previous"] = head_;
     const auto digest = digestOf(*body);
     (*body)["sha256"] = digest;
-    const std::string text = body->dump() + '\n';
+    const std::string text = dumpJson(*body) + '\n';
     if (!lock.write(wholeBytes_, text)) {
         return fail(ErrorCode::Io, "{} cannot be written: {}", file_.string(), std::strerror(errno));
     }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tacto {
+#include "core/base/RecordFields.h"
 
-using nlohmann::json;
+namespace tacto {
 
 namespace {
 
@@ -24,25 +24,54 @@ Result<void> checkLine(const StoredLine& line, const std::string& serial, std::s
     return {};
 }
 
-json toJson(const StoredLine& line) {
-    json out = {{"gain", line.gain},
-                {"offset", line.offset},
-                {"uncertainty_pct", line.uncertainty_pct},
-                {"lowest", line.lowest},
-                {"highest", line.highest}};
-    if (line.residual) out["residual"] = *line.residual;
-    return out;
+/// The keys of a line, whose members are those of the line that `line` leads to.
+template <class Record, class Line>
+void addLine(RecordFields<Record>& fields, Line line) {
+    fields.number("gain", in(line, &StoredLine::gain)).required = true;
+    fields.number("offset", in(line, &StoredLine::offset)).required = true;
+    fields.number("uncertainty_pct", in(line, &StoredLine::uncertainty_pct)).required = true;
+    fields.number("lowest", in(line, &StoredLine::lowest)).required = true;
+    fields.number("highest", in(line, &StoredLine::highest)).required = true;
+    fields.number("residual", in(line, &StoredLine::residual)).leftOutIfEmpty = true;
 }
 
-StoredLine lineFrom(const json& in) {
-    StoredLine line;
-    line.gain = in.at("gain").get<double>();
-    line.offset = in.at("offset").get<double>();
-    line.uncertainty_pct = in.at("uncertainty_pct").get<double>();
-    line.lowest = in.at("lowest").get<double>();
-    line.highest = in.at("highest").get<double>();
-    if (in.contains("residual")) line.residual = in.at("residual").get<double>();
-    return line;
+RecordFields<StoredCalibration> buildCalibrationFields() {
+    using C = StoredCalibration;
+    using I = CalibrationInstrument;
+    constexpr AcceptedText kAnyText{.mayBeEmpty = true};
+    RecordFields<I> instrument;
+    instrument.text("name", &I::name, kAnyText).required = true;
+    instrument.text("serial", &I::serial, kAnyText).required = true;
+    instrument.add("due", &I::due, dateKind()).required = true;
+    instrument.number("gain_tolerance", &I::gainTolerance);
+    instrument.text("stated_by", &I::statedBy, kAnyText);
+    instrument.passOverUnknownKeys();  // a later version may know more
+    RecordFields<StoredLine> line;
+    addLine(line, std::identity{});
+    line.passOverUnknownKeys();
+
+    RecordFields<C> all;
+    all.text("serial", &C::serial, kAnyText).required = true;
+    all.text("device", &C::device, kAnyText).required = true;
+    all.text("unit", &C::unit, kAnyText).required = true;
+    addLine(all, &C::amplitude);  // at the top: files were written so before times were kept
+    for (const auto& time : kStoredTimes) all.record(time.key, time.line, line).leftOutIfEmpty = true;
+    all.add("made", &C::made, dateKind()).required = true;
+    all.add("valid_until", &C::validUntil, dateKind()).required = true;
+    all.flag("simulated", &C::simulated).required = true;
+    all.text("session", &C::session, kAnyText).required = true;
+    // Lines of older versions have neither: they are read, and not applied.
+    all.text("session_head", &C::sessionHead, kAnyText);
+    all.number("readings", &C::readings);
+    all.list("instruments", &C::instruments, instrument.kind(), 0, 10'000).required = true;
+    all.passOverUnknownKeys();
+    all.rule([](const C& calibration) { return check(calibration); });
+    return all;
+}
+
+const RecordFields<StoredCalibration>& calibrationFields() {
+    static const auto fields = buildCalibrationFields();
+    return fields;
 }
 
 bool isDigest(std::string_view text) {
@@ -101,70 +130,10 @@ Result<void> check(const StoredCalibration& c) {
     return {};
 }
 
-json toJson(const StoredCalibration& c) {
-    json instruments = json::array();
-    for (const auto& instrument : c.instruments) {
-        instruments.push_back({{"name", instrument.name},
-                               {"serial", instrument.serial},
-                               {"due", instrument.due ? json(dateText(*instrument.due)) : json()},
-                               {"gain_tolerance", instrument.gainTolerance ? json(*instrument.gainTolerance) : json()},
-                               {"stated_by", instrument.statedBy}});
-    }
-    json out = toJson(c.amplitude);  // at the top: files were written so before times were kept
-    out.update({{"serial", c.serial},
-                {"device", c.device},
-                {"unit", c.unit},
-                {"made", dateText(c.made)},
-                {"valid_until", dateText(c.validUntil)},
-                {"simulated", c.simulated},
-                {"session", c.session},
-                {"session_head", c.sessionHead},
-                {"readings", c.readings},
-                {"instruments", instruments}});
-    for (const auto& time : kStoredTimes) {
-        if (c.*time.line) out[std::string(time.key)] = toJson(*(c.*time.line));
-    }
-    return out;
-}
+nlohmann::json toJson(const StoredCalibration& calibration) { return calibrationFields().write(calibration); }
 
-Result<StoredCalibration> storedCalibrationFrom(const json& in) {
-    StoredCalibration c;
-    const auto date = [](const json& value) {
-        return value.is_string() ? parseDate(value.get<std::string>()) : std::nullopt;
-    };
-    try {
-        c.serial = in.at("serial").get<std::string>();
-        c.device = in.at("device").get<std::string>();
-        c.unit = in.at("unit").get<std::string>();
-        c.amplitude = lineFrom(in);
-        for (const auto& time : kStoredTimes) {
-            if (in.contains(time.key)) c.*time.line = lineFrom(in.at(time.key));
-        }
-        c.simulated = in.at("simulated").get<bool>();
-        c.session = in.at("session").get<std::string>();
-        // Lines of older versions have neither: they are read, and not applied.
-        c.sessionHead = in.value("session_head", "");
-        c.readings = in.value("readings", std::size_t{0});
-        const auto made = date(in.at("made")), until = date(in.at("valid_until"));
-        if (!made || !until) return fail(ErrorCode::ParseError, "made or valid_until is no date such as 2026-11-21");
-        c.made = *made;
-        c.validUntil = *until;
-        for (const auto& entry : in.at("instruments")) {
-            CalibrationInstrument instrument{entry.at("name").get<std::string>(), entry.at("serial").get<std::string>(),
-                                             date(entry.at("due"))};
-            if (!instrument.due && !entry.at("due").is_null()) {
-                return fail(ErrorCode::ParseError, "an instrument's due is no date such as 2026-11-21");
-            }
-            const json tolerance = entry.value("gain_tolerance", json());
-            if (!tolerance.is_null()) instrument.gainTolerance = tolerance.get<double>();
-            instrument.statedBy = entry.value("stated_by", "");
-            c.instruments.push_back(std::move(instrument));
-        }
-    } catch (const json::exception& wrong) {
-        return fail(ErrorCode::ParseError, "{}", wrong.what());
-    }
-    if (auto sane = check(c); !sane) return failure(sane);
-    return c;
+Result<StoredCalibration> storedCalibrationFrom(const nlohmann::json& json) {
+    return calibrationFields().read(json, {});
 }
 
 }  // namespace tacto

@@ -1,6 +1,8 @@
 // Device.h - what every device has. A device is opened by its driver, owned by one session thread and
 // closed by destruction. What it can do is which of the interfaces below it implements: a missing
 // ability is a missing interface.
+//
+// Thread-safety: identity() is constant while the device is open; the rest as its interface says.
 #pragma once
 
 #include <string>
@@ -21,7 +23,7 @@ struct DeviceIdentity {
     std::string serial;
     std::string firmware;
     bool simulated = false;
-    /// Of a listed device: why it cannot be opened now and what helps, one sentence; empty where it can.
+    /// Why a listed device cannot be opened now and what helps, one sentence; empty where it can.
     std::string obstacle = {};
     bool placeholder = false;  ///< listed as a kind: the path of `uri` has to be filled in
     bool operator==(const DeviceIdentity&) const = default;

@@ -1,5 +1,7 @@
 #include "core/devices/DeviceUri.h"
 
+#include <fmt/ranges.h>
+
 #include "core/base/Text.h"
 
 namespace tacto {
@@ -36,6 +38,11 @@ std::string DeviceUri::text() const {
         separator = '&';
     }
     return out;
+}
+
+tl::unexpected<Error> DeviceUri::refuseChoice(const std::vector<std::string>& addresses) const {
+    return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", text(),
+                fmt::join(addresses, " or "));
 }
 
 std::string unitOf(std::string_view serial, std::string_view uri) {

@@ -3,6 +3,8 @@
 //   sim:                                                  every role that is still needed, simulated
 //   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device and its flaws
 //   recording:../data/mat1_1                              a recording replayed as a fingertip
+//
+// Thread-safety: values; pure functions.
 #pragma once
 
 #include <string>
@@ -22,6 +24,19 @@ struct DeviceUri {
     /// Errors: InvalidArgument for a text without "scheme:" or a parameter without "=".
     [[nodiscard]] static Result<DeviceUri> parse(std::string_view text);
     [[nodiscard]] std::string text() const;
+
+    /// Builds the error arm of a Result, as fail(), for what is wrong with this device: it is named in front.
+    template <class... Args>
+    [[nodiscard]] tl::unexpected<Error> refuse(ErrorCode code, fmt::format_string<Args...> format,
+                                               Args&&... args) const {
+        return fail(code, "device \"{}\": {}", text(), fmt::format(format, std::forward<Args>(args)...));
+    }
+    /// The same of an error that does not name the device.
+    [[nodiscard]] tl::unexpected<Error> refuse(const Error& error) const {
+        return refuse(error.code, "{}", error.message);
+    }
+    /// For one that means several devices: lists what it could be.
+    [[nodiscard]] tl::unexpected<Error> refuseChoice(const std::vector<std::string>& addresses) const;
 };
 
 /// A unit by name, whichever of its outputs is used: its driver and its serial number ("sciencemode 1234"); without one

@@ -1,4 +1,5 @@
-// Driver.h - opens devices of one URI scheme. Programs list their drivers explicitly, in main.cpp.
+// Driver.h - opens devices of one URI scheme. Programs list their drivers explicitly, in
+// app/run/AllDrivers.cpp.
 //
 // Thread-safety: one caller.
 #pragma once
@@ -48,6 +49,8 @@ struct DeviceSet {
     std::shared_ptr<VoltageReference> reference;  ///< null: the operator connects a reference source
 
     [[nodiscard]] bool has(Role role) const noexcept;
+    /// Errors: InvalidArgument where the role that `uri` is to fill has its device already.
+    [[nodiscard]] Result<void> checkFree(Role role, const DeviceUri& uri) const;
     [[nodiscard]] std::vector<DeviceIdentity> identities() const;
 };
 

@@ -34,6 +34,12 @@ bool DeviceSet::has(Role role) const noexcept {
     return false;
 }
 
+Result<void> DeviceSet::checkFree(Role role, const DeviceUri& uri) const {
+    if (!has(role)) return {};
+    return uri.refuse(ErrorCode::InvalidArgument, "{} {} is open already, and a bench has one of each",
+                      role == Role::Oscilloscope ? "an" : "a", nameOf(role));
+}
+
 std::vector<DeviceIdentity> DeviceSet::identities() const {
     std::vector<DeviceIdentity> found;
     const Device* all[] = {sensor.get(), stimulator.get(), oscilloscope.get(), massager.get()};

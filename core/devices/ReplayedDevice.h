@@ -1,5 +1,7 @@
 // ReplayedDevice.h - a device that gives back what was taken before: a recording, captures in files. Whether that was
 // measured or simulated only its files can say (hazard H9).
+//
+// Thread-safety: statedOrigin() is constant while the device is open.
 #pragma once
 
 namespace tacto {

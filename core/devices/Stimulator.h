@@ -48,12 +48,4 @@ public:
     virtual void forceOff() noexcept = 0;
 };
 
-/// A stimulator with a mode that repeats a train by itself: bench loads only, under heartbeat.
-class RepeatingStimulator {
-public:
-    virtual ~RepeatingStimulator() = default;
-    /// Repeats `train` every `interval` until forceOff() or the dead-man switch. Errors: as deliver().
-    [[nodiscard]] virtual Result<void> repeat(ApprovedTrain&& train, Seconds interval) = 0;
-};
-
 }  // namespace tacto

@@ -4,12 +4,14 @@
 // Thread-safety: one caller at a time, whichever thread: after an unplug the session's thread looks again.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/devices/Device.h"
 #include "core/devices/Transport.h"
 
 namespace tacto {
@@ -28,9 +30,9 @@ struct TransportPort {
 /// Those of `all` that a URI's path names, by serial number or by place.
 [[nodiscard]] std::vector<TransportPort> portsNamed(std::string_view path, std::span<const TransportPort> all);
 
-/// "pulsepal:A1 or pulsepal:1-2": the addresses of `ports` among `all`, to be chosen from.
-[[nodiscard]] std::string choiceOf(std::string_view scheme, std::span<const TransportPort> ports,
-                                   std::span<const TransportPort> all);
+/// "pulsepal:A1", "pulsepal:1-2": the addresses of `ports` among `all`.
+[[nodiscard]] std::vector<std::string> addressesOf(std::string_view scheme, std::span<const TransportPort> ports,
+                                                   std::span<const TransportPort> all);
 
 class TransportPorts {
 public:
@@ -39,5 +41,19 @@ public:
     /// Errors: NotFound when it was unplugged meanwhile; as the transport's own.
     [[nodiscard]] virtual Result<std::unique_ptr<Transport>> open(const TransportPort& port) = 0;
 };
+
+/// What a driver lists: a device called `name` at each port.
+[[nodiscard]] std::vector<DeviceIdentity> identitiesAt(const TransportPorts& ports, std::string_view scheme, Role role,
+                                                       std::string_view name);
+
+/// Errors: Io with the port's obstacle; as TransportPorts::open().
+[[nodiscard]] Result<std::unique_ptr<Transport>> openPort(TransportPorts& ports, const TransportPort& port);
+
+/// Makes a fresh transport to the same device; called again to reconnect. Errors: NotFound, Io, Device.
+using Connect = std::function<Result<std::unique_ptr<Transport>>()>;
+
+/// Opens the port of that address: by serial number wherever it is plugged in now, else in its place. `name`: of the
+/// device, for messages.
+[[nodiscard]] Connect connectTo(std::shared_ptr<TransportPorts> ports, std::string address, std::string name);
 
 }  // namespace tacto

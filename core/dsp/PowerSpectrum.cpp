@@ -6,6 +6,7 @@
 #include <mutex>
 #include <new>
 #include <numbers>
+#include <utility>
 
 namespace tacto {
 
@@ -32,12 +33,15 @@ std::vector<double> hannWindow(std::size_t length) {
 }
 
 PowerSpectrum::PowerSpectrum(std::size_t length, std::size_t axes, double rate_hz)
-    : length_(length),
+    : PowerSpectrum(hannWindow(length), axes, rate_hz) {}
+
+PowerSpectrum::PowerSpectrum(std::vector<double> window, std::size_t axes, double rate_hz)
+    : length_(window.size()),
       axes_(axes),
       rate_(rate_hz),
-      inputStride_(padded(length, 8)),
-      outputStride_(padded(length / 2 + 1, 4)),
-      window_(hannWindow(length)) {
+      inputStride_(padded(length_, 8)),
+      outputStride_(padded(length_ / 2 + 1, 4)),
+      window_(std::move(window)) {
     double sum = 0;
     for (const double w : window_) sum += w * w;
     scale_ = 2 / (rate_hz * sum);

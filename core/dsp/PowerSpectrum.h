@@ -1,4 +1,4 @@
-// PowerSpectrum.h - power of a few axes in frequency bands, over one Hann window.
+// PowerSpectrum.h - power of a few axes in frequency bands, over one window: Hann, or another that is given.
 //
 // One-sided density S[k] = c_k |X[k]|² / (rate · Σw²), axes summed, no detrending (science.md section 2.3).
 // The plan is made once, with FFTW_ESTIMATE: a measured plan may differ from run to run, and so would bytes.
@@ -29,6 +29,8 @@ class PowerSpectrum {
 public:
     /// `length` ≥ 2 samples, 1 or more axes.
     PowerSpectrum(std::size_t length, std::size_t axes, double rate_hz);
+    /// With as many samples as the window has.
+    PowerSpectrum(std::vector<double> window, std::size_t axes, double rate_hz);
     ~PowerSpectrum();
     PowerSpectrum(const PowerSpectrum&) = delete;
     PowerSpectrum& operator=(const PowerSpectrum&) = delete;

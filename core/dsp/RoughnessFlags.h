@@ -45,7 +45,7 @@ struct RoughnessFlags {
         times[std::size_t(flag)] = static_cast<std::uint32_t>(number);
     }
     [[nodiscard]] bool has(RoughnessFlag flag) const noexcept { return times[std::size_t(flag)] > 0; }
-    /// Of each the larger count.
+    /// The larger count of each.
     void include(const RoughnessFlags& other) noexcept;
     /// Those that say something about the profile, and not about the samples.
     void dropCalibration() noexcept;

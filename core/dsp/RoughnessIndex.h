@@ -1,6 +1,6 @@
 // RoughnessIndex.h - features become R: scaled, weighed, smoothed, held when the finger rests.
 //
-// Science.md sections 2.4 (hold and decay), 2.6 and 2.7.
+// science.md sections 2.4 (hold and decay), 2.6 and 2.7.
 //
 // Thread-safety: none; one owner. Never allocates.
 #pragma once

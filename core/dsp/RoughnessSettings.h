@@ -77,18 +77,11 @@ struct RoughnessSettings {
 /// P in 0..1 of a contact pressure (science.md section 3); NaN when it is NaN.
 [[nodiscard]] double pressureIndex(double pressure_pa, const RoughnessSettings& settings) noexcept;
 
+/// The `roughness` section of a profile: every key with what it accepts.
+[[nodiscard]] const RecordFields<RoughnessSettings>& roughnessFields();
 /// Errors: InvalidArgument naming the key, its value and what it takes (NaN and equal references are refused).
 [[nodiscard]] Result<void> validate(const RoughnessSettings& settings);
-
-/// The `roughness` section of a profile; absent keys keep their defaults.
-///   {"spectral_feature": "h"|"h_abs", "taxel_feature": "static"|"dynamic", "band_low_hz": 200,
-///    "spectral_weight": 0.5, "taxel_weight": 0.5, "calibrated": false,
-///    "references": {"h": {"smooth": x, "rough": x}, "h_abs": …, "v_static": …, "v_dynamic": …},
-///    "surfaces": {"smooth": {"name": "…", "ra_um": x, "rz_um": x}, "rough": …},
-///    "smoothing_s": 0.05, "contact_area_cm2": 1, "pressure_min_pa": 2000, "pressure_max_pa": 50000,
-///    "rest": {"mean_square": x, "unit": "m/s2"|"count"}, "sensor": {…}, "uncertainty": {…} (SensorScales.h)}
-/// Errors: InvalidArgument naming an unknown key and the known ones; ParseError for a value of the wrong type; as
-/// validate().
+/// Reads the section; absent keys keep their defaults. Errors: as RecordFields::read().
 [[nodiscard]] Result<RoughnessSettings> roughnessSettingsFromJson(const nlohmann::json& section);
 [[nodiscard]] nlohmann::json toJson(const RoughnessSettings& settings);
 

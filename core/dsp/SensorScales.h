@@ -7,7 +7,6 @@
 #pragma once
 
 #include <limits>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +16,11 @@
 #include "core/base/Stream.h"
 
 namespace tacto {
+
+template <class Record>
+class RecordFields;
+template <class T>
+struct ValueKind;
 
 /// quantity = scale · reading + offset.
 struct SensorLine {
@@ -57,14 +61,12 @@ enum class FingertipMatch {
 };
 [[nodiscard]] FingertipMatch matchOf(const SensorScales& scales, std::string_view serial) noexcept;
 
-/// The `sensor` and `uncertainty` of a profile's roughness section:
+/// The `sensor` of a profile's roughness section:
 ///   {"serial": "…", "force": {"unit": "N"|"count", "scale": x, "offset_n": x, "scale_u": x|null},
 ///    "taxels": {"unit": "Pa"|"count", "scale": […], "offset_pa": […], "scale_u": [x|null…]}}
-///   {"slide_sd": s, "smooth_slides": n, "rough_slides": n, "coverage_factor": k}
-/// Errors: ParseError for an unknown key or a wrong type; InvalidArgument for a scale of 0 or what is not finite.
-[[nodiscard]] Result<SensorScales> sensorScalesFromJson(const nlohmann::json& section);
-[[nodiscard]] nlohmann::json toJson(const SensorScales& scales);
-[[nodiscard]] Result<RoughnessUncertainty> roughnessUncertaintyFromJson(const nlohmann::json& section);
-[[nodiscard]] nlohmann::json toJson(const RoughnessUncertainty& uncertainty);
+/// InvalidArgument for a scale of 0.
+[[nodiscard]] ValueKind<SensorScales> sensorScalesKind();
+/// Its `uncertainty`.
+[[nodiscard]] RecordFields<RoughnessUncertainty> roughnessUncertaintyFields();
 
 }  // namespace tacto

@@ -11,27 +11,27 @@ constexpr double kSmallestShare = 0.01;  // with less, times would shrink to not
 
 }  // namespace
 
-double CalibrationLine::delivered(double told) const noexcept {
-    if (told < lowest) return told * ratioAt(lowest);
-    if (told > highest) return told * ratioAt(highest);
-    return gain * told + offset;
+double CalibrationLine::delivered(double programmed) const noexcept {
+    if (programmed < lowest) return programmed * ratioAt(lowest);
+    if (programmed > highest) return programmed * ratioAt(highest);
+    return gain * programmed + offset;
 }
 
-double CalibrationLine::told(double wanted) const noexcept {
+double CalibrationLine::programmedFor(double wanted) const noexcept {
     if (wanted < gain * lowest + offset) return wanted / ratioAt(lowest);
     if (wanted > gain * highest + offset) return wanted / ratioAt(highest);
     return (wanted - offset) / gain;
 }
 
-double CalibrationLine::atMost(double told) const noexcept {
-    const double line = told > 0 ? gain * told + offset : told;
-    const double ratio = delivered(told);
+double CalibrationLine::atMost(double programmed) const noexcept {
+    const double line = programmed > 0 ? gain * programmed + offset : programmed;
+    const double ratio = delivered(programmed);
     return std::max(line, ratio);
 }
 
-double CalibrationLine::atLeast(double told) const noexcept {
-    const double line = told > 0 ? std::max(gain * told + offset, 0.0) : told;
-    return std::min(line, delivered(told));
+double CalibrationLine::atLeast(double programmed) const noexcept {
+    const double line = programmed > 0 ? std::max(gain * programmed + offset, 0.0) : programmed;
+    return std::min(line, delivered(programmed));
 }
 
 Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity) {
@@ -53,12 +53,13 @@ Result<void> validateNumbers(const CalibrationLine& line, std::string_view quant
                     "% are needed",
                     quantity, 100 * spread.relative, spread.absolute);
     }
-    for (const double told : {line.lowest, line.highest}) {
-        if (!(spread.below(line.delivered(told)) >= kSmallestShare * told)) {
+    for (const double programmed : {line.lowest, line.highest}) {
+        if (!(spread.below(line.delivered(programmed)) >= kSmallestShare * programmed)) {
             return fail(ErrorCode::InvalidArgument,
-                        "by its calibration of {} the stimulator may deliver {:.4g} when it is told {:.4g}; at least a "
+                        "by its calibration of {} the stimulator may deliver {:.4g} when it is programmed to {:.4g}; "
+                        "at least a "
                         "hundredth of it is needed",
-                        quantity, spread.below(line.delivered(told)), told);
+                        quantity, spread.below(line.delivered(programmed)), programmed);
         }
     }
     return {};
@@ -66,13 +67,14 @@ Result<void> validateNumbers(const CalibrationLine& line, std::string_view quant
 
 Result<void> validate(const CalibrationLine& line, std::string_view quantity) {
     if (auto sound = validateNumbers(line, quantity); !sound) return sound;
-    for (const double told : {line.lowest, line.highest}) {
-        const double off = line.delivered(told) / told - 1;
+    for (const double programmed : {line.lowest, line.highest}) {
+        const double off = line.delivered(programmed) / programmed - 1;
         if (!(std::abs(off) <= kLargestMiscalibration)) {
             return fail(ErrorCode::InvalidArgument,
-                        "by its calibration of {} the stimulator delivers {:.4g} when it is told {:.4g}, {:.3g} % off; "
+                        "by its calibration of {} the stimulator delivers {:.4g} when it is programmed to {:.4g}, "
+                        "{:.3g} % off; "
                         "at most 20 % is accepted: it is out of order, or the calibration is not its own",
-                        quantity, line.delivered(told), told, 100 * off);
+                        quantity, line.delivered(programmed), programmed, 100 * off);
         }
     }
     return {};

@@ -1,7 +1,7 @@
-// CalibrationLine.h - what a stimulator delivers for what it is told, and the other way round: a straight line.
+// CalibrationLine.h - what a stimulator delivers for it is programmed to, and the other way round: a straight line.
 //
-// Within the calibrated range delivered = gain · told + offset. Outside it the ratio of the nearer end holds, so that 0
-// stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.
+// Within the calibrated range delivered = gain · programmed + offset. Outside it the ratio of the nearer end holds, so
+// that 0 stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.
 //
 // A stimulator that is off by more than 20 % anywhere in its range is out of order (IEC 60601-2-10 allows its output
 // ± 20 %): its calibration is refused, not applied. So whatever stands in a calibration file, no command grows by more
@@ -21,18 +21,19 @@ namespace tacto {
 struct CalibrationLine {
     double gain = 1;
     double offset = 0;  ///< in the quantity's unit, as the two below
-    double lowest = 0;  ///< the calibrated range, as told: 0 < lowest < highest
+    double lowest = 0;  ///< the calibrated range, as programmed: 0 < lowest < highest
     double highest = 0;
-    /// Of what is delivered, around the line: its uncertainty U (95 %) and the largest residual. Nothing: unknown.
+    /// How far what is delivered lies from the line: its uncertainty U (95 %) and the largest residual. Nothing:
+    /// unknown.
     std::optional<Spread> spread{};
 
     /// Both for values of 0 and more; NaN stays NaN.
-    [[nodiscard]] double delivered(double told) const noexcept;
-    [[nodiscard]] double told(double delivered) const noexcept;
+    [[nodiscard]] double delivered(double programmed) const noexcept;
+    [[nodiscard]] double programmedFor(double delivered) const noexcept;
     /// The most and the least of what the line may stand for: outside the range the line, too, may go on. Without its
     /// spread.
-    [[nodiscard]] double atMost(double told) const noexcept;
-    [[nodiscard]] double atLeast(double told) const noexcept;
+    [[nodiscard]] double atMost(double programmed) const noexcept;
+    [[nodiscard]] double atLeast(double programmed) const noexcept;
     bool operator==(const CalibrationLine&) const = default;
 
 private:
@@ -42,9 +43,9 @@ private:
 inline constexpr double kLargestMiscalibration = 0.2;
 
 /// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, a range that is none, a spread
-/// that is none, or an output below a hundredth of what is told at either end of it; `quantity` is named.
+/// that is none, or an output below a hundredth of what is programmed at either end of it; `quantity` is named.
 [[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
-/// Errors: as above, and for an output more than 20 % from what is told at either end of the range.
+/// Errors: as above, and for an output more than 20 % from what is programmed at either end of the range.
 [[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);
 
 }  // namespace tacto

@@ -4,14 +4,20 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/RecordFields.h"
+
 namespace tacto {
 namespace {
 
-/// A range that a field must lie in, ends included, unless `above` excludes the lower one.
-Result<void> within(std::string_view name, double value, double low, double high, std::string_view unit) {
-    if (value >= low && value <= high) return {};
-    return fail(ErrorCode::InvalidArgument, "{} {}{} is outside {} to {}{}", name, value, unit, low, high, unit);
-}
+constexpr Word<CurveKind> kCurves[] = {
+    {"linear", CurveKind::Linear}, {"logarithmic", CurveKind::Logarithmic}, {"power", CurveKind::Power}};
+constexpr Word<Assignment> kAssignments[] = {{"texture_to_amplitude", Assignment::TextureToAmplitude},
+                                             {"swapped", Assignment::Swapped}};
+constexpr Word<Hold> kHolds[] = {{"voltage", Hold::Voltage}, {"charge", Hold::Charge}, {"energy", Hold::Energy}};
+constexpr Word<PulseShape> kShapes[] = {{"symmetric", PulseShape::SymmetricBiphasic},
+                                        {"asymmetric", PulseShape::AsymmetricBiphasic},
+                                        {"monophasic", PulseShape::Monophasic}};
+constexpr Word<Polarity> kPolarities[] = {{"positive", Polarity::Positive}, {"negative", Polarity::Negative}};
 
 Result<void> increasing(std::string_view low, double lowValue, std::string_view high, double highValue,
                         std::string_view unit) {
@@ -19,54 +25,85 @@ Result<void> increasing(std::string_view low, double lowValue, std::string_view 
     return fail(ErrorCode::InvalidArgument, "{} {}{} is not below {} {}{}", low, lowValue, unit, high, highValue, unit);
 }
 
-Result<void> checkConditions(const std::vector<Condition>& conditions) {
-    if (conditions.empty() || conditions.size() > 64) {
-        return fail(ErrorCode::InvalidArgument, "{} conditions are not 1 to 64", conditions.size());
-    }
+Result<void> rangesIncrease(const EncodingProfile& p) {
+    const auto amplitude =
+        increasing("amplitude_min_v", p.amplitudeMin.value(), "amplitude_max_v", p.amplitudeMax.value(), " V");
+    if (!amplitude) return amplitude;
+    return increasing("interval_min_s", p.intervalMin.count(), "interval_max_s", p.intervalMax.count(), " s");
+}
+
+Result<void> strongestTrainIsPossible(const EncodingProfile& p) {
+    PulseTrain strongest = p.train;
+    strongest.amplitude = p.amplitudeMax;
+    return validate(strongest);
+}
+
+Result<void> conditionsDiffer(const EncodingProfile& p) {
     std::set<std::string_view> names;
-    for (const auto& condition : conditions) {
-        if (condition.name.empty()) return fail(ErrorCode::InvalidArgument, "a condition has no name");
-        if (!names.insert(condition.name).second) {
+    for (const auto& condition : p.conditions) {
+        if (!names.insert(condition.name).second)
             return fail(ErrorCode::InvalidArgument, "condition \"{}\" is there twice", condition.name);
-        }
-        for (const auto& [axis, value] : {std::pair{"R", condition.R}, std::pair{"P", condition.P}}) {
-            if (auto checked = within(fmt::format("{} of condition \"{}\"", axis, condition.name), value, 0, 1, "");
-                !checked) {
-                return checked;
-            }
-        }
     }
     return {};
 }
 
+Result<void> stepsAreLimitedOrNot(const EncodingProfile& p) {
+    for (const auto& [key, ratio] : {std::pair{"amplitude_ratio_per_train", p.amplitudeRatioPerTrain},
+                                     std::pair{"interval_ratio_per_train", p.intervalRatioPerTrain}}) {
+        if (ratio != 0 && !(ratio > 1))
+            return fail(ErrorCode::InvalidArgument, "{} {} is neither 0 (no limit) nor above 1 to 1000", key, ratio);
+    }
+    return {};
+}
+
+Result<void> trainsDoNotOverlap(const EncodingProfile& p) {
+    const double duration = p.train.duration().count();
+    if (duration < p.intervalMin.count()) return {};
+    return fail(ErrorCode::InvalidArgument,
+                "a train of {} pulses at {} Hz lasts {:.6g} s, which is not below interval_min_s {} s", p.train.pulses,
+                p.train.rate.value(), duration, p.intervalMin.count());
+}
+
+RecordFields<EncodingProfile> buildEncodingFields() {
+    using P = EncodingProfile;
+    RecordFields<Condition> condition;
+    condition.text("name", &Condition::name).required = true;
+    condition.number("R", &Condition::R, {.low = 0, .high = 1}).required = true;
+    condition.number("P", &Condition::P, {.low = 0, .high = 1}).required = true;
+
+    RecordFields<P> all;
+    all.number("amplitude_min_v", &P::amplitudeMin, {.low = 0.01, .high = 500, .unit = "V"});
+    all.number("amplitude_max_v", &P::amplitudeMax, {.low = 0.01, .high = 500, .unit = "V"});
+    all.number("interval_min_s", &P::intervalMin, {.low = 0.01, .high = 60, .unit = "s"});
+    all.number("interval_max_s", &P::intervalMax, {.low = 0.01, .high = 60, .unit = "s"});
+    all.word("amplitude_curve", in(&P::amplitudeCurve, &Curve::kind), kCurves);
+    all.number("amplitude_beta", in(&P::amplitudeCurve, &Curve::beta), {.low = 0.1, .high = 10});
+    all.word("interval_curve", in(&P::intervalCurve, &Curve::kind), kCurves);
+    all.number("interval_beta", in(&P::intervalCurve, &Curve::beta), {.low = 0.1, .high = 10});
+    all.word("assignment", &P::assignment, kAssignments);
+    all.word("shape", in(&P::train, &PulseTrain::shape), kShapes);
+    all.word("polarity", in(&P::train, &PulseTrain::polarity), kPolarities);
+    all.number("phase_width_us", in(&P::train, &PulseTrain::phaseWidth), {.low = 1, .high = 1e5, .unit = "µs"});
+    all.number("inter_phase_gap_us", in(&P::train, &PulseTrain::interPhaseGap), {.low = 0, .high = 1e5, .unit = "µs"});
+    all.number("recharge_ratio", in(&P::train, &PulseTrain::rechargeRatio), {.low = 1, .high = 1000});
+    all.number("pulses", in(&P::train, &PulseTrain::pulses), {.low = 1, .high = 1000});
+    all.number("rate_hz", in(&P::train, &PulseTrain::rate), {.low = 0.1, .high = 1e4, .unit = "Hz"});
+    all.number("amplitude_slew_v_per_s", &P::amplitudeSlew_V_per_s, {.low = 0, .high = 1e6, .unit = "V/s"});
+    all.number("amplitude_ratio_per_train", &P::amplitudeRatioPerTrain, {.low = 0, .high = 1000});
+    all.number("interval_ratio_per_train", &P::intervalRatioPerTrain, {.low = 0, .high = 1000});
+    all.word("hold", &P::hold, kHolds);
+    all.list("conditions", &P::conditions, condition.kind(), 1, 64);
+    for (const auto rule :
+         {rangesIncrease, strongestTrainIsPossible, conditionsDiffer, stepsAreLimitedOrNot, trainsDoNotOverlap})
+        all.rule(rule);
+    return all;
+}
+
 }  // namespace
 
-std::string_view nameOf(CurveKind curve) noexcept {
-    switch (curve) {
-        case CurveKind::Linear:
-            return "linear";
-        case CurveKind::Logarithmic:
-            return "logarithmic";
-        case CurveKind::Power:
-            return "power";
-    }
-    return "unknown";
-}
-
-std::string_view nameOf(Hold hold) noexcept {
-    switch (hold) {
-        case Hold::Charge:
-            return "charge";
-        case Hold::Energy:
-            return "energy";
-        default:
-            return "voltage";
-    }
-}
-
-std::string_view nameOf(Assignment assignment) noexcept {
-    return assignment == Assignment::Swapped ? "swapped" : "texture_to_amplitude";
-}
+std::string_view nameOf(CurveKind curve) noexcept { return wordFor(kCurves, curve); }
+std::string_view nameOf(Hold hold) noexcept { return wordFor(kHolds, hold); }
+std::string_view nameOf(Assignment assignment) noexcept { return wordFor(kAssignments, assignment); }
 
 double Curve::at(double x, double from, double to) const noexcept {
     if (x <= 0) return from;
@@ -88,46 +125,17 @@ const Condition* EncodingProfile::condition(std::string_view name) const noexcep
     return nullptr;
 }
 
-Result<void> validate(const EncodingProfile& p) {
-    const double aMin = p.amplitudeMin.value();
-    const double aMax = p.amplitudeMax.value();
-    const double tMin = p.intervalMin.count();
-    const double tMax = p.intervalMax.count();
-    PulseTrain strongest = p.train;
-    strongest.amplitude = p.amplitudeMax;
-    for (const auto& checked : {
-             within("amplitude_min_v", aMin, 0.01, 500, " V"),
-             within("amplitude_max_v", aMax, 0.01, 500, " V"),
-             increasing("amplitude_min_v", aMin, "amplitude_max_v", aMax, " V"),
-             within("interval_min_s", tMin, 0.01, 60, " s"),
-             within("interval_max_s", tMax, 0.01, 60, " s"),
-             increasing("interval_min_s", tMin, "interval_max_s", tMax, " s"),
-             within("amplitude_beta", p.amplitudeCurve.beta, 0.1, 10, ""),
-             within("interval_beta", p.intervalCurve.beta, 0.1, 10, ""),
-             validate(strongest),
-             within("phase_width_us", p.train.phaseWidth.count(), 1, 1e5, " µs"),
-             within("inter_phase_gap_us", p.train.interPhaseGap.count(), 0, 1e5, " µs"),
-             within("recharge_ratio", p.train.rechargeRatio, 1, 1000, ""),
-             within("pulses", p.train.pulses, 1, 1000, ""),
-             within("rate_hz", p.train.rate.value(), 0.1, 1e4, " Hz"),
-             within("amplitude_slew_v_per_s", p.amplitudeSlew_V_per_s, 0, 1e6, " V/s"),
-             checkConditions(p.conditions),
-         }) {
-        if (!checked) return checked;
-    }
-    for (const auto& [key, ratio] : {std::pair{"amplitude_ratio_per_train", p.amplitudeRatioPerTrain},
-                                     std::pair{"interval_ratio_per_train", p.intervalRatioPerTrain}}) {
-        if (ratio != 0 && !(ratio > 1 && ratio <= 1000)) {
-            return fail(ErrorCode::InvalidArgument, "{} {} is neither 0 (no limit) nor above 1 to 1000", key, ratio);
-        }
-    }
-    const double duration = p.train.duration().count();
-    if (!(duration < tMin)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a train of {} pulses at {} Hz lasts {:.6g} s, which is not below interval_min_s {} s",
-                    p.train.pulses, p.train.rate.value(), duration, tMin);
-    }
-    return {};
+const RecordFields<EncodingProfile>& encodingFields() {
+    static const auto fields = buildEncodingFields();
+    return fields;
 }
+
+Result<void> validate(const EncodingProfile& profile) { return encodingFields().check(profile, {}); }
+
+Result<EncodingProfile> encodingProfileFrom(const nlohmann::json& section) {
+    return encodingFields().read(section, {.path = "encoding"});
+}
+
+nlohmann::json toJson(const EncodingProfile& profile) { return encodingFields().write(profile); }
 
 }  // namespace tacto

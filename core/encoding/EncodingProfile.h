@@ -14,6 +14,9 @@
 
 namespace tacto {
 
+template <class Record>
+class RecordFields;
+
 enum class CurveKind { Linear, Logarithmic, Power };
 [[nodiscard]] std::string_view nameOf(CurveKind curve) noexcept;  // "linear", "logarithmic", "power"
 
@@ -78,15 +81,11 @@ struct EncodingProfile {
     bool operator==(const EncodingProfile&) const = default;
 };
 
+/// The `encoding` section of a profile: every key with what it accepts.
+[[nodiscard]] const RecordFields<EncodingProfile>& encodingFields();
 /// Errors: InvalidArgument naming the field, its value and what is accepted (among them n/rate < T_min).
 [[nodiscard]] Result<void> validate(const EncodingProfile& profile);
-
-/// Reads the `encoding` section; a missing key keeps its default. Keys: amplitude_min_v, amplitude_max_v,
-/// interval_min_s, interval_max_s, amplitude_curve, amplitude_beta, interval_curve, interval_beta, assignment,
-/// shape (symmetric, asymmetric, monophasic), polarity (positive, negative), phase_width_us, inter_phase_gap_us,
-/// recharge_ratio, pulses, rate_hz, amplitude_slew_v_per_s, amplitude_ratio_per_train, interval_ratio_per_train,
-/// hold (voltage, charge, energy), conditions [{name, R, P}].
-/// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument as validate().
+/// Reads the section; a missing key keeps its default. Errors: as RecordFields::read().
 [[nodiscard]] Result<EncodingProfile> encodingProfileFrom(const nlohmann::json& section);
 /// The section that reads back to the same profile.
 [[nodiscard]] nlohmann::json toJson(const EncodingProfile& profile);

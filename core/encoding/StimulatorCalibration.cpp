@@ -6,8 +6,8 @@ namespace tacto {
 
 namespace {
 
-Seconds told(Seconds wanted, const std::optional<CalibrationLine>& line) noexcept {
-    return line ? Seconds(line->told(wanted.count())) : wanted;
+Seconds programmed(Seconds wanted, const std::optional<CalibrationLine>& line) noexcept {
+    return line ? Seconds(line->programmedFor(wanted.count())) : wanted;
 }
 
 template <class Check>
@@ -32,31 +32,31 @@ Result<void> validate(const StimulatorCalibration& calibration) {
     return ofEachLine(calibration, [](const auto& line, auto quantity) { return validate(line, quantity); });
 }
 
-PulseTrain toldFor(PulseTrain train, const KnownLines& calibration) noexcept {
+PulseTrain programmedFor(PulseTrain train, const KnownLines& calibration) noexcept {
     if (!calibration) return train;
-    if (calibration->phaseWidth) train.phaseWidth = told(train.phaseWidth, calibration->phaseWidth);
-    if (calibration->gap) train.interPhaseGap = told(train.interPhaseGap, calibration->gap);
-    return withAmplitude(train, [&](double wanted) { return calibration->amplitude.told(wanted); });
+    if (calibration->phaseWidth) train.phaseWidth = programmed(train.phaseWidth, calibration->phaseWidth);
+    if (calibration->gap) train.interPhaseGap = programmed(train.interPhaseGap, calibration->gap);
+    return withAmplitude(train, [&](double wanted) { return calibration->amplitude.programmedFor(wanted); });
 }
 
-Seconds toldFor(Seconds interval, const KnownLines& calibration) noexcept {
-    return calibration ? told(interval, calibration->interval) : interval;
+Seconds programmedFor(Seconds interval, const KnownLines& calibration) noexcept {
+    return calibration ? programmed(interval, calibration->interval) : interval;
 }
 
 PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& c) noexcept {
     if (c.phaseWidth) train.phaseWidth = Seconds(c.phaseWidth->atMost(Seconds(train.phaseWidth).count()));
     if (c.gap) train.interPhaseGap = Seconds(c.gap->atMost(Seconds(train.interPhaseGap).count()));
-    return withAmplitude(train, [&](double told) { return c.amplitude.atMost(told); });
+    return withAmplitude(train, [&](double programmed) { return c.amplitude.atMost(programmed); });
 }
 
 PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept {
     if (!calibration) return train;
-    return withAmplitude(train, [&](double told) { return calibration->amplitude.atMost(told); });
+    return withAmplitude(train, [&](double programmed) { return calibration->amplitude.atMost(programmed); });
 }
 
 PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept {
     if (!calibration) return train;
-    return withAmplitude(train, [&](double told) { return calibration->amplitude.atLeast(told); });
+    return withAmplitude(train, [&](double programmed) { return calibration->amplitude.atLeast(programmed); });
 }
 
 }  // namespace tacto

@@ -1,9 +1,9 @@
-// StimulatorCalibration.h - a stimulator's calibration, applied: what it is told so that it delivers what is wanted,
-// and what may come out of what it is told.
+// StimulatorCalibration.h - a stimulator's calibration, applied: what it is programmed to so that it delivers what is
+// wanted, and what may come out of that.
 //
 // An interval is timed by the computer and measured by an oscilloscope, as everything else: where the two clocks
-// differ, the oscilloscope's counts. What is told is then rounded to the device's steps (Rounding.h), so it comes out
-// up to a step short.
+// differ, the oscilloscope's counts. What is programmed is then rounded to the device's steps (Rounding.h), so it comes
+// out up to a step short.
 //
 // Thread-safety: values; pure functions that do not allocate, but for the text of an error.
 #pragma once
@@ -16,28 +16,30 @@
 namespace tacto {
 
 struct StimulatorCalibration {
-    CalibrationLine amplitude;                    ///< V or mA, as the source
-    std::optional<CalibrationLine> interval{};    ///< s, onset to onset; where there is none, a time is as it is told
+    CalibrationLine amplitude;  ///< V or mA, as the source
+    std::optional<CalibrationLine>
+        interval{};  ///< s, onset to onset; where there is none, a time is as it is programmed
     std::optional<CalibrationLine> phaseWidth{};  ///< s, of the leading phase
     std::optional<CalibrationLine> gap{};         ///< s, between the phases
     /// What a person needs: all four.
     [[nodiscard]] bool complete() const noexcept { return interval && phaseWidth && gap; }
     bool operator==(const StimulatorCalibration&) const = default;
 };
-using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything is as it is told
+using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything is as it is programmed
 
 /// Errors: as for one line, of the first that has one.
 [[nodiscard]] Result<void> validateNumbers(const StimulatorCalibration& calibration);
 [[nodiscard]] Result<void> validate(const StimulatorCalibration& calibration);
 
-/// `train` as the stimulator must be told it: amplitude, phase width and gap.
-[[nodiscard]] PulseTrain toldFor(PulseTrain train, const KnownLines& calibration) noexcept;
-[[nodiscard]] Seconds toldFor(Seconds interval, const KnownLines& calibration) noexcept;
+/// `train` as it must be programmed: amplitude, phase width and gap.
+[[nodiscard]] PulseTrain programmedFor(PulseTrain train, const KnownLines& calibration) noexcept;
+[[nodiscard]] Seconds programmedFor(Seconds interval, const KnownLines& calibration) noexcept;
 
-/// What comes out of a train that is told, by the lines alone; beyond the range of a line the most. What their spread
-/// adds, the gate judges: core/safety/DeliveryBounds.h.
+/// What comes out of a train that is programmed, by the lines alone; beyond the range of a line the most. What their
+/// spread adds, the gate judges: core/safety/DeliveryBounds.h.
 [[nodiscard]] PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& calibration) noexcept;
-/// `train` with the most, and with the least, amplitude that the stimulator then delivers by its line; times as told.
+/// `train` with the most, and with the least, amplitude that the stimulator then delivers by its line; times as
+/// programmed.
 [[nodiscard]] PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
 [[nodiscard]] PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
 

@@ -24,7 +24,7 @@ void TrainSeries::want(const Command& wanted, Instant now) noexcept {
     const bool starting = !wanted_;
     wanted_ = wanted;
     command_ = limited(now);
-    const Seconds interval = toldFor(command_->interval, calibration_);
+    const Seconds interval = programmedFor(command_->interval, calibration_);
     if (starting)
         scheduler_.start(now, interval);
     else
@@ -41,7 +41,7 @@ Command TrainSeries::begin(Instant onset) noexcept {
     command_ = limited(onset);
     begun_ = Train{*command_, onset};
     if (goesOn(onset)) {
-        const Seconds late = Seconds(onset - last_->onset) - toldFor(command_->interval, calibration_);
+        const Seconds late = Seconds(onset - last_->onset) - programmedFor(command_->interval, calibration_);
         const Seconds longest = std::max(command_->interval, encoder_.profile().intervalMax);
         begun_->command.interval = std::clamp(command_->interval + late, command_->interval, longest);
     }

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "core/base/Csv.h"
 #include "core/formats/CaptureFormat.h"
 
 namespace tacto {
@@ -10,13 +11,8 @@ ByteFile::ByteFile(std::unique_ptr<std::FILE, Close> file, std::string name, std
     : file_(std::move(file)), name_(std::move(name)), size_(size) {}
 
 Result<ByteFile> ByteFile::open(const std::filesystem::path& path) {
+    if (auto plain = checkPlainFile(path); !plain) return failure(plain);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) return fail(ErrorCode::NotFound, "no file {}", path.string());
-    if (std::filesystem::is_directory(status)) {
-        return fail(ErrorCode::Io, "{} is a folder; a file was expected", path.string());
-    }
-    if (!std::filesystem::is_regular_file(status)) return fail(ErrorCode::Io, "{} is not a file", path.string());
     const auto size = std::filesystem::file_size(path, error);
     if (error) return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), error.message());
     std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));

@@ -57,6 +57,10 @@ struct CaptureReading {
     std::string formatName;             ///< likewise, for people
 };
 
+/// What `read` gives; where its samples do not fit into memory, Io naming `file` in place of an exception.
+[[nodiscard]] Result<CaptureReading> readWithinMemory(std::string_view file,
+                                                      const std::function<Result<CaptureReading>()>& read);
+
 /// What recognises() is shown: the file's beginning, at most kHeadBytes of it.
 constexpr std::size_t kHeadBytes = 64 * 1024;
 
@@ -68,14 +72,15 @@ public:
     [[nodiscard]] virtual std::string_view id() const noexcept = 0;
     /// For people: "Rigol CSV".
     [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-    /// Of its files, lower case with the dot: {".csv", ".txt"}. The first is the usual one.
+    /// The suffixes of its files, lower case with the dot: {".csv", ".txt"}. The first is the usual one.
     [[nodiscard]] virtual std::vector<std::string_view> suffixes() const = 0;
 
     /// Whether a file of this name that begins with `head` is one of these. Never reads the file.
     [[nodiscard]] virtual bool recognises(const std::filesystem::path& path, std::string_view head) const = 0;
 
     /// Errors: NotFound, Io; ParseError naming file, place (line or byte) and what was expected; InvalidArgument for an
-    /// option that the file cannot honour; Stopped. What was read until then is dropped.
+    /// option that the file cannot honour; Stopped. What was read until then is dropped. Throws std::bad_alloc where
+    /// the samples do not fit into memory: see readWithinMemory().
     [[nodiscard]] virtual Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,
                                                       const ReadWatch& watch) const = 0;
 

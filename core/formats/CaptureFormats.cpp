@@ -79,7 +79,7 @@ Result<CaptureReading> CaptureFormats::read(const std::filesystem::path& path, c
                                             const ReadWatch& watch) const {
     const auto format = formatOf(path, options);
     if (!format) return failure(format);
-    auto reading = (*format)->read(path, options, watch);
+    auto reading = readWithinMemory(path.string(), [&] { return (*format)->read(path, options, watch); });
     if (reading) {
         reading->formatId = (*format)->id();
         reading->formatName = (*format)->name();

@@ -28,7 +28,8 @@ public:
     [[nodiscard]] Result<const CaptureFormat*> formatOf(const std::filesystem::path& path,
                                                         const ReadOptions& options) const;
 
-    /// Recognises and reads. Errors: of formatOf() and of the format's read().
+    /// Recognises and reads. Errors: of formatOf() and of the format's read(); Io where the samples do not fit into
+    /// memory.
     [[nodiscard]] Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options = {},
                                               const ReadWatch& watch = {}) const;
 

@@ -1,8 +1,8 @@
 #include "core/formats/CaptureFormats.h"
-#include "core/formats/CsvFormat.h"
-#include "core/formats/CsvMakers.h"
 #include "core/formats/IsfFormat.h"
 #include "core/formats/WavFormat.h"
+#include "core/formats/csv/CsvFormat.h"
+#include "core/formats/csv/CsvMakers.h"
 
 namespace tacto {
 

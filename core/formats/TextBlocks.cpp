@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/formats/NumberText.h"
-
 namespace tacto {
 
 TextBlocks::TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name)
-    : file_(std::move(file)),
-      text_(text),
-      name_(std::move(name)),
-      buffer_(kNumberPadding + kBlockBytes + 1 + kNumberPadding) {}
+    : file_(std::move(file)), text_(text), name_(std::move(name)), buffer_(kBlockBytes + 1) {}
 
 Result<TextBlocks> TextBlocks::ofFile(const std::filesystem::path& path) {
     auto file = ByteFile::open(path);
@@ -57,7 +52,7 @@ Result<std::size_t> TextBlocks::fill(char* into, std::size_t count) {
 }
 
 Result<std::string_view> TextBlocks::next() {
-    char* const begin = buffer_.data() + kNumberPadding;
+    char* const begin = buffer_.data();
     std::memmove(begin, begin + used_, held_ - used_);
     held_ -= used_;
     used_ = 0;

@@ -22,8 +22,8 @@ public:
     /// `text` must outlive this; `name` stands for the file in messages.
     [[nodiscard]] static TextBlocks ofText(std::string_view text, std::string_view name);
 
-    /// Whole lines, the last one ended by '\n' even where the file's is not; empty at the end. kNumberPadding bytes
-    /// before and behind it may be read. Without the byte-order mark.
+    /// Whole lines, the last one ended by '\n' even where the file's is not; empty at the end. Without the
+    /// byte-order mark.
     /// Errors: Io; ParseError for a line longer than a block.
     [[nodiscard]] Result<std::string_view> next();
 

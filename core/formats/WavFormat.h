@@ -1,10 +1,9 @@
 // WavFormat.h - RIFF WAVE: recordings from sound interfaces, and captures for programs that know no other table.
 //
-// Read: PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64, plain or extensible. PCM samples are fractions
-// of the full scale, which no WAV states: --unit and --probe say what 1 stands for, else a warning does.
-// Written: 32-bit floats in V and A as they are, with names, units and start in an INFO comment that other programs
-// pass over; so a capture returns bit by bit. Source: the RIFF WAVE description by IBM and Microsoft (1991) and
-// WAVEFORMATEX.
+// Read through libsndfile: PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64, plain or extensible. PCM
+// samples are fractions of the full scale, which no WAV states: --unit and --probe say what 1 stands for, else a
+// warning does. Written: 32-bit floats in V and A as they are, with names, units and start in an INFO comment that
+// other programs pass over; so a capture returns bit by bit.
 //
 // Thread-safety: as CaptureFormat.
 #pragma once
@@ -23,7 +22,7 @@ public:
                                 const ReadWatch& watch) const override;
     bool canWrite() const noexcept override { return true; }
     /// Errors: those of checkWritable(); InvalidArgument for a rate that is no whole number of Hz (to a millionth of
-    /// itself), more than 65535 channels or more than 4 GiB; Io.
+    /// itself), more than 1024 channels or more than 4.2 GB; Io.
     Result<void> write(const std::filesystem::path& path, const Capture& capture) const override;
 };
 

@@ -1,4 +1,6 @@
 // Capture.h - a stretch of oscilloscope record. Everything that is measured is measured on this.
+//
+// Thread-safety: values.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +31,8 @@ struct Capture {
     double rate_hz = 0;
     double start_s = 0;    ///< time of sample 0 on the session's time base
     double trigger_s = 0;  ///< time stamp of the trigger; NaN for a record without one
-    /// Amplitude that the stimulator was told for the train it shows, V or mA by its drive; NaN = not known.
-    double told = kNaN;
+    /// Amplitude that was programmed for the train it shows, V or mA by its drive; NaN = not known.
+    double programmed = kNaN;
     double timeBaseTolerance = kNaN;  ///< relative half-width (50e-6 = 50 ppm); NaN = not stated
     double stampTolerance_s = kNaN;   ///< half-width of start_s and trigger_s against other captures'; NaN = not stated
     bool simulated = false;

@@ -84,7 +84,7 @@ std::string captureHeader(const Capture& capture) {
         return !channel.statedBy.empty() || std::isfinite(channel.gainTolerance);
     });
     if (!capture.simulated && !stated) return {};
-    return std::string(kComment) + describeCapture(capture).dump(-1, ' ', true, json::error_handler_t::replace) + "\n";
+    return std::string(kComment) + dumpJson(describeCapture(capture), -1, true) + "\n";
 }
 
 std::optional<Capture> headerIn(std::string_view text) {

@@ -31,7 +31,7 @@ Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simula
     const auto said = readOrigin(folder);
     if (said && (*said || *said == simulated)) return {};
     std::ofstream stream(folder / kFile, std::ios::binary);
-    stream << nlohmann::json{{"simulated", simulated}}.dump() << "\n";
+    stream << dumpJson(nlohmann::json{{"simulated", simulated}}) << "\n";
     stream.flush();
     if (!stream) return fail(ErrorCode::Io, "{} could not be written", (folder / kFile).string());
     return {};

@@ -1,4 +1,6 @@
 // FoundPhase.h - an excursion from the baseline on its way to becoming part of a pulse. Private to core/measure.
+//
+// Thread-safety: values; one owner.
 #pragma once
 
 #include <cstddef>

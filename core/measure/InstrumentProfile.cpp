@@ -1,25 +1,21 @@
 #include "core/measure/InstrumentProfile.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <optional>
 
-#include "core/base/JsonText.h"
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
 namespace {
 
-using ProfileJson = nlohmann::json;
+using nlohmann::json;
 
-constexpr std::array<std::string_view, 4> kSheetConfidences{"high", "medium", "medium-low", "low"};
-constexpr std::array<std::string_view, 2> kGainOf{"reading", "full scale"};
+constexpr Word<bool> kGainOf[] = {{"reading", false}, {"full scale", true}};
 constexpr double kMaxPct = 50;
 constexpr double kMaxPpm = 1e5;
+constexpr std::size_t kMaxNames = 10'000;
 
 bool sameLetters(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b,
@@ -32,113 +28,63 @@ bool modelMatches(std::string_view pattern, std::string_view model) {
     return model.size() >= pattern.size() && sameLetters(pattern, model.substr(0, pattern.size()));
 }
 
-/// Reads the keys of one object; the first fault is kept and everything after it is skipped.
-class SheetReader {
-public:
-    SheetReader(const ProfileJson& object, std::string where) : object_(object), where_(std::move(where)) {}
-
-    void only(std::initializer_list<std::string_view> known) {
-        if (auto keys = onlyKeys(object_, known, where_); !keys) fault_ = std::move(keys.error());
-    }
-    void text(const char* key, std::string& into, bool required = true) {
-        const auto* value = find(key, required);
-        if (value == nullptr) return;
-        const auto* found = value->get_ptr<const std::string*>();
-        if (found == nullptr || found->empty()) return refuse(key, value, "a text that is not empty");
-        into = *found;
-    }
-    template <std::size_t N>
-    void oneOf(const char* key, const std::array<std::string_view, N>& names, std::string& into) {
-        text(key, into);
-        if (fault_ || std::ranges::find(names, into) != names.end()) return;
-        refuse(key, &object_.at(key), fmt::format("{}", fmt::join(names, ", ")));
-    }
-    /// `into` = the number times `scale`.
-    void number(const char* key, double most, double scale, double& into, bool required = true) {
-        const auto* value = find(key, required);
-        if (value == nullptr) return;
-        const double found = value->is_number() ? value->get<double>() : kNaN;
-        if (!(found >= 0) || !(found <= most)) return refuse(key, value, fmt::format("a number from 0 to {:g}", most));
-        into = found * scale;
-    }
-    /// A list of patterns or names: at least one, none empty, a * at the end alone and behind something.
-    void names(const char* key, bool patterns, std::vector<std::string>& into) {
-        const auto* value = find(key, true);
-        if (value == nullptr) return;
-        if (!value->is_array() || value->empty()) return refuse(key, value, "a list of texts");
-        for (const auto& each : *value) {
-            const auto* name = each.get_ptr<const std::string*>();
-            const auto star = name == nullptr ? std::string::npos : name->find('*');
-            if (name == nullptr || name->empty() ||
-                (star != std::string::npos && (!patterns || star == 0 || star + 1 != name->size()))) {
-                return refuse(key, &each, patterns ? "a model, or its beginning and *" : "a maker's name");
-            }
-            into.push_back(*name);
-        }
-    }
-    /// The object under `key`; null where the figure is stated to be unknown.
-    [[nodiscard]] const ProfileJson* object(const char* key) {
-        const auto* value = find(key, true);
-        if (value == nullptr || value->is_null()) return nullptr;
-        if (value->is_object()) return value;
-        refuse(key, value, "an object, or null where no source is known");
-        return nullptr;
-    }
-    void take(std::optional<Error> fault) {
-        if (!fault_) fault_ = std::move(fault);
-    }
-    [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
-    [[nodiscard]] const std::string& where() const { return where_; }
-
-private:
-    const ProfileJson* find(const char* key, bool required) {
-        if (fault_) return nullptr;
-        const auto found = object_.find(key);
-        if (found != object_.end()) return &*found;
-        if (required) refuse(key, nullptr, "it");
-        return nullptr;
-    }
-    void refuse(const char* key, const ProfileJson* value, std::string_view accepted) {
-        fault_ = value == nullptr
-                     ? Error{ErrorCode::ParseError, fmt::format("{}: \"{}\" is missing; it is required", where_, key)}
-                     : Error{ErrorCode::ParseError,
-                             fmt::format("{}: \"{}\" is {}; accepted: {}", where_, key, shownJson(*value), accepted)};
-    }
-
-    const ProfileJson& object_;
-    std::string where_;
-    std::optional<Error> fault_;
-};
-
-void readSheetSource(SheetReader& reader, SheetFigure& into) {
-    reader.text("source", into.source);
-    reader.text("address", into.address);
-    reader.oneOf("confidence", kSheetConfidences, into.confidence);
-    reader.text("condition", into.condition, false);
+/// A share as `unit` states it, `perUnit` of the whole each.
+ValueKind<double> shareKind(double most, std::string_view unit, double perUnit) {
+    auto kind = numberKind<double>({.low = 0, .high = most, .unit = unit});
+    kind.read = [stated = kind.read, perUnit](const json& value, double& into, const RecordPlace& place,
+                                              std::string_view key) {
+        auto done = stated(value, into, place, key);
+        into *= perUnit;
+        return done;
+    };
+    kind.write = [perUnit](double share) { return json(share / perUnit); };
+    kind.check = nullptr;
+    return kind;
 }
 
-void readGain(SheetReader& parent, InstrumentProfile& into) {
-    const auto* object = parent.object("gain");
-    if (object == nullptr) return;
-    SheetReader reader(*object, parent.where() + ": gain");
-    reader.only({"pct", "of", "condition", "source", "address", "confidence"});
-    std::string of;
-    reader.oneOf("of", kGainOf, of);
-    reader.number("pct", kMaxPct, 1e-2, into.gain.value);
-    readSheetSource(reader, into.gain);
-    into.gainOfFullScale = of == "full scale";
-    parent.take(reader.fault());
+/// A maker, or the pattern of a model: a * at its end alone, and behind something.
+ValueKind<std::string> nameKind(const char* accepted, bool pattern) {
+    return codedKind<std::string>(
+        accepted,
+        [pattern](const json& value) -> std::optional<std::string> {
+            const auto* name = value.get_ptr<const std::string*>();
+            if (name == nullptr || name->empty()) return std::nullopt;
+            const auto star = name->find('*');
+            const bool sound = star == std::string::npos || (pattern && star > 0 && star + 1 == name->size());
+            return sound ? std::optional(*name) : std::nullopt;
+        },
+        [](const std::string& name) { return json(name); });
 }
 
-void readTimeBase(SheetReader& parent, InstrumentProfile& into) {
-    const auto* object = parent.object("time_base");
-    if (object == nullptr) return;
-    SheetReader reader(*object, parent.where() + ": time_base");
-    reader.only({"ppm", "ppm_per_year", "condition", "source", "address", "confidence"});
-    reader.number("ppm", kMaxPpm, 1e-6, into.timeBase.value);
-    reader.number("ppm_per_year", kMaxPpm, 1e-6, into.timeBase.perYear, false);
-    readSheetSource(reader, into.timeBase);
-    parent.take(reader.fault());
+/// What every figure has beside its value.
+void addSheet(RecordFields<InstrumentProfile>& figure, SheetFigure InstrumentProfile::*member) {
+    figure.text("source", in(member, &SheetFigure::source)).required = true;
+    figure.text("address", in(member, &SheetFigure::address)).required = true;
+    figure.word("confidence", in(member, &SheetFigure::confidence), kConfidences).required = true;
+    figure.text("condition", in(member, &SheetFigure::condition));
+}
+
+RecordFields<InstrumentProfile> buildInstrumentFields() {
+    using P = InstrumentProfile;
+    RecordFields<P> gain, timeBase, all;
+    gain.word("of", &P::gainOfFullScale, kGainOf).required = true;
+    gain.add("pct", in(&P::gain, &SheetFigure::value), shareKind(kMaxPct, "%", 1e-2)).required = true;
+    addSheet(gain, &P::gain);
+    timeBase.add("ppm", in(&P::timeBase, &SheetFigure::value), shareKind(kMaxPpm, "ppm", 1e-6)).required = true;
+    timeBase.add("ppm_per_year", in(&P::timeBase, &SheetFigure::perYear), shareKind(kMaxPpm, "ppm", 1e-6));
+    addSheet(timeBase, &P::timeBase);
+
+    all.text("id", &P::id).required = true;
+    all.text("title", &P::title).required = true;
+    all.list("makers", &P::makers, nameKind("a maker's name", false), 1, kMaxNames).required = true;
+    all.list("models", &P::models, nameKind("a model, or its beginning and *,", true), 1, kMaxNames).required = true;
+    all.note("note");
+    for (const auto& [key, figure] : {std::pair("gain", gain), std::pair("time_base", timeBase)}) {
+        auto& field = all.record(key, std::identity{}, figure);
+        field.required = true;
+        field.mayBeNull = true;  // no source states it
+    }
+    return all;
 }
 
 }  // namespace
@@ -165,22 +111,11 @@ InstrumentStatement InstrumentProfile::statement() const {
     return out;
 }
 
-Result<InstrumentProfile> parseInstrumentProfile(std::string_view json, std::string_view source) {
-    const auto parsed = parseJson(json, source);
+Result<InstrumentProfile> parseInstrumentProfile(std::string_view text, std::string_view source) {
+    static const auto fields = buildInstrumentFields();
+    const auto parsed = parseJson(text, source);
     if (!parsed) return failure(parsed);
-    InstrumentProfile out;
-    SheetReader reader(*parsed, std::string(source));
-    reader.only({"id", "title", "makers", "models", "gain", "time_base", "note"});
-    std::string note;
-    reader.text("id", out.id);
-    reader.text("title", out.title);
-    reader.names("makers", false, out.makers);
-    reader.names("models", true, out.models);
-    reader.text("note", note, false);
-    readGain(reader, out);
-    readTimeBase(reader, out);
-    if (reader.fault()) return tl::unexpected<Error>(*reader.fault());
-    return out;
+    return fields.read(*parsed, {.file = std::string(source)}).map_error(asParseError);
 }
 
 InstrumentStatement statementOf(const std::vector<InstrumentProfile>& profiles, std::string_view name) {

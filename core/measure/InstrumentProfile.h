@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Confidence.h"
 #include "core/base/Result.h"
 #include "core/measure/InstrumentStatement.h"
 
@@ -25,12 +26,12 @@ inline constexpr double kYearsOfDrift = 10;
 
 /// One figure of a data sheet. `value` is NaN where no source is known.
 struct SheetFigure {
-    double value = kNaN;       ///< relative half-width, drift not included
-    double perYear = 0;        ///< relative; of the time base alone
-    std::string source{};      ///< title of the document, with its page; not empty where `value` is known
-    std::string address{};     ///< where it was read
-    std::string confidence{};  ///< "high", "medium", "medium-low", "low"
-    std::string condition{};   ///< under which the sheet states it
+    double value = kNaN;    ///< relative half-width, drift not included
+    double perYear = 0;     ///< relative; of the time base alone
+    std::string source{};   ///< title of the document, with its page; not empty where `value` is known
+    std::string address{};  ///< where it was read
+    Confidence confidence = Confidence::Low;
+    std::string condition{};  ///< under which the sheet states it
 };
 
 struct InstrumentProfile {
@@ -52,7 +53,7 @@ struct InstrumentProfile {
 
 /// `source` begins every message. Errors: ParseError as parseJson() and onlyKeys(), or naming the key, its value and
 /// what is accepted: a figure is 0 to 50 %, 0 to 100000 ppm, and has a source, an address and a confidence.
-[[nodiscard]] Result<InstrumentProfile> parseInstrumentProfile(std::string_view json, std::string_view source);
+[[nodiscard]] Result<InstrumentProfile> parseInstrumentProfile(std::string_view text, std::string_view source);
 
 /// What the first of `profiles` that matches `name` states; nothing is stated where none does.
 [[nodiscard]] InstrumentStatement statementOf(const std::vector<InstrumentProfile>& profiles, std::string_view name);

@@ -55,7 +55,7 @@ void applyTo(CaptureChannel& channel, const ChannelStatement& stated) {
     if (stated.gain.known()) channel.linearityTolerance = 0;
     take("gain", stated.gain, channel.gainTolerance, 1);
     take("offset", stated.offset, channel.offsetTolerance, 1);
-    // Of an unknown range nothing can be a share: the gain is then not known either.
+    // Nothing can be a share of an unknown range: the gain is then not known either.
     const double range = channel.high - channel.low;
     if (stated.linearity.known() && !(range > 0)) {
         channel.gainTolerance = kNaN;

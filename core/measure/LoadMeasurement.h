@@ -50,7 +50,7 @@ struct LoadMeasurement {
     std::size_t measuredPulses = 0;
     double loadUncertainty_ohm = kNotMeasured;  ///< standard uncertainty (k = 1) of one reading
 
-    // Of the measured pulses; charges by magnitude, the net charge with its sign.
+    // Statistics of the measured pulses; charges by magnitude, the net charge with its sign.
     Statistics load_ohm;
     Statistics impedance_ohm;
     Statistics charge_c;

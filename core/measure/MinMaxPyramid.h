@@ -42,7 +42,7 @@ public:
 
     [[nodiscard]] std::size_t samples() const noexcept { return record_.size(); }
 
-    /// Of the samples first..last-1; what lies beyond the record is left out. Exact.
+    /// The extremes of the samples first..last-1; what lies beyond the record is left out. Exact.
     [[nodiscard]] Envelope over(std::size_t first, std::size_t last) const noexcept;
 
     /// Column k of n holds the samples from first + ⌊k·(last - first)/n⌋ to before the next column's first: all of them

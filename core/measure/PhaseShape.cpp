@@ -17,7 +17,7 @@ constexpr double kPlateauTo = 0.9;
 constexpr double kEdgeFoot = 0.25;
 constexpr double kEdgeTop = 0.75;
 
-/// Of a sample. Signed: a position becomes one, and one a position, in a single step of the processor.
+/// The position of a sample. Signed: a position becomes one, and one a position, in a single step of the processor.
 using Index = std::ptrdiff_t;
 
 /// The first sample at or after a position, which must not be negative.
@@ -117,7 +117,7 @@ public:
         }
         return kNotMeasured;
     }
-    /// Of the samples first to last, both included: the baseline and the sign are put in once.
+    /// The sum of the samples first to last, both included: the baseline and the sign are put in once.
     [[nodiscard]] double sum(Index first, Index last) const {
         double sums[2] = {0, 0};
         Index i = first;

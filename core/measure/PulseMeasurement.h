@@ -111,8 +111,8 @@ struct SignalQuality {
 /// Standard uncertainties (k = 1) of one reading, from what the instrument states and the record shows. NaN where the
 /// instrument does not state what it takes (Capture.h), and for a channel without pulses.
 struct MeasurementUncertainty {
-    /// Of a plateau above its baseline: lsb/√6, gain and probe tolerance /√3, noise over the plateau. An offset
-    /// cancels.
+    /// Uncertainty of a plateau above its baseline: lsb/√6, gain and probe tolerance /√3, noise over the plateau. An
+    /// offset cancels.
     double amplitude = kNotMeasured;
     double width_s = kNotMeasured;     ///< sampling step/√6, the noise on the edges, and the time base
     double interval_s = kNotMeasured;  ///< the same, and the time stamps of separate records
@@ -136,7 +136,7 @@ struct ChannelMeasurement {
     SignalQuality quality;
     MeasurementUncertainty uncertainty;
 
-    // Of the measured pulses (leading phase); of the trains for the interval. n says how many.
+    // Statistics of the measured pulses (leading phase); of the trains for the interval. n says how many.
     Statistics amplitude;
     Statistics width_s;
     Statistics interval_s;

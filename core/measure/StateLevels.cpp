@@ -84,7 +84,7 @@ bool twoStates(const AmplitudeHistogram& histogram, const std::vector<Mode>& mod
     return true;
 }
 
-/// Of the deviations from an origin: how many are within the window, their sum and their squares; how many are nearer
+/// Deviations from an origin: how many are within the window, their sum and their squares; how many are nearer
 /// than half way to the next state, and their squares.
 struct Moments {
     double near = 0, sum = 0, squares = 0, half = 0, spread = 0;

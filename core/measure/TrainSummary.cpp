@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/base/Text.h"
+#include "core/base/QuantityText.h"
 #include "core/measure/Readings.h"
 #include "core/measure/TrainGrouping.h"
 
@@ -156,17 +156,17 @@ void warnOfQuality(ChannelMeasurement& result) {
         warn(fmt::format("its noise asked for the mean of every {} samples before measuring", quality.mean));
     }
     if (quality.drift > 0) {
-        warn(fmt::format("its baseline moves by {} and was followed", formatQuantity(quality.drift, result.unit, 2)));
+        warn(fmt::format("its baseline moves by {} and was followed", scaledText(quality.drift, result.unit, 2)));
     }
     if (quality.levelAfter != 0) {
         warn(
             fmt::format("after its pulses it lies {} from where it was before them: a second phase is hidden in the "
                         "noise and not measured",
-                        formatQuantity(quality.levelAfter, result.unit, 2)));
+                        scaledText(quality.levelAfter, result.unit, 2)));
     }
     if (quality.unrest > 0) {
         warn(fmt::format("its baseline moves by {} (s.d.), more than its noise: levels and charges are uncertain by it",
-                         formatQuantity(quality.unrest, result.unit, 2)));
+                         scaledText(quality.unrest, result.unit, 2)));
     }
 }
 
@@ -182,7 +182,7 @@ void warnOfPulses(const PulseCounts& counts, ChannelMeasurement& result) {
     warn(counts.underSampled, "with fewer than 10 samples in a phase: not measured");
     const double step = static_cast<double>(result.quality.mean) / result.rate_hz;
     warn(counts.coarse, fmt::format("with only 10 to 40 samples in a phase: widths are uncertain by {} (s.d.) or more",
-                                    formatQuantity(step / std::sqrt(6.0), "s", 2)));
+                                    scaledText(step / std::sqrt(6.0), "s", 2)));
     warn(counts.flatTop,
          "with a flat top at the record's own extreme in spite of the noise: it may be clipped, so that the signal may "
          "be larger; no input range is stated that would tell");

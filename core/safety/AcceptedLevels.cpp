@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 
 namespace tacto {
 
@@ -18,6 +18,36 @@ PulseTrain kindOf(PulseTrain train) noexcept {
     train.amplitude = Milliamps(0);
     return train;
 }
+
+/// A level beside what the person permits, in mA.
+struct AskedLevel {
+    bool inVolts;
+    double level, discomfort, ceiling, step;
+    bool ascending;
+};
+
+constexpr Rule<AskedLevel> kLevelRules[] = {
+    {LevelInVolts, [](auto& a) { return a.inVolts; },
+     [](auto&) {
+         return fail(ErrorCode::InvalidArgument, "a person's level is a current in mA; volts were asked for");
+     }},
+    {LevelDiscomfort, [](auto& a) { return !(a.level <= a.discomfort); },
+     [](auto& a) {
+         return fail(ErrorCode::LimitExceeded,
+                     "current would be {:.4g} mA; this person's discomfort limit is {:.4g} mA", a.level, a.discomfort);
+     }},
+    {LevelRamp, [](auto& a) { return !(a.level <= a.ceiling * (1 + kLevelRounding)); },
+     [](auto& a) {
+         return fail(ErrorCode::LimitExceeded,
+                     "current would be {:.4g} mA; {} allows at most {:.4g} mA, one step of {:.4g} mA above the last "
+                     "accepted level",
+                     a.level, a.ascending ? "this ascending series" : "the ramp rule", a.ceiling, a.step);
+     }},
+};
+
+constexpr Rule<Result<void>> kAcceptanceRules[] = {
+    {LevelAccept, [](auto& permitted) { return !permitted; }, [](auto& permitted) { return failure(permitted); }},
+};
 }  // namespace
 
 void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep) noexcept {
@@ -39,26 +69,12 @@ Milliamps AcceptedLevels::ceilingFor(const PulseTrain& train) const noexcept {
 }
 
 Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
-    if (checks(LevelInVolts) && !isCurrent(train.amplitude)) {
-        return fail(ErrorCode::InvalidArgument, "a person's level is a current in mA; volts were asked for");
-    }
-    const double level = milliamps(train);
-    if (checks(LevelDiscomfort) && !(level <= discomfort_)) {
-        return fail(ErrorCode::LimitExceeded, "current would be {:.4g} mA; this person's discomfort limit is {:.4g} mA",
-                    level, discomfort_);
-    }
-    const double ceiling = ceilingFor(train).value();
-    if (checks(LevelRamp) && !(level <= ceiling * (1 + kLevelRounding))) {
-        return fail(ErrorCode::LimitExceeded,
-                    "current would be {:.4g} mA; {} allows at most {:.4g} mA, one step of {:.4g} mA above the last "
-                    "accepted level",
-                    level, ascending_ ? "this ascending series" : "the ramp rule", ceiling, step_);
-    }
-    return {};
+    return judge(kLevelRules, AskedLevel{!isCurrent(train.amplitude), milliamps(train), discomfort_,
+                                         ceilingFor(train).value(), step_, ascending_});
 }
 
 Result<void> AcceptedLevels::accept(const PulseTrain& train) {
-    if (auto permitted = permits(train); checks(LevelAccept) && !permitted) return permitted;
+    if (auto kept = judge(kAcceptanceRules, permits(train)); !kept) return kept;
     const double level = milliamps(train);
     if (!sameKind(train)) {
         kind_ = kindOf(train);

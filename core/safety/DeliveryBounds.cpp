@@ -2,17 +2,43 @@
 
 #include <algorithm>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 
 namespace tacto {
-
-using gate::checks;
 
 namespace {
 
 constexpr double kLeastRatio = 0.01;  // as CalibrationLine: with less, a window would last for ever
 
+/// What widens the bounds beyond what is programmed.
+struct Widening {
+    const std::optional<CalibrationLine>& known;
+    const std::optional<Spread>& stated;
+    std::optional<CalibrationLine> line{};
+    Spread ofLine{}, ofStated{};
+};
+
+constexpr gate::Duty<Widening> kWidenings[] = {
+    {gate::MoreThanProgrammed, [](auto& w) noexcept { w.line = w.known; }},
+    {gate::Uncertainty,
+     [](auto& w) noexcept {
+         w.ofStated = w.stated.value_or(kUnknownSpread);
+         if (w.known) w.ofLine = w.known->spread.value_or(kUnknownSpread);
+     }},
+};
+
 double siAmplitude(const PulseTrain& train) noexcept { return siValue(train.amplitude); }
+
+struct Level {
+    const PulseTrain& programmed;
+    PulseTrain delivered;
+};
+
+/// What is programmed is no upper bound of a level.
+constexpr gate::Condition<Level> kLevelConditions[] = {
+    {gate::MoreThanProgrammed,
+     [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},
+};
 
 std::optional<CalibrationLine> lineIn(const KnownLines& known,
                                       std::optional<CalibrationLine> StimulatorCalibration::*line) noexcept {
@@ -23,24 +49,26 @@ std::optional<CalibrationLine> lineIn(const KnownLines& known,
 
 QuantityBounds::QuantityBounds(const std::optional<CalibrationLine>& line, bool applied,
                                const std::optional<Spread>& stated) noexcept
-    : line_(line), stated_(stated.value_or(kUnknownSpread)), applied_(applied && line) {
-    if (line_) ofLine_ = line_->spread.value_or(kUnknownSpread);
-    if (!checks(gate::Uncertainty)) ofLine_ = stated_ = Spread{};
-    if (!checks(gate::MoreThanTold)) line_.reset();
+    : applied_(applied && line) {
+    Widening widening{line, stated};
+    gate::fulfil(kWidenings, widening);
+    line_ = widening.line;
+    ofLine_ = widening.ofLine;
+    stated_ = widening.ofStated;
 }
 
-double QuantityBounds::most(double told) const noexcept {
-    const double itself = applied_ ? told : stated_.above(told);
-    return line_ ? std::max(itself, ofLine_.above(line_->atMost(told))) : itself;
+double QuantityBounds::most(double programmed) const noexcept {
+    const double itself = applied_ ? programmed : stated_.above(programmed);
+    return line_ ? std::max(itself, ofLine_.above(line_->atMost(programmed))) : itself;
 }
 
-double QuantityBounds::least(double told) const noexcept {
-    const double itself = applied_ ? told : stated_.below(told);
-    return line_ ? std::min(itself, ofLine_.below(line_->atLeast(told))) : itself;
+double QuantityBounds::least(double programmed) const noexcept {
+    const double itself = applied_ ? programmed : stated_.below(programmed);
+    return line_ ? std::min(itself, ofLine_.below(line_->atLeast(programmed))) : itself;
 }
 
-double QuantityBounds::leastRatio(double told) const noexcept {
-    double ratio = least(told) / told;
+double QuantityBounds::leastRatio(double programmed) const noexcept {
+    double ratio = least(programmed) / programmed;
     if (line_) {
         for (const double at : {line_->lowest, line_->highest}) ratio = std::min(ratio, least(at) / at);
     }
@@ -57,24 +85,24 @@ DeliveryBounds::DeliveryBounds(const GateSetup& setup) noexcept
       interval_(lineIn(setup.calibration, &StimulatorCalibration::interval), applied_, setup.source.accuracy.interval) {
 }
 
-PulseTrain DeliveryBounds::commandOf(const PulseTrain& told) const noexcept {
-    return applied_ ? deliveredBy(told, *known_) : told;
+PulseTrain DeliveryBounds::commandOf(const PulseTrain& programmed) const noexcept {
+    return applied_ ? deliveredBy(programmed, *known_) : programmed;
 }
 
-PulseTrain DeliveryBounds::levelOf(const PulseTrain& told) const noexcept {
-    const PulseTrain delivered = mostDelivered(told, known_);
-    return siAmplitude(delivered) > siAmplitude(told) && checks(gate::MoreThanTold) ? delivered : told;
+PulseTrain DeliveryBounds::levelOf(const PulseTrain& programmed) const noexcept {
+    const Level level{programmed, mostDelivered(programmed, known_)};
+    return gate::firstBroken(kLevelConditions, level) != nullptr ? level.delivered : programmed;
 }
 
-PulseTrain DeliveryBounds::acceptedAs(const PulseTrain& told) const noexcept {
-    const PulseTrain delivered = leastDelivered(told, known_);
-    return siAmplitude(delivered) < siAmplitude(told) ? delivered : told;
+PulseTrain DeliveryBounds::acceptedAs(const PulseTrain& programmed) const noexcept {
+    const PulseTrain delivered = leastDelivered(programmed, known_);
+    return siAmplitude(delivered) < siAmplitude(programmed) ? delivered : programmed;
 }
 
-PulseTrain DeliveryBounds::largest(const PulseTrain& told) const noexcept {
-    PulseTrain out = withAmplitude(told, [this](double amplitude) { return amplitude_.most(amplitude); });
-    out.phaseWidth = width_.times(told.phaseWidth).most;
-    out.interPhaseGap = gap_.times(told.interPhaseGap).most;
+PulseTrain DeliveryBounds::largest(const PulseTrain& programmed) const noexcept {
+    PulseTrain out = withAmplitude(programmed, [this](double amplitude) { return amplitude_.most(amplitude); });
+    out.phaseWidth = width_.times(programmed.phaseWidth).most;
+    out.interPhaseGap = gap_.times(programmed.interPhaseGap).most;
     return out;
 }
 

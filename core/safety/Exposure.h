@@ -1,6 +1,8 @@
 // Exposure.h - one line of an exposure table: a quantity, its value, and the limit it is held against.
 //
 // Never allocates and is trivially copyable: the control loop fills these while delivering.
+//
+// Thread-safety: values; pure functions.
 #pragma once
 
 #include <string_view>

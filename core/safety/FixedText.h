@@ -1,6 +1,8 @@
 // FixedText.h - a short text without the heap, for rows and reasons that are made where nothing may allocate.
 //
 // Longer texts are cut at a whole UTF-8 character. Trivially copyable.
+//
+// Thread-safety: a value.
 #pragma once
 
 #include <array>

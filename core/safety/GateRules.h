@@ -1,6 +1,6 @@
-// GateRules.h - internal: the gate's rules as functions on plain data; SafetyGate holds the state between them.
+// GateRules.h - internal: the gate's rules on what it is set up with and on trains; SafetyGate.cpp asks them in order.
 //
-// Nothing here allocates when it permits; a refusal allocates its message.
+// Thread-safety: pure functions. Nothing here allocates when it permits; a refusal allocates its message.
 #pragma once
 
 #include <array>
@@ -13,37 +13,57 @@
 
 namespace tacto::gate {
 
+struct State;
+struct JudgedTrain;
+
 inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
 
 /// What decimal numbers lose in binary: no device knows the difference.
 inline constexpr double kRounding = 1e-9;
 
+/// SetupRules.cpp. Errors: InvalidArgument naming what is missing or impossible.
+[[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
+
+/// A train that is asked for, beside what the gate knows.
+struct AskedTrain {
+    const State& state;
+    const PulseTrain& train;
+    Seconds interval;
+    Instant onset;
+    Instant now;
+};
+
+// TrainRules.cpp.
+/// Form, source and grid; no limits. Errors: InvalidArgument.
+[[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
+/// What a person, the impedance and the calibration permit. Errors: InvalidArgument, LimitExceeded.
+[[nodiscard]] Result<void> checkAsked(const AskedTrain& asked);
+/// The same for an impedance check.
+[[nodiscard]] Result<void> checkAskedCheck(const AskedTrain& asked);
+/// What may come out of the train's times, and whether the unit's past is known. Errors: as checkAsked().
+[[nodiscard]] Result<void> checkTimes(const AskedTrain& asked);
+/// Whether the meter holds another train.
+[[nodiscard]] Result<void> checkMeter(const State& state);
+
+// LimitRules.cpp.
 /// One limit row or ceiling, ready to be judged.
 struct ActiveLimit {
     LimitRow row;
     FixedText<31> set;
     bool ceiling = false;
 };
-
 /// Every row of every set, in order, then the ceilings.
 [[nodiscard]] std::vector<ActiveLimit> activeLimits(const GateSetup& setup);
-
-/// NaN without an area.
-[[nodiscard]] double areaOf(const GateSetup& setup) noexcept;
-
-/// GateConfigure.cpp. Errors: InvalidArgument naming what is missing or impossible.
-[[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
-
-/// GateRequest.cpp: form, source and grid; no limits. Errors: InvalidArgument.
-[[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
-
 /// Whether `value` keeps the row; a command computed (I·|Z|, or through a calibration) may miss "≤" by its
 /// last bits.
 [[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept;
+/// Every limit on the train alone, then with the trains before it. Errors: LimitExceeded naming the first that it
+/// breaks: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than
+/// 10 mA (...)".
+[[nodiscard]] Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now);
 
-/// "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than 10 mA
-/// (...)".
-[[nodiscard]] std::string refusalText(const ActiveLimit& limit, double value, const std::string& aside);
+/// NaN without an area.
+[[nodiscard]] double areaOf(const GateSetup& setup) noexcept;
 
 /// ExposureTable.cpp: one line of a table; not evaluated when the row needs an area and there is none.
 [[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool commandComputed) noexcept;

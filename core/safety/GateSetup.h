@@ -3,6 +3,8 @@
 //
 // Rounding onto the device's grid happens before approval and elsewhere (core/encoding); the gate refuses
 // what is off the grid (beyond the representation of decimal steps in binary, 1e-6 of a step).
+//
+// Thread-safety: values; pure functions.
 #pragma once
 
 #include <optional>
@@ -65,10 +67,10 @@ struct GateSetup {
     PulseTrain check;                   ///< shape and timing of the impedance check; its amplitude is the source's
     std::optional<PersonSetup> person;  ///< required in person mode
     /// The last that is known of the stimulator that is connected, also where it has expired or is left aside. Trains
-    /// are what the stimulator is told; everything is judged by the worse of told and delivered (H1, H9).
+    /// are what is programmed; everything is judged by the worse of programmed and delivered (H1, H9).
     KnownLines calibration;
-    /// Whether it holds and trains are told by it: then what is delivered is the command, else what is told. Required
-    /// in person mode, of all four lines.
+    /// Whether it holds and trains are programmed by it: then the command is delivered, else what is programmed.
+    /// Required in person mode, of all four lines.
     bool calibrated = false;
 };
 

@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "core/base/Units.h"
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 
 namespace tacto {
 
@@ -29,9 +29,7 @@ public:
     /// False, and nothing is alive, when the last beat was more than kSilence ago. The first beat, and the first after
     /// end(), is never late. One caller, the loop.
     bool beat(Instant now) noexcept {
-        const auto last = last_.load(std::memory_order_relaxed);
-        const bool late = last != kNever && now.count() - last > kSilence.count();
-        if (gate::checks(gate::HeartLate) && late) return false;
+        if (gate::firstBroken(kBeatConditions, Pulse{last_.load(std::memory_order_relaxed), now})) return false;
         last_.store(now.count(), std::memory_order_release);
         return true;
     }
@@ -40,9 +38,7 @@ public:
     /// The loop ends on purpose: not alive until the next beat.
     void end() noexcept { last_.store(kNever, std::memory_order_release); }
     [[nodiscard]] bool alive(Instant now) const noexcept {
-        const auto last = last_.load(std::memory_order_acquire);
-        if (gate::checks(gate::HeartNever) && last == kNever) return false;
-        return !gate::checks(gate::HeartSilent) || now.count() - last <= kSilence.count();
+        return !gate::firstBroken(kAliveConditions, Pulse{last_.load(std::memory_order_acquire), now});
     }
     /// How long ago the last beat was; nothing before the first and after end().
     [[nodiscard]] std::optional<Instant> silence(Instant now) const noexcept {
@@ -53,6 +49,19 @@ public:
 
 private:
     static constexpr Instant::rep kNever = std::numeric_limits<Instant::rep>::min();
+    /// The last beat, and now.
+    struct Pulse {
+        Instant::rep last;
+        Instant now;
+        [[nodiscard]] bool silent() const noexcept { return now.count() - last > kSilence.count(); }
+    };
+    static constexpr gate::Condition<Pulse> kBeatConditions[] = {
+        {gate::HeartLate, [](auto& p) noexcept { return p.last != kNever && p.silent(); }},
+    };
+    static constexpr gate::Condition<Pulse> kAliveConditions[] = {
+        {gate::HeartNever, [](auto& p) noexcept { return p.last == kNever; }},
+        {gate::HeartSilent, [](auto& p) noexcept { return p.silent(); }},
+    };
     std::atomic<Instant::rep> last_{kNever};
 };
 

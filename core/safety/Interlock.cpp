@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <utility>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 #include "core/safety/UnitRecord.h"
 
 namespace tacto {
@@ -18,6 +20,122 @@ constexpr std::array<std::string_view, kFaultCauseCount> kCauses{
     "status missing", "loop silent",  "stale sensor",   "limit broken",      "internal error"};
 
 constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
+constexpr std::uint32_t kAllCauses = (1U << kFaultCauseCount) - 1;
+
+// --- what is refused ------------------------------------------------------------------------------------------------
+
+struct Move {
+    InterlockState now, from;
+    const char* what;
+};
+
+constexpr Rule<Move> kMoveRules[] = {
+    {InterlockMove, [](auto& m) { return m.now != m.from; },
+     [](auto& m) {
+         return fail(ErrorCode::NotArmed, "cannot {} while {}; the interlock must be {}", m.what, nameOf(m.now),
+                     nameOf(m.from));
+     }},
+};
+
+constexpr Rule<InterlockState> kRequestRules[] = {
+    {ArmRequestState, [](auto& now) { return now != InterlockState::Disarmed; },
+     [](auto& now) {
+         return fail(ErrorCode::NotArmed, "cannot start arming while {}; the interlock must be disarmed", nameOf(now));
+     }},
+};
+
+constexpr Rule<InterlockState> kConfirmRules[] = {
+    {ArmConfirmState, [](auto& now) { return now != InterlockState::Disarmed; },
+     [](auto& now) {
+         return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the interlock must be disarmed",
+                     nameOf(now));
+     }},
+};
+
+struct Ticket {
+    std::uint64_t shown, requested;
+    Instant requestedAt, now;
+};
+
+constexpr Rule<Ticket> kTicketRules[] = {
+    {ArmTicket,
+     [](auto& t) {
+         return !(t.shown != 0 && t.shown == t.requested && t.now >= t.requestedAt &&
+                  t.now - t.requestedAt <= Interlock::kConfirmWithin);
+     },
+     [](auto&) {
+         return fail(ErrorCode::NotArmed, "arming was not requested within the last 30 s, or was stopped since");
+     }},
+};
+
+struct Arming {
+    InterlockState state;
+    const ArmingEvidence& evidence;
+    Instant now;
+    [[nodiscard]] bool measured() const noexcept { return evidence.needsImpedance && evidence.impedance; }
+    [[nodiscard]] double ohm() const noexcept { return evidence.impedance->value(); }
+};
+
+constexpr Rule<Arming> kArmRules[] = {
+    {ArmState, [](auto& a) { return a.state != InterlockState::Checking; },
+     [](auto& a) {
+         return fail(ErrorCode::NotArmed, "cannot arm while {}; the interlock must be checking", nameOf(a.state));
+     }},
+    {ArmLimits, [](auto& a) { return !a.evidence.limitsLoaded; },
+     [](auto&) { return fail(ErrorCode::NotArmed, "cannot arm: no limit set is loaded"); }},
+    {ArmIdentity, [](auto& a) { return !a.evidence.deviceIdentified; },
+     [](auto&) { return fail(ErrorCode::NotArmed, "cannot arm: the device is not identified"); }},
+    {ArmOperator, [](auto& a) { return !a.evidence.operatorConfirmed; },
+     [](auto&) { return fail(ErrorCode::NotArmed, "cannot arm: the operator has not confirmed it"); }},
+    {ArmImpedanceMissing,
+     [](auto& a) {
+         const bool declared = !a.evidence.readsBack && a.evidence.declaredLoadConfirmed;
+         return a.evidence.needsImpedance && !a.evidence.impedance && !declared;
+     },
+     [](auto& a) {
+         return fail(ErrorCode::NotArmed, "cannot arm: {}",
+                     a.evidence.readsBack
+                         ? "no impedance was measured"
+                         : "the device reads no impedance back and the declared load is not confirmed");
+     }},
+    {ArmImpedanceRange,
+     [](auto& a) {
+         return a.measured() &&
+                !(a.ohm() >= a.evidence.impedanceLow.value() && a.ohm() <= a.evidence.impedanceHigh.value());
+     },
+     [](auto& a) {
+         return fail(ErrorCode::NotArmed,
+                     "cannot arm: the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", a.ohm(),
+                     a.evidence.impedanceLow.value(), a.evidence.impedanceHigh.value());
+     }},
+    {ArmImpedanceAge,
+     [](auto& a) {
+         const Instant at = a.evidence.impedanceAt;
+         return a.measured() && !(at <= a.now && a.now - at <= Interlock::kImpedanceAge);
+     },
+     [](auto& a) {
+         return fail(ErrorCode::NotArmed,
+                     "cannot arm: the impedance was measured {:.3g} s ago; at most 5 s is accepted",
+                     toSeconds(a.now - a.evidence.impedanceAt));
+     }},
+};
+
+struct Reset {
+    InterlockState state;
+    std::uint32_t causes;
+    std::string_view reason;
+    [[nodiscard]] FaultCause firstCause() const noexcept { return static_cast<FaultCause>(std::countr_zero(causes)); }
+};
+
+constexpr Rule<Reset> kResetRules[] = {
+    {ResetState, [](auto& r) { return r.state != InterlockState::Faulted; },
+     [](auto& r) { return fail(ErrorCode::NotArmed, "nothing to reset: the interlock is {}", nameOf(r.state)); }},
+    {ResetCause, [](auto& r) { return r.causes != 0; },
+     [](auto& r) {
+         return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(r.firstCause()),
+                     r.reason);
+     }},
+};
 }  // namespace
 
 std::string_view nameOf(InterlockState state) noexcept { return kStates[static_cast<std::size_t>(state)]; }
@@ -28,13 +146,18 @@ FixedText<159> Interlock::reason() const noexcept {
     return reason_;
 }
 
+std::optional<FaultCause> Interlock::cause() const noexcept {
+    const std::lock_guard lock(mutex_);
+    if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
+    for (int i = 0; i < kFaultCauseCount; ++i) {
+        if ((causes_ & bitOf(FaultCause(i))) != 0) return FaultCause(i);
+    }
+    return std::nullopt;
+}
+
 Result<void> Interlock::move(InterlockState from, InterlockState to, const char* what) {
     const std::lock_guard lock(mutex_);
-    const InterlockState now = state_.load(std::memory_order_relaxed);
-    if (checks(InterlockMove) && now != from) {
-        return fail(ErrorCode::NotArmed, "cannot {} while {}; the interlock must be {}", what, nameOf(now),
-                    nameOf(from));
-    }
+    if (auto kept = judge(kMoveRules, Move{state_.load(std::memory_order_relaxed), from, what}); !kept) return kept;
     state_.store(to, std::memory_order_release);
     if (to != InterlockState::Disarmed) reason_ = {};
     return {};
@@ -66,11 +189,7 @@ Result<void> Interlock::disconnect() {
 
 Result<std::uint64_t> Interlock::requestArming(Instant now) {
     const std::lock_guard lock(mutex_);
-    const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (checks(ArmRequestState) && current != InterlockState::Disarmed) {
-        return fail(ErrorCode::NotArmed, "cannot start arming while {}; the interlock must be disarmed",
-                    nameOf(current));
-    }
+    if (auto kept = judge(kRequestRules, state_.load(std::memory_order_relaxed)); !kept) return failure(kept);
     ticket_ = ++lastTicket_;
     requestedAt_ = now;
     return ticket_;
@@ -78,15 +197,9 @@ Result<std::uint64_t> Interlock::requestArming(Instant now) {
 
 Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
     const std::lock_guard lock(mutex_);
-    const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (checks(ArmConfirmState) && current != InterlockState::Disarmed) {
-        return fail(ErrorCode::NotArmed, "cannot confirm arming while {}; the interlock must be disarmed",
-                    nameOf(current));
-    }
-    const bool valid = ticket != 0 && ticket == ticket_ && now >= requestedAt_ && now - requestedAt_ <= kConfirmWithin;
-    ticket_ = 0;  // One request, one confirmation
-    if (checks(ArmTicket) && !valid)
-        return fail(ErrorCode::NotArmed, "arming was not requested within the last 30 s, or was stopped since");
+    if (auto kept = judge(kConfirmRules, state_.load(std::memory_order_relaxed)); !kept) return kept;
+    const Ticket shown{ticket, std::exchange(ticket_, 0), requestedAt_, now};  // One request, one confirmation
+    if (auto kept = judge(kTicketRules, shown); !kept) return kept;
     state_.store(InterlockState::Checking, std::memory_order_release);
     reason_ = {};
     return {};
@@ -94,41 +207,8 @@ Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
 
 Result<void> Interlock::arm(const ArmingEvidence& evidence, Instant now) {
     const std::lock_guard lock(mutex_);
-    const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (checks(ArmState) && current != InterlockState::Checking) {
-        return fail(ErrorCode::NotArmed, "cannot arm while {}; the interlock must be checking", nameOf(current));
-    }
-    if (checks(ArmLimits) && !evidence.limitsLoaded)
-        return fail(ErrorCode::NotArmed, "cannot arm: no limit set is loaded");
-    if (checks(ArmIdentity) && !evidence.deviceIdentified)
-        return fail(ErrorCode::NotArmed, "cannot arm: the device is not identified");
-    if (checks(ArmOperator) && !evidence.operatorConfirmed)
-        return fail(ErrorCode::NotArmed, "cannot arm: the operator has not confirmed it");
-    if (evidence.needsImpedance) {
-        const bool declared = !evidence.readsBack && evidence.declaredLoadConfirmed;
-        if (checks(ArmImpedanceMissing) && !evidence.impedance && !declared) {
-            return fail(ErrorCode::NotArmed, "cannot arm: {}",
-                        evidence.readsBack
-                            ? "no impedance was measured"
-                            : "the device reads no impedance back and the declared load is not confirmed");
-        }
-        if (evidence.impedance) {
-            const double ohm = evidence.impedance->value();
-            const double low = evidence.impedanceLow.value();
-            const double high = evidence.impedanceHigh.value();
-            if (checks(ArmImpedanceRange) && !(ohm >= low && ohm <= high)) {
-                return fail(ErrorCode::NotArmed,
-                            "cannot arm: the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", ohm,
-                            low, high);
-            }
-            const bool fresh = evidence.impedanceAt <= now && now - evidence.impedanceAt <= kImpedanceAge;
-            if (checks(ArmImpedanceAge) && !fresh) {
-                return fail(ErrorCode::NotArmed,
-                            "cannot arm: the impedance was measured {:.3g} s ago; at most 5 s is accepted",
-                            toSeconds(now - evidence.impedanceAt));
-            }
-        }
-    }
+    const Arming arming{state_.load(std::memory_order_relaxed), evidence, now};
+    if (auto kept = judge(kArmRules, arming); !kept) return kept;
     state_.store(InterlockState::Armed, std::memory_order_release);
     return {};
 }
@@ -186,17 +266,8 @@ bool Interlock::causePersists(FaultCause cause) const noexcept {
 
 Result<void> Interlock::reset() {
     const std::lock_guard lock(mutex_);
-    const InterlockState current = state_.load(std::memory_order_relaxed);
-    if (checks(ResetState) && current != InterlockState::Faulted) {
-        return fail(ErrorCode::NotArmed, "nothing to reset: the interlock is {}", nameOf(current));
-    }
-    for (int i = 0; i < kFaultCauseCount; ++i) {
-        const auto cause = static_cast<FaultCause>(i);
-        if (checks(ResetCause) && (causes_ & bitOf(cause)) != 0) {
-            return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(cause),
-                        reason_.view());
-        }
-    }
+    const Reset asked{state_.load(std::memory_order_relaxed), causes_ & kAllCauses, reason_.view()};
+    if (auto kept = judge(kResetRules, asked); !kept) return kept;
     state_.store(deviceLost_ ? InterlockState::Disconnected : InterlockState::Disarmed, std::memory_order_release);
     deviceLost_ = false;
     reason_ = {};

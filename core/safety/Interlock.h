@@ -64,6 +64,8 @@ public:
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
     /// Why it is faulted or was last disarmed; empty otherwise.
     [[nodiscard]] FixedText<159> reason() const noexcept;
+    /// The first cause that is still present, in the order of FaultCause; nothing unless Faulted.
+    [[nodiscard]] std::optional<FaultCause> cause() const noexcept;
 
     /// Faults are kept in `record`, which outlives the interlock, until they are reset; one in which the unit was left
     /// before makes it Faulted. Once, after connect().

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/Confidence.h"
 #include "core/base/Result.h"
 #include "core/safety/Quantity.h"
 
@@ -26,11 +28,8 @@ enum class LimitAction {
     Disclose,  ///< delivered; the output must be marked or stated above this (10 mA RMS)
 };
 
-enum class Confidence { High, Medium, MediumLow, Low };
-
-[[nodiscard]] std::string_view nameOf(JudgedAt judged) noexcept;        // "load_range", "500_ohm"
-[[nodiscard]] std::string_view nameOf(LimitAction action) noexcept;     // "refuse", "warn", "disclose"
-[[nodiscard]] std::string_view nameOf(Confidence confidence) noexcept;  // "high", "medium", "medium-low", "low"
+[[nodiscard]] std::string_view nameOf(JudgedAt judged) noexcept;     // "load_range", "500_ohm"
+[[nodiscard]] std::string_view nameOf(LimitAction action) noexcept;  // "refuse", "warn", "disclose"
 
 struct LimitRow {
     Quantity quantity = Quantity::PeakVoltage;
@@ -74,6 +73,10 @@ struct LimitSet {
     std::vector<AccuracyRow> accuracy;
     std::vector<DisclosureRow> disclosures;
 };
+
+/// For people: the title of the set with this id, "the encoding profile" for the ceilings of "profile", the id itself
+/// where no set has it.
+[[nodiscard]] std::string_view titleOf(std::span<const LimitSet> sets, std::string_view id) noexcept;
 
 /// Reads one limit set. `name` stands in messages for the file's name.
 /// Errors: ParseError, one sentence naming file, row and what would be accepted. Never throws, whatever the text.

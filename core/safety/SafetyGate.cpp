@@ -4,17 +4,131 @@
 #include <cmath>
 #include <limits>
 
-#include "core/safety/GateChecks.h"
 #include "core/safety/GateState.h"
+#include "core/safety/Rules.h"
 
 namespace tacto {
 
 using namespace gate;
 
 namespace {
-constexpr Instant kImpedanceAge = std::chrono::seconds(5);
 constexpr double kMaxStretch = 2;     // the next request may need more than this one
 constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
+
+// --- impedance ------------------------------------------------------------------------------------------------------
+
+struct Reading {
+    const State& state;
+    double ohm;
+    Instant at;
+    Instant now;
+    [[nodiscard]] double before() const noexcept { return state.lastGood->value(); }
+};
+
+constexpr Rule<Reading> kStampRules[] = {
+    {ImpedanceFromFuture, [](auto& r) { return r.at > r.now; },
+     [](auto& r) {
+         return fail(ErrorCode::InvalidArgument, "the impedance reading is stamped {:.3g} s ahead of now",
+                     toSeconds(r.at - r.now));
+     }},
+};
+
+constexpr Rule<Reading> kReadingRules[] = {
+    {ImpedanceValue, [](auto& r) { return !(r.ohm > 0); },
+     [](auto& r) { return fail(ErrorCode::InvalidArgument, "a measured impedance of {} ohm is not above 0", r.ohm); }},
+    {ImpedanceOutOfRange,
+     [](auto& r) {
+         if (!r.state.person()) return !r.state.agreesWithDeclared(r.ohm);
+         const PersonSetup& person = *r.state.setup->person;
+         return !(r.ohm >= person.impedanceLow.value() && r.ohm <= person.impedanceHigh.value());
+     },
+     [](auto& r) {
+         if (!r.state.person()) {
+             return fail(
+                 ErrorCode::LimitExceeded,
+                 "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
+                 r.ohm, r.state.setup->load.nominal.text());
+         }
+         const PersonSetup& person = *r.state.setup->person;
+         return fail(ErrorCode::LimitExceeded, "the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted",
+                     r.ohm, person.impedanceLow.value(), person.impedanceHigh.value());
+     }},
+    {ImpedanceJump,
+     [](auto& r) {
+         return r.state.person() && r.state.lastGood &&
+                !(r.ohm <= kImpedanceJump * r.before() && r.before() <= kImpedanceJump * r.ohm);
+     },
+     [](auto& r) {
+         return fail(ErrorCode::LimitExceeded,
+                     "the impedance went from {:.4g} to {:.4g} ohm between two readings; an electrode has moved",
+                     r.before(), r.ohm);
+     }},
+};
+
+// --- a person's levels ----------------------------------------------------------------------------------------------
+
+struct AcceptedTrain {
+    const State& state;
+    const PulseTrain& train;
+};
+
+constexpr Rule<AcceptedTrain> kAcceptRules[] = {
+    {LevelOfPerson, [](auto& a) { return !a.state.person(); },
+     [](auto&) { return fail(ErrorCode::NotArmed, "levels are accepted in person mode only"); }},
+    {LevelMalformed, [](auto& a) { return !validate(a.train); }, [](auto& a) { return failure(validate(a.train)); }},
+};
+
+struct Discomfort {
+    const State& state;
+    double level;
+};
+
+constexpr Rule<Discomfort> kDiscomfortRules[] = {
+    {LevelOfPerson, [](auto& d) { return !d.state.person(); },
+     [](auto&) { return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only"); }},
+    {DiscomfortValue, [](auto& d) { return !(std::isfinite(d.level) && d.level >= 0); },
+     [](auto& d) {
+         return fail(ErrorCode::InvalidArgument, "a discomfort level of {} mA is not a finite current of 0 or more",
+                     d.level);
+     }},
+};
+
+// --- vibrations, approvals, bookings --------------------------------------------------------------------------------
+
+constexpr Rule<VibrationBurst> kBurstRules[] = {
+    {BurstIntensity, [](auto& b) { return !(b.intensity >= 0 && b.intensity <= 1); },
+     [](auto& b) {
+         return fail(ErrorCode::InvalidArgument, "vibration intensity {} is not between 0 and 1", b.intensity);
+     }},
+    {BurstDuration, [](auto& b) { return !(b.duration.count() > 0 && b.duration.count() <= 1); },
+     [](auto& b) {
+         return fail(ErrorCode::InvalidArgument, "vibration of {} s is not above 0 and at most 1 s long",
+                     b.duration.count());
+     }},
+};
+
+struct Approval {
+    std::uint64_t epoch, current;
+    Instant expires, now;
+};
+
+constexpr Condition<Approval> kApprovalConditions[] = {
+    {Epoch, [](auto& a) noexcept { return a.epoch != a.current; }},
+    {Expiry, [](auto& a) noexcept { return !(a.now <= a.expires); }},
+};
+
+struct Booking {
+    State& state;
+    const BookedTrain& train;
+};
+
+constexpr Duty<Booking> kBookings[] = {
+    {MeterBooking, [](auto& b) noexcept { b.state.meter.book(b.train); }},
+    {RecordBooking,
+     [](auto& b) noexcept {
+         if (b.state.record != nullptr) b.state.record->book(b.train, b.state.residuals);
+     }},
+};
 
 std::uint64_t firstEpoch() noexcept {
     static std::atomic<std::uint64_t> gates{0};
@@ -62,50 +176,17 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
 
 Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
     State& s = *state_;
-    // No check: there is nothing to judge with.
+    // No rule: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured");
-    const double ohm = magnitude.value();
-    const auto refuse = [&](ErrorCode code, const std::string& message) -> Result<void> {
+    const Reading reading{s, magnitude.value(), at, clock_.now()};
+    auto sound = judge(kStampRules, reading);
+    if (sound && at < s.impedanceAt) return {};
+    if (sound) sound = judge(kReadingRules, reading);
+    if (!sound) {
         s.impedanceRejected = true;
         s.impedance.reset();
         latchStop();
-        return fail(code, "{}", message);
-    };
-    if (checks(ImpedanceFromFuture) && at > clock_.now()) {
-        return refuse(ErrorCode::InvalidArgument, fmt::format("the impedance reading is stamped {:.3g} s ahead of now",
-                                                              toSeconds(at - clock_.now())));
-    }
-    if (at < s.impedanceAt) return {};
-    if (checks(ImpedanceValue) && !(ohm > 0)) {
-        return refuse(ErrorCode::InvalidArgument, fmt::format("a measured impedance of {} ohm is not above 0", ohm));
-    }
-    double low = 0;
-    double high = 0;
-    bool inRange = false;
-    if (s.person()) {
-        low = s.setup->person->impedanceLow.value();
-        high = s.setup->person->impedanceHigh.value();
-        inRange = ohm >= low && ohm <= high;
-    } else {
-        inRange = s.agreesWithDeclared(ohm);
-    }
-    if (checks(ImpedanceOutOfRange) && !inRange) {
-        return refuse(
-            ErrorCode::LimitExceeded,
-            s.person()
-                ? fmt::format("the measured impedance is {:.4g} ohm; {:.4g} to {:.4g} ohm is accepted", ohm, low, high)
-                : fmt::format(
-                      "the measured impedance is {:.4g} ohm; the declared load is {} and 20 % more or less is accepted",
-                      ohm, s.setup->load.nominal.text()));
-    }
-    if (checks(ImpedanceJump) && s.person() && s.lastGood) {
-        const double before = s.lastGood->value();
-        if (!(ohm <= kImpedanceJump * before && before <= kImpedanceJump * ohm)) {
-            return refuse(
-                ErrorCode::LimitExceeded,
-                fmt::format("the impedance went from {:.4g} to {:.4g} ohm between two readings; an electrode has moved",
-                            before, ohm));
-        }
+        return sound;
     }
     s.impedanceRejected = false;
     s.impedance = s.lastGood = magnitude;
@@ -119,150 +200,74 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
 
 Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);  // A stop from here on voids the result
-    const Instant now = clock_.now();
-    State& s = *state_;
-    // No check: there is nothing to judge with.
+    const State& s = *state_;
+    const AskedTrain asked{s, request.train, request.interval, request.onset, clock_.now()};
+    // No rule: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
     if (auto sound = checkRequest(request.train, request.interval, s.setup->source); !sound) return failure(sound);
-    if (checks(OnsetAhead) && request.onset > now + kApprovalLife) {
-        return fail(ErrorCode::InvalidArgument, "the train is planned {:.3g} s ahead; an approval lasts 0.1 s",
-                    toSeconds(request.onset - now));
-    }
-    if (checks(ImpedanceRejected) && s.impedanceRejected) {
-        return fail(ErrorCode::LimitExceeded,
-                    "the last impedance reading was out of range; a good one is needed first");
-    }
-    if (s.person()) {
-        if (checks(PersonMonophasic) && request.train.shape == PulseShape::Monophasic) {
-            return fail(ErrorCode::LimitExceeded, "monophasic pulses are refused for a person");
-        }
-        if (checks(PersonNoImpedance) && !s.impedance) {
-            return fail(ErrorCode::LimitExceeded, "no impedance was measured; a person's is needed before a train");
-        }
-        if (checks(PersonStaleImpedance) && s.impedance && !(now - s.impedanceAt <= kImpedanceAge)) {
-            return fail(ErrorCode::LimitExceeded, "the impedance was measured {:.3g} s ago; at most 5 s is accepted",
-                        toSeconds(now - s.impedanceAt));
-        }
-        if (auto known = s.withinCalibration(request); !known) return failure(known);
-        if (checks(PersonLevel)) {
-            if (auto permitted = s.levels->permits(s.bounds->levelOf(request.train)); !permitted)
-                return failure(permitted);
-        }
-    }
-    return grant(request.train, request.interval, epoch, now);
+    if (auto kept = checkAsked(asked); !kept) return failure(kept);
+    return grant(asked, epoch);
 }
 
 Result<ApprovedTrain> SafetyGate::approveCheck(Instant onset) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
-    const Instant now = clock_.now();
-    State& s = *state_;
-    // No check: there is nothing to judge with.
+    const State& s = *state_;
+    const AskedTrain asked{s, s.check, std::max(kCheckInterval, s.check.duration()), onset, clock_.now()};
+    // No rule: there is nothing to judge with.
     if (!s.setup) return fail(ErrorCode::NotArmed, "the gate is not configured: no limits, source and load are known");
-    if (checks(OnsetAhead) && onset > now + kApprovalLife) {
-        return fail(ErrorCode::InvalidArgument, "the check is planned {:.3g} s ahead; an approval lasts 0.1 s",
-                    toSeconds(onset - now));
-    }
-    const Seconds interval = std::max(kCheckInterval, s.check.duration());
-    if (s.person() && checks(CheckDiscomfort)) {
-        const double level = siValue(s.bounds->levelOf(s.check).amplitude) * 1e3;
-        if (!(level <= s.levels->discomfortLimit().value())) {
-            return fail(ErrorCode::LimitExceeded,
-                        "the check pulse of {:.4g} mA is above this person's discomfort limit of {:.4g} mA", level,
-                        s.levels->discomfortLimit().value());
-        }
-    }
-    return grant(s.check, interval, epoch, now);
+    if (auto kept = checkAskedCheck(asked); !kept) return failure(kept);
+    return grant(asked, epoch);
 }
 
-Result<ApprovedTrain> SafetyGate::grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant now) {
+Result<ApprovedTrain> SafetyGate::grant(const AskedTrain& asked, std::uint64_t epoch) {
     State& s = *state_;
-    State::Judged request;
+    const auto& [state, train, interval, onset, now] = asked;
+    if (auto kept = checkTimes(asked); !kept) return failure(kept);
     const DeliveryBounds& bounds = *s.bounds;
-    request.interval = interval;
-    request.intervals = bounds.intervals(interval);
-    if (checks(IntervalBelowTrain) && !(train.duration() <= request.intervals.least * (1 + kRounding))) {
-        return fail(ErrorCode::InvalidArgument,
-                    "interval {:.6g} s would come out as {:.6g} s, which is shorter than the train, {:.6g} s",
-                    interval.count(), request.intervals.least.count(), train.duration().count());
-    }
-    const PulseTrain longest = bounds.largest(train);
-    if (checks(PulseBeyondPeriod) && !validate(longest)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a pulse of {:.6g} us may come out as {:.6g} us, which is longer than its period of {:.6g} us",
-                    Micros(train.pulseDuration()).count(), Micros(longest.pulseDuration()).count(),
-                    1e6 / train.rate.value());
-    }
-    const Seconds lasts = longest.outputDuration();
-    if (checks(LongWithoutDeadMan) && !(s.setup->source.deadMan.count() > 0) && !(lasts <= kLongestWithoutDeadMan)) {
-        return fail(ErrorCode::LimitExceeded,
-                    "the train would last {:.4g} s; this stimulator has no dead-man switch that would end it if the "
-                    "program failed, and at most {:.4g} s is accepted",
-                    lasts.count(), kLongestWithoutDeadMan.count());
-    }
-    if (checks(PastUnknown) && s.record != nullptr && now < s.record->quietUntil()) {
-        return fail(
-            ErrorCode::LimitExceeded,
-            "what this stimulator delivered last is not known: {}. It rests for another {:.1f} s; then try again",
-            s.record->whyQuiet(), toSeconds(s.record->quietUntil() - now));
-    }
-    request.stretch = bounds.stretch(interval);
-    s.meter.forget(now, std::max(request.stretch, kMaxStretch));
-    if (checks(MeterFull) && !s.meter.canBook()) {
-        return fail(ErrorCode::LimitExceeded, "{} trains were approved in the last seconds; the meter holds no more",
-                    s.meter.size());
-    }
-    request.carried_V = s.carriedAt(now);
-    request.command = bounds.commandOf(train);
+    JudgedTrain judged;
+    judged.interval = interval;
+    judged.intervals = bounds.intervals(interval);
+    judged.stretch = bounds.stretch(interval);
+    s.meter.forget(now, std::max(judged.stretch, kMaxStretch));
+    if (auto kept = checkMeter(s); !kept) return failure(kept);
+    judged.carried_V = s.carriedAt(now);
+    judged.command = bounds.commandOf(train);
     const auto& source = s.setup->source;
-    request.overRange = bounds.worst(train, [&](const PulseTrain& out) {
-        return worstExposure(out, request.intervals.least, s.load, source, s.area, {request.carried_V});
+    judged.overRange = bounds.worst(train, [&](const PulseTrain& out) {
+        return worstExposure(out, judged.intervals.least, s.load, source, s.area, {judged.carried_V});
     });
-    request.at500 = bounds.worst(train, [&](const PulseTrain& out) {
-        return exposureOf(out, request.intervals.least, Load::resistor(Ohms(500)), source, s.area);
+    judged.at500 = bounds.worst(train, [&](const PulseTrain& out) {
+        return exposureOf(out, judged.intervals.least, Load::resistor(Ohms(500)), source, s.area);
     });
-    const double command_V = commandVoltage(request.command, s.load.nominal, source);
-    for (TrainExposure* exposure : {&request.overRange, &request.at500})
+    const double command_V = commandVoltage(judged.command, s.load.nominal, source);
+    for (TrainExposure* exposure : {&judged.overRange, &judged.at500})
         exposure->values[indexOf(Quantity::CommandVoltage)] = command_V;
-    if (auto kept = s.judge(request); !kept) return failure(kept);
-    if (auto kept = s.judgeMetered(request, now); !kept) return failure(kept);
+    if (auto kept = checkLimits(s, judged, now); !kept) return failure(kept);
 
     const Instant expires = now + kApprovalLife;
     const Instant ended = expires + toInstant(train.duration());
-    const BookedTrain booked{now, ended, request.hz(), request.overRange, request.at500};
-    if (checks(MeterBooking)) s.meter.book(booked);
+    const BookedTrain booked{now, ended, judged.hz(), judged.overRange, judged.at500};
     auto& residual = s.residuals[static_cast<std::size_t>(source.gap)];
-    residual = {std::max(request.carried_V, request.overRange.residual_V), std::max(residual.at, ended)};
-    if (s.record != nullptr && checks(RecordBooking)) s.record->book(booked, s.residuals);
+    residual = {std::max(judged.carried_V, judged.overRange.residual_V), std::max(residual.at, ended)};
+    Booking booking{s, booked};
+    fulfil(kBookings, booking);
     s.lastTrain = train;
     return ApprovedTrain(train, interval, epoch, expires);
 }
 
 Result<ApprovedBurst> SafetyGate::approve(const VibrationBurst& burst) {
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
-    if (checks(BurstIntensity) && !(burst.intensity >= 0 && burst.intensity <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "vibration intensity {} is not between 0 and 1", burst.intensity);
-    }
-    const double seconds = burst.duration.count();
-    if (checks(BurstDuration) && !(seconds > 0 && seconds <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "vibration of {} s is not above 0 and at most 1 s long", seconds);
-    }
+    if (auto kept = judge(kBurstRules, burst); !kept) return failure(kept);
     return ApprovedBurst(burst, epoch, clock_.now() + kApprovalLife);
 }
 
 Result<void> SafetyGate::accept(const PulseTrain& train) {
-    if (!state_->setup || (checks(LevelOfPerson) && !state_->person()))
-        return fail(ErrorCode::NotArmed, "levels are accepted in person mode only");
-    if (auto sound = validate(train); checks(LevelMalformed) && !sound) return sound;
+    if (auto kept = judge(kAcceptRules, AcceptedTrain{*state_, train}); !kept) return kept;
     return state_->levels->accept(state_->bounds->acceptedAs(train));
 }
 
 Result<void> SafetyGate::reportDiscomfort(Milliamps level) {
-    if (!state_->setup || (checks(LevelOfPerson) && !state_->person()))
-        return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only");
-    if (checks(DiscomfortValue) && !(std::isfinite(level.value()) && level.value() >= 0)) {
-        return fail(ErrorCode::InvalidArgument, "a discomfort level of {} mA is not a finite current of 0 or more",
-                    level.value());
-    }
+    if (auto kept = judge(kDiscomfortRules, Discomfort{*state_, level.value()}); !kept) return kept;
     latchStop();
     state_->levels->reportDiscomfort(level);
     return {};
@@ -276,7 +281,7 @@ void SafetyGate::beginAscending() noexcept {
 void SafetyGate::endAscending() noexcept { state_->levels->endAscending(); }
 
 std::optional<Milliamps> SafetyGate::levelCeiling(const PulseTrain& train) const noexcept {
-    if (!state_->setup || !state_->person()) return std::nullopt;
+    if (!state_->person()) return std::nullopt;
     return state_->levels->ceilingFor(train);
 }
 
@@ -287,16 +292,9 @@ std::optional<LoadRange> SafetyGate::loadRange() const {
 
 void SafetyGate::latchStop() noexcept { epoch_.fetch_add(1, std::memory_order_acq_rel); }
 
-bool SafetyGate::isCurrent(const ApprovedTrain& approved) const noexcept {
-    const bool sameEpoch = approved.epoch_ == epoch_.load(std::memory_order_acquire);
-    const bool inTime = clock_.now() <= approved.expires_;
-    return (sameEpoch || !checks(Epoch)) && (inTime || !checks(Expiry));
-}
-
-bool SafetyGate::isCurrent(const ApprovedBurst& approved) const noexcept {
-    const bool sameEpoch = approved.epoch_ == epoch_.load(std::memory_order_acquire);
-    const bool inTime = clock_.now() <= approved.expires_;
-    return (sameEpoch || !checks(Epoch)) && (inTime || !checks(Expiry));
+bool SafetyGate::isCurrent(std::uint64_t epoch, Instant expires) const noexcept {
+    const Approval approval{epoch, epoch_.load(std::memory_order_acquire), expires, clock_.now()};
+    return firstBroken(kApprovalConditions, approval) == nullptr;
 }
 
 void SafetyGate::exposure(std::vector<ExposureRow>& rows) const {

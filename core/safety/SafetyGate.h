@@ -26,6 +26,10 @@
 namespace tacto {
 
 class UnitRecord;
+namespace gate {
+struct AskedTrain;
+struct State;
+}  // namespace gate
 
 /// Proof that a PulseTrain passed the gate. Move-only: one approval, one delivery.
 class ApprovedTrain {
@@ -138,20 +142,23 @@ public:
 
     /// True unless latchStop() or configure() ran after `approved` was granted, or it expired. The device
     /// thread asks this immediately before it writes to the wire.
-    [[nodiscard]] bool isCurrent(const ApprovedTrain& approved) const noexcept;
-    [[nodiscard]] bool isCurrent(const ApprovedBurst& approved) const noexcept;
+    [[nodiscard]] bool isCurrent(const ApprovedTrain& approved) const noexcept {
+        return isCurrent(approved.epoch_, approved.expires_);
+    }
+    [[nodiscard]] bool isCurrent(const ApprovedBurst& approved) const noexcept {
+        return isCurrent(approved.epoch_, approved.expires_);
+    }
 
     /// The exposure booked in the last 5 s, each row against its limit, for the exposure display. Does not allocate
     /// when `rows` has capacity.
     void exposure(std::vector<ExposureRow>& rows) const;
 
 private:
-    struct State;
-    [[nodiscard]] Result<ApprovedTrain> grant(const PulseTrain& train, Seconds interval, std::uint64_t epoch,
-                                              Instant now);
+    [[nodiscard]] Result<ApprovedTrain> grant(const gate::AskedTrain& asked, std::uint64_t epoch);
+    [[nodiscard]] bool isCurrent(std::uint64_t epoch, Instant expires) const noexcept;
     const Clock& clock_;
     std::atomic<std::uint64_t> epoch_;  // Starts apart in every gate, so that no gate honours another's approval
-    std::unique_ptr<State> state_;
+    std::unique_ptr<gate::State> state_;
 };
 
 }  // namespace tacto

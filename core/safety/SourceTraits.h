@@ -1,5 +1,7 @@
 // SourceTraits.h - what a driver declares about its stimulator's output: the gate judges with it, the
 // rounding uses it, the bench plans by it. Constant while the device is open.
+//
+// Thread-safety: values.
 #pragma once
 
 #include <optional>
@@ -9,14 +11,14 @@
 
 namespace tacto {
 
-/// How far what comes out may be from what is told, as the maker or the driver's document states it. Nothing: not
+/// How far what comes out may be from what is programmed, as the maker or the driver's document states it. Nothing: not
 /// stated, and ± 5 % is judged (kUnknownSpread).
 struct StatedAccuracy {
     std::optional<Spread> amplitude{};   ///< V or mA
     std::optional<Spread> phaseWidth{};  ///< s
     std::optional<Spread> gap{};         ///< s
     std::optional<Spread> interval{};    ///< s
-    /// Of an ideal source.
+    /// The accuracy of an ideal source.
     [[nodiscard]] static StatedAccuracy exact() noexcept { return {Spread{}, Spread{}, Spread{}, Spread{}}; }
 };
 

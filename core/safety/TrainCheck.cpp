@@ -3,23 +3,71 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 
 namespace tacto {
 
 using namespace gate;
 
 namespace {
-FixedText<159> percentText(double imbalance, double uncertainty) noexcept {
+bool sane(const std::optional<double>& value) noexcept { return !value || (std::isfinite(*value) && *value >= 0); }
+
+/// A status beside the train that it follows.
+struct ReadTrain {
+    OutputMode mode;
+    const TrainReadBack& status;
+    Instant end;
+    Instant now;
+    [[nodiscard]] bool late() const noexcept { return now - end > kStatusDeadline; }
+    [[nodiscard]] bool early() const noexcept { return status.delivering || status.at < end; }
+    /// Without a stated uncertainty nothing excuses the reading.
+    [[nodiscard]] double uncertainty() const noexcept { return status.imbalanceUncertainty.value_or(0); }
+};
+
+FixedText<159> percentText(const ReadTrain& train) noexcept {
     std::array<char, 160> text{};
     const auto end =
         fmt::format_to_n(text.data(), text.size() - 1,
                          "net charge is {:.2g} % of the phase charge, uncertainty {:.2g} %; a person allows 1 %",
-                         imbalance * 100, uncertainty * 100);
+                         train.status.imbalance.value_or(0) * 100, train.uncertainty() * 100);
     return std::string_view(text.data(), std::min(end.size, text.size() - 1));
 }
 
-bool sane(const std::optional<double>& value) noexcept { return !value || (std::isfinite(*value) && *value >= 0); }
+struct FindingRule {
+    int id;
+    bool (*broken)(const ReadTrain&) noexcept;
+    TrainFinding finding;
+    FixedText<159> reason;  // of net charge: its figures
+};
+
+constexpr FixedText<159> kMissing = "no status from the stimulator within 50 ms after a train";
+
+constexpr FindingRule kRulesWithoutStatus[] = {
+    {TrainNoStatus, [](auto& t) noexcept { return t.late(); }, TrainFinding::StatusMissing, kMissing},
+};
+
+constexpr FindingRule kStatusRules[] = {
+    {TrainGarbage, [](auto& t) noexcept { return !(sane(t.status.imbalance) && sane(t.status.imbalanceUncertainty)); },
+     TrainFinding::Garbage, "the stimulator reads back a charge imbalance that is no number or negative"},
+    {TrainOpen, [](auto& t) noexcept { return t.status.electrode == ElectrodeReading::Open; }, TrainFinding::Open,
+     "the electrode is open: it lifted, or its lead is off"},
+    {TrainShort, [](auto& t) noexcept { return t.status.electrode == ElectrodeReading::Short; }, TrainFinding::Short,
+     "the electrodes are shorted"},
+    {TrainNetCharge,
+     [](auto& t) noexcept {
+         return t.mode == OutputMode::Person && t.status.imbalance &&
+                !(*t.status.imbalance - t.uncertainty() <= kNetChargeLimit);
+     },
+     TrainFinding::NetCharge,
+     {}},
+    {TrainStuckOn, [](auto& t) noexcept { return t.late() && t.status.delivering; }, TrainFinding::StuckOn,
+     "the stimulator still delivers 50 ms after its train should have ended"},
+    {TrainStatusLate, [](auto& t) noexcept { return t.status.at - t.end > kStatusDeadline; },
+     TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train"},
+    // Read too early: the next one counts, but it must come in time.
+    {TrainReadEarly, [](auto& t) noexcept { return t.early() && t.late(); }, TrainFinding::StatusMissing, kMissing},
+    {TrainReadEarly, [](auto& t) noexcept { return t.early(); }, TrainFinding::Pending, {}},
+};
 }  // namespace
 
 std::string_view nameOf(TrainFinding finding) noexcept {
@@ -67,48 +115,17 @@ ChargeBalance chargeBalance(const std::optional<double>& imbalance, const std::o
 
 TrainJudgement judgeTrain(OutputMode mode, const std::optional<TrainReadBack>& status, Instant trainEnd,
                           Instant now) noexcept {
+    const TrainReadBack read = status.value_or(TrainReadBack{});
+    const ReadTrain train{mode, read, trainEnd, now};
     TrainJudgement judgement;
-    const auto found = [&judgement](TrainFinding finding, FixedText<159> reason) {
-        judgement.finding = finding;
-        judgement.reason = reason;
-        return judgement;
-    };
-    const bool late = now - trainEnd > kStatusDeadline;
-    if (!status) {
-        return late && checks(TrainNoStatus)
-                   ? found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train")
-                   : judgement;
+    if (status) {
+        judgement.finding = TrainFinding::Ok;
+        judgement.balance = chargeBalance(read.imbalance, read.imbalanceUncertainty);
     }
-    if (checks(TrainGarbage) && !(sane(status->imbalance) && sane(status->imbalanceUncertainty))) {
-        return found(TrainFinding::Garbage,
-                     "the stimulator reads back a charge imbalance that is no number or negative");
+    if (const auto* rule = status ? firstBroken(kStatusRules, train) : firstBroken(kRulesWithoutStatus, train)) {
+        judgement.finding = rule->finding;
+        judgement.reason = rule->finding == TrainFinding::NetCharge ? percentText(train) : rule->reason;
     }
-    judgement.balance = chargeBalance(status->imbalance, status->imbalanceUncertainty);
-    if (checks(TrainOpen) && status->electrode == ElectrodeReading::Open) {
-        return found(TrainFinding::Open, "the electrode is open: it lifted, or its lead is off");
-    }
-    if (checks(TrainShort) && status->electrode == ElectrodeReading::Short) {
-        return found(TrainFinding::Short, "the electrodes are shorted");
-    }
-    if (checks(TrainNetCharge) && mode == OutputMode::Person && status->imbalance) {
-        // Without a stated uncertainty nothing excuses the reading.
-        const double uncertainty = status->imbalanceUncertainty.value_or(0);
-        if (!(*status->imbalance - uncertainty <= kNetChargeLimit)) {
-            return found(TrainFinding::NetCharge, percentText(*status->imbalance, uncertainty));
-        }
-    }
-    if (checks(TrainStuckOn) && late && status->delivering) {
-        return found(TrainFinding::StuckOn, "the stimulator still delivers 50 ms after its train should have ended");
-    }
-    if (checks(TrainStatusLate) && status->at - trainEnd > kStatusDeadline) {
-        return found(TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train");
-    }
-    if (checks(TrainReadEarly) && (status->delivering || status->at < trainEnd)) {
-        // Read too early: wait for a newer one, but not for ever.
-        if (!late) return judgement;
-        return found(TrainFinding::StatusMissing, "no status from the stimulator within 50 ms after a train");
-    }
-    judgement.finding = TrainFinding::Ok;
     return judgement;
 }
 

@@ -1,91 +1,115 @@
 #include "core/session/AboutJson.h"
 
-#include "core/base/JsonFields.h"
+#include <limits>
+
+#include "core/base/RecordFields.h"
 
 namespace tacto {
 
-nlohmann::json toJson(const SessionAbout& about) {
-    auto devices = nlohmann::json::array();
-    for (const auto& device : about.devices) {
-        devices.push_back({{"uri", device.uri},
-                           {"role", device.role},
-                           {"name", device.name},
-                           {"serial", device.serial},
-                           {"firmware", device.firmware},
-                           {"simulated", device.simulated},
-                           {"origin", device.origin}});
-    }
-    auto limits = nlohmann::json::array();
-    for (const auto& set : about.limitSets) {
-        limits.push_back({{"id", set.id}, {"sha256", set.sha256}, {"from", set.from}});
-    }
-    return {{"program_version", about.programVersion},
-            {"protocol", about.protocol},
-            {"protocol_sha256", about.protocolSha256},
-            {"protocol_from", about.protocolFrom},
-            {"parameters", about.parameters},
-            {"seed", about.seed},
-            {"devices", std::move(devices)},
-            {"profile", about.profileJson},
-            {"profile_sha256", about.profileSha256},
-            {"limit_sets", std::move(limits)},
-            {"simulated", about.simulated},
-            {"mode", about.mode},
-            {"wall_start", about.wallStart},
-            {"wall_start_at_s", toSeconds(about.wallStartAt)},
-            {"virtual_clock", about.virtualClock}};
+namespace {
+
+using nlohmann::json;
+
+constexpr AcceptedText kAnyText{.mayBeEmpty = true};
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+const RecordPlace kRow{.lenient = true};  // missing fields stay empty
+
+ValueKind<Instant> instantKind() {
+    return codedKind<Instant>(
+        "seconds",
+        [](const json& value) -> std::optional<Instant> {
+            const double at = value.is_number() ? value.get<double>() : -1;
+            return at >= 0 && at < 1e9 ? std::optional(toInstant(at)) : std::nullopt;
+        },
+        [](const Instant& at) { return json(toSeconds(at)); });
 }
 
-SessionAbout aboutFrom(const nlohmann::json& json) {
-    SessionAbout about;
-    about.programVersion = textOr(json, "program_version");
-    about.protocol = textOr(json, "protocol");
-    about.protocolSha256 = textOr(json, "protocol_sha256");
-    about.protocolFrom = textOr(json, "protocol_from");
-    about.parameters = valueOr(json, "parameters");
-    about.seed = countOr(json, "seed");
-    for (const auto& each : valueOr(json, "devices")) {
-        about.devices.push_back({textOr(each, "uri"), textOr(each, "role"), textOr(each, "name"),
-                                 textOr(each, "serial"), textOr(each, "firmware"), flagOr(each, "simulated"),
-                                 textOr(each, "origin")});
-    }
-    about.profileJson = textOr(json, "profile");
-    about.profileSha256 = textOr(json, "profile_sha256");
-    for (const auto& each : valueOr(json, "limit_sets")) {
-        about.limitSets.push_back({textOr(each, "id"), textOr(each, "sha256"), textOr(each, "from")});
-    }
-    about.simulated = flagOr(json, "simulated");
-    about.mode = textOr(json, "mode");
-    about.wallStart = textOr(json, "wall_start");
-    const double at = numberOr(json, "wall_start_at_s");
-    about.wallStartAt = at >= 0 && at < 1e9 ? toInstant(at) : Instant(0);
-    about.virtualClock = flagOr(json, "virtual_clock");
-    return about;
+ValueKind<json> anyKind() {
+    return codedKind<json>(
+        "any value", [](const json& value) { return std::optional(value); }, [](const json& value) { return value; });
 }
 
-nlohmann::json reproducible(const SessionAbout& about) {
-    auto json = toJson(about);
-    for (const char* key : {"program_version", "wall_start", "wall_start_at_s"}) json.erase(key);
-    json.erase("protocol_from");  // a path
-    for (auto& set : json["limit_sets"]) set.erase("from");
-    for (auto& device : json["devices"]) {
+RecordFields<SessionAbout> buildAboutFields() {
+    using D = SessionDevice;
+    RecordFields<D> device;
+    device.texts({{"uri", &D::uri},
+                  {"role", &D::role},
+                  {"name", &D::name},
+                  {"serial", &D::serial},
+                  {"firmware", &D::firmware},
+                  {"origin", &D::origin}},
+                 kAnyText);
+    device.flag("simulated", &D::simulated);
+
+    using L = SessionLimitSet;
+    RecordFields<L> limits;
+    limits.texts({{"id", &L::id}, {"sha256", &L::sha256}, {"from", &L::from}}, kAnyText);
+
+    using A = SessionAbout;
+    RecordFields<A> all;
+    all.texts({{"program_version", &A::programVersion},
+               {"protocol", &A::protocol},
+               {"protocol_sha256", &A::protocolSha256},
+               {"protocol_from", &A::protocolFrom},
+               {"profile", &A::profileJson},
+               {"profile_sha256", &A::profileSha256},
+               {"mode", &A::mode},
+               {"wall_start", &A::wallStart}},
+              kAnyText);
+    all.add("parameters", &A::parameters, anyKind());
+    all.number("seed", &A::seed);
+    all.list("devices", &A::devices, device.kind(), 0, kAnyNumber);
+    all.list("limit_sets", &A::limitSets, limits.kind(), 0, kAnyNumber);
+    all.flag("simulated", &A::simulated);
+    all.flag("virtual_clock", &A::virtualClock);
+    all.add("wall_start_at_s", &A::wallStartAt, instantKind());
+    return all;
+}
+
+const RecordFields<SessionAbout>& aboutFields() {
+    static const auto fields = buildAboutFields();
+    return fields;
+}
+
+RecordFields<SessionStream> buildStreamFields() {
+    using S = SessionStream;
+    RecordFields<S> all;
+    all.texts({{"name", &S::name}, {"kind", &S::kind}, {"unit", &S::unit}}, kAnyText);
+    all.list("columns", &S::columns, textKind(kAnyText), 0, kAnyNumber);
+    all.number("rate_hz", &S::rate_hz);
+    return all;
+}
+
+const RecordFields<SessionStream>& streamFields() {
+    static const auto fields = buildStreamFields();
+    return fields;
+}
+
+}  // namespace
+
+json toJson(const SessionAbout& about) { return aboutFields().write(about); }
+
+SessionAbout aboutFrom(const json& row) { return aboutFields().read(row, kRow).value_or(SessionAbout{}); }
+
+json reproducible(const SessionAbout& about) {
+    auto out = toJson(about);
+    for (const char* key : {"program_version", "wall_start", "wall_start_at_s"}) out.erase(key);
+    out.erase("protocol_from");  // a path
+    for (auto& set : out["limit_sets"]) set.erase("from");
+    for (auto& device : out["devices"]) {
         device.erase("uri");  // a recording's is a path
         device.erase("firmware");
     }
-    return json;
+    return out;
 }
 
-nlohmann::json toJson(const SessionStream& stream) {
-    return {{"name", stream.name},
-            {"kind", stream.kind},
-            {"unit", stream.unit},
-            {"columns", stream.columns},
-            {"rate_hz", stream.rate_hz}};
-}
+json toJson(const SessionStream& stream) { return streamFields().write(stream); }
 
-SessionStream streamFrom(const nlohmann::json& json) {
-    return {textOr(json, "name"), textOr(json, "kind"), textOr(json, "unit"), textsOr(json, "columns"),
-            numberOr(json, "rate_hz")};
+SessionStream streamFrom(const json& row) {
+    SessionStream stream;
+    stream.rate_hz = std::numeric_limits<double>::quiet_NaN();  // of a damaged row: not known, where 0 means none
+    static_cast<void>(streamFields().read(row, stream, kRow));
+    return stream;
 }
 
 }  // namespace tacto

@@ -31,7 +31,7 @@ std::string toJsonText(const ChunkHead& head) {
         json["t0_s"] = head.line->t0_s;
         json["step_s"] = head.line->step_s;
     }
-    return json.dump();
+    return dumpJson(json);
 }
 
 Result<ChunkHead> parseChunkHead(std::string_view text) {

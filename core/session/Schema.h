@@ -3,6 +3,8 @@
 // Everything is a row of `entries`, in the order it was written, linked by hashes (Chain.h). Sample chunks and captures
 // keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people with
 // another SQLite program. Triggers refuse changes and deletions: no session is altered by accident.
+//
+// Thread-safety: pure functions; createSchema() as Database.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +17,9 @@ namespace tacto {
 
 inline constexpr std::uint32_t kApplicationId = 0x54414354;  ///< "TACT"
 inline constexpr int kSchemaVersion = 1;
+/// The same tables with annotations behind the end mark: a program that does not know them says that it is too old,
+/// instead of calling the session damaged.
+inline constexpr int kAnnotatedVersion = 2;
 
 /// The kinds of `entries` rows.
 namespace kind {
@@ -30,6 +35,7 @@ inline constexpr const char* kReport = "report";
 inline constexpr const char* kVerdict = "verdict";
 inline constexpr const char* kLog = "log";
 inline constexpr const char* kEnd = "end";
+inline constexpr const char* kAnnotation = "annotation";  ///< the only rows after the end: SessionLabels.h
 }  // namespace kind
 
 /// Statements that lead from schema `from` to `from + 1`.

@@ -9,6 +9,7 @@
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
+#include "core/session/SessionLabels.h"
 #include "core/session/SessionSource.h"
 
 namespace tacto {
@@ -32,6 +33,7 @@ struct SessionReader::State {
     SessionSource source;
     SessionAbout about;
     std::string head;
+    Instant lastAt{0};
     bool closed = false;
 
     /// Calls `visit(const SessionRow&)` for every row of a kind.
@@ -121,17 +123,35 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
     });
     if (!about) return failure(about);
     if (!found) return fail(ErrorCode::ParseError, "{} is damaged: its first row is missing", path.string());
-    auto last = state->source.database().prepare("SELECT hash, kind FROM entries ORDER BY seq DESC LIMIT 1");
+    auto last = state->source.database().prepare(
+        "SELECT hash, kind, t_ns FROM entries WHERE kind<>'annotation' ORDER BY seq DESC LIMIT 1");
     if (!last) return failure(last);
     if (auto row = last->step(); !row) return failure(row);
     state->head = hexOf(last->blob(0));
     state->closed = last->text(1) == kind::kEnd;
+    state->lastAt = Instant(last->integer(2));
     return SessionReader(std::move(state));
 }
 
 const SessionAbout& SessionReader::about() const noexcept { return state_->about; }
 bool SessionReader::closed() const noexcept { return state_->closed; }
 const std::string& SessionReader::chainHead() const noexcept { return state_->head; }
+Instant SessionReader::lastAt() const noexcept { return state_->lastAt; }
+
+Result<SessionLabels> SessionReader::labels() const {
+    SessionLabels labels;
+    auto rows = state_->source.database().prepare(
+        "SELECT seq, body FROM entries WHERE kind='annotation' OR (kind='report' AND name='notes') ORDER BY seq");
+    if (!rows) return failure(rows);
+    for (;;) {
+        auto more = rows->step();
+        if (!more) return failure(more);
+        if (!*more) return labels;
+        const auto body = parsed(rows->text(1), rows->integer(0));
+        if (!body) return failure(body);
+        applyLabels(*body, labels);
+    }
+}
 
 Result<std::vector<SessionRow>> SessionReader::events() const { return state_->rows(kind::kEvent); }
 Result<std::vector<SessionRow>> SessionReader::commands() const { return state_->rows(kind::kCommand); }
@@ -226,9 +246,10 @@ Result<void> SessionReader::forEachChunk(int stream, const std::function<bool(co
 }
 
 Result<std::string> SessionReader::reproducibleText() const {
-    std::string text = lineOf(reproducible(state_->about)) + "\n";
+    std::string text = dumpJson(reproducible(state_->about)) + "\n";
     auto rows = state_->source.database().prepare(
-        "SELECT seq, kind, t_ns, name, body, digest FROM entries WHERE kind<>'about' ORDER BY seq");
+        "SELECT seq, kind, t_ns, name, body, digest FROM entries "
+        "WHERE kind NOT IN ('about', 'annotation') ORDER BY seq");
     if (!rows) return failure(rows);
     for (;;) {
         auto more = rows->step();

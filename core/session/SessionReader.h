@@ -32,8 +32,13 @@ public:
     [[nodiscard]] const SessionAbout& about() const noexcept;
     /// True when the session was closed in order; false after a crash, or while it is still being written.
     [[nodiscard]] bool closed() const noexcept;
-    /// The hash of the last row, 64 hexadecimal digits.
+    /// The hash of the recording's last row, 64 hexadecimal digits. Annotations, which come after its end, leave it as
+    /// it is.
     [[nodiscard]] const std::string& chainHead() const noexcept;
+    /// When the recording's last row was written: how long the session is.
+    [[nodiscard]] Instant lastAt() const noexcept;
+    /// As entered before it began, with what was changed since. Errors: as the lists.
+    [[nodiscard]] Result<SessionLabels> labels() const;
 
     // Each list is in the order written. Errors: ParseError naming the row; Io.
     [[nodiscard]] Result<std::vector<SessionRow>> events() const;
@@ -56,7 +61,7 @@ public:
     [[nodiscard]] Result<void> forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const;
 
     /// Everything that the same seed must reproduce, a line per row, samples included as hexadecimal digests: wall
-    /// time, paths, versions and the chain itself left out. Two runs are the same when these texts are.
+    /// time, paths, versions, annotations and the chain itself left out. Two runs are the same when these texts are.
     [[nodiscard]] Result<std::string> reproducibleText() const;
 
 private:

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "core/base/SpscRing.h"
 #include "core/session/SessionWriter.h"
@@ -101,10 +103,12 @@ struct SessionRecorder::State {
     SampleBlock scratch;         // Writing side only, as the next two
     std::uint64_t reported = 0;  // Of ring->dropped(), what the session knows already
     Instant latest{0};
+    std::atomic<bool> marksWait{false};
 
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::optional<Error> error;  // Guarded by mutex, as all below
+    std::vector<std::pair<Instant, std::string>> marks;
     std::uint64_t drainsWanted = 0;
     std::uint64_t drainsDone = 0;
     bool ending = false;
@@ -149,6 +153,17 @@ struct SessionRecorder::State {
         }
     }
 
+    /// Writing side only; the mutex is not held while the disk is at work.
+    void writeMarks() {
+        if (!marksWait.exchange(false, std::memory_order_acq_rel)) return;
+        std::vector<std::pair<Instant, std::string>> waiting;
+        {
+            const std::lock_guard lock(mutex);
+            waiting.swap(marks);
+        }
+        for (const auto& [at, word] : waiting) check(writer.event(at, kOperatorMarkEvent, {{"text", word}}));
+    }
+
     void run() {
         std::unique_lock lock(mutex);
         for (;;) {
@@ -158,6 +173,7 @@ struct SessionRecorder::State {
             lock.unlock();
             writingSince.store(sinceStart(), std::memory_order_release);
             while (const auto record = ring->pop()) write(*record);
+            writeMarks();
             reportDropped();
             check(wanted != drainsDone || last ? writer.flush() : writer.commitIfDue());
             writingSince.store(kIdle, std::memory_order_release);
@@ -183,7 +199,10 @@ SessionRecorder::SessionRecorder(SessionWriter& writer, Settings settings)
 }
 
 SessionRecorder::~SessionRecorder() {
-    if (state_->inlineWrites) return;
+    if (state_->inlineWrites) {
+        state_->writeMarks();
+        return;
+    }
     {
         const std::lock_guard lock(state_->mutex);
         state_->ending = true;
@@ -259,6 +278,16 @@ void SessionRecorder::event(Instant at, const char* kind, std::span<const Record
     state_->take(noteOf(RecordKind::Event, at, kind, fields, text));
 }
 
+void SessionRecorder::mark(Instant at, std::string word) {
+    const std::lock_guard lock(state_->mutex);
+    state_->marks.emplace_back(at, std::move(word));
+    state_->marksWait.store(true, std::memory_order_release);
+}
+
+void SessionRecorder::writeMarks() noexcept {
+    if (state_->inlineWrites) state_->writeMarks();
+}
+
 std::chrono::nanoseconds SessionRecorder::standsStillFor() const noexcept {
     const auto since = state_->writingSince.load(std::memory_order_acquire);
     return std::chrono::nanoseconds(since == State::kIdle ? 0 : state_->sinceStart() - since);
@@ -266,6 +295,7 @@ std::chrono::nanoseconds SessionRecorder::standsStillFor() const noexcept {
 
 Result<void> SessionRecorder::drain() {
     if (state_->inlineWrites) {
+        state_->writeMarks();
         state_->check(state_->writer.flush());
     } else {
         std::unique_lock lock(state_->mutex);

@@ -6,7 +6,9 @@
 // When the ring overflows (the disk stood still for longer than it holds) the oldest records are lost; the loss is
 // counted, written to the session as an event, and shown by dropped().
 //
-// Thread-safety: samples(), command(), event() have one caller, the control loop; the rest any thread.
+// The operator's marks go past the ring, so that the control loop stays its one caller, and wait for no disk either.
+//
+// Thread-safety: samples(), command(), event(), writeMarks() have one caller, the control loop; the rest any thread.
 #pragma once
 
 #include <chrono>
@@ -16,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/base/Result.h"
@@ -59,6 +62,12 @@ public:
     void event(Instant at, const char* kind, std::initializer_list<RecordField> fields,
                std::string_view text = {}) noexcept;
     void event(Instant at, const char* kind, std::span<const RecordField> fields, std::string_view text) noexcept;
+
+    /// The operator marked the moment `at` with a word. Never waits for the disk. Written by the recorder's own thread
+    /// or, without one, by the next writeMarks(), drain() or the end.
+    void mark(Instant at, std::string word);
+    /// Writes the marks that wait, for a recorder without a thread of its own.
+    void writeMarks() noexcept;
 
     /// Waits until everything recorded before is committed. Errors: as SessionWriter::failed(); Timeout after 5 s.
     [[nodiscard]] Result<void> drain();

@@ -72,7 +72,11 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
     auto database = Database::open(copy.string(), SQLITE_OPEN_READWRITE);
     if (!database) return failure(database);
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
-    if (auto migrated = migrate(*database, migrations(), kSchemaVersion); !migrated) return failure(migrated);
+    const auto version = database->number("PRAGMA user_version");
+    if (!version) return failure(version);
+    if (*version < kSchemaVersion) {
+        if (auto migrated = migrate(*database, migrations(), kSchemaVersion); !migrated) return failure(migrated);
+    }
     SessionSource source(std::move(*database));
     source.copy_ = folder;
     return source;
@@ -103,14 +107,14 @@ Result<SessionSource> SessionSource::open(const std::filesystem::path& path) {
     }
     const auto version = source->database().number("PRAGMA user_version");
     if (!version) return failure(version);
-    if (*version != kSchemaVersion) {
+    if (*version < kSchemaVersion || *version > kAnnotatedVersion) {
         if (*version < kSchemaVersion) source = openCopy(path);
-        if (*version > kSchemaVersion || !source) {
+        if (*version > kAnnotatedVersion || !source) {
             return fail(ErrorCode::Unsupported, "{} cannot be read: {}", path.string(),
-                        *version > kSchemaVersion
+                        *version > kAnnotatedVersion
                             ? fmt::format("it has session format {}, made by a newer Tactoscope; this program reads up "
                                           "to {}",
-                                          *version, kSchemaVersion)
+                                          *version, kAnnotatedVersion)
                             : source.error().message);
         }
     }

@@ -7,6 +7,8 @@
 //
 // The file itself is not opened with anything but SQLite while a writer of this process may hold it: closing another
 // handle would drop that writer's locks (POSIX).
+//
+// Thread-safety: one owner; several sources may be open on one file.
 #pragma once
 
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include "core/session/Durable.h"
 #include "core/session/Schema.h"
 
 namespace tacto {
@@ -19,19 +20,9 @@ constexpr const char* kInsertCapture = "INSERT INTO captures(seq, data) VALUES(?
 
 std::span<const std::byte> bytesOf(const Digest& digest) noexcept { return std::as_bytes(std::span(digest)); }
 
-/// Waits until the content of a file or folder would survive power loss. A folder that cannot be synced (some network
-/// file systems) is no reason to refuse a session.
-bool sync(const std::filesystem::path& path, int kind) {
-    const int handle = ::open(path.c_str(), kind | O_RDONLY | O_CLOEXEC);
-    if (handle < 0) return false;
-    const bool done = ::fsync(handle) == 0;
-    ::close(handle);
-    return done;
-}
-
 /// Gives `from` the name `to` unless that name is taken; content first, then the name, survive power loss.
 Result<void> publish(const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (!sync(from, 0)) return fail(ErrorCode::Io, "{}", std::strerror(errno));
+    if (auto kept = syncFile(from); !kept) return kept;
     // link() refuses an existing name, which rename() would silently replace. File systems without hard links (FAT)
     // answer EPERM or EOPNOTSUPP; there renameat2 does the same.
     const bool linked = ::link(from.c_str(), to.c_str()) == 0;
@@ -44,19 +35,11 @@ Result<void> publish(const std::filesystem::path& from, const std::filesystem::p
     }
     std::error_code ignored;
     if (linked) std::filesystem::remove(from, ignored);
-    const auto folder = to.has_parent_path() ? to.parent_path() : std::filesystem::path(".");
-    static_cast<void>(sync(folder, O_DIRECTORY));
+    syncFolderOf(to);
     return {};
 }
 
 std::filesystem::path withSuffix(std::filesystem::path path, const std::string& suffix) { return path += suffix; }
-
-void removeDraft(const std::filesystem::path& draft) {
-    std::error_code ignored;
-    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-        std::filesystem::remove(withSuffix(draft, suffix), ignored);
-    }
-}
 
 }  // namespace
 
@@ -109,6 +92,31 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     removeDraft(draft);
     if (!made) return because(made);
     return made;
+}
+
+Result<SessionStore> SessionStore::annotate(const std::filesystem::path& path) {
+    auto database = Database::open(path.string(), SQLITE_OPEN_READWRITE);
+    if (!database) return failure(database);
+    if (auto set = database->execute(fmt::format("PRAGMA synchronous=FULL; PRAGMA user_version={}", kAnnotatedVersion));
+        !set)
+        return failure(set);
+    Digest head;
+    std::int64_t seq = 0;
+    {
+        auto last = database->prepare("SELECT seq, hash FROM entries ORDER BY seq DESC LIMIT 1");
+        if (!last) return failure(last);
+        const auto row = last->step();
+        if (!row) return failure(row);
+        const auto hash = *row ? last->blob(1) : std::span<const std::byte>();
+        if (hash.size() != head.size()) return fail(ErrorCode::ParseError, "its last row has no hash");
+        std::memcpy(head.data(), hash.data(), head.size());
+        seq = last->integer(0);
+    }
+    auto store = attach(std::move(*database));
+    if (!store) return failure(store);
+    store->head_ = head;
+    store->seq_ = seq;
+    return store;
 }
 
 Result<void> SessionStore::settle() {

@@ -30,6 +30,10 @@ public:
     [[nodiscard]] static Result<SessionStore> create(const std::filesystem::path& path, Instant at,
                                                      std::string_view about);
 
+    /// Opens a session that no one writes, to add annotations after its last row. Errors: ParseError for one that is
+    /// damaged; Io.
+    [[nodiscard]] static Result<SessionStore> annotate(const std::filesystem::path& path);
+
     /// What commit() promises for rows that were not added by addNow(). PowerLoss unless set.
     void setBackground(Durability durability) noexcept { background_ = durability; }
 

@@ -1,4 +1,6 @@
 // SessionTypes.h - what a session file holds, as its writer takes it and its reader gives it back.
+//
+// Thread-safety: values.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +21,8 @@ inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
 /// at once when it first drives the output.
 inline constexpr const char* kMarksEvent = "marks";
 inline constexpr const char* kMarkEvent = "mark";
+/// The operator marked this moment; the word is body["text"].
+inline constexpr const char* kOperatorMarkEvent = "operator mark";
 /// How the oscilloscope's calibration certificate stood when the session began, a sentence.
 inline constexpr const char* kCertificateEvent = "oscilloscope certificate";
 
@@ -58,6 +62,15 @@ struct SessionAbout {
     std::string wallStart;      ///< ISO 8601 UTC, wallTimeUtc() ...
     Instant wallStartAt{0};     ///< ... read at this moment of the session's time base
     bool virtualClock = false;  ///< filled in by the writer from its clock
+};
+
+/// What people say of a session: as entered before it began, and as changed after it ended (SessionLabels.h).
+struct SessionLabels {
+    std::string operatorName;
+    std::string sample;  ///< what was measured, by the laboratory's own id
+    std::string note;
+    std::vector<std::string> tags;
+    bool operator==(const SessionLabels&) const = default;
 };
 
 /// A stream to be recorded: sensor data, roughness frames, telemetry. All columns share the time stamps.

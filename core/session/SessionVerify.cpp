@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/JsonFields.h"
+#include "core/base/Words.h"
 #include "core/session/AboutJson.h"
 #include "core/session/CaptureBlob.h"
 #include "core/session/Chain.h"
@@ -114,7 +115,11 @@ private:
             if (entry.seq > expected + 1) problem("rows {} to {} are missing", expected, entry.seq - 1);
             expected = entry.seq + 1;
             if (report_.rows == 0 && entry.kind != kind::kAbout) problem("the first row does not say what was used");
-            if (lastKind == kind::kEnd) problem("row {} ({}) comes after the end mark", entry.seq, entry.kind);
+            const bool annotates = entry.kind == kind::kAnnotation;
+            if (lastKind == kind::kEnd && !annotates)
+                problem("row {} ({}) comes after the end mark", entry.seq, entry.kind);
+            if (lastKind != kind::kEnd && annotates)
+                problem("row {} (annotation) comes before the end mark", entry.seq);
             const auto stored = digestFrom(rows->blob(7));
             if (digestFrom(rows->blob(6)) != previous) {
                 problem("row {} ({}) does not continue the hash chain", entry.seq, entry.kind);
@@ -128,10 +133,19 @@ private:
             if (!body) problem("{}", body.error().message);
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
+            if (annotates) {
+                ++annotations_;
+                continue;  // the recording ended before
+            }
+            head_ = previous;
             lastKind = entry.kind;
         }
         if (report_.rows == 0) problem("the session has no rows");
-        report_.head = hexText(previous);
+        report_.head = hexText(head_);
+        if (annotations_ > 0)
+            report_.notes.push_back(
+                fmt::format("Operator, sample, tags or note were changed {} {} after the recording ended.",
+                            annotations_, annotations_ == 1 ? "time" : "times"));
         report_.closed = lastKind == kind::kEnd;
         return {};
     }
@@ -244,23 +258,18 @@ private:
     const Database& database_;
     VerifyReport& report_;
     std::vector<StreamSeen> streams_;
+    Digest head_{};  // of the recording: without annotations
+    int annotations_ = 0;
     SampleBlock scratch_;
     std::size_t found_ = 0;
 };
 
+constexpr Word<SessionStatus> kSessionStatusWords[] = {{"intact", SessionStatus::Intact},
+                                                       {"damaged", SessionStatus::Damaged},
+                                                       {"not a session", SessionStatus::NotASession}};
 }  // namespace
 
-std::string_view nameOf(SessionStatus status) noexcept {
-    switch (status) {
-        case SessionStatus::Intact:
-            return "intact";
-        case SessionStatus::Damaged:
-            return "damaged";
-        case SessionStatus::NotASession:
-            return "not a session";
-    }
-    return "not a session";
-}
+std::string_view nameOf(SessionStatus status) noexcept { return wordFor(kSessionStatusWords, status); }
 
 Result<VerifyReport> verifySession(const std::filesystem::path& path) {
     VerifyReport report;

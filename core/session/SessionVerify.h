@@ -23,9 +23,9 @@ struct VerifyReport {
     SessionStatus status = SessionStatus::NotASession;
     bool closed = false;                ///< the session was ended in order
     bool recovered = false;             ///< rows were taken from a journal that a crash left behind
-    std::vector<std::string> notes;     ///< sentences: ended without closing, recovered from the journal
+    std::vector<std::string> notes;     ///< sentences: not closed, recovered from the journal, annotated
     std::vector<std::string> problems;  ///< sentences; empty when intact
-    std::string head;                   ///< hash of the last row, 64 hexadecimal digits; empty when not a session
+    std::string head;  ///< hash of the recording's last row, 64 hexadecimal digits; empty when not a session
     std::uint64_t rows = 0;
     std::uint64_t events = 0;
     std::uint64_t trials = 0;

@@ -65,13 +65,13 @@ struct SessionWriter::State {
     [[nodiscard]] Result<std::int64_t> addNow(const char* kind, Instant at, std::string_view name,
                                               const nlohmann::json& body) {
         if (auto ready = open(); !ready) return failure(ready);
-        return kept(store.addNow(kind, at, name, lineOf(body)));
+        return kept(store.addNow(kind, at, name, dumpJson(body)));
     }
 
     [[nodiscard]] Result<std::int64_t> add(const char* kind, Instant at, std::string_view name,
                                            const nlohmann::json& body) {
         if (auto ready = open(); !ready) return failure(ready);
-        auto row = kept(store.add(kind, at, name, lineOf(body)));
+        auto row = kept(store.add(kind, at, name, dumpJson(body)));
         if (!row) return row;
         if (auto committed = commitIfDue(); !committed) return failure(committed);
         return row;
@@ -102,7 +102,7 @@ struct SessionWriter::State {
     [[nodiscard]] Result<void> end(std::string_view reason) {
         if (failed) return tl::unexpected<Error>(*failed);
         if (auto done = commit(); !done) return done;
-        const auto counts = lineOf({{"rows", store.rows() + 1}, {"trials", trials}});
+        const auto counts = dumpJson({{"rows", store.rows() + 1}, {"trials", trials}});
         auto row = kept(store.addNow(kind::kEnd, clock.now(), reason, counts));
         if (!row) return failure(row);
         return kept(store.close());
@@ -126,7 +126,7 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesyst
     }
     if (about.profileSha256.empty()) about.profileSha256 = sha256Hex(about.profileJson);
     about.virtualClock = clock.isVirtual();
-    auto store = SessionStore::create(path, clock.now(), lineOf(toJson(about)));
+    auto store = SessionStore::create(path, clock.now(), dumpJson(toJson(about)));
     if (!store) return failure(store);
     return std::unique_ptr<SessionWriter>(new SessionWriter(std::make_unique<State>(path, clock, std::move(*store))));
 }
@@ -223,7 +223,7 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
         }
         body["trial"] = *trial;
     }
-    auto row = state_->kept(state_->store.addCapture(at, lineOf(body), digest, packed.data));
+    auto row = state_->kept(state_->store.addCapture(at, dumpJson(body), digest, packed.data));
     if (!row) return row;
     if (auto committed = state_->commitIfDue(); !committed) return failure(committed);
     return row;

@@ -1,8 +1,8 @@
 // Haptics.h - a device that says by itself how it vibrates: the Haptics page (0x0E) of its report descriptor.
 //
 // Which waveform an ordinal stands for is in a feature report, read from the device. Ordinals 1 (none) and 2 (stop) are
-// implicit, the device's own begin at 3 (HID Usage Tables 1.4, section 17; ../shared/wire/hid-vibration.md). Names
-// differ between headers, so only the numbers count.
+// implicit, the device's own begin at 3 (HID Usage Tables 1.4, section 17; hid-vibration.md). Names differ
+// between headers, so only the numbers count.
 //
 // A burst that the device ends by itself is preferred, because it ends whatever becomes of this program (H2):
 //   1. a waveform that lasts, 0x1004 (buzz) or 0x1005 (rumble), with a cutoff time (0E:28, ms) in the output report;

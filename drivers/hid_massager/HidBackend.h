@@ -1,4 +1,4 @@
-// HidBackend.h - a way to find and open HID devices: hidapi over hidraw, hidapi over libusb, a fake in tests.
+// HidBackend.h - a way to find and open HID devices: hidapi over hidraw, or a fake in tests.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "drivers/hid_massager/HidDescriptor.h"
@@ -19,8 +18,8 @@ struct HidDeviceInfo {
     std::uint16_t product = 0;
     std::string serial;  ///< empty where the device has none
     std::string name;    ///< as the device says; empty where it does not
-    std::string path;    ///< the backend's own: "/dev/hidraw0", "1-1:1.0"
-    Usage usage = 0;     ///< of a top-level collection; 0 where the backend does not know
+    std::string path;    ///< "/dev/hidraw0"
+    Usage usage = 0;     ///< of a top-level collection; 0 where hidapi does not know
     bool permitted = true;
 
     /// "HID device 054c:0ce6 at /dev/hidraw0 (serial 17)", for messages.
@@ -32,7 +31,6 @@ struct HidDeviceInfo {
 class HidBackend {
 public:
     virtual ~HidBackend() = default;
-    [[nodiscard]] virtual std::string_view name() const noexcept = 0;
     /// All that is plugged in, also what may not be opened; a device with several top-level collections comes several
     /// times, with the same path.
     [[nodiscard]] virtual std::vector<HidDeviceInfo> devices() const = 0;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/ranges.h>
 #include <tuple>
 
+#include "core/devices/UriParameters.h"
 #include "drivers/hid_massager/Haptics.h"
 #include "drivers/hid_massager/HidMassager.h"
 #include "drivers/hid_massager/HidapiBackend.h"
@@ -16,9 +18,9 @@ namespace {
 
 /// What a URI asks for.
 struct Wanted {
-    std::string text;  ///< the URI, for messages
+    DeviceUri uri;
     std::optional<std::uint16_t> vendor, product;
-    std::string serial, templateName, backend, at;
+    std::string serial, templateName, at;
 };
 
 std::optional<std::uint16_t> hex16(std::string_view text) {
@@ -31,33 +33,23 @@ std::optional<std::uint16_t> hex16(std::string_view text) {
 
 Result<Wanted> readUri(const DeviceUri& uri) {
     Wanted wanted;
-    wanted.text = uri.text();
+    wanted.uri = uri;
     if (!uri.path.empty()) {
         const std::string_view path = uri.path;
         wanted.vendor = hex16(path.substr(0, 4));
         wanted.product = path.size() == 9 && path[4] == ':' ? hex16(path.substr(5)) : std::nullopt;
         if (!wanted.vendor || !wanted.product) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": \"{}\" is no vendor and product; two times four hexadecimal digits are "
-                        "accepted, as hid:054c:0ce6",
-                        wanted.text, uri.path);
+            return uri.refuse(ErrorCode::InvalidArgument,
+                              "\"{}\" is no vendor and product; two times four hexadecimal digits are accepted, as "
+                              "hid:054c:0ce6",
+                              uri.path);
         }
     }
-    for (const auto& [key, value] : uri.parameters) {
-        if (key == "serial") {
-            wanted.serial = value;
-        } else if (key == "template") {
-            wanted.templateName = value;
-        } else if (key == "backend") {
-            wanted.backend = value;
-        } else if (key == "at") {
-            wanted.at = value;
-        } else {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": there is no parameter \"{}\" (={}): it takes serial, at, template, backend",
-                        wanted.text, key, value);
-        }
-    }
+    UriParameters from(uri);
+    wanted.serial = from.text("serial").value_or("");
+    wanted.at = from.text("at").value_or("");
+    wanted.templateName = from.text("template").value_or("");
+    if (const auto read = from.finish(); !read) return failure(read);
     return wanted;
 }
 
@@ -86,7 +78,6 @@ std::string uriOf(const Candidate& one, const Wanted& wanted) {
     if (fitsIntoUri(one.serial)) uri.parameters.emplace_back("serial", one.serial);
     if (one.byPlace) uri.parameters.emplace_back("at", one.place());
     if (!wanted.templateName.empty()) uri.parameters.emplace_back("template", wanted.templateName);
-    if (!wanted.backend.empty()) uri.parameters.emplace_back("backend", wanted.backend);
     return uri.text();
 }
 
@@ -110,7 +101,7 @@ public:
         // A template that cannot be read is told by open(); what the others describe is still listed.
         const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
         std::vector<DeviceIdentity> found;
-        for (const auto& one : candidates(*parts_.backends.front(), templates, nullptr)) {
+        for (const auto& one : candidates(templates, nullptr)) {
             DeviceIdentity identity{uriOf(one, {}), Role::Massager, one.name, one.serial, {}, false};
             identity.obstacle = one.obstacle;
             found.push_back(std::move(identity));
@@ -122,12 +113,7 @@ public:
                       DeviceSet& into) override {
         const auto wanted = readUri(uri);
         if (!wanted) return failure(wanted);
-        if (into.massager) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": a massager is open already, and a bench has one of each", wanted->text);
-        }
-        const auto backend = backendOf(*wanted);
-        if (!backend) return failure(backend);
+        if (auto free = into.checkFree(Role::Massager, uri); !free) return free;
         auto templates = loadMassagerTemplates(parts_.templates);
         if (!templates) return failure(templates);
         std::optional<MassagerTemplate> named;
@@ -136,33 +122,18 @@ public:
             if (!found) return failure(found);
             named = std::move(*found);
         }
-        const auto chosen = choose(*wanted, candidates(**backend, *templates, named ? &*named : nullptr, &*wanted));
+        const auto chosen = choose(*wanted, candidates(*templates, named ? &*named : nullptr, &*wanted));
         if (!chosen) return failure(chosen);
-        if (!chosen->obstacle.empty()) {
-            return fail(ErrorCode::Io, "device \"{}\": {}", wanted->text, chosen->obstacle);
-        }
+        if (!chosen->obstacle.empty()) return uri.refuse(ErrorCode::Io, "{}", chosen->obstacle);
         DeviceIdentity identity{uriOf(*chosen, *wanted), Role::Massager, chosen->name, chosen->serial, {}, false};
         auto opened = chosen->usb ? openTrance(*chosen, std::move(identity), context.clock)
-                                  : openHid(*chosen, *backend, std::move(identity), context.clock);
-        if (!opened) return fail(opened.error().code, "device \"{}\": {}", wanted->text, opened.error().message);
+                                  : openHid(*chosen, std::move(identity), context.clock);
+        if (!opened) return uri.refuse(opened.error());
         into.massager = std::move(*opened);
         return {};
     }
 
 private:
-    using Backend = std::shared_ptr<const HidBackend>;
-
-    Result<Backend> backendOf(const Wanted& wanted) const {
-        if (wanted.backend.empty()) return parts_.backends.front();
-        std::vector<std::string_view> names;
-        for (const auto& backend : parts_.backends) {
-            if (backend->name() == wanted.backend) return backend;
-            names.push_back(backend->name());
-        }
-        return fail(ErrorCode::InvalidArgument, "device \"{}\": there is no backend \"{}\"; there are {}", wanted.text,
-                    wanted.backend, fmt::join(names, ", "));
-    }
-
     static Result<MassagerTemplate> templateOf(const Wanted& wanted, const std::vector<MassagerTemplate>& shipped) {
         if (wanted.templateName.ends_with(".json")) return loadMassagerTemplate(wanted.templateName);
         std::vector<std::string_view> names;
@@ -170,15 +141,15 @@ private:
             if (one.key == wanted.templateName) return one;
             names.push_back(one.key);
         }
-        return fail(ErrorCode::NotFound, "device \"{}\": there is no template \"{}\"; there are {}, or a file",
-                    wanted.text, wanted.templateName, fmt::join(names, ", "));
+        return wanted.uri.refuse(ErrorCode::NotFound, "there is no template \"{}\"; there are {}, or a file",
+                                 wanted.templateName, fmt::join(names, ", "));
     }
 
     /// `named`: what describes the device that is asked for, whatever its identity.
-    std::vector<Candidate> candidates(const HidBackend& backend, const std::vector<MassagerTemplate>& templates,
-                                      const MassagerTemplate* named, const Wanted* wanted = nullptr) const {
+    std::vector<Candidate> candidates(const std::vector<MassagerTemplate>& templates, const MassagerTemplate* named,
+                                      const Wanted* wanted = nullptr) const {
         std::vector<Candidate> found;
-        for (auto& info : backend.devices()) {
+        for (auto& info : parts_.backend->devices()) {
             if (std::ranges::any_of(found, [&](const auto& one) { return one.hid->path == info.path; })) continue;
             if (wanted != nullptr && wanted->vendor &&
                 (info.vendor != *wanted->vendor || info.product != *wanted->product)) {
@@ -196,7 +167,7 @@ private:
                 const auto usage = one.byTemplate->usage;
                 if (usage && info.usage != 0 && *usage != info.usage) continue;  // another collection of it
             } else {
-                const auto descriptor = backend.descriptor(info);
+                const auto descriptor = parts_.backend->descriptor(info);
                 if (!descriptor) continue;
                 const auto parsed = parseHidDescriptor(*descriptor);
                 if (!parsed || !findHaptics(*parsed)) continue;
@@ -242,19 +213,18 @@ private:
         if (!wanted.at.empty()) std::erase_if(found, [&](const auto& one) { return one.place() != wanted.at; });
         if (found.size() == 1) return std::move(found.front());
         if (found.empty()) {
-            return fail(ErrorCode::NotFound,
-                        "device \"{}\": no such vibration device is plugged in; one with a template or a haptic "
-                        "controller is expected",
-                        wanted.text);
+            return wanted.uri.refuse(ErrorCode::NotFound,
+                                     "no such vibration device is plugged in; one with a template or a haptic "
+                                     "controller is expected");
         }
         std::vector<std::string> addresses;
         for (const auto& one : found) addresses.push_back(uriOf(one, wanted));
-        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", wanted.text,
-                    fmt::join(addresses, " or "));
+        return wanted.uri.refuseChoice(addresses);
     }
 
-    static Result<std::unique_ptr<Massager>> openHid(const Candidate& chosen, const Backend& backend,
-                                                     DeviceIdentity identity, const Clock& clock) {
+    Result<std::unique_ptr<Massager>> openHid(const Candidate& chosen, DeviceIdentity identity,
+                                              const Clock& clock) const {
+        const auto& backend = parts_.backend;
         const auto descriptor = backend->descriptor(*chosen.hid);
         if (!descriptor) return failure(descriptor);
         const auto parsed = parseHidDescriptor(*descriptor);
@@ -263,7 +233,7 @@ private:
                                                     : readHaptics(*parsed, *backend, *chosen.hid);
         if (!reports) return fail(reports.error().code, "{}: {}", chosen.label, reports.error().message);
         // The descriptor is read again at each opening: the same socket may hold another device by then.
-        OpenPort again = [backend, wanted = *chosen.hid, expected = *descriptor,
+        OpenPort again = [backend = backend, wanted = *chosen.hid, expected = *descriptor,
                           byPlace = chosen.byPlace]() -> Result<std::unique_ptr<HidPort>> {
             for (const auto& info : backend->devices()) {
                 if (byPlace && info.path != wanted.path) continue;
@@ -317,7 +287,7 @@ private:
 }  // namespace
 
 HidDriverParts systemHid(std::filesystem::path templates, UsbProvider usb) {
-    return {{hidrawBackend(), libusbHidBackend()}, std::move(templates), std::move(usb)};
+    return {hidapiBackend(), std::move(templates), std::move(usb)};
 }
 
 std::unique_ptr<Driver> makeHidDriver(HidDriverParts parts) { return std::make_unique<HidDriver>(std::move(parts)); }

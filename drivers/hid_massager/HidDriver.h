@@ -3,10 +3,8 @@
 //   hid:                                  the only one that is plugged in
 //   hid:054c:0ce6                         by vendor and product, as lsusb prints them
 //   hid:054c:0ce6?serial=1234             one of several
-//   hid:054c:0ce6?at=/dev/hidraw3         one of several that share their serial number or have none, by its node, or
-//   by
-//                                         its USB socket (libusb, Trance Vibrator)
-//   hid:054c:0ce6?backend=libusb          hidapi over libusb instead of hidraw
+//   hid:054c:0ce6?at=/dev/hidraw3         one of several that share their serial number or have none, by its node
+//   hid:0b49:064f?at=1-2                  or, for a Trance Vibrator, by its USB socket
 //   hid:1234:5678?template=dualsense      as this template says (its name, or a path to a file ending in .json)
 //   hid:0b49:064f                         the Trance Vibrator
 //
@@ -15,6 +13,8 @@
 //
 // An address that is listed, or given as a choice, opens exactly that device.
 // A device that is plugged in and may not be opened is listed with the sentence that helps.
+//
+// Thread-safety: as Driver.
 #pragma once
 
 #include <filesystem>
@@ -28,15 +28,14 @@
 namespace tacto::hid {
 
 struct HidDriverParts {
-    std::vector<std::shared_ptr<const HidBackend>> backends;  ///< the first is used unless `backend=` says otherwise
-    std::filesystem::path templates;                          ///< the folder resources/massagers
-    UsbProvider usb = {};                                     ///< for the Trance Vibrator; empty: none
+    std::shared_ptr<const HidBackend> backend;
+    std::filesystem::path templates;  ///< the folder resources/massagers
+    UsbProvider usb = {};             ///< for the Trance Vibrator; empty: none
 };
 
-/// hidapi over hidraw, and over libusb.
+/// The real devices of this computer.
 [[nodiscard]] HidDriverParts systemHid(std::filesystem::path templates, UsbProvider usb);
 
-/// `parts` has at least one backend.
 [[nodiscard]] std::unique_ptr<Driver> makeHidDriver(HidDriverParts parts);
 
 }  // namespace tacto::hid

@@ -1,5 +1,5 @@
-// HidPort.h - reports to and from one open device: a HID device through either of hidapi's backends, a device that is
-// driven by a control request, a fake in tests. Destruction closes.
+// HidPort.h - reports to and from one open device: a HID device through hidapi, a device that is driven by a control
+// request, a fake in tests. Destruction closes.
 //
 // Thread-safety: write() and feature() one caller at a time; stopNow() any thread, at any moment, also while write()
 // waits.
@@ -19,9 +19,9 @@ class HidPort {
 public:
     virtual ~HidPort() = default;
 
-    /// Sends an output report, its number in byte 0 (0: the device has none), and waits until the device has it; how
-    /// long that may take is the system's affair (hidraw: 5 s, libusb: 1 s). Returns how many bytes of `report` it
-    /// took. Errors: Device (gone, refused); Timeout where the system gave up waiting.
+    /// Sends an output report, its number in byte 0 (0: the device has none), and waits until the device has it, as
+    /// long as the system lets it (hidraw: 5 s). Returns how many bytes of `report` it took. Errors: Device (gone,
+    /// refused); Timeout where the system gave up waiting.
     [[nodiscard]] virtual Result<std::size_t> write(std::span<const std::uint8_t> report) = 0;
 
     /// Fetches the feature report whose number is in byte 0 of `report`; returns its bytes, that one included.

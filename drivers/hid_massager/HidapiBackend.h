@@ -1,7 +1,6 @@
-// HidapiBackend.h - HID devices through hidapi. Debian's two builds of it, over hidraw and over libusb, export the same
-// names; the second is linked with its names changed (CMakeLists.txt), so that one program has both.
+// HidapiBackend.h - HID devices through hidapi over hidraw, which leaves a device to the kernel's driver as well.
 //
-// hidraw leaves the device to the kernel's driver as well; libusb takes it away from that until it is closed.
+// Thread-safety: any thread.
 #pragma once
 
 #include <memory>
@@ -10,7 +9,6 @@
 
 namespace tacto::hid {
 
-[[nodiscard]] std::shared_ptr<const HidBackend> hidrawBackend();     // name "hidraw"
-[[nodiscard]] std::shared_ptr<const HidBackend> libusbHidBackend();  // name "libusb"
+[[nodiscard]] std::shared_ptr<const HidBackend> hidapiBackend();
 
 }  // namespace tacto::hid

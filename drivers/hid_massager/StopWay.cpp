@@ -1,7 +1,7 @@
 #include "drivers/hid_massager/StopWay.h"
 
-#include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 #include <string_view>
 
 namespace tacto::hid {
@@ -9,17 +9,11 @@ namespace tacto::hid {
 namespace {
 
 constexpr std::size_t kMaxBytes = 4096;
-constexpr std::string_view kNone = "-";
+constexpr std::size_t kSetupBytes = 8;
 
-template <class Bytes>
-std::string hex(const Bytes& bytes) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    if (bytes.empty()) return std::string(kNone);
+std::string hex(const std::vector<std::uint8_t>& bytes) {
     std::string text;
-    for (const std::uint8_t byte : bytes) {
-        text += kDigits[byte >> 4];
-        text += kDigits[byte & 15];
-    }
+    for (const std::uint8_t byte : bytes) text += fmt::format("{:02x}", byte);
     return text;
 }
 
@@ -32,7 +26,6 @@ std::optional<std::uint8_t> byteOf(std::string_view text) {
 
 std::optional<std::vector<std::uint8_t>> bytesOf(std::string_view text) {
     std::vector<std::uint8_t> bytes;
-    if (text == kNone) return bytes;
     if (text.empty() || text.size() % 2 != 0 || text.size() > 2 * kMaxBytes) return std::nullopt;
     for (std::size_t i = 0; i < text.size(); i += 2) {
         const auto byte = byteOf(text.substr(i, 2));
@@ -44,50 +37,17 @@ std::optional<std::vector<std::uint8_t>> bytesOf(std::string_view text) {
 
 }  // namespace
 
-bool StopWay::needsClaim() const noexcept {
-    constexpr std::uint8_t kTypeMask = 0x60;
-    constexpr std::uint8_t kVendor = 0x40;
-    constexpr std::uint8_t kRecipientMask = 0x1F;
-    constexpr std::uint8_t kInterface = 1;
-    if (kind != Kind::Usb) return false;
-    if (endpoint != 0) return true;
-    return (setup[0] & kTypeMask) != kVendor && (setup[0] & kRecipientMask) == kInterface;
-}
-
 std::vector<std::string> StopWay::arguments() const {
-    if (kind == Kind::Hidraw) return {"hidraw", node, hex(bytes)};
-    return {"usb",
-            node,
-            hex(std::array{interface}),
-            hex(std::array{endpoint}),
-            endpoint == 0 ? hex(setup) : std::string(kNone),
-            hex(bytes)};
+    return {kind == Kind::Hidraw ? "hidraw" : "usb", node, hex(bytes)};
 }
 
 std::optional<StopWay> StopWay::read(int count, char** arguments) {
-    const auto text = [&](int i) { return std::string_view(arguments[i]); };
-    StopWay way;
-    if (count == 3 && text(0) == "hidraw") {
-        const auto bytes = bytesOf(text(2));
-        if (!bytes || bytes->empty()) return std::nullopt;
-        way.node = text(1);
-        way.bytes = *bytes;
-        return way;
-    }
-    if (count != 6 || text(0) != "usb") return std::nullopt;
-    const auto interface = byteOf(text(2));
-    const auto endpoint = byteOf(text(3));
-    const auto setup = bytesOf(text(4));
-    auto bytes = bytesOf(text(5));
-    if (!interface || !endpoint || !setup || !bytes) return std::nullopt;
-    if (*endpoint == 0 ? setup->size() != way.setup.size() : !setup->empty() || bytes->empty()) return std::nullopt;
-    way.kind = Kind::Usb;
-    way.node = text(1);
-    way.interface = *interface;
-    way.endpoint = *endpoint;
-    std::ranges::copy(*setup, way.setup.begin());
-    way.bytes = std::move(*bytes);
-    return way;
+    if (count != 3) return std::nullopt;
+    const std::string_view kind = arguments[0];
+    auto bytes = bytesOf(arguments[2]);
+    if ((kind != "hidraw" && kind != "usb") || !bytes) return std::nullopt;
+    if (kind == "usb" && bytes->size() != kSetupBytes) return std::nullopt;
+    return StopWay{kind == "usb" ? Kind::Usb : Kind::Hidraw, arguments[1], std::move(*bytes)};
 }
 
 }  // namespace tacto::hid

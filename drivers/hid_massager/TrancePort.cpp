@@ -39,7 +39,7 @@ Result<std::unique_ptr<Watchdog>> TrancePort::watch(std::span<const std::uint8_t
     StopWay way;
     way.kind = StopWay::Kind::Usb;
     way.node = control_->info().node();
-    way.setup = {kSpeed.type, kSpeed.request, stop[1]};
+    way.bytes = {kSpeed.type, kSpeed.request, stop[1], 0, 0, 0, 0, 0};
     return WatchdogProcess::start(way);
 }
 

@@ -1,5 +1,7 @@
 // WatchdogLine.h - what a program and its tactoscope-watchdog say to each other over a socket that keeps messages
 // apart. Each message is one byte. The end of the line without Leave is the program's death.
+//
+// Thread-safety: values.
 #pragma once
 
 #include <chrono>

@@ -46,50 +46,28 @@ public:
         if (way_.kind == StopWay::Kind::Hidraw) {
             return outcomeOf(write(node_, way_.bytes.data(), way_.bytes.size()) == std::ssize(way_.bytes));
         }
-        if (way_.needsClaim() && !claim()) return outcomeOf(false);
-        const auto sent = outcomeOf(way_.endpoint == 0 ? sendControl() : sendInterrupt());
-        unsigned interface = way_.interface;
-        if (way_.needsClaim()) ioctl(node_, USBDEVFS_RELEASEINTERFACE, &interface);
-        return sent;
+        return outcomeOf(sendControl());
     }
 
-    /// The dead program had taken the interface from the kernel's driver, which gets it back.
+    /// The dead program had taken interface 0 from the kernel's driver, which gets it back.
     void giveBack() {
         if (way_.kind != StopWay::Kind::Usb) return;
-        usbdevfs_ioctl command{way_.interface, USBDEVFS_CONNECT, nullptr};
+        usbdevfs_ioctl command{0, USBDEVFS_CONNECT, nullptr};
         ioctl(node_, USBDEVFS_IOCTL, &command);
     }
 
 private:
-    bool claim() {
-        unsigned interface = way_.interface;
-        if (ioctl(node_, USBDEVFS_CLAIMINTERFACE, &interface) == 0) return true;
-        if (errno != EBUSY) return false;
-        // The program that this watches is silent, or the kernel's driver came back before the stop did.
-        usbdevfs_ioctl command{way_.interface, USBDEVFS_DISCONNECT, nullptr};
-        ioctl(node_, USBDEVFS_IOCTL, &command);
-        return ioctl(node_, USBDEVFS_CLAIMINTERFACE, &interface) == 0;
-    }
-
     bool sendControl() {
         const auto word = [&](std::size_t at) {
-            return static_cast<std::uint16_t>(way_.setup[at] | way_.setup[at + 1] << 8);
+            return static_cast<std::uint16_t>(way_.bytes[at] | way_.bytes[at + 1] << 8);
         };
         usbdevfs_ctrltransfer transfer{};
-        transfer.bRequestType = way_.setup[0];
-        transfer.bRequest = way_.setup[1];
+        transfer.bRequestType = way_.bytes[0];
+        transfer.bRequest = way_.bytes[1];
         transfer.wValue = word(2);
         transfer.wIndex = word(4);
-        transfer.wLength = static_cast<std::uint16_t>(way_.bytes.size());
         transfer.timeout = kTransfer_ms;
-        transfer.data = way_.bytes.data();
-        return ioctl(node_, USBDEVFS_CONTROL, &transfer) == static_cast<int>(way_.bytes.size());
-    }
-
-    bool sendInterrupt() {
-        usbdevfs_bulktransfer transfer{way_.endpoint, static_cast<unsigned>(way_.bytes.size()), kTransfer_ms,
-                                       way_.bytes.data()};
-        return ioctl(node_, USBDEVFS_BULK, &transfer) == static_cast<int>(way_.bytes.size());
+        return ioctl(node_, USBDEVFS_CONTROL, &transfer) == 0;
     }
 
     StopWay way_;

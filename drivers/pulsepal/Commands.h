@@ -1,7 +1,7 @@
 // Commands.h - what Pulse Pal 2 is told, as bytes, and what it answers. Every command is a type of its own kind of
 // value, so that a duration cannot stand in a voltage's slot, and each parameter's number is written down once.
 //
-// Source: firmware PulsePal_2_0_1.ino (sanworks/PulsePal), by ../shared/wire/pulsepal2.md. Little-endian, no checksum;
+// Source: firmware PulsePal_2_0_1.ino (sanworks/PulsePal), by pulsepal2.md. Little-endian, no checksum;
 // every command begins with D5.
 //
 // D5 52, continuous mode, is not here on purpose: outputs of this program end by themselves, and the order of its two

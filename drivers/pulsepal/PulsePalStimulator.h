@@ -7,7 +7,7 @@
 // The device reports nothing of its output: that a train runs is known from the clock alone, and while one does the
 // wire is left alone, for serial traffic shifts its pulses.
 //
-// Its three traps (../shared/wire/pulsepal2.md): a command is one transfer, for a half of one freezes the outputs; an
+// Its three traps (pulsepal2.md): a command is one transfer, for a half of one freezes the outputs; an
 // abort is sent twice, for a trigger before the first survives it; DTR must be set, or replies are lost: that is the
 // opener's (UsbBulkOptions::dataTerminalReady).
 //
@@ -18,20 +18,16 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 
 #include "core/base/Clock.h"
 #include "core/devices/Stimulator.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/pulsepal/TrainProgram.h"
 
 namespace tacto::pulsepal {
-
-/// Makes a fresh transport to the device; called again to reconnect. Errors: NotFound, Io, Device.
-using Connect = std::function<Result<std::unique_ptr<Transport>>()>;
 
 class PulsePalStimulator final : public Stimulator {
 public:

@@ -106,18 +106,15 @@ public:
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
                       DeviceSet& into) override {
-        if (into.has(Role::Oscilloscope)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": an oscilloscope is open already, and a bench has one", uri.text());
-        }
+        if (auto free = into.checkFree(Role::Oscilloscope, uri); !free) return free;
         if (!uri.parameters.empty()) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": parameter {} is not known; capture: takes none",
-                        uri.text(), uri.parameters.front().first);
+            return uri.refuse(ErrorCode::InvalidArgument, "parameter {} is not known; capture: takes none",
+                              uri.parameters.front().first);
         }
         std::error_code error;
         if (!fs::is_directory(uri.path, error)) {
-            return fail(ErrorCode::NotFound, "device \"{}\": {} is no folder; one with captures ({}) was expected",
-                        uri.text(), uri.path.empty() ? "\"\"" : uri.path, fmt::join(formats_->suffixes(), ", "));
+            return uri.refuse(ErrorCode::NotFound, "{} is no folder; one with captures ({}) was expected",
+                              uri.path.empty() ? "\"\"" : uri.path, fmt::join(formats_->suffixes(), ", "));
         }
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(uri.path, error)) {
@@ -125,8 +122,8 @@ public:
         }
         std::ranges::sort(files);
         if (files.empty()) {
-            return fail(ErrorCode::NotFound, "device \"{}\": {} holds no capture; files {} were expected", uri.text(),
-                        uri.path, fmt::join(formats_->suffixes(), ", "));
+            return uri.refuse(ErrorCode::NotFound, "{} holds no capture; files {} were expected", uri.path,
+                              fmt::join(formats_->suffixes(), ", "));
         }
         // One that is simulated makes the instrument so; one that says nothing leaves its origin unknown.
         std::optional<bool> simulated = false;

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "core/acquisition/Recording.h"
-#include "core/base/Text.h"
 #include "core/devices/ReplayedDevice.h"
+#include "core/devices/UriParameters.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {
@@ -94,23 +94,14 @@ public:
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
                       DeviceSet& into) override {
-        if (into.has(Role::Sensor)) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": a sensor is open already, and a bench has one",
-                        uri.text());
-        }
+        if (auto free = into.checkFree(Role::Sensor, uri); !free) return free;
         if (uri.path.empty()) {
             return fail(ErrorCode::InvalidArgument,
                         "device \"{}\" names no recording: write recording:FOLDER or recording:FILE.json", uri.text());
         }
-        double speed = 1;
-        for (const auto& [key, value] : uri.parameters) {
-            const auto number = key == "speed" ? parseNumber(value) : std::nullopt;
-            if (!number || !(*number >= kSlowest && *number <= kFastest)) {
-                return fail(ErrorCode::InvalidArgument, "device \"{}\": parameter {}={}; speed={} to {} was expected",
-                            uri.text(), key, value, kSlowest, kFastest);
-            }
-            speed = *number;
-        }
+        UriParameters from(uri);
+        const double speed = from.quantity("speed", "", 1, kSlowest, kFastest);
+        if (auto read = from.finish(); !read) return read;
         auto recording = Recording::open(uri.path);
         if (!recording) return failure(recording);
         DeviceIdentity identity{uri.text(),           Role::Sensor, "recording: " + recording->title,

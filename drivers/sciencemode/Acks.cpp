@@ -57,20 +57,6 @@ tl::unexpected<Error> refusal(Command command, ResultCode code) {
                 static_cast<int>(code));
 }
 
-std::string_view meaningOf(ChannelState state) noexcept {
-    switch (state) {
-        case ChannelState::Ok:
-            return "no error";
-        case ChannelState::ElectrodeOff:
-            return "an electrode is off";
-        case ChannelState::PeriodNotReached:
-            return "the repetition period was not kept";
-        case ChannelState::CurrentNotReached:
-            return "the current was not reached";
-    }
-    return "of an error that has no name";
-}
-
 Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload) {
     if (payload.size() != 1) return wrongLength(command, payload.size(), "1");
     return static_cast<ResultCode>(payload[0]);
@@ -100,30 +86,6 @@ Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, Channel
     into.sampleTime_us = wordAt(payload, kPlaceLength);
     for (std::size_t i = 0; i < kSamples; ++i) into.samples[i] = wordAt(payload, kPlaceLength + 2 + 2 * i);
     return {};
-}
-
-Result<CurrentDataAck> readCurrentDataAck(std::span<const std::uint8_t> payload) {
-    CurrentDataAck ack;
-    if (payload.size() == 1 && payload[0] != 0) {
-        ack.result = static_cast<ResultCode>(payload[0]);
-        return ack;
-    }
-    if (payload.size() != 7) return wrongLength(Command::CurrentData, payload.size(), "7");
-    if (payload[1] != 4) {
-        return fail(ErrorCode::Device, "the stimulator answered selection {} of its current data; 4 was asked for",
-                    payload[1]);
-    }
-    ack.result = static_cast<ResultCode>(payload[0]);
-    ack.running = payload[2];
-    for (std::size_t i = 0; i < kMidChannels; ++i) {
-        const unsigned nibble = (payload[3 + i / 2] >> (4 * (i % 2))) & 0xFU;
-        if (nibble > 3) {
-            return fail(ErrorCode::Device, "the stimulator reports state {} of channel {}; 0 to 3 were expected",
-                        nibble, i);
-        }
-        ack.channels[i] = static_cast<ChannelState>(nibble);
-    }
-    return ack;
 }
 
 Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload) {
@@ -191,17 +153,6 @@ Payload payloadOf(const ChannelConfigAck& ack) noexcept {
     for (const auto sample : ack.samples) {
         payload.push(static_cast<unsigned>(sample) >> 8U);
         payload.push(sample);
-    }
-    return payload;
-}
-
-Payload payloadOf(const CurrentDataAck& ack) noexcept {
-    Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
-    payload.push(4);
-    payload.push(ack.running);
-    for (std::size_t i = 0; i < kMidChannels; i += 2) {
-        payload.push(static_cast<unsigned>(ack.channels[i]) | static_cast<unsigned>(ack.channels[i + 1]) << 4U);
     }
     return payload;
 }

@@ -2,7 +2,7 @@
 //
 // A parser believes no length: a payload of another size than its ack has is refused.
 //
-// Source of every figure: ../shared/wire/sciencemode4.md.
+// Source of every figure: resources/design/wire/sciencemode4.md.
 //
 // Thread-safety: pure functions; nothing allocates on success.
 #pragma once
@@ -47,16 +47,6 @@ struct ChannelConfigAck {
     std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V; the sign is lost
 };
 
-enum class ChannelState : std::uint8_t { Ok = 0, ElectrodeOff = 1, PeriodNotReached = 2, CurrentNotReached = 3 };
-[[nodiscard]] std::string_view meaningOf(ChannelState state) noexcept;
-
-/// Of ML_GET_CURRENT_DATA.
-struct CurrentDataAck {
-    ResultCode result = ResultCode::Ok;
-    std::uint8_t running = 0;  ///< a bit per channel
-    std::array<ChannelState, kMidChannels> channels{};
-};
-
 enum class Stimulation : std::uint8_t { None = 0, LowLevel = 1, MidLevel = 2, MidLevelRunning = 3 };
 struct StimStatusAck {
     ResultCode result = ResultCode::Ok;
@@ -87,13 +77,11 @@ struct ExtendedVersionAck {
 [[nodiscard]] Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload);
 /// A result alone, or a result, a place and a measurement without samples, are acks too (an error, or no measurement).
 [[nodiscard]] Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into);
-[[nodiscard]] Result<CurrentDataAck> readCurrentDataAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload);
 
 [[nodiscard]] Payload payloadOf(const ChannelConfigAck& ack) noexcept;
-[[nodiscard]] Payload payloadOf(const CurrentDataAck& ack) noexcept;
 [[nodiscard]] Payload payloadOf(const StimStatusAck& ack) noexcept;
 [[nodiscard]] Payload payloadOf(const DeviceIdAck& ack) noexcept;
 [[nodiscard]] Payload payloadOf(const ExtendedVersionAck& ack) noexcept;

@@ -56,14 +56,8 @@ std::string_view nameOf(Command command) noexcept {
             return "LL_CHANNEL_CONFIG";
         case Command::LowLevelStop:
             return "LL_STOP";
-        case Command::MidLevelInit:
-            return "ML_INIT";
-        case Command::MidLevelUpdate:
-            return "ML_UPDATE";
         case Command::MidLevelStop:
             return "ML_STOP";
-        case Command::CurrentData:
-            return "ML_GET_CURRENT_DATA";
         case Command::DeviceId:
             return "GET_DEVICE_ID";
         case Command::Reset:
@@ -116,24 +110,6 @@ Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept {
     return {Micros(t), Milliamps((c - kZeroCurrent) * kCurrentStep_mA)};
 }
 
-Result<std::uint16_t> encodePeriod(Seconds period) {
-    const double ms = period.count() * 1e3;
-    const auto halves = stepsOf(ms, 0.5);
-    const auto quarters = stepsOf(ms, 0.25);
-    if (halves && *halves > 0 && *halves <= 0x7FFF) return static_cast<std::uint16_t>(*halves << 1);
-    if (!halves && quarters && *quarters > 0 && *quarters <= 0x7FFF) {
-        return static_cast<std::uint16_t>((*quarters << 1) | 1);
-    }
-    return fail(ErrorCode::InvalidArgument,
-                "a ScienceMode repetition period of {} ms cannot be sent: steps of 0.5 ms up to 16383.5 ms, or of 0.25 "
-                "ms up to 8191.75 ms",
-                ms);
-}
-
-Seconds decodePeriod(std::uint16_t bits) noexcept {
-    return Seconds((bits >> 1) * ((bits & 1U) != 0 ? 0.25e-3 : 0.5e-3));
-}
-
 Payload payloadOf(const LowLevelInit& request) noexcept {
     Payload payload;
     payload.push(static_cast<unsigned>(request.highVoltage) << 1U | static_cast<unsigned>(request.measurement) << 4U);
@@ -155,52 +131,6 @@ Result<Payload> payloadOf(const ChannelConfig& request) {
     return payload;
 }
 
-Payload midLevelInitPayload(bool stopAllOnError) noexcept {
-    Payload payload;
-    payload.push(stopAllOnError ? 1 : 0);
-    return payload;
-}
-
-Result<Payload> payloadOf(const MidLevelUpdate& request) {
-    Payload payload;
-    unsigned mask = 0;
-    for (std::size_t i = 0; i < kMidChannels; ++i) {
-        if (request.channels[i]) mask |= 1U << i;
-    }
-    payload.push(mask);
-    for (std::size_t i = 0; i < kMidChannels; ++i) {
-        if (!request.channels[i]) continue;
-        const auto& channel = *request.channels[i];
-        if (channel.channel != static_cast<int>(i)) {
-            return fail(ErrorCode::InvalidArgument, "ScienceMode channel {} stands in the place of channel {}",
-                        channel.channel, i);
-        }
-        if (channel.ramp < 0 || channel.ramp > 15) {
-            return fail(ErrorCode::InvalidArgument, "a ScienceMode ramp of {} does not fit 4 bits: 0 to 15",
-                        channel.ramp);
-        }
-        if (auto counted = checkCount(channel.points); !counted) return failure(counted);
-        const auto period = encodePeriod(channel.period);
-        if (!period) return failure(period);
-        if (!(channel.period > Seconds(channel.points.duration()))) {
-            return fail(ErrorCode::InvalidArgument,
-                        "a ScienceMode pulse of {} µs does not fit into its repetition period of {} ms",
-                        channel.points.duration().count(), channel.period.count() * 1e3);
-        }
-        payload.push(static_cast<unsigned>(channel.points.count - 1) << 4U | static_cast<unsigned>(channel.ramp));
-        payload.push(static_cast<unsigned>(*period) >> 8U);
-        payload.push(*period);
-        if (auto put = putPoints(channel.points, payload); !put) return failure(put);
-    }
-    return payload;
-}
-
-Payload currentDataPayload() noexcept {
-    Payload payload;
-    payload.push(4);  // the errors of all channels
-    return payload;
-}
-
 std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept {
     if (payload.size() != 1) return std::nullopt;
     const unsigned voltage = (payload[0] >> 1U) & 7U;
@@ -217,34 +147,6 @@ std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> pay
     if (!points || !rest.empty()) return std::nullopt;
     return ChannelConfig{static_cast<int>((head >> 5U) & 3U), static_cast<int>((head >> 4U) & 1U), (head & 0x80U) != 0,
                          *points};
-}
-
-std::optional<bool> readMidLevelInit(std::span<const std::uint8_t> payload) noexcept {
-    if (payload.size() != 1 || payload[0] > 1) return std::nullopt;
-    return payload[0] == 1;
-}
-
-std::optional<MidLevelUpdate> readMidLevelUpdate(std::span<const std::uint8_t> payload) noexcept {
-    if (payload.empty()) return std::nullopt;
-    const unsigned mask = payload[0];
-    auto rest = payload.subspan(1);
-    MidLevelUpdate update;
-    for (std::size_t i = 0; i < kMidChannels; ++i) {
-        if ((mask >> i & 1U) == 0) continue;
-        if (rest.size() < 3) return std::nullopt;
-        MidLevelChannel channel;
-        channel.channel = static_cast<int>(i);
-        channel.ramp = rest[0] & 0xF;
-        channel.period = decodePeriod(static_cast<std::uint16_t>(rest[1] << 8 | rest[2]));
-        const std::size_t count = (rest[0] >> 4U) + 1U;
-        rest = rest.subspan(3);
-        const auto points = takePoints(rest, count);
-        if (!points || !(channel.period > Seconds(points->duration()))) return std::nullopt;
-        channel.points = *points;
-        update.channels[i] = channel;
-    }
-    if (!rest.empty()) return std::nullopt;
-    return update;
 }
 
 }  // namespace tacto::sciencemode

@@ -3,7 +3,7 @@
 // A builder refuses what the wire cannot carry (a wrapped field would be a wrong pulse): it never rounds and never
 // clamps. The reading half serves the emulated device.
 //
-// Source of every figure: ../shared/wire/sciencemode4.md.
+// Source of every figure: resources/design/wire/sciencemode4.md.
 //
 // Thread-safety: pure functions; nothing allocates on success.
 #pragma once
@@ -21,10 +21,7 @@ enum class Command : std::uint16_t {
     LowLevelInit = 0,
     ChannelConfig = 2,
     LowLevelStop = 4,
-    MidLevelInit = 30,
-    MidLevelUpdate = 32,
     MidLevelStop = 34,
-    CurrentData = 36,
     DeviceId = 52,
     Reset = 58,
     StimStatus = 62,
@@ -46,9 +43,7 @@ inline constexpr double kCurrentStep_mA = 0.5;
 inline constexpr int kPointLeast_us = 10;
 inline constexpr int kPointMost_us = 4095;  // 12 bits
 inline constexpr std::size_t kMaxPoints = 16;
-inline constexpr std::size_t kChannels = 4;     // LL: 2 bits, and a connector bit
-inline constexpr std::size_t kMidChannels = 8;  // ML: a bit each
-inline constexpr Seconds kMaxPeriod{16.3835};   // 15 bits of 0.5 ms
+inline constexpr std::size_t kChannels = 4;  // 2 bits, and a connector bit
 
 /// A stretch of constant current. Several make a pulse.
 struct Point {
@@ -84,37 +79,16 @@ struct ChannelConfig {
     bool execute = true;
     Points points;
 };
-/// One channel of ML_UPDATE, which repeats by itself.
-struct MidLevelChannel {
-    int channel = 0;  ///< 0 to 7: 4 × connector + channel
-    int ramp = 0;     ///< 0 to 15
-    Seconds period{0};
-    Points points;
-};
-struct MidLevelUpdate {
-    std::array<std::optional<MidLevelChannel>, kMidChannels> channels;
-};
-
 using PointBytes = std::array<std::uint8_t, 4>;
 /// Errors: InvalidArgument naming the value and its range.
 [[nodiscard]] Result<PointBytes> encodePoint(const Point& point);
 [[nodiscard]] Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept;
 
-/// The 16 bits of a repetition period, `period << 1 | fine`: in 0.5 ms, or in 0.25 ms where only that is exact.
-/// Errors: InvalidArgument for a period that is not above 0, off that grid, or does not fit 15 bits.
-[[nodiscard]] Result<std::uint16_t> encodePeriod(Seconds period);
-[[nodiscard]] Seconds decodePeriod(std::uint16_t bits) noexcept;
-
 [[nodiscard]] Payload payloadOf(const LowLevelInit& request) noexcept;
 [[nodiscard]] Result<Payload> payloadOf(const ChannelConfig& request);
-[[nodiscard]] Payload midLevelInitPayload(bool stopAllOnError) noexcept;
-[[nodiscard]] Result<Payload> payloadOf(const MidLevelUpdate& request);
-[[nodiscard]] Payload currentDataPayload() noexcept;
 
 /// The other way round. Nothing when the payload is not one that the builders make.
 [[nodiscard]] std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept;
 [[nodiscard]] std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> payload) noexcept;
-[[nodiscard]] std::optional<bool> readMidLevelInit(std::span<const std::uint8_t> payload) noexcept;
-[[nodiscard]] std::optional<MidLevelUpdate> readMidLevelUpdate(std::span<const std::uint8_t> payload) noexcept;
 
 }  // namespace tacto::sciencemode

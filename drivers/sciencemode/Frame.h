@@ -1,4 +1,4 @@
-// Frame.h - the frames of ScienceMode4 (../shared/wire/sciencemode4.md), to and from bytes.
+// Frame.h - the frames of ScienceMode4 (resources/design/wire/sciencemode4.md), to and from bytes.
 //
 //   F0 | 81 lenH^55 | 81 lenL^55 | 81 crcH^55 | 81 crcL^55 | stuffed body | 0F
 //

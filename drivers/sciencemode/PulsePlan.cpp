@@ -85,22 +85,4 @@ Result<PulsePlan> planPulse(const PulseTrain& train) {
     return plan;
 }
 
-Result<Points> planRepetition(const PulseTrain& train) {
-    const auto plan = planPulse(train);
-    if (!plan) return failure(plan);
-    if (train.pulses > static_cast<int>(kMaxPoints)) {
-        return fail(ErrorCode::Device,
-                    "the stimulator refused to repeat a train of {} pulses: its {} points hold fewer", train.pulses,
-                    kMaxPoints);
-    }
-    Points points;
-    for (int pulse = 0; pulse < train.pulses; ++pulse) {
-        if (auto added = addPulse(points, train, *plan); !added) return failure(added);
-        if (pulse + 1 == train.pulses) break;
-        const Micros pause = Micros(1e6 / train.rate.value()) - plan->points.duration();
-        if (auto added = addStretch(points, "pause between pulses", pause, 0); !added) return failure(added);
-    }
-    return points;
-}
-
 }  // namespace tacto::sciencemode

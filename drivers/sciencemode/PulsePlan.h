@@ -19,16 +19,13 @@ struct PulsePlan {
     Micros second{0};  ///< 0: monophasic
 };
 
-/// What a P24 can do: a current source of 0 to 130 mA in steps of 0.5 mA, phases of 10 to 4095 µs, a dead-man of 2 s in
-/// mid level. `readsBack`: whether status() can tell |Z|.
+/// What a P24 can do: a current source of 0 to 130 mA in steps of 0.5 mA, phases of 10 to 4095 µs. The driver sends its
+/// pulses one by one, so a train ends with the program; a dead-man of 2 s is stated for that. `readsBack`: whether
+/// status() can tell |Z|.
 [[nodiscard]] SourceTraits sourceTraits(bool readsBack) noexcept;
 
 /// Its pulse. Errors: Device for a train in volts (a current source never gets volts, H4), for values off the device's
 /// grid or range, and for a pulse of more than 16 points.
 [[nodiscard]] Result<PulsePlan> planPulse(const PulseTrain& train);
-
-/// A whole train as the points of one mid-level repetition, its pauses included. Errors: as planPulse(); Device for
-/// more than 16 points (3 biphasic pulses at 100 Hz fit).
-[[nodiscard]] Result<Points> planRepetition(const PulseTrain& train);
 
 }  // namespace tacto::sciencemode

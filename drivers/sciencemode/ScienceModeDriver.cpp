@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/Text.h"
+#include "core/devices/UriParameters.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/sciencemode/TtyTransport.h"
 
@@ -29,59 +30,23 @@ std::optional<HighVoltage> highVoltageOf(std::string_view text) {
     return std::nullopt;
 }
 
-/// Takes one parameter. Nothing when it is well; else what is accepted.
-std::optional<std::string> take(std::string_view key, std::string_view value, Wanted& into) {
-    auto& settings = into.settings;
-    if (key == "channel") {
-        const auto number = parseNumber(value);
-        if (!number || !(*number == 0 || *number == 1 || *number == 2 || *number == 3)) return "0, 1, 2 or 3";
-        settings.channel = static_cast<int>(*number);
-    } else if (key == "connector") {
-        if (value != "yellow" && value != "green") return "yellow or green";
-        settings.connector = value == "green" ? 1 : 0;
-    } else if (key == "measure") {
-        if (value != "voltage" && value != "current") return "voltage or current";
-        settings.measurement = value == "voltage" ? Measurement::Voltage : Measurement::Current;
-    } else if (key == "voltage") {
-        const auto level = highVoltageOf(value);
-        if (!level) return "30, 60, 90, 120 or 150 V";
-        settings.highVoltage = *level;
-    } else if (key == "tty") {
-        if (value.empty()) return "a terminal's path, as /dev/ttyACM0";
-        into.terminal = value;
-    } else {
-        return "there is no such parameter: it takes channel, connector, measure, voltage, tty";
-    }
-    return std::nullopt;
-}
-
 Result<Wanted> readUri(const DeviceUri& uri) {
+    UriParameters from(uri);
     Wanted wanted;
-    std::vector<std::string_view> seen;
-    for (const auto& [key, value] : uri.parameters) {
-        if (std::ranges::find(seen, key) != seen.end()) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": {} is given twice", uri.text(), key);
-        }
-        seen.push_back(key);
-        if (const auto accepted = take(key, value, wanted)) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": {}={} is not accepted: {}", uri.text(), key, value,
-                        *accepted);
-        }
+    auto& settings = wanted.settings;
+    settings.channel = from.integer("channel", 0, 0, 3);
+    settings.connector = from.choice("connector", "yellow", {"yellow", "green"}) == "green" ? 1 : 0;
+    const bool current = from.choice("measure", "voltage", {"voltage", "current"}) == "current";
+    settings.measurement = current ? Measurement::Current : Measurement::Voltage;
+    if (const auto text = from.text("voltage")) {
+        const auto level = highVoltageOf(*text);
+        if (!level) from.refuse("voltage", *text, "30, 60, 90, 120 or 150 V");
+        settings.highVoltage = level.value_or(HighVoltage::Default);
     }
+    wanted.terminal = from.text("tty");
+    if (wanted.terminal == "") from.refuse("tty", "", "a terminal's path, as /dev/ttyACM0");
+    if (const auto read = from.finish(); !read) return failure(read);
     return wanted;
-}
-
-/// Opens the port that was opened before: by serial number wherever it is plugged in now, else in its place.
-Connect connectTo(std::shared_ptr<TransportPorts> ports, const TransportPort& port) {
-    auto address = addressOf(port, ports->list());
-    return [ports = std::move(ports), address = std::move(address)]() -> Result<std::unique_ptr<Transport>> {
-        const auto found = portsNamed(address, ports->list());
-        if (found.size() != 1) {
-            return fail(ErrorCode::NotFound, "the stimulator sciencemode:{} is not plugged in", address);
-        }
-        if (!found.front().obstacle.empty()) return fail(ErrorCode::Io, "{}", found.front().obstacle);
-        return ports->open(found.front());
-    };
 }
 
 /// Asks who is there, then how it is.
@@ -106,9 +71,8 @@ Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string plac
 std::vector<TransportPort> thatAnswer(const std::vector<TransportPort>& all, TransportPorts& ports,
                                       const Clock& clock) {
     auto answering = all;
-    std::erase_if(answering, [&](const TransportPort& port) {
-        return !port.obstacle.empty() || !ask(ports.open(port), port.place, {}, clock);
-    });
+    std::erase_if(answering,
+                  [&](const TransportPort& port) { return !ask(openPort(ports, port), port.place, {}, clock); });
     return answering;
 }
 
@@ -123,8 +87,7 @@ auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock&
     const bool unnamed = uri.path.empty() && all.size() > 1;
     const auto meant = unnamed ? thatAnswer(all, *ports, clock) : byAddress;
     if (meant.size() > 1) {
-        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", uri.text(),
-                    choiceOf("sciencemode", meant, all));
+        return uri.refuseChoice(addressesOf("sciencemode", meant, all));
     }
     if (unnamed && meant.size() == 1) all = meant;
     const auto named = [&](const TransportPort& port) {
@@ -146,8 +109,8 @@ auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock&
     }
     const auto what =
         uri.path.empty() ? std::string("no stimulator answers") : fmt::format("no stimulator \"{}\" answers", uri.path);
-    if (problem) return fail(problem->code, "device \"{}\": {}: {}", uri.text(), what, problem->message);
-    return fail(ErrorCode::NotFound, "device \"{}\": {}: none is plugged in (USB 0483:5740)", uri.text(), what);
+    if (problem) return uri.refuse(problem->code, "{}: {}", what, problem->message);
+    return uri.refuse(ErrorCode::NotFound, "{}: none is plugged in (USB 0483:5740)", what);
 }
 
 class ScienceModeDriver final : public Driver {
@@ -158,23 +121,14 @@ public:
     bool runsOnVirtualClock() const noexcept override { return false; }
 
     std::vector<DeviceIdentity> list() const override {
-        std::vector<DeviceIdentity> found;
-        if (!ports_) return found;
-        const auto all = ports_->list();
-        for (const auto& port : all) {
-            found.push_back({"sciencemode:" + addressOf(port, all), Role::Stimulator,
-                             "ScienceMode stimulator, or another STM32 serial port", port.serial, "", false,
-                             port.obstacle});
-        }
-        return found;
+        if (!ports_) return {};
+        return identitiesAt(*ports_, "sciencemode", Role::Stimulator,
+                            "ScienceMode stimulator, or another STM32 serial port");
     }
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
                       DeviceSet& into) override {
-        if (into.has(Role::Stimulator)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": a stimulator is open already, and a bench has one of each", uri.text());
-        }
+        if (auto free = into.checkFree(Role::Stimulator, uri); !free) return free;
         const auto wanted = readUri(uri);
         if (!wanted) return failure(wanted);
         auto opened = wanted->terminal ? openTerminal(uri, *wanted, context) : openPort(uri, *wanted, context);
@@ -194,7 +148,8 @@ private:
     Opened openPort(const DeviceUri& uri, const Wanted& wanted, const OpenContext& context) const {
         return theOneThatAnswers(uri, ports_.get(), context.clock,
                                  [&](const TransportPort& port, std::string_view identity) {
-                                     return ScienceModeStimulator::open(connectTo(ports_, port), uri.text(), identity,
+                                     auto connect = connectTo(ports_, addressOf(port, ports_->list()), "stimulator");
+                                     return ScienceModeStimulator::open(std::move(connect), uri.text(), identity,
                                                                         wanted.settings, context.clock);
                                  });
     }
@@ -206,8 +161,7 @@ private:
 
 Result<Sighting> lookAt(const DeviceUri& uri, TransportPorts* ports, const Clock& clock) {
     if (uri.scheme != "sciencemode") {
-        return fail(ErrorCode::InvalidArgument, "device \"{}\" is no ScienceMode stimulator; sciencemode: is expected",
-                    uri.text());
+        return uri.refuse(ErrorCode::InvalidArgument, "this is no ScienceMode stimulator; sciencemode: is expected");
     }
     const auto wanted = readUri(uri);
     if (!wanted) return failure(wanted);

@@ -57,7 +57,7 @@ ScienceModeStimulator::~ScienceModeStimulator() {
 void ScienceModeStimulator::disconnect() {
     exchange_.reset();
     gone_ = true;
-    level_ = Level::None;
+    lowLevelOffs_ = kNever;
     std::unique_ptr<Transport> old;  // closed after the lock is let go
     const std::scoped_lock urgent(urgent_);
     old = std::move(transport_);
@@ -87,7 +87,7 @@ void ScienceModeStimulator::endEverything() {
     for (const auto stop : {Command::LowLevelStop, Command::MidLevelStop}) {
         static_cast<void>(exchange_->ask(stop));
     }
-    level_ = Level::None;
+    lowLevelOffs_ = kNever;
 }
 
 Result<void> ScienceModeStimulator::command(Command command, const Payload& payload, std::uint64_t offs) {
@@ -105,15 +105,14 @@ Result<void> ScienceModeStimulator::command(Command command, const Payload& payl
 }
 
 Result<void> ScienceModeStimulator::ensureLowLevel(std::uint64_t offs) {
-    if (level_ == Level::Low && levelOffs_ == offs) return {};
-    level_ = Level::None;
+    if (lowLevelOffs_ == offs) return {};
+    lowLevelOffs_ = kNever;
     if (auto done =
             command(Command::LowLevelInit, payloadOf(LowLevelInit{settings_.highVoltage, settings_.measurement}), offs);
         !done) {
         return done;
     }
-    level_ = Level::Low;
-    levelOffs_ = offs;
+    lowLevelOffs_ = offs;
     return {};
 }
 

@@ -5,7 +5,7 @@
 // between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
 // electrode that is found off, an ack that is missing or a refusal ends the train there. Pulses never follow each other
 // faster than the approved rate, and a train whose next pulse is kMaxLate late (a host that slept) is given up.
-// repeat() uses mid level, for bench loads, and only where the device was opened for it.
+// What repeats by itself in the device (mid level) is never begun here, only ended.
 //
 // A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
 // the fault does.
@@ -16,14 +16,13 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
 
 #include "core/base/Clock.h"
 #include "core/devices/Stimulator.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/sciencemode/Exchange.h"
 #include "drivers/sciencemode/PulsePlan.h"
 #include "drivers/sciencemode/ReadBack.h"
@@ -31,16 +30,12 @@
 namespace tacto::sciencemode {
 
 struct StimulatorSettings {
-    int channel = 0;        ///< 0 to 3
-    int connector = 0;      ///< 0 yellow, 1 green
-    bool midLevel = false;  ///< repeat() is allowed: only where the device's dead-man is tested (H2), by no URI
+    int channel = 0;    ///< 0 to 3
+    int connector = 0;  ///< 0 yellow, 1 green
     /// Whether firmware honours a fixed level is unverified, so the compliance stated to the gate stays 150 V.
     HighVoltage highVoltage = HighVoltage::Default;
     Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude
 };
-
-/// Makes a fresh transport to the device; called again to reconnect. Errors: NotFound, Device.
-using Connect = std::function<Result<std::unique_ptr<Transport>>()>;
 
 /// What a device says it is.
 struct Identification {
@@ -51,7 +46,7 @@ struct Identification {
 /// Errors: Device when it is none of this kind or speaks another protocol than version 4 (or 3: RehaMove3); Timeout.
 [[nodiscard]] Result<Identification> identify(Exchange& exchange);
 
-class ScienceModeStimulator final : public Stimulator, public RepeatingStimulator {
+class ScienceModeStimulator final : public Stimulator {
 public:
     static constexpr Seconds kMaxLate{0.04};
 
@@ -72,14 +67,11 @@ public:
     /// Stimulator says, what planPulse() refuses, an expired approval, and a train while another is in progress. A
     /// train that forceOff() overtakes is cut, which is no error; an electrode that is off is told by status().
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
-    /// Refuses, besides, a device that was not opened for mid level, an interval shorter than the approved one, and
-    /// what ML_UPDATE cannot carry.
-    [[nodiscard]] Result<void> repeat(ApprovedTrain&& train, Seconds interval) override;
     /// During a train, what its last pulse told; otherwise the device is asked. What ended a train early is the error
     /// of the status() after it, once. `imbalance` is a lower bound (see ReadBack.h) and mostly absent.
     [[nodiscard]] Result<StimulatorStatus> status() override;
-    /// Reads the channels' state in mid level, which feeds the dead-man; nothing in low level. Errors: as status(), and
-    /// Device for a channel that reports a fault or has stopped.
+    /// Asks the device nothing: this driver sends every pulse itself, so a train ends with the program. Errors: Device
+    /// when the device is gone.
     [[nodiscard]] Result<void> keepAlive() override;
     void forceOff() noexcept override;
 
@@ -106,7 +98,6 @@ private:
         Instant due{0};     ///< of the next; a pulse that slipped moves those after it
         std::uint64_t offs = 0;
     };
-    enum class Level { None, Low, Mid };
     enum class Sent { Answered, Stopped };  ///< Stopped: forceOff() came between
 
     ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock);
@@ -123,11 +114,11 @@ private:
                                          PulseReading& reading, Instant& written);
     [[nodiscard]] Result<StimulatorStatus> askStatus();
 
+    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
     [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
         return offs_.load(std::memory_order_acquire) != offs;
     }
-    [[nodiscard]] bool playing() const noexcept;  // with state_ held
-    [[nodiscard]] bool repeating() const noexcept { return midOffs_.load() == offs_.load(); }
+    [[nodiscard]] bool playing() const noexcept;                // with state_ held
     [[nodiscard]] StimulatorStatus snapshot(Instant at) const;  // with state_ held
     void firePlayed(Instant now);
     void sendStop() noexcept;
@@ -141,16 +132,13 @@ private:
 
     std::mutex io_;  // the transport's one caller; held for an exchange. Locked before the others
     std::unique_ptr<Exchange> exchange_;
-    Level level_ = Level::None;
-    std::uint64_t levelOffs_ = 0;  // offs_ when level_ was reached: any later stop ended it
+    std::uint64_t lowLevelOffs_ = kNever;  // offs_ when low level was initialised: any later stop ended it
     std::atomic<bool> gone_{false};
 
     std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it
     std::unique_ptr<Transport> transport_;
 
-    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
-    std::atomic<std::uint64_t> offs_{0};          // forceOff() calls
-    std::atomic<std::uint64_t> midOffs_{kNever};  // offs_ when a repetition began
+    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls
 
     mutable std::mutex state_;  // all below; held for copies only
     std::optional<Play> play_;

@@ -1,4 +1,4 @@
-// How a train becomes pulses on the wire: deliver(), the driver's own thread, and mid level.
+// How a train becomes pulses on the wire: deliver(), and the driver's own thread.
 #include <algorithm>
 #include <utility>
 
@@ -10,11 +10,6 @@ namespace {
 /// A pulse this much of a period late moves those after it, so that none follows too fast.
 constexpr double kGridSlack = 0.1;
 
-std::size_t midChannelOf(const StimulatorSettings& settings) noexcept {
-    const int channel = 4 * settings.connector + settings.channel;
-    return static_cast<std::size_t>(channel);
-}
-
 }  // namespace
 
 Result<void> ScienceModeStimulator::accepts(const ApprovedTrain& train) {
@@ -24,7 +19,6 @@ Result<void> ScienceModeStimulator::accepts(const ApprovedTrain& train) {
                     toSeconds(now - train.expires()) * 1e3);
     }
     if (gone_) return fail(ErrorCode::Device, "stimulator {} is gone: unplugged, or its bus failed", identity_.serial);
-    if (repeating()) return fail(ErrorCode::Device, "the stimulator refused a train while another repeats");
     const std::scoped_lock state(state_);
     if (playing()) return fail(ErrorCode::Device, "the stimulator refused a train while another is in progress");
     return {};
@@ -82,7 +76,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
     Instant first{0};
     const auto fired = firePulse(*plan, *request, offs, reading, first);
     if (!fired) {
-        level_ = Level::None;
+        lowLevelOffs_ = kNever;
         return failure(fired);
     }
     if (*fired == Sent::Stopped) return {};
@@ -140,7 +134,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     if (!fired) {
         // No caller waits for this answer, so no other would switch off.
         forceOff();
-        level_ = Level::None;
+        lowLevelOffs_ = kNever;
     }
     const std::scoped_lock state(state_);
     if (!fired) {
@@ -179,74 +173,8 @@ void ScienceModeStimulator::run() {
     }
 }
 
-Result<void> ScienceModeStimulator::repeat(ApprovedTrain&& train, Seconds interval) {
-    const ApprovedTrain consumed = std::move(train);
-    const auto offs = offs_.load(std::memory_order_acquire);
-    if (!settings_.midLevel) {
-        return fail(ErrorCode::Unsupported, "the stimulator was opened for low level and repeats nothing");
-    }
-    if (!(interval >= consumed.interval() - Seconds(1e-9))) {
-        return fail(ErrorCode::Device, "the stimulator refused to repeat every {:.3f} s what was approved for {:.3f} s",
-                    interval.count(), consumed.interval().count());
-    }
-    const auto points = planRepetition(consumed.train());
-    if (!points) return failure(points);
-    MidLevelUpdate update;
-    const auto index = midChannelOf(settings_);
-    update.channels[index] = MidLevelChannel{static_cast<int>(index), 0, interval, *points};
-    const auto request = payloadOf(update);
-    if (!request) return fail(ErrorCode::Device, "{}", request.error().message);
-
-    const std::scoped_lock io(io_);
-    if (const auto ready = accepts(consumed); !ready) return ready;
-    level_ = Level::None;
-    if (auto done = command(Command::MidLevelInit, midLevelInitPayload(true), offs); !done) return done;
-    if (const auto still = accepts(consumed); !still) return still;
-    if (stoppedSince(offs)) return {};
-    const auto updated = command(Command::MidLevelUpdate, *request, offs);
-    if (stoppedSince(offs)) return {};
-    if (!updated) return updated;
-    level_ = Level::Mid;
-    levelOffs_ = offs;
-    midOffs_ = offs;
-    const std::scoped_lock state(state_);
-    ++trains_;
-    reading_ = {};
-    ended_.reset();
-    return {};
-}
-
 Result<void> ScienceModeStimulator::keepAlive() {
     if (gone_) return fail(ErrorCode::Device, "stimulator {} is gone: unplugged, or its bus failed", identity_.serial);
-    if (!repeating()) return {};
-    const std::scoped_lock io(io_);
-    const auto answer = exchange_->ask(Command::CurrentData, currentDataPayload().view());
-    if (exchange_->gone()) gone_ = true;
-    if (!repeating()) return {};  // stopped meanwhile
-    if (!answer) return failure(answer);
-    const auto ack = readCurrentDataAck(*answer);
-    if (!ack) return failure(ack);
-    if (ack->result != ResultCode::Ok && ack->result != ResultCode::Electrode) {
-        return refusal(Command::CurrentData, ack->result);
-    }
-    const auto index = midChannelOf(settings_);
-    const auto channel = ack->channels[index];
-    {
-        const std::scoped_lock state(state_);
-        reading_.electrode = channel == ChannelState::ElectrodeOff || ack->result == ResultCode::Electrode
-                                 ? ElectrodeState::Open
-                                 : ElectrodeState::NotMeasured;
-    }
-    if (channel != ChannelState::Ok || ack->result != ResultCode::Ok) {
-        forceOff();
-        const auto what = channel != ChannelState::Ok ? meaningOf(channel) : meaningOf(ack->result);
-        return fail(ErrorCode::Device, "the stimulator's repetition was ended because {}", what);
-    }
-    if ((ack->running >> index & 1U) == 0) {
-        forceOff();
-        return fail(ErrorCode::Device,
-                    "the stimulator's repetition has stopped by itself: its dead-man time of 2 s had passed");
-    }
     return {};
 }
 

@@ -1,9 +1,8 @@
 #include "drivers/sensor_board/SensorBoardDriver.h"
 
-#include <algorithm>
 #include <optional>
 
-#include "core/base/Text.h"
+#include "core/devices/UriParameters.h"
 #include "drivers/sensor_board/PluggedBoard.h"
 
 namespace tacto {
@@ -15,65 +14,34 @@ struct Wanted {
     std::optional<std::string> terminal;
 };
 
-/// Takes one parameter. Nothing when it is well; else what is accepted.
-std::optional<std::string> take(std::string_view key, std::string_view value, Wanted& into) {
-    const auto rate = [&](double low, double high) -> std::optional<double> {
-        const auto hertz = parseQuantity(value, "Hz");
-        if (!hertz || !(*hertz >= low && *hertz <= high)) return std::nullopt;
-        return hertz;
-    };
-    if (key == "rate") {
-        const auto hertz = rate(100, 20'000);  // what the roughness chain takes (core/dsp/StreamCheck.h)
-        if (!hertz) return "100 Hz to 20 kHz";
-        into.settings.accelerationRate_hz = *hertz;
-    } else if (key == "slowrate") {
-        const auto hertz = rate(20, 2000);  // slower than 20 Hz is stale between two samples (H7)
-        if (!hertz) return "20 Hz to 2 kHz";
-        into.settings.slowRate_hz = *hertz;
-    } else if (key == "tty") {
-        if (value.empty()) return "a terminal's path, as /dev/ttyACM0";
-        into.terminal = value;
-    } else {
-        return "there is no such parameter: it takes rate, slowrate, tty";
-    }
-    return std::nullopt;
-}
-
 Result<Wanted> readUri(const DeviceUri& uri) {
+    UriParameters from(uri);
     Wanted wanted;
     wanted.settings.uri = uri.text();
     wanted.settings.serial = uri.path;
-    std::vector<std::string_view> seen;
-    for (const auto& [key, value] : uri.parameters) {
-        if (std::ranges::find(seen, key) != seen.end()) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": {} is given twice", uri.text(), key);
-        }
-        seen.push_back(key);
-        if (const auto accepted = take(key, value, wanted)) {
-            return fail(ErrorCode::InvalidArgument, "device \"{}\": {}={} is not accepted: {}", uri.text(), key, value,
-                        *accepted);
-        }
-    }
+    // What the roughness chain takes (core/dsp/StreamCheck.h).
+    wanted.settings.accelerationRate_hz = from.quantity("rate", "Hz", 0, 100, 20'000);
+    // Slower than 20 Hz is stale between two samples (H7).
+    wanted.settings.slowRate_hz = from.quantity("slowrate", "Hz", 0, 20, 2000);
+    wanted.terminal = from.text("tty");
+    if (wanted.terminal == "") from.refuse("tty", "", "a terminal's path, as /dev/ttyACM0");
+    if (const auto read = from.finish(); !read) return failure(read);
     return wanted;
 }
 
 using Opened = Result<std::unique_ptr<SensorBoard>>;
 
 Opened tryPort(SensorBoardPorts& ports, const TransportPort& port, const Wanted& wanted, const Clock& clock) {
-    if (!port.obstacle.empty()) return fail(ErrorCode::Io, "{}", port.obstacle);
-    auto transport = ports.open(port);
+    auto transport = openPort(ports, port);
     if (!transport) return failure(transport);
     return SensorBoard::open(std::move(*transport), wanted.settings, clock);
 }
 
-Opened openPort(SensorBoardPorts& ports, const Wanted& wanted, const Clock& clock) {
+Opened findBoard(SensorBoardPorts& ports, const DeviceUri& uri, const Wanted& wanted, const Clock& clock) {
     const auto& path = wanted.settings.serial;
     const auto all = ports.list();
     const auto named = portsNamed(path, all);
-    if (named.size() > 1) {
-        return fail(ErrorCode::InvalidArgument, "device \"{}\" could be {}: name one", wanted.settings.uri,
-                    choiceOf("sensor", named, all));
-    }
+    if (named.size() > 1) return uri.refuseChoice(addressesOf("sensor", named, all));
     std::optional<Error> problem;
     for (const auto& port : named.empty() ? all : named) {
         // Without a serial number in its USB descriptor a board is asked for it.
@@ -85,8 +53,8 @@ Opened openPort(SensorBoardPorts& ports, const Wanted& wanted, const Clock& cloc
         if (!problem) problem = opened.error();
     }
     if (problem) return tl::unexpected<Error>(*problem);
-    return fail(ErrorCode::NotFound, "device \"{}\": no such sensor board is plugged in (USB {:04x}:{:04x} \"{}\")",
-                wanted.settings.uri, kSensorBoardVendor, kSensorBoardProduct, kSensorBoardName);
+    return uri.refuse(ErrorCode::NotFound, "no such sensor board is plugged in (USB {:04x}:{:04x} \"{}\")",
+                      kSensorBoardVendor, kSensorBoardProduct, kSensorBoardName);
 }
 
 class SensorBoardDriver final : public Driver {
@@ -97,21 +65,12 @@ public:
     bool runsOnVirtualClock() const noexcept override { return false; }
 
     std::vector<DeviceIdentity> list() const override {
-        std::vector<DeviceIdentity> found;
-        const auto all = ports_->list();
-        for (const auto& port : all) {
-            found.push_back({"sensor:" + addressOf(port, all), Role::Sensor, "sensor board", port.serial, "", false,
-                             port.obstacle});
-        }
-        return found;
+        return identitiesAt(*ports_, "sensor", Role::Sensor, "sensor board");
     }
 
     Result<void> open(const DeviceUri& uri, const std::set<Role>& /*wanted*/, const OpenContext& context,
                       DeviceSet& into) override {
-        if (into.has(Role::Sensor)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\": a sensor is open already, and a bench has one of each", uri.text());
-        }
+        if (auto free = into.checkFree(Role::Sensor, uri); !free) return free;
         auto opened = openSensorBoard(ports_, uri, context.clock);
         if (!opened) return failure(opened);
         into.sensor = std::make_unique<PluggedBoard>(
@@ -134,7 +93,7 @@ Result<std::unique_ptr<SensorBoard>> openSensorBoard(const std::shared_ptr<Senso
                                                      const DeviceUri& uri, const Clock& clock) {
     const auto wanted = sensorboard::readUri(uri);
     if (!wanted) return failure(wanted);
-    if (!wanted->terminal) return sensorboard::openPort(*ports, *wanted, clock);
+    if (!wanted->terminal) return sensorboard::findBoard(*ports, uri, *wanted, clock);
     auto transport = ports->openTerminal(*wanted->terminal);
     if (!transport) return failure(transport);
     return SensorBoard::open(std::move(*transport), wanted->settings, clock);

@@ -2,10 +2,23 @@
 
 #include <cmath>
 
+#include "core/devices/UriParameters.h"
 #include "core/encoding/CalibrationLine.h"
-#include "drivers/simulated/UriParameters.h"
 
 namespace tacto::sim {
+
+namespace {
+
+/// All `fault=` parameters.
+FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepted) {
+    FaultSchedule schedule;
+    for (const auto value : from.each("fault")) {
+        if (const auto added = schedule.add(value, accepted); !added) from.refuse(added.error().message);
+    }
+    return schedule;
+}
+
+}  // namespace
 
 Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
     UriParameters from(uri);
@@ -41,8 +54,8 @@ Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
     sensor.forceGain = from.quantity("forcegain", "", sensor.forceGain, 0.1, 10);
     sensor.taxelsInCounts = from.choice("taxelunit", "Pa", {"Pa", "count"}) == "count";
     sensor.dropouts = from.quantity("dropouts", "", 0, 0, 0.9);
-    sensor.faults = from.faults({Fault::Unplug, Fault::Stale, Fault::Dropout, Fault::Nan, Fault::Garbage, Fault::Drift,
-                                 Fault::Stuck, Fault::Late});
+    sensor.faults = faultsIn(from, {Fault::Unplug, Fault::Stale, Fault::Dropout, Fault::Nan, Fault::Garbage,
+                                    Fault::Drift, Fault::Stuck, Fault::Late});
     if (const auto read = from.finish(); !read) return failure(read);
     finger.seed = sensor.seed = seed;
     finger.tickRate_hz = sensor.rate_hz * SimulatedSensor::ticksPerSample(sensor.rate_hz);
@@ -106,8 +119,8 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
             from.refuse("load", *text, load.error().message);
         }
     }
-    settings.faults = from.faults({Fault::Unplug, Fault::StuckOn, Fault::Open, Fault::Short, Fault::Drift,
-                                   Fault::Garbage, Fault::Late, Fault::Nan});
+    settings.faults = faultsIn(from, {Fault::Unplug, Fault::StuckOn, Fault::Open, Fault::Short, Fault::Drift,
+                                      Fault::Garbage, Fault::Late, Fault::Nan});
     if (const auto read = from.finish(); !read) return failure(read);
     return out;
 }
@@ -135,7 +148,7 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
     flaws.currentGain = from.quantity("currentgain", "", flaws.currentGain, 0.5, 2);
     flaws.currentOffset = from.quantity("currentoffset", "A", 0, -1, 1);
     flaws.timeBase = from.quantity("timebase", "", flaws.timeBase, 0.8, 1.25);
-    flaws.faults = from.faults({Fault::Unplug, Fault::Garbage, Fault::Late, Fault::Stale, Fault::Nan});
+    flaws.faults = faultsIn(from, {Fault::Unplug, Fault::Garbage, Fault::Late, Fault::Stale, Fault::Nan});
     if (const auto read = from.finish(); !read) return failure(read);
     flaws.seed = seed;
     return out;
@@ -147,7 +160,7 @@ Result<MassagerSettings> readMassager(const DeviceUri& uri) {
     settings.spinUp = Seconds(from.quantity("spinup", "s", settings.spinUp.count(), 1e-3, 1));
     settings.topFrequency = Hertz(from.quantity("frequency", "Hz", settings.topFrequency.value(), 10, 1000));
     settings.topAcceleration_m_s2 = from.quantity("acceleration", "m/s2", settings.topAcceleration_m_s2, 0.1, 200);
-    settings.faults = from.faults({Fault::Unplug, Fault::StuckOn, Fault::Late});
+    settings.faults = faultsIn(from, {Fault::Unplug, Fault::StuckOn, Fault::Late});
     if (const auto read = from.finish(); !read) return failure(read);
     return settings;
 }

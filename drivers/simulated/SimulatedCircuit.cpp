@@ -97,12 +97,7 @@ void SimulatedCircuit::advance(double now_s) {
         begin(onset, end_s);
         ++pulse_;
         if (pulse_ < train_->pulses || faults_.active(Fault::StuckOn, toInstant(onset))) continue;
-        if (train_->repeatEvery_s > 0) {
-            trainOnset_ += train_->repeatEvery_s;
-            pulse_ = 0;
-        } else {
-            train_.reset();
-        }
+        train_.reset();
     }
 }
 

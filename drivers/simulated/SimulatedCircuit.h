@@ -45,9 +45,8 @@ struct DrivenTrain {
     DrivenPulse pulse;
     double onset_s = 0;
     int pulses = 1;
-    double period_s = 0.01;    ///< between pulses of the train
-    double repeatEvery_s = 0;  ///< onset to onset of trains; 0 = once
-    double sourceOhm = 0;      ///< of a voltage source: its level sags by what the load's d.c. resistance draws
+    double period_s = 0.01;  ///< between pulses
+    double sourceOhm = 0;    ///< of a voltage source: its level sags by what the load's d.c. resistance draws
     SourceLimits limits;
 };
 

@@ -76,17 +76,13 @@ public:
         if (uri.path.empty()) return openWanted(uri, wanted, context, into);
         for (const auto& kind : kinds()) {
             if (kind.path != uri.path) continue;
-            if (into.has(kind.role)) {
-                return fail(ErrorCode::InvalidArgument,
-                            "device \"{}\": a {} is open already, and a bench has one of each", uri.text(),
-                            nameOf(kind.role));
-            }
+            if (auto free = into.checkFree(kind.role, uri); !free) return free;
             return openOne(kind, uri, context, into);
         }
-        return fail(ErrorCode::NotFound,
-                    "device \"{}\": there is no simulated \"{}\": sim:finger, sim:stimulator, sim:oscilloscope, "
-                    "sim:massager, or sim: for all that are needed",
-                    uri.text(), uri.path);
+        return uri.refuse(ErrorCode::NotFound,
+                          "there is no simulated \"{}\": sim:finger, sim:stimulator, sim:oscilloscope, sim:massager, "
+                          "or sim: for all that are needed",
+                          uri.path);
     }
 
 private:
@@ -105,15 +101,14 @@ private:
             const auto owner = std::ranges::find_if(
                 kinds(), [&](const Kind& kind) { return std::ranges::find(kind.ownKeys, key) != kind.ownKeys.end(); });
             if (owner == kinds().end()) {
-                return fail(ErrorCode::InvalidArgument,
-                            "device \"{}\": \"{}\" belongs to no single simulated device: write, for example, "
-                            "sim:stimulator?{}={}",
-                            uri.text(), key, key, value);
+                return uri.refuse(ErrorCode::InvalidArgument,
+                                  "\"{}\" belongs to no single simulated device: write, for example, "
+                                  "sim:stimulator?{}={}",
+                                  key, key, value);
             }
             if (into.has(owner->role) || !wanted.contains(owner->role)) {
-                return fail(ErrorCode::InvalidArgument,
-                            "device \"{}\": \"{}\" is for a simulated {}, which this opens none of", uri.text(), key,
-                            nameOf(owner->role));
+                return uri.refuse(ErrorCode::InvalidArgument, "\"{}\" is for a simulated {}, which this opens none of",
+                                  key, nameOf(owner->role));
             }
             parts[static_cast<std::size_t>(owner - kinds().begin())].parameters.emplace_back(key, value);
         }

@@ -12,6 +12,8 @@
 // however often the devices are read. Every key is checked; an unknown one is refused with the list of those known.
 //
 // The set gets a SurfacePresenter with a simulated finger and a LoadFitter with a simulated stimulator.
+//
+// Thread-safety: as Driver.
 #pragma once
 
 #include <memory>

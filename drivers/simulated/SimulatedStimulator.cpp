@@ -96,12 +96,12 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
     magnitude = magnitude > 0 ? std::max(0.0, gain * magnitude + settings_.offset) : 0;
     const double sign = train.polarity == Polarity::Positive ? 1 : -1;
     const double lead = sign * magnitude;
-    const auto phase = [&](Seconds told) {
-        return std::max(0.0, settings_.widthGain * told.count() + settings_.widthError.count());
+    const auto phase = [&](Seconds programmed) {
+        return std::max(0.0, settings_.widthGain * programmed.count() + settings_.widthError.count());
     };
     const double width = phase(train.phaseWidth);
-    const double told = Seconds(train.interPhaseGap).count();
-    const double gap = told > 0 ? std::max(0.0, told + settings_.gapError.count()) : 0;
+    const double programmed = Seconds(train.interPhaseGap).count();
+    const double gap = programmed > 0 ? std::max(0.0, programmed + settings_.gapError.count()) : 0;
     double second = 0;
     double secondWidth = width;
     if (train.shape == PulseShape::SymmetricBiphasic) second = -lead;
@@ -156,7 +156,8 @@ Instant SimulatedStimulator::allowedUntil(Instant now) const noexcept {
     return deadMan.count() > 0 ? now + toInstant(deadMan) : Instant::max();
 }
 
-Result<void> SimulatedStimulator::start(const ApprovedTrain& approved, Seconds repeatEvery) {
+Result<void> SimulatedStimulator::deliver(ApprovedTrain&& consumed) {
+    const ApprovedTrain approved = std::move(consumed);
     const auto offs = offs_.load(std::memory_order_acquire);
     const Instant now = world_->clock().now();
     if (settings_.faults.active(Fault::Unplug, now)) return answers(now);
@@ -176,7 +177,6 @@ Result<void> SimulatedStimulator::start(const ApprovedTrain& approved, Seconds r
         toSeconds(now) + late + std::max(0.0, settings_.latency.count() + settings_.jitter.count() * timing_.normal());
     driven.pulses = train.pulses;
     driven.period_s = 1 / train.rate.value();
-    driven.repeatEvery_s = repeatEvery.count();
     driven.sourceOhm = settings_.sourceOhm;
     driven.limits.compliance_V = settings_.traits.compliance.value();
     if (settings_.traits.currentLimit.value() > 0) {
@@ -185,20 +185,6 @@ Result<void> SimulatedStimulator::start(const ApprovedTrain& approved, Seconds r
     world_->circuit().play(driven, now, allowedUntil(now));
     if (offs_.load(std::memory_order_acquire) != offs) world_->circuit().cut(now);
     return answers(now);
-}
-
-Result<void> SimulatedStimulator::deliver(ApprovedTrain&& train) {
-    const ApprovedTrain consumed = std::move(train);
-    return start(consumed, Seconds(0));
-}
-
-Result<void> SimulatedStimulator::repeat(ApprovedTrain&& train, Seconds interval) {
-    const ApprovedTrain consumed = std::move(train);
-    if (!(interval > consumed.train().duration()) || !(interval <= Seconds(3600))) {
-        return fail(ErrorCode::Device, "the simulated stimulator cannot repeat a train of {:.3f} s every {:.3f} s",
-                    consumed.train().duration().count(), interval.count());
-    }
-    return start(consumed, interval);
 }
 
 Result<StimulatorStatus> SimulatedStimulator::status() {

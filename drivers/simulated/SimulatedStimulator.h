@@ -53,7 +53,7 @@ struct StimulatorStatement {
 /// `settings` with flaws drawn from its seed; their accuracy is stated in its traits.
 [[nodiscard]] StimulatorSettings drawnFlaws(const StimulatorSettings& settings);
 
-class SimulatedStimulator final : public Stimulator, public RepeatingStimulator, public WorldMember {
+class SimulatedStimulator final : public Stimulator, public WorldMember {
 public:
     static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
     static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMaxDrift
@@ -71,7 +71,6 @@ public:
     /// Refuses, besides what Stimulator says, a train outside its range, in the other source's unit, expired, or while
     /// another is in progress.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
-    [[nodiscard]] Result<void> repeat(ApprovedTrain&& train, Seconds interval) override;
     [[nodiscard]] Result<StimulatorStatus> status() override;
     [[nodiscard]] Result<void> keepAlive() override;
     void forceOff() noexcept override;
@@ -81,7 +80,6 @@ public:
     [[nodiscard]] DrivenPulse drivenPulse(const PulseTrain& train, Instant now) const;
 
 private:
-    [[nodiscard]] Result<void> start(const ApprovedTrain& approved, Seconds repeatEvery);
     [[nodiscard]] Result<void> accepts(const PulseTrain& train) const;
     [[nodiscard]] Result<void> answers(Instant now) const;
     [[nodiscard]] Instant allowedUntil(Instant now) const noexcept;

@@ -1,6 +1,8 @@
 // ByteRing.h - bytes in the order they came, at most so many: the oldest are dropped and counted.
 //
-// Allocates at construction only. Thread-safety: none; its owner locks.
+// Allocates at construction only.
+//
+// Thread-safety: none; its owner locks.
 #pragma once
 
 #include <algorithm>

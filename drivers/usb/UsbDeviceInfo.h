@@ -1,4 +1,6 @@
 // UsbDeviceInfo.h - what is known of a USB device without opening it.
+//
+// Thread-safety: values; describe() any thread.
 #pragma once
 
 #include <cstdint>

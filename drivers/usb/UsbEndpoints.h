@@ -3,6 +3,8 @@
 // refused here, before anything is claimed or allocated by them.
 //
 // Source of the ranges: USB 2.0 chapters 5.8.3 and 9.6, USB 3.2 chapter 9.6.6; CDC 1.2 section 5.2.3.2 (union).
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

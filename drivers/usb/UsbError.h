@@ -1,4 +1,6 @@
 // UsbError.h - libusb's error codes as sentences. An error names the device, what was tried, and what happened.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <string_view>

@@ -4,6 +4,8 @@
 // Callbacks run on the event thread, take `mutex`, note what happened and notify. The lock is held for a submission
 // or a copy at most, never while something is waited for, so that a stop passes through at once. libusb_open(),
 // libusb_close() and the synchronous calls are never made under it: libusb holds locks of theirs in callbacks.
+//
+// Thread-safety: `mutex` guards the rest; callbacks run on the event thread.
 #pragma once
 
 #include <chrono>

@@ -11,6 +11,7 @@
 protocol({
   title: "Encoding comparison",
   purpose: "Both assignments and the three curves side by side, in just-noticeable differences",
+  kind: "encoding-comparison",
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     repeats: { label: "Repeats per condition", type: "integer", min: 2, max: 200, value: 20 },

@@ -2,6 +2,7 @@
 protocol({
   title: "Live drive",
   purpose: "Drive the stimulator from a sliding finger, and record both.",
+  kind: "live",
   needs: ["sensor", "stimulator"],
   parameters: {
     duration: { label: "Duration, where the sensor does not end by itself", unit: "s", min: 0.1, max: 86400, value: 30 },

@@ -4,6 +4,7 @@
 protocol({
   title: "Signal separability",
   purpose: "Can an oscilloscope tell the four tactile conditions apart?",
+  kind: "separability",
   needs: ["sensor", "stimulator", "oscilloscope"],
   parameters: {
     repeats: { label: "Repeats per condition", type: "integer", min: 2, max: 500, value: 25 },

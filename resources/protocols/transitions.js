@@ -10,6 +10,7 @@
 protocol({
   title: "Transitions",
   purpose: "The largest step from train to train, and the time until a change is felt and is complete",
+  kind: "transitions",
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     repeats: { label: "Steps of each kind", type: "integer", min: 1, max: 100, value: 10 },

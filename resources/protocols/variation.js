@@ -4,6 +4,7 @@
 protocol({
   title: "Variation: virtual participants",
   purpose: "How many people do the amplitudes serve, how well would those tell the conditions apart, and what can a pilot of a few people show?",
+  kind: "variation",
   needs: [],
   parameters: {
     participants: { label: "Virtual participants", type: "integer", min: 2, max: 20000, value: 200 },

@@ -4,9 +4,11 @@
 #include <numbers>
 
 #include "core/acquisition/Recording.h"
+#include "tests/support/Figures.h"
 #include "tests/support/Support.h"
 
 using namespace tacto;
+using tacto::test::figuresOf;
 using tacto::test::kNoSharedData;
 using tacto::test::sharedData;
 
@@ -41,14 +43,14 @@ double powerAt(const RecordedStream& stream, double f_hz) {
 TEST(RealRecordings, BioTacSlidesOpenAsTheyAre) {
     const auto folder = sharedData("biotac");
     if (!folder) GTEST_SKIP() << kNoSharedData;
-    for (const auto* name : {"mat1_1", "mat6_1", "mat11_1", "mat16_1"}) {
-        const auto recording = Recording::open(*folder / name);
+    for (const auto& numpy : figuresOf("real_slides").at("biotac")) {
+        const auto recording = Recording::open(*folder / numpy.at("name").get<std::string>());
         ASSERT_TRUE(recording) << recording.error().message;
-        EXPECT_NEAR(recording->find(StreamKind::Acceleration)->info.rate_hz, 2200, 0.001)
+        EXPECT_NEAR(recording->find(StreamKind::Acceleration)->info.rate_hz, numpy.at("rate_hz").get<double>(), 1e-6)
             << "the median of its printed steps says 2197.8";
         EXPECT_EQ(recording->find(StreamKind::Acceleration)->info.unit, StreamUnit::Count);
         EXPECT_TRUE(recording->find(StreamKind::Acceleration)->health.continuous());
-        EXPECT_NEAR(recording->find(StreamKind::Taxels)->info.rate_hz, 99.99, 0.01);
+        EXPECT_NEAR(recording->find(StreamKind::Taxels)->info.rate_hz, numpy.at("taxel_rate_hz").get<double>(), 1e-6);
         EXPECT_EQ(recording->find(StreamKind::Taxels)->info.channels, 19U);
         EXPECT_GT(recording->find(StreamKind::Force)->health.gaps, 50U) << "force comes in bursts";
     }
@@ -60,8 +62,9 @@ TEST(RealRecordings, HapmatIsGravitiesAtAHundredHertz) {
     const auto recording = Recording::open(*file);
     ASSERT_TRUE(recording) << recording.error().message;
     const auto& stream = recording->streams.at(0);
-    EXPECT_EQ(stream.samples.samples(), 6001U) << "the blank last line is no sample";
-    EXPECT_NEAR(stream.info.rate_hz, 100, 1e-9);
+    const auto& numpy = figuresOf("real_slides").at("stick");
+    EXPECT_EQ(stream.samples.samples(), numpy.at("samples").get<std::size_t>()) << "the blank last line is no sample";
+    EXPECT_NEAR(stream.info.rate_hz, numpy.at("rate_hz").get<double>(), 1e-9);
     EXPECT_DOUBLE_EQ(stream.samples.values[0], -0.000542 * 9.80665);
 }
 
@@ -69,11 +72,12 @@ TEST(RealRecordings, HapmatIsGravitiesAtAHundredHertz) {
 TEST(RealRecordings, FabricSlideShowsTheGratingAtEverySpeed) {
     const auto folder = sharedData("fabric_slide");
     if (!folder) GTEST_SKIP() << kNoSharedData;
-    for (const double speed_mmps : {5.0, 10.0, 20.0, 30.0}) {
+    for (const auto& numpy : figuresOf("real_slides").at("grating")) {
+        const auto speed_mmps = numpy.at("speed_mmps").get<double>();
         const auto recording = Recording::open(*folder / fmt::format("Board2mm_F120_V-{}mmps_0.json", speed_mmps));
         ASSERT_TRUE(recording) << recording.error().message;
         const auto& stream = recording->streams.at(0);
-        EXPECT_NEAR(stream.info.rate_hz, 35.6, 0.05);
+        EXPECT_NEAR(stream.info.rate_hz, numpy.at("taxel_rate_hz").get<double>(), 1e-6);
         double best_hz = 0;
         double best = 0;
         for (double f = 0.15 * speed_mmps; f < 0.45 * speed_mmps; f += 0.003 * speed_mmps) {
@@ -83,7 +87,7 @@ TEST(RealRecordings, FabricSlideShowsTheGratingAtEverySpeed) {
                 best_hz = f;
             }
         }
-        EXPECT_NEAR(speed_mmps / best_hz, 3.98, 0.06) << "period in mm at " << speed_mmps << " mm/s";
+        EXPECT_NEAR(speed_mmps / best_hz, numpy.at("period_mm").get<double>(), 0.06) << "at " << speed_mmps << " mm/s";
     }
 }
 

@@ -116,13 +116,13 @@ TEST(RecordingRefusal, FilesOutsideTheFolder) {
 TEST(RecordingRefusal, Descriptions) {
     EXPECT_THAT(refused(kGoodCsv, "{ \"streams\": [").message, HasSubstr("recording.json"));
     EXPECT_THAT(refused(kGoodCsv, "").message, HasSubstr("JSON"));
-    EXPECT_THAT(refused(kGoodCsv, "[1, 2]").message, HasSubstr("an object with \"streams\""));
+    EXPECT_THAT(refused(kGoodCsv, "[1, 2]").message, HasSubstr("[1,2] stands where an object is expected"));
     EXPECT_THAT(refused(kGoodCsv, "{}").message, HasSubstr("\"streams\" is missing"));
-    EXPECT_THAT(refused(kGoodCsv, R"({"streams": [3]})").message, HasSubstr("stream 1"));
+    EXPECT_THAT(refused(kGoodCsv, R"({"streams": [3]})").message, HasSubstr("streams[0]"));
     EXPECT_THAT(refused(kGoodCsv, R"({"title": 3, "streams": [3]})").message, HasSubstr("\"title\""));
     EXPECT_THAT(refused(kGoodCsv, describe(R"("baseline": [1, 0],)")).message, HasSubstr("begin < end"));
     EXPECT_THAT(refused(kGoodCsv, describe(R"("baseline": [7, 9],)")).message, HasSubstr("lies outside the data"));
-    EXPECT_THAT(refused(kGoodCsv, describe(R"("contact": [3],)")).message, HasSubstr("\"contact\""));
+    EXPECT_THAT(refused(kGoodCsv, describe(R"("contact": [3],)")).message, HasSubstr("\"contact[0]\""));
     EXPECT_THAT(refused(kGoodCsv, describe(R"("contact": 3,)")).message, HasSubstr("\"contact\""));
 }
 

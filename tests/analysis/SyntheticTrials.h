@@ -1,4 +1,5 @@
-// SyntheticTrials.h - trials that numpy can make too, digit for digit: no random generator.
+// SyntheticTrials.h - trials that numpy can make too, digit for digit: no random generator. tests/reference/trials.py
+// makes the same.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/Separability.h"
+#include "core/analysis/separability/Separability.h"
 
 namespace tacto::test {
 
@@ -21,13 +22,13 @@ struct TrialDesign {
     int repeats = 25;
 };
 
-/// def wave(i,k): return np.sqrt(2)*np.sin(2*np.pi*((i+1)*0.6180339887498949*(k+1)%1.0))
+/// Of mean square 1 and mean 0 over many i: multiples of the golden ratio spread evenly over a sine.
 inline double wave(int i, int k) {
     return std::sqrt(2.0) * std::sin(2 * std::numbers::pi * std::fmod((i + 1) * 0.6180339887498949 * (k + 1), 1.0));
 }
 
-/// u = wave(i,c); v = 0.5*u + sqrt(0.75)*wave(i,c+4); amplitude = A[c]+sa*u, interval = T[c]+st*v; conditions one after
-/// the other within each repeat, as a protocol presents them.
+/// Amplitude and interval correlate by a half; conditions one after the other within each repeat, as a protocol
+/// presents them.
 inline std::vector<SeparabilityTrial> trialsOf(const TrialDesign& design) {
     std::vector<SeparabilityTrial> trials;
     for (int i = 0; i < design.repeats; ++i) {

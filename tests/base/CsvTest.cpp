@@ -1,4 +1,3 @@
-#include <cmath>
 #include <gtest/gtest.h>
 
 #include "core/base/Csv.h"
@@ -32,31 +31,27 @@ TEST(Csv, FindsItsSeparator) {
     EXPECT_EQ(tabs.fields(), (Fields{"1", "2"}));
 }
 
-TEST(Csv, NumbersKeepTheirLine) {
-    const auto table = parseNumericCsv("t,x,\n# note\n0,1,\n1,-nan\n2,,\n", "f.csv").value();
-    EXPECT_EQ(table.names, (std::vector<std::string>{"t", "x"}));
-    ASSERT_EQ(table.rows(), 3U);
-    EXPECT_EQ(table.lines, (std::vector<std::size_t>{3, 4, 5}));
-    EXPECT_EQ(table.columns[0], (std::vector<double>{0, 1, 2}));
-    EXPECT_EQ(table.columns[1][0], 1);
-    EXPECT_TRUE(std::isnan(table.columns[1][1]));
-    EXPECT_TRUE(std::isnan(table.columns[1][2]));
+TEST(NamedRows, FindColumnsByNameAndKeepTheirLine) {
+    NamedRows rows("t,x,note\n# remark\n0,1,\n1\n", "f.csv", "columns t and x were expected", "a row per sample");
+    EXPECT_EQ(rows.column({"time", "t"}), 0U);
+    EXPECT_EQ(rows.column({"x"}), 1U);
+    EXPECT_EQ(rows.find({"y", "z"}), std::nullopt);
+    EXPECT_EQ(rows.column({"y", "z"}).error().message, "f.csv:1: no column 'y'; columns t and x were expected");
+    EXPECT_EQ(rows.next(), true);
+    EXPECT_EQ(rows[1], "1");
+    EXPECT_EQ(rows.refuse("{} is wrong", rows[0]).value().message, "f.csv:3: 0 is wrong");
+    EXPECT_EQ(rows.next().error().message, "f.csv:4: 1 fields; at least 2 were expected, as in the header");
 }
 
-TEST(Csv, ADecimalCommaIsNotGuessedAt) {
+TEST(NamedRows, ATableOfNothingIsRefused) {
     RecordProperty("hazard", "H10");
-    const auto table = parseNumericCsv("t;x\n0;1,5\n", "f.csv");
-    ASSERT_FALSE(table);
-    EXPECT_EQ(table.error().message, "f.csv:2: '1,5' in column 'x'; a number was expected");
-}
-
-TEST(Csv, BinaryRubbishIsRefusedAndNotQuotedWhole) {
-    RecordProperty("hazard", "H10");
-    const std::string rubbish = "a,b\n" + std::string(5000, '\x01') + ",2\n";
-    const auto table = parseNumericCsv(rubbish, "f.csv");
-    ASSERT_FALSE(table);
-    EXPECT_LT(table.error().message.size(), 200U);
-    EXPECT_FALSE(parseNumericCsv(std::string(100, '\0'), "f.csv"));
+    NamedRows none("# remark\n", "f.csv", "column t was expected", "a row per sample");
+    EXPECT_EQ(none.column({"t"}).error().message, "f.csv: the file is empty; column t was expected");
+    NamedRows header("t\n", "f.csv", "column t was expected", "a row per sample");
+    EXPECT_EQ(header.column({"t"}), 0U);
+    EXPECT_EQ(header.next().error().message, "f.csv: nothing after the header line; a row per sample was expected");
+    NamedRows rubbish(std::string_view("\0\x01\x02", 3), "f.csv", "column t was expected", "a row per sample");
+    EXPECT_LT(rubbish.column({"t"}).error().message.size(), 200U);
 }
 
 TEST(Csv, AFileIsReadWholeOrNamed) {

@@ -26,6 +26,14 @@ TEST(QuantityText, ScalesTheUnitToTheValue) {
     EXPECT_EQ(scaledText(1.679e-05, "s", 3), "16.8 µs");
 }
 
+TEST(QuantityText, RoundsBeforeItChoosesThePrefix) {
+    EXPECT_EQ(scaledText(999.96, "V", 3), "1.00 kV");
+    EXPECT_EQ(scaledText(1e6, "S/s", 4), "1.000 MS/s");
+    EXPECT_EQ(scaledText(-0.5, "V", 3), "-500 mV");
+    EXPECT_EQ(scaledText(std::nan(""), "V"), "–");
+    EXPECT_EQ(scaledText(std::numeric_limits<double>::infinity(), "Ω"), "–");
+}
+
 TEST(QuantityText, WritesAValueFarBelowItsUncertaintyAsZero) {
     EXPECT_EQ(measuredText(-5.5e-11, 4e-7, "s"), "0.0 ± 0.4 µs");
     EXPECT_EQ(measuredText(0, 4e-7, "s"), "0.0 ± 0.4 µs");

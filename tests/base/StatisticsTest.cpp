@@ -5,18 +5,18 @@
 
 #include "core/base/Random.h"
 #include "core/base/Statistics.h"
+#include "tests/support/Figures.h"
 
 namespace tacto::test {
 namespace {
 
 TEST(Statistics, AgreesWithNumpy) {
-    // x = [3.1, -2, 7.5, 0.25, 11]; np.mean, np.std(ddof=1), np.median
-    const std::vector<double> readings{3.1, -2, 7.5, 0.25, 11};
-    const auto s = statisticsOf(readings);
+    const auto& numpy = figuresOf("estimates").at("sample");
+    const auto s = statisticsOf(numpy.at("readings").get<std::vector<double>>());
     EXPECT_EQ(s.n, 5U);
-    EXPECT_NEAR(s.mean, 3.97, 1e-12);
-    EXPECT_NEAR(s.sd, 5.294289376299713, 1e-12);
-    EXPECT_EQ(s.median, 3.1);
+    EXPECT_NEAR(s.mean, numpy.at("mean").get<double>(), 1e-12);
+    EXPECT_NEAR(s.sd, numpy.at("sd").get<double>(), 1e-12);
+    EXPECT_EQ(s.median, numpy.at("median").get<double>());
     EXPECT_EQ(s.min, -2);
     EXPECT_EQ(s.max, 11);
 }

@@ -37,20 +37,6 @@ TEST(ParseQuantity, RefusesSomethingElse) {
     }
 }
 
-TEST(FormatQuantity, ShowsSignificantDigitsWithAPrefix) {
-    EXPECT_EQ(formatQuantity(2.26e-3, "A"), "2.26 mA");
-    EXPECT_EQ(formatQuantity(10'000, "Ω"), "10.0 kΩ");
-    EXPECT_EQ(formatQuantity(999.96, "V", 3), "1.00 kV");
-    EXPECT_EQ(formatQuantity(-0.5, "V"), "-500 mV");
-    EXPECT_EQ(formatQuantity(0, "V"), "0.00 V");
-    EXPECT_EQ(formatQuantity(3497, "Ω", 4), "3.497 kΩ");
-}
-
-TEST(FormatQuantity, ShowsADashForWhatIsNotFinite) {
-    EXPECT_EQ(formatQuantity(std::nan(""), "V"), "–");
-    EXPECT_EQ(formatQuantity(std::numeric_limits<double>::infinity(), "Ω"), "–");
-}
-
 TEST(Split, KeepsEmptyParts) {
     const auto parts = split("a,,b,", ',');
     ASSERT_EQ(parts.size(), 4U);

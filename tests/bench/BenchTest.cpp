@@ -320,7 +320,7 @@ TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
 
 TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
     RecordProperty("hazard", "H9");
-    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is told something else
+    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is programmed to something else
     open({});
     ASSERT_TRUE(arm());
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
@@ -332,9 +332,9 @@ TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
     for (const auto& capture : *captures) {
         const auto measured = measureTrains({&capture, 1}, "voltage");
         ASSERT_TRUE(measured);
-        EXPECT_NEAR(measured->amplitude.mean, capture.told, 0.01 * capture.told);
-        EXPECT_NE(capture.told, last);
-        last = capture.told;
+        EXPECT_NEAR(measured->amplitude.mean, capture.programmed, 0.01 * capture.programmed);
+        EXPECT_NE(capture.programmed, last);
+        last = capture.programmed;
     }
     EXPECT_EQ(last, bench_->telemetry().trainAmplitude);
 }

@@ -31,7 +31,7 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
     open({"sim:stimulator?gain=0.95", "sim:oscilloscope?gain=1"});
     ASSERT_TRUE(arm());
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
-    EXPECT_NEAR(deliveredAtFull(), 40, 0.3) << "told 42.1 V, and the paper's 40 V are judged by what comes out";
+    EXPECT_NEAR(deliveredAtFull(), 40, 0.3) << "programmed 42.1 V, and the paper's 40 V are judged by what comes out";
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40 / 0.95, 0.01);
     const auto seen = bench_->telemetry();
     for (const auto& row : seen.exposure()) {
@@ -41,8 +41,8 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
 
 TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     RecordProperty("hazard", "H1");
-    // Each phase 0.97 times what it is told and 4.2 us, each gap 6.4 us short; the computer's clock 0.4 % slow. So that
-    // 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
+    // Each phase 0.97 times what is programmed and 4.2 us, each gap 6.4 us short; the computer's clock 0.4 % slow. So
+    // that 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
     const std::vector<std::string> off{"sim:stimulator?widthgain=0.97&widtherror=4.233us&gaperror=-6.398us",
                                        "sim:oscilloscope?timebase=1.004"};
     const auto measured = [&] {
@@ -61,10 +61,10 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
                                          CalibrationLine{1.004, 0, 0.5, 2},
                                          CalibrationLine{0.97 * 1.004, 4.23e-6, 100e-6, 400e-6},
                                          CalibrationLine{1.004, -6.44e-6, 50e-6, 400e-6}};
-    const auto told = measured();
-    EXPECT_NEAR(told.width_s.mean, 200e-6, 0.3e-6);
-    EXPECT_NEAR(told.gap_s.mean, 100e-6, 0.3e-6);
-    EXPECT_NEAR(told.interval_s.mean, 0.5, 5e-6);
+    const auto programmed = measured();
+    EXPECT_NEAR(programmed.width_s.mean, 200e-6, 0.3e-6);
+    EXPECT_NEAR(programmed.gap_s.mean, 100e-6, 0.3e-6);
+    EXPECT_NEAR(programmed.interval_s.mean, 0.5, 5e-6);
     EXPECT_NEAR(bench_->telemetry().interval_s, 0.5, 1e-12) << "the command is what is wanted";
 
     // Left aside, all of them are.
@@ -79,7 +79,8 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
 
 TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     RecordProperty("hazard", "H1");
-    // It says the stimulator is weak; it is not. What is told must keep every limit too: 42.1 V would make 10.2 mA RMS.
+    // It says the stimulator is weak; it is not. What is programmed must keep every limit too: 42.1 V would make 10.2
+    // mA RMS.
     calibration_ = weak_;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
     ASSERT_TRUE(arm("140 ohm"));
@@ -91,7 +92,7 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
 
 TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     RecordProperty("hazard", "H1");
-    // 40 V told and, by the old calibration, 47.2 V delivered: 8.4 mA RMS of the told ones would pass.
+    // 40 V programmed and, by the old calibration, 47.2 V delivered: 8.4 mA RMS of the programmed ones would pass.
     calibration_ = StimulatorCalibration{{1.18, 0, 10, 40}};
     calibrationHolds_ = false;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
@@ -102,7 +103,7 @@ TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
     EXPECT_FALSE(bench_->calibration());
 
-    // The command is what is told: 40 V on 1 kohm go out as they are.
+    // The command is what is programmed: 40 V on 1 kohm go out as they are.
     open({});
     ASSERT_TRUE(arm());
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
@@ -184,7 +185,7 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenArmsNobodyAnyMore) {
 
 TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhatWasTold) {
     RecordProperty("hazard", "H1");
-    // It says the stimulator is weak; it is strong. 47.05 V are told for 40, and 49.4 come out.
+    // It says the stimulator is weak; it is strong. 47.05 V are programmed for 40, and 49.4 come out.
     calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
     open({"sim:stimulator?gain=1.05"});
     ASSERT_TRUE(arm());
@@ -205,7 +206,7 @@ TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheComm
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("told 49.38 for the amplitude 40"), std::string::npos)
+    EXPECT_NE(waited.error().message.find("program 49.38 for the amplitude 40"), std::string::npos)
         << waited.error().message;
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }

@@ -163,17 +163,17 @@ TEST_F(SeenLoadTest, ConfirmsOnlyWhatWasCommandedIntoALoad) {
     ASSERT_TRUE(captures);
     const Capture& shown = captures->front();
     PulseTrain commanded;
-    commanded.amplitude = Volts(shown.told);
+    commanded.amplitude = Volts(shown.programmed);
     const auto load = loadConfirmedBy(shown, commanded);
     ASSERT_TRUE(load) << load.error().message;
     EXPECT_NEAR(load->value(), 1000, 30);
     for (const double factor : {0.79, 1.27}) {
-        commanded.amplitude = Volts(factor * shown.told);
+        commanded.amplitude = Volts(factor * shown.programmed);
         EXPECT_FALSE(loadConfirmedBy(shown, commanded)) << factor;
     }
-    commanded.amplitude = Milliamps(shown.told);
+    commanded.amplitude = Milliamps(shown.programmed);
     EXPECT_TRUE(loadConfirmedBy(shown, commanded)) << "as many mA as volts into 1 kohm";
-    commanded.amplitude = Volts(shown.told);
+    commanded.amplitude = Volts(shown.programmed);
     Capture silent = shown;
     for (auto& sample : silent.channels[1].samples) sample = 0;
     EXPECT_FALSE(loadConfirmedBy(silent, commanded)) << "voltage and no current";

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/sciencemode/EmulatedPty.h"
 #include "tests/cli/TerminalCli.h"
+#include "tests/support/InTime.h"
+#include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 namespace tacto::test {
 namespace {
@@ -67,7 +68,7 @@ TEST_F(RunOnHardware, DeliversNothingThatNobodyConfirmedAndSaysWhatToAnswer) {
 TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
     for (const auto& [typed, code] : {std::pair("yes\n", 4), std::pair("\n", 4), std::pair("bench load\n", 0)}) {
         TerminalCli cli(desk_, words(), 200);
-        ASSERT_TRUE(cli.waitFor("anything else delivers nothing: ")) << cli.screen();
+        ASSERT_IN_TIME(cli.waitFor("anything else delivers nothing: ")) << cli.screen();
         EXPECT_THAT(cli.screen(), HasSubstr(serial_.text() + " into 1 kohm, up to 40 V and 50 mA"));
         EXPECT_EQ(putOut(), 0U) << "before it was confirmed";
         cli.type(typed);

@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 class CalibratedRun : public ::testing::Test {
 protected:
-    /// On a stimulator that delivers less than it is told, longer phases and shorter gaps, timed by a computer whose
-    /// clock is slow: 0.3 % by the oscilloscope. Its JSON.
+    /// On a stimulator that delivers less than it is programmed to, longer phases and shorter gaps, timed by a computer
+    /// whose clock is slow: 0.3 % by the oscilloscope. Its JSON.
     [[nodiscard]] Json run(Words words) {
         const Words device{"--device",         "sim:stimulator?gain=0.97&widtherror=5.2us&gaperror=-7.5us",
                            "--device",         "sim:oscilloscope?timebase=1.003",
@@ -77,7 +77,7 @@ TEST_F(CalibratedRun, ACalibrationThatIsKeptIsAppliedFromThenOn) {
     EXPECT_NEAR(newer["results"]["amplitude"]["gain"].get<double>(), 0.97, 0.004);
     EXPECT_TRUE(newer["results"]["stored"]["supersedes"].is_string());
     const auto& first = newer["results"]["amplitude"]["levels"].front();
-    EXPECT_NEAR(first["commanded"].get<double>(), 10, 1e-9) << "told as it is";
+    EXPECT_NEAR(first["commanded"].get<double>(), 10, 1e-9) << "programmed as it is";
     EXPECT_THAT(calibrationIn(newer["session"]), HasSubstr("left aside"));
 }
 

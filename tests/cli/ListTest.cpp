@@ -50,7 +50,10 @@ TEST(Protocols, ShippedOnesAreListedWithWhatTheyNeedAndTheirParameters) {
     EXPECT_EQ(ran.err, "");
     const auto all = jsonOf(ran);
     ASSERT_TRUE(all.is_array());
-    for (const auto& protocol : all) expectKeys(protocol, {"name", "title", "needs", "parameters"}, "a protocol");
+    for (const auto& protocol : all) {
+        expectKeys(protocol, {"name", "title", "needs", "parameters"}, "a protocol");
+        EXPECT_EQ(protocol["kind"], protocol["name"]) << "what its results are";
+    }
     const auto separability = protocolNamed(all, "separability");
     EXPECT_THAT(separability["needs"], testing::IsSupersetOf({Json("stimulator"), Json("oscilloscope")}));
     EXPECT_EQ(protocolNamed(all, "live")["needs"], Json({"sensor", "stimulator"}));

@@ -240,12 +240,13 @@ TEST(RunLoadSafety, ItsReportHasSixPagesAtMostAndSaysFromHowManyTrainsAWindowIs)
 TEST(Run, WhoDidItAndTheAmbientConditionsStandInItsReport) {
     const Desk desk;
     Words words{
-        "run",  "encoding-comparison", "--device",         "sim:",  "--operator",  "Åsa <b>Lind</b>", "--report",
-        "html", "--ambient",           "22.5 °C, 45 % RH", "--out", desk.at("out")};
+        "run",  "encoding-comparison", "--device",         "sim:",     "--operator", "Åsa <b>Lind</b>", "--report",
+        "html", "--ambient",           "22.5 °C, 45 % RH", "--sample", "S-014",      "--out",           desk.at("out")};
     ASSERT_EQ(desk.run(words).code, 0);
     const auto page = contentOf(desk.named("out", ".html").at(0));
     EXPECT_THAT(page, HasSubstr("Åsa &lt;b&gt;Lind&lt;/b&gt;"));
     EXPECT_THAT(page, HasSubstr("22.5 °C, 45 % RH"));
+    EXPECT_THAT(page, HasSubstr("S-014"));
     EXPECT_THAT(page, HasSubstr("not recorded")) << "the reviewer";
     words[5] = "two\nlines";
     words.back() = desk.at("refused");

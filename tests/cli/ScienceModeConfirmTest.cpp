@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "drivers/sciencemode/EmulatedPty.h"
 #include "tests/cli/TerminalCli.h"
+#include "tests/support/InTime.h"
+#include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 namespace tacto::test {
 namespace {
@@ -30,7 +31,7 @@ protected:
 
 TEST_F(ScienceModeConfirm, TheTypedWordDelivers) {
     TerminalCli cli(desk_, words());
-    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     EXPECT_THAT(cli.screen(), HasSubstr("EMU0000001 (simulated)"));
     EXPECT_THAT(cli.screen(), HasSubstr("5 mA, 200 us a phase, 100 us between"));
     EXPECT_THAT(cli.screen(), HasSubstr("bench load of 1 kohm"));
@@ -44,7 +45,7 @@ TEST_F(ScienceModeConfirm, TheTypedWordDelivers) {
 TEST_F(ScienceModeConfirm, AnythingElseDeliversNothing) {
     for (const auto* typed : {"\n", "y\n", "yes\n", "bench\n", "bench loads\n", "Bench load\n", "\x04"}) {
         TerminalCli cli(desk_, words());
-        ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+        ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
         cli.type(typed);
         EXPECT_EQ(cli.wait(), 4) << typed << cli.screen();
         EXPECT_THAT(cli.screen(), HasSubstr("not confirmed: nothing was delivered"));
@@ -55,7 +56,7 @@ TEST_F(ScienceModeConfirm, AnythingElseDeliversNothing) {
 TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
     TerminalCli cli(desk_, words());
     cli.type("bench load\n");
-    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("no\n");
     EXPECT_EQ(cli.wait(), 4) << cli.screen();
     EXPECT_EQ(putOut(), 0U);
@@ -64,7 +65,7 @@ TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
 TEST_F(ScienceModeConfirm, CtrlCWhileItWaitsDeliversNothing) {
     RecordProperty("hazard", "H2");
     TerminalCli cli(desk_, words());
-    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("bench load\x03");
     EXPECT_EQ(cli.wait(), 4) << cli.screen();
     EXPECT_THAT(cli.screen(), HasSubstr("stopped by the operator"));
@@ -76,7 +77,7 @@ TEST_F(ScienceModeConfirm, CtrlCWhileItWaitsDeliversNothing) {
 
 TEST_F(ScienceModeConfirm, ADrawingIsAsWideAsItsTerminal) {
     TerminalCli cli(desk_, words(), 50);
-    ASSERT_TRUE(cli.waitFor(kQuestion)) << cli.screen();
+    ASSERT_IN_TIME(cli.waitFor(kQuestion)) << cli.screen();
     cli.type("bench load\n");
     ASSERT_EQ(cli.wait(), 0) << cli.screen();
     const auto axis = cli.screen().find("+---");

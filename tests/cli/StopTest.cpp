@@ -7,6 +7,7 @@
 
 #include "core/base/Result.h"
 #include "tests/cli/Shape.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -39,9 +40,9 @@ protected:
 TEST_F(Stop, AnInterruptEndsALiveRunWithExitCodeFour) {
     RecordProperty("hazard", "H2");
     auto run = live();
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     const auto begun = Clock::now();
-    ASSERT_TRUE(run.waitUntil([&] { return secondsSince(begun) > 1; }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 1; }));
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     expectStopped(desk, run.wait(std::chrono::seconds(20)));
@@ -53,7 +54,7 @@ TEST_F(Stop, ATerminationATerminalThatClosesAndAQuitDoTheSame) {
     for (const int signal : {SIGTERM, SIGHUP, SIGQUIT}) {
         std::filesystem::remove_all(desk.at("out"));
         auto run = live();
-        ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+        ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
         run.signal(signal);
         expectStopped(desk, run.wait(std::chrono::seconds(20)));
     }
@@ -64,9 +65,9 @@ TEST_F(Stop, AnInterruptAtAnyMomentOfTheStartEndsTheRunInOrder) {
     for (int delay = 0; delay < 120; delay += 8) {
         std::filesystem::remove_all(desk.at("out"));
         auto run = live();
-        ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+        ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
         const auto begun = Clock::now();
-        ASSERT_TRUE(run.waitUntil([&] { return secondsSince(begun) * 1000 >= delay; }));
+        ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) * 1000 >= delay; }));
         run.signal(SIGINT);
         const auto ran = run.wait(std::chrono::seconds(20));
         ASSERT_EQ(ran.code, 4) << delay << " ms after the session began: " << ran.err;
@@ -83,7 +84,7 @@ function run(p) {
   return verdict({ verdict: "pass" });
 })js");
     auto run = desk.start({"run", script, "--device", "sim:", "--out", desk.at("out")});
-    ASSERT_TRUE(run.waitUntil([&] { return !desk.named("out", ".html").empty(); })) << "the first report";
+    ASSERT_IN_TIME(run.waitUntil([&] { return !desk.named("out", ".html").empty(); })) << "the first report";
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(60));
@@ -99,7 +100,7 @@ TEST_F(Stop, ARunWhoseSessionIsGoneHasNoVerdictAndDoesNotSucceed) {
     auto run = desk.start(
         {"run", "live", "--device", "sim:", "--realtime", "--set", "duration=2", "--out", desk.at("out"), "--json"});
     // Opened, not only made.
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun() && !desk.named("out", ".tacto-wal").empty(); }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun() && !desk.named("out", ".tacto-wal").empty(); }));
     std::filesystem::remove(desk.named("out", ".tacto").at(0));
     const auto ran = run.wait(std::chrono::seconds(60));
     EXPECT_EQ(ran.code, 3) << ran.err;
@@ -119,9 +120,9 @@ TEST_F(Stop, WhatCannotBePrintedIsNoSuccess) {
 TEST_F(Stop, AKilledRunLeavesASessionThatIsIntactAndSaysThatItWasRecovered) {
     RecordProperty("hazard", "H8");
     auto run = live();
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     const auto begun = Clock::now();
-    ASSERT_TRUE(run.waitUntil([&] { return secondsSince(begun) > 4; }));  // a slow disk takes a second to commit one
+    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 4; }));  // a slow disk takes a second to commit one
     run.signal(SIGKILL);
     EXPECT_EQ(run.wait().code, -SIGKILL);
     const auto session = desk.named("out", ".tacto").at(0);
@@ -146,9 +147,9 @@ TEST_F(UserScript, AnEndlessLoopIsStoppedWithinAFewSeconds) {
     RecordProperty("hazard", "H10");
     const auto path = script("  for (;;) { }");
     auto run = desk.start(words());
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     const auto begun = Clock::now();
-    ASSERT_TRUE(run.waitUntil([&] { return secondsSince(begun) > 1; }));  // the script has begun too
+    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 1; }));  // the script has begun too
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(20));
@@ -163,7 +164,7 @@ TEST_F(UserScript, ALoopThatCatchesEverythingIsStoppedToo) {
     auto command = words();
     command.push_back("--realtime");
     auto run = desk.start(command);
-    ASSERT_TRUE(run.waitUntil([&] { return sessionBegun(); }));
+    ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     expectStopped(desk, run.wait(std::chrono::seconds(20)));

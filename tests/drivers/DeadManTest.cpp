@@ -1,4 +1,4 @@
-// H2 end to end: a device that would repeat for ever lives in this process, as the hardware does; its host is a child
+// H2 end to end: a device whose train would last 20 s lives in this process, as the hardware does; its host is a child
 // process that sends heartbeats through a pipe. Whatever happens to the host, the output must end.
 #include <chrono>
 #include <functional>
@@ -73,17 +73,18 @@ protected:
         circuit_ = &dynamic_cast<sim::WorldMember&>(*devices_.stimulator).world()->circuit();
     }
 
-    /// Starts the repetition, 20 trains a second. The gate is asked right before, as its approvals are short.
+    /// Starts the train, 50 pulses a second. The gate is asked right before, as its approvals are short.
     void begin() {
         const auto gate = benchGate(clock_, devices_.stimulator->traits());
         TrainRequest request;
         request.train = voltagePulse(5);
-        request.interval = Seconds(0.05);
+        request.train.pulses = 1000;
+        request.train.rate = Hertz(50);
+        request.interval = Seconds(22);
         request.onset = clock_.now();
         auto approval = gate->approve(request);
         ASSERT_TRUE(approval.has_value()) << approval.error().message;
-        auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
-        const auto begun = repeating.repeat(std::move(*approval), Seconds(0.05));
+        const auto begun = devices_.stimulator->deliver(std::move(*approval));
         ASSERT_TRUE(begun.has_value()) << begun.error().message;
     }
 
@@ -149,7 +150,7 @@ TEST_F(DeadMan, ControlRunWithHeartbeatGoesOnFor10Seconds) {
     runFor(Seconds(10));
     EXPECT_TRUE(outputOn());
     EXPECT_LE(clock_.now() - lastOutput(), std::chrono::milliseconds(100));
-    EXPECT_GE(circuit_->trainsBegun(clock_.now()), 195U);
+    EXPECT_GE(circuit_->inspect(clock_.now(), [](const auto& pulses) { return pulses.back().number; }), 490U);
 }
 
 }  // namespace

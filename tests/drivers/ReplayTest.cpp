@@ -159,9 +159,10 @@ TEST(ReplayedRecording, RefusesWhatItCannotOpen) {
     const auto uri = "recording:" + folder.path().string();
     EXPECT_THAT(bench.open(*driver, "recording:").error().message, HasSubstr("names no recording"));
     EXPECT_THAT(bench.open(*driver, "recording:/no/such").error().message, HasSubstr("/no/such"));
-    for (const char* bad : {"?speed=0", "?speed=nan", "?speed=fast", "?loop=1"}) {
-        EXPECT_THAT(bench.open(*driver, uri + bad).error().message, HasSubstr("speed=0.01 to 100 was expected")) << bad;
+    for (const char* bad : {"?speed=0", "?speed=nan", "?speed=fast"}) {
+        EXPECT_THAT(bench.open(*driver, uri + bad).error().message, HasSubstr("is not accepted: 0.01 to 100")) << bad;
     }
+    EXPECT_THAT(bench.open(*driver, uri + "?loop=1").error().message, HasSubstr("it takes speed"));
     EXPECT_TRUE(bench.open(*driver, uri));
     EXPECT_THAT(bench.open(*driver, uri).error().message, HasSubstr("open already"));
     EXPECT_TRUE(driver->runsOnVirtualClock());

@@ -4,6 +4,7 @@
 
 #include "tests/drivers/SimBench.h"
 #include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/Figures.h"
 
 namespace tacto::test {
 namespace {
@@ -38,22 +39,25 @@ double peakIntoRc(const std::string& parameters, double gap_us, bool secondPhase
 }
 
 TEST(SimulatedStimulator, PeakCurrentsIntoTheRcLoadAreThoseOfItsEquations) {
-    // science.md section 6, each within the few tenths of a percent that 20 ns edges and 10 MS/s leave.
-    EXPECT_NEAR(peakIntoRc("&gap=highz", 100, false), 200, 2);
-    EXPECT_NEAR(peakIntoRc("&gap=highz", 100, true), 361, 3.6);
-    EXPECT_NEAR(peakIntoRc("", 0, true), 396, 4);
-    EXPECT_NEAR(peakIntoRc("&gap=zero", 100, true), 200, 3) << "a gap held at 0 V discharges the skin";
+    // tests/reference/loads.py, each within the few tenths of a percent that 20 ns edges and 10 MS/s leave.
+    const auto& scipy = figuresOf("loads").at("bench_load_40_v");
+    EXPECT_NEAR(peakIntoRc("&gap=highz", 100, false), scipy.at("leading_ma").get<double>(), 2);
+    EXPECT_NEAR(peakIntoRc("&gap=highz", 100, true), scipy.at("second_ma_high_impedance").get<double>(), 3.6);
+    EXPECT_NEAR(peakIntoRc("", 0, true), scipy.at("second_ma_no_gap").get<double>(), 4);
+    EXPECT_NEAR(peakIntoRc("&gap=zero", 100, true), scipy.at("second_ma_zero").get<double>(), 3)
+        << "a gap held at 0 V discharges the skin";
 }
 
 TEST(SimulatedStimulator, ImpedanceReadingsDifferByKindOfSourceAsTheDefinitionSays) {
+    const auto& scipy = figuresOf("loads").at("bench_load_impedance_ohm");
     SimBench voltage(kRcLoad);
     voltage.open("sim:stimulator?readbacknoise=0");
     voltage.deliver(voltagePulse(40));
-    EXPECT_NEAR(voltage.devices.stimulator->status()->impedance->value(), 10'200, 20);
+    EXPECT_NEAR(voltage.devices.stimulator->status()->impedance->value(), scipy.at("voltage").get<double>(), 20);
     SimBench current(kRcLoad);
     current.open("sim:stimulator?mode=current&readbacknoise=0");
     current.deliver(currentPulse(2));
-    EXPECT_NEAR(current.devices.stimulator->status()->impedance->value(), 3'500, 10);
+    EXPECT_NEAR(current.devices.stimulator->status()->impedance->value(), scipy.at("current").get<double>(), 10);
 }
 
 TEST(SimulatedStimulator, GainOffsetAndStepsShowInThePlateau) {
@@ -226,23 +230,29 @@ TEST(SimulatedStimulator, DeadManEndsATrainThatNobodyKeepsAlive) {
     }
 }
 
-TEST(SimulatedStimulator, RepeatsUntilTheHeartbeatStopsAndStaysOff) {
+TEST(SimulatedStimulator, DeliversUntilTheHeartbeatStopsAndStaysOff) {
     RecordProperty("hazard", "H2");
     SimBench bench;
     bench.open("sim:stimulator");
-    auto& repeating = dynamic_cast<RepeatingStimulator&>(*bench.devices.stimulator);
-    ASSERT_TRUE(repeating.repeat(bench.approved(voltagePulse(5)), Seconds(0.25)).has_value());
+    auto train = voltagePulse(5);
+    train.pulses = 1000;
+    train.rate = Hertz(50);  // 20 s
+    ASSERT_TRUE(bench.devices.stimulator->deliver(bench.approved(train)).has_value());
     for (int i = 0; i < 100; ++i) {
         bench.wait(Seconds(0.1));
         ASSERT_TRUE(bench.devices.stimulator->keepAlive().has_value());
     }
-    EXPECT_EQ(bench.circuit().trainsBegun(bench.clock.now()), 40U);
+    EXPECT_TRUE(bench.circuit().active(bench.clock.now()));
     bench.wait(Seconds(5));
     EXPECT_FALSE(bench.circuit().active(bench.clock.now()));
-    EXPECT_EQ(bench.circuit().trainsBegun(bench.clock.now()), 48U);
+    const auto number = [&] {
+        return bench.circuit().inspect(bench.clock.now(), [](const auto& pulses) { return pulses.back().number; });
+    };
+    EXPECT_EQ(number(), 600U);
     EXPECT_TRUE(bench.devices.stimulator->keepAlive().has_value());
     bench.wait(Seconds(1));
     EXPECT_FALSE(bench.circuit().active(bench.clock.now())) << "a late heartbeat must not revive the output";
+    EXPECT_EQ(number(), 600U);
 }
 
 // --- faults ---------------------------------------------------------------------------------------------------------

@@ -5,35 +5,24 @@
 
 #include "core/base/Random.h"
 #include "core/dsp/Butterworth.h"
+#include "tests/support/Figures.h"
 
 using namespace tacto;
 
 namespace {
 
-struct Published {
+struct Designed {
     double low, high, rate;
     double gain;              // b[0]
     std::array<double, 4> a;  // a1..a4
 };
-// scipy 1.10: b, a = butter(2, [low, high], 'bandpass', fs=rate)
-constexpr std::array<Published, 4> kScipy{{
-    {5,
-     1000,
-     4000,
-     0.29059657696670749,
-     {-1.9934829487881709, 1.1715878426655448, -0.34962046748611153, 0.17158784266554461}},
-    {5,
-     990,
-     2200,
-     0.79251075453410724,
-     {-0.41894763543661484, -1.4688175626258086, 0.25986620049796061, 0.6285469112101234}},
-    {5, 45, 100, 0.63894552515902237, {0, -1.1429805025399005, 0, 0.41280159809618844}},
-    {5,
-     1000,
-     20000,
-     0.019901925885829893,
-     {-3.5622819957315692, 4.7675179838213104, -2.8480118584784626, 0.64277606877558413}},
-}};
+/// tests/reference/butterworth.py.
+std::vector<Designed> scipys() {
+    std::vector<Designed> out;
+    for (const auto& made : test::figuresOf("butterworth").at("filters"))
+        out.push_back({made.at("low"), made.at("high"), made.at("rate"), made.at("b0"), made.at("a")});
+    return out;
+}
 
 std::vector<double> filtered(AxesBandpass& filter, const std::vector<double>& x, std::size_t axes) {
     std::vector<std::vector<double>> out(axes, std::vector<double>(x.size() / axes));
@@ -48,7 +37,7 @@ std::vector<double> filtered(AxesBandpass& filter, const std::vector<double>& x,
 }  // namespace
 
 TEST(Butterworth, HasScipysCoefficients) {
-    for (const auto& known : kScipy) {
+    for (const auto& known : scipys()) {
         const auto s = butterworthBandpass(known.low, known.high, known.rate);
         const auto& p = s[0].a;
         const auto& q = s[1].a;
@@ -62,7 +51,7 @@ TEST(Butterworth, HasScipysCoefficients) {
 
 TEST(Butterworth, FollowsTheDifferenceEquation) {
     Random random(3, "filter");
-    for (const auto& known : kScipy) {
+    for (const auto& known : scipys()) {
         std::vector<double> x;
         for (int i = 0; i < 3000; ++i) x.push_back(5 + random.normal());
         AxesBandpass filter(known.low, known.high, known.rate, 1);

@@ -61,21 +61,23 @@ TEST(RoughnessSettings, RefuseUnknownKeysByName) {
 }
 
 TEST(RoughnessSettings, RefuseValuesThatMeanNothing) {
-    EXPECT_THAT(complaintAbout({{"spectral_feature", "x"}}), HasSubstr("\"h\" or \"h_abs\""));
-    EXPECT_THAT(complaintAbout({{"taxel_feature", 3}}), HasSubstr("\"static\" or \"dynamic\""));
-    EXPECT_THAT(complaintAbout({{"band_low_hz", 1000}}), HasSubstr("band_low_hz is 1000"));
-    EXPECT_THAT(complaintAbout({{"spectral_weight", -1}}), HasSubstr("spectral_weight is -1"));
+    EXPECT_THAT(complaintAbout({{"spectral_feature", "x"}}), HasSubstr("h or h_abs"));
+    EXPECT_THAT(complaintAbout({{"taxel_feature", 3}}), HasSubstr("static or dynamic"));
+    EXPECT_THAT(complaintAbout({{"band_low_hz", 1000}}), HasSubstr("\"band_low_hz\" is 1000 Hz"));
+    EXPECT_THAT(complaintAbout({{"spectral_weight", -1}}), HasSubstr("\"spectral_weight\" is -1"));
     EXPECT_THAT(complaintAbout({{"spectral_weight", 0}, {"taxel_weight", 0}}), HasSubstr("above 0"));
     EXPECT_THAT(complaintAbout({{"smoothing_s", 0}}), HasSubstr("smoothing_s"));
-    EXPECT_THAT(complaintAbout({{"contact_area_cm2", "1"}}), HasSubstr("a number was expected"));
+    EXPECT_THAT(complaintAbout({{"contact_area_cm2", "1"}}),
+                HasSubstr("\"contact_area_cm2\" is \"1\"; a number above 0 to 10000 cm² was expected"));
     EXPECT_THAT(complaintAbout({{"pressure_min_pa", 5e4}}), HasSubstr("pressure_max_pa"));
     EXPECT_THAT(complaintAbout({{"calibrated", 1}}), HasSubstr("true or false"));
-    EXPECT_THAT(complaintAbout({{"rest", {{"unit", "count"}}}}), HasSubstr("rest.mean_square"));
+    EXPECT_THAT(complaintAbout({{"rest", {{"unit", "count"}}}}),
+                HasSubstr("roughness.rest: \"mean_square\" is missing"));
     EXPECT_THAT(complaintAbout(3), HasSubstr("3 stands where an object is expected"));
     EXPECT_THAT(complaintAbout({{"references", {{"h", {{"smooth", 0.3}, {"rough", 0.3}}}}}}),
                 HasSubstr("two different readings"));
     EXPECT_THAT(complaintAbout({{"references", {{"v_static", {{"smooth", 0}, {"rough", 0.3}}}}}}),
-                HasSubstr("a positive number"));
+                HasSubstr("a number above 0"));
     RoughnessSettings settings;
     settings.smoothing = Seconds(std::numeric_limits<double>::quiet_NaN());
     EXPECT_FALSE(validate(settings));

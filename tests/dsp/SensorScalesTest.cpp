@@ -113,15 +113,16 @@ TEST(SensorScales, RefuseWhatIsNoScale) {
         const auto read = roughnessSettingsFromJson(nlohmann::json::parse(text));
         return read ? "accepted" : read.error().message;
     };
-    EXPECT_THAT(complaint(R"({"sensor": {"force": {"unit": "N", "scale": 0, "offset_n": 0}}})"), HasSubstr("is 0"));
+    EXPECT_THAT(complaint(R"({"sensor": {"force": {"unit": "N", "scale": 0, "offset_n": 0}}})"),
+                HasSubstr("\"scale\" is 0"));
     EXPECT_THAT(complaint(R"({"sensor": {"force": {"unit": "kg", "scale": 1, "offset_n": 0}}})"),
-                HasSubstr("\"N\" or \"count\""));
+                HasSubstr("N or count"));
     EXPECT_THAT(
         complaint(R"({"sensor": {"taxels": {"unit": "Pa", "scale": [1, 2], "offset_pa": [0], "scale_u": []}}})"),
         HasSubstr("as many values as scale has"));
-    EXPECT_THAT(complaint(R"({"sensor": {"serial": 5}})"), HasSubstr("sensor.serial"));
+    EXPECT_THAT(complaint(R"({"sensor": {"serial": 5}})"), HasSubstr("roughness.sensor: \"serial\""));
     EXPECT_THAT(complaint(R"({"sensor": {"gain": 5}})"), HasSubstr("not a known key"));
-    EXPECT_THAT(complaint(R"({"uncertainty": {"slide_sd": -1}})"), HasSubstr("uncertainty."));
+    EXPECT_THAT(complaint(R"({"uncertainty": {"slide_sd": -1}})"), HasSubstr("roughness.uncertainty: \"slide_sd\""));
     EXPECT_THAT(complaint(R"({"uncertainty": {"slide_sd": 1, "coverage_factor": 2, "smooth_slides": 0}})"),
                 HasSubstr("smooth_slides"));
 }

@@ -7,6 +7,7 @@
 #include <QTabWidget>
 #include <gtest/gtest.h>
 
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
 #include "tests/e2e/Hand.h"
@@ -40,7 +41,7 @@ protected:
         auto* bar = window.findChild<gui::SafetyBar*>();
         for (int page = 0; page < 8; ++page) {
             window.showWorkspace(std::max(0, page - 1));
-            window.findChild<QTabWidget*>("livePage")->setCurrentIndex(page == 0 ? 1 : 0);
+            window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page == 0 ? 1 : 0);
             QTest::qWait(30);
             isOn(window);
             isOn(*bar);

@@ -14,23 +14,26 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTabWidget>
-#include <QTableWidget>
+#include <QTableView>
 #include <QToolButton>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <qcustomplot.h>
 
+#include "app/gui/runner/ScriptEditor.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/SafetyBar.h"
 #include "tests/e2e/Hand.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
 
-constexpr int kStopLimit_ms = 2000;   // for a loaded machine; the time taken is recorded
-constexpr int kOpenedBySeveral = -1;  // "Encoding profile" opens three
+constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
+constexpr int kOpenedBySeveral = 0;  // "Encoding profile" opens three, two questions before closing are one here
 
 /// How often app/gui calls the two functions that open dialogs.
 int placesThatOpenDialogs() {
@@ -64,7 +67,7 @@ protected:
     }
     ~StopEverywhere() override { window.close(); }
 
-    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] InterlockState state() { return window.controller().telemetry().state; }
     [[nodiscard]] bool isLive() {
         const auto now = state();
         return now == InterlockState::Armed || now == InterlockState::Delivering;
@@ -72,22 +75,23 @@ protected:
     void openBench() {
         gui::LiveOrder order;
         order.uris.push_back(*DeviceUri::parse("sim:"));
-        order.profile = window.desk().profile();
+        order.profile = window.controller().profile();
         order.speed = 4;
-        const auto before = window.desk().open();
-        window.desk().openLive(order);
-        ASSERT_TRUE(comesTrue(
-            [&] { return window.desk().activity() == gui::Activity::Live && window.desk().open() != before; }));
+        const auto before = window.controller().open();
+        window.controller().openLive(order);
+        ASSERT_IN_TIME(comesTrue([&] {
+            return window.controller().activity() == gui::Activity::Live && window.controller().open() != before;
+        }));
     }
     void deliver() {
-        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; }))
-            << nameOf(state()) << ": " << window.desk().telemetry().reason.c_str();
+        ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Disarmed; }))
+            << nameOf(state()) << ": " << window.controller().telemetry().reason.c_str();
         ArmRequest request;
         request.operatorConfirmed = true;
-        window.desk().arm(request);
-        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Armed; }));
-        window.desk().drive(DriveSource::Manual, 0.5, 1);
-        ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Delivering; }));
+        window.controller().arm(request);
+        ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Armed; }));
+        window.controller().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Delivering; }));
     }
     /// What the hand does must end the output.
     void expectStop(const std::string& what, const std::function<void()>& hand) {
@@ -99,7 +103,7 @@ protected:
         EXPECT_TRUE(stopped) << what << ": still delivering";
         slowest_ms = std::max(slowest_ms, since.elapsed());
         ++tried;
-        if (!stopped) window.desk().stop("the test");
+        if (!stopped) window.controller().stop("the test");
     }
     [[nodiscard]] static QDialog* newest() {
         QDialog* found = nullptr;
@@ -114,7 +118,7 @@ protected:
     }
     void closeAll() {
         closePopups();
-        ASSERT_TRUE(comesTrue([&] {
+        ASSERT_IN_TIME(comesTrue([&] {
             if (auto* dialog = newest()) dialog->close();
             return newest() == nullptr;
         }));
@@ -132,19 +136,19 @@ protected:
     }
     void press(const QWidget& in, const QString& text) {
         QAbstractButton* button = nullptr;
-        ASSERT_TRUE(comesTrue([&] { return (button = find<QAbstractButton>(in, text)) != nullptr; }))
+        ASSERT_IN_TIME(comesTrue([&] { return (button = find<QAbstractButton>(in, text)) != nullptr; }))
             << text.toStdString();
-        ASSERT_TRUE(comesTrue([&] { return button->isEnabled(); })) << text.toStdString();
+        ASSERT_IN_TIME(comesTrue([&] { return button->isEnabled(); })) << text.toStdString();
         button->click();
     }
     void page(int index, int tab = 0) {
         window.showWorkspace(index);
-        window.findChild<QTabWidget*>("livePage")->setCurrentIndex(tab);
+        window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(tab);
     }
     void choose(int sessions) {
         page(5);
-        auto* table = window.findChild<QTableWidget*>("sessionsTable");
-        ASSERT_TRUE(comesTrue([&] { return table->rowCount() >= 2; }));
+        auto* table = window.findChild<QTableView*>("sessionsTable");
+        ASSERT_IN_TIME(comesTrue([&] { return table->model()->rowCount() >= 2; }));
         table->clearSelection();
         table->setSelectionMode(QAbstractItemView::MultiSelection);
         for (int row = 0; row < sessions; ++row) table->selectRow(row);
@@ -192,10 +196,11 @@ protected:
         return {
             menu("Bench", "Simulated bench with faults…"),
             menu("Bench", "Oscilloscope certificates…"),
+            menu("Bench", "Operator and sample…"),
             {"Save the plot", [this] { savePlot(); }},
             {"Arm",  // opened while there is nothing to stop
              [this] {
-                 window.desk().disarm();
+                 window.controller().disarm();
                  window.askToArm();
                  deliver();
              }},
@@ -222,19 +227,58 @@ protected:
             {"Output folder",
              [this] {
                  page(2);
+                 press(window, "Wiring");
                  press(window, "Choose the output folder");
+             }},
+            {"Profilometer's file",
+             [this] {
+                 page(1);
+                 window.findChild<QTabWidget*>("calibratePages")->setCurrentIndex(1);
+                 press(window, "Known reference");
+                 press(window, "Choose the file");
              }},
             {"Folder of a recording",
              [this] {
                  page(2);
+                 press(window, "Wiring");
                  for (auto* action : find<QToolButton>(window, "Add a recording or captures")->menu()->actions()) {
                      if (action->text() == "A &recording as fingertip…") return action->trigger();
+                 }
+             }},
+            {"Saved instruments",
+             [this] {
+                 page(2);
+                 for (auto* action : find<QToolButton>(window, "Add a recording or captures")->menu()->actions()) {
+                     if (action->text() == "Saved &instruments…") return action->trigger();
                  }
              }},
             {"Script",
              [this] {
                  page(2);
                  press(window, "Script…");
+             }},
+            {"Limits in force",
+             [this] {
+                 page(2);
+                 press(window, "Settings");
+                 press(window, "Read the limits…");
+             }},
+            {"Close",  // asked with the output off: what follows stops anew
+             [this] {
+                 window.controller().disarm();
+                 page(6);
+                 press(window, "New…");
+                 gui::ScriptEditor* editor = nullptr;
+                 ASSERT_IN_TIME(comesTrue([&] {
+                     for (auto* one : window.findChildren<gui::ScriptEditor*>()) {
+                         if (one->isVisible()) editor = one;
+                     }
+                     return editor != nullptr;
+                 }));
+                 editor->code().insertPlainText("// not saved");
+                 window.close();
+                 editor->leave();  // what is asked about needs no answer here
+                 deliver();
              }},
             {"Export",
              [this] {
@@ -280,7 +324,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryDialog) {
         for (const auto& [how, hand] : hands) {
             ASSERT_NO_FATAL_FAILURE(deliver());
             ASSERT_NO_FATAL_FAILURE(opening.open());
-            ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+            ASSERT_IN_TIME(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
             if (tried == 0) picture("stop-behind-a-dialog");
             expectStop(how, hand);
             ASSERT_NO_FATAL_FAILURE(closeAll());
@@ -310,7 +354,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
                 });
                 look.start(10);
                 popup.open();
-                ASSERT_TRUE(comesTrue([&] { return done && !isLive(); }));
+                ASSERT_IN_TIME(comesTrue([&] { return done && !isLive(); }));
                 ASSERT_NO_FATAL_FAILURE(closeAll());
             }
         }
@@ -356,7 +400,7 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
     for (const char* key : {"Escape", "Pause"}) {
         ASSERT_NO_FATAL_FAILURE(deliver());
         trigger("View", "Messages");
-        ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+        ASSERT_IN_TIME(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
         auto* log = newest()->findChild<QPlainTextEdit*>();
         ASSERT_NE(log, nullptr);
         log->selectAll();
@@ -369,12 +413,15 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
         };
         ASSERT_EQ(QProcess::execute("xdotool", at(0) + QStringList{"mousedown", "1"}), 0);
         QTest::qWait(50);
-        QTimer::singleShot(300, [&] { expectStop(key, [&] { type(key); }); });
-        for (const int by : {10, 20, 40}) {
-            QProcess::execute("xdotool", at(by));
-            QTest::qWait(50);
-        }
-        EXPECT_TRUE(comesTrue([&] { return !isLive(); })) << key;
+        expectStop(key, [&] {
+            // In the drag's own event loop only the key is pressed: a wait there would delete the window that the key
+            // closes, to which the drag is still to return.
+            QTimer::singleShot(300, [key] { type(key); });
+            for (const int by : {10, 20, 40}) {
+                QProcess::execute("xdotool", at(by));
+                QTest::qWait(50);
+            }
+        });
         QProcess::execute("xdotool", {"mouseup", "1"});
         type("Escape");
         ASSERT_NO_FATAL_FAILURE(closeAll());
@@ -386,7 +433,7 @@ TEST_F(StopEverywhere, DISABLED_BehindABoxThatSomebodyElseOpensModally) {
     ASSERT_NO_FATAL_FAILURE(deliver());
     bool stopped = false;
     QTimer::singleShot(0, [&] {
-        ASSERT_TRUE(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
+        ASSERT_IN_TIME(comesTrue([&] { return newest() != nullptr && newest()->windowHandle()->isExposed(); }));
         expectStop("a click on STOP", [this] { clickOn(*stop); });
         stopped = !isLive();
         newest()->close();

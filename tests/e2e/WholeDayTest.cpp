@@ -7,17 +7,19 @@
 #include <QTabWidget>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/ConfirmButton.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/e2e/Hand.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
 
 TEST(EndToEnd, DISABLED_AWholeDay) {
-    RecordProperty("hazard", "H5");
+    RecordProperty("hazard", "H2");
     ASSERT_EQ(QGuiApplication::platformName(), "xcb");
     gui::MainWindow window(simulatedRegistry);
     window.resize(QGuiApplication::primaryScreen()->size());
@@ -25,30 +27,30 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     window.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
     window.activateWindow();
-    auto& desk = window.desk();
-    const auto state = [&] { return desk.telemetry().state; };
+    auto& controller = window.controller();
+    const auto state = [&] { return controller.telemetry().state; };
     picture("1-empty");
 
     type("ctrl+b");
-    ASSERT_TRUE(comesTrue([&] { return desk.activity() == gui::Activity::Live; }));
-    desk.present("P120", 50, 1);
+    ASSERT_IN_TIME(comesTrue([&] { return controller.activity() == gui::Activity::Live; }));
+    controller.present("P120", 50, 1);
     QTest::qWait(3000);
     picture("2-live");
 
     click(*window.findChild<QPushButton*>("armButton"));
     auto* arm = window.findChild<QPushButton*>("armOutput");
     ASSERT_NE(arm, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return arm->isVisible(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return arm->isVisible(); }));
     picture("3-arming");
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the first step arms nothing";
     QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
     click(*arm);
-    ASSERT_TRUE(comesTrue([&] { return state() == InterlockState::Armed; }));
-    desk.drive(DriveSource::Sensor);
-    ASSERT_TRUE(comesTrue([&] { return desk.telemetry().trainsDelivered >= 3; }));
+    ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Armed; }));
+    controller.drive(DriveSource::Sensor);
+    ASSERT_IN_TIME(comesTrue([&] { return controller.telemetry().trainsDelivered >= 3; }));
     picture("4-delivering");
 
-    auto* tabs = window.findChild<QTabWidget*>("livePage");
+    auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
     ASSERT_NE(tabs, nullptr);
     tabs->setCurrentIndex(1);
     QTest::qWait(4500);
@@ -63,7 +65,7 @@ TEST(EndToEnd, DISABLED_AWholeDay) {
     menuDialog->activateWindow();
     field->setFocus();
     type("Escape");
-    EXPECT_TRUE(comesTrue([&] { return state() == InterlockState::Disarmed; })) << "Esc stops from inside a dialog";
+    EXPECT_IN_TIME(comesTrue([&] { return state() == InterlockState::Disarmed; })) << "Esc stops from inside a dialog";
 
     for (int page = 0; page < 7; ++page) {
         window.showWorkspace(page);

@@ -77,10 +77,11 @@ TEST(EncodingProfile, RefusesWrongTypesNamingKeyValueAndWhatIsAccepted) {
     EXPECT_THAT(refusal(R"({"pulses": 1e99})"), HasSubstr("whole number"));
     EXPECT_THAT(refusal(R"({"hold": "power"})"), AllOf(HasSubstr("power"), HasSubstr("charge")));
     EXPECT_THAT(refusal(R"({"shape": "square"})"), AllOf(HasSubstr("square"), HasSubstr("symmetric")));
-    EXPECT_THAT(refusal(R"({"assignment": 3})"), HasSubstr("texture_to_amplitude"));
+    EXPECT_THAT(refusal(R"({"assignment": 3})"), HasSubstr("texture_to_amplitude or swapped"));
     EXPECT_THAT(refusal(R"({"conditions": 3})"), HasSubstr("conditions"));
     EXPECT_THAT(refusal(R"({"conditions": [{"name": "a", "R": 0}]})"), HasSubstr("\"P\""));
-    EXPECT_THAT(refusal(R"({"conditions": [{"name": "a", "R": 0, "P": 0, "Q": 1}]})"), HasSubstr("\"P\""));
+    EXPECT_THAT(refusal(R"({"conditions": [{"name": "a", "R": 0, "P": 0, "Q": 1}]})"),
+                HasSubstr("\"Q\" is not a known key"));
 }
 
 TEST(EncodingProfile, RefusesImpossibleValuesNamingThem) {
@@ -98,8 +99,8 @@ TEST(EncodingProfile, RefusesImpossibleValuesNamingThem) {
              {R"({"interval_max_s": 61})", "interval_max_s"},
              {R"({"amplitude_beta": 0})", "amplitude_beta"},
              {R"({"interval_beta": -1})", "interval_beta"},
-             {R"({"phase_width_us": 0})", "phase width"},
-             {R"({"inter_phase_gap_us": -1})", "inter-phase gap"},
+             {R"({"phase_width_us": 0})", "phase_width_us"},
+             {R"({"inter_phase_gap_us": -1})", "inter_phase_gap_us"},
              {R"({"shape": "asymmetric", "recharge_ratio": 1})", "recharge ratio"},
              {R"({"pulses": 0})", "pulses"},
              {R"({"rate_hz": 0})", "rate"},
@@ -107,9 +108,9 @@ TEST(EncodingProfile, RefusesImpossibleValuesNamingThem) {
              {R"({"pulses": 50})", "a train of 50 pulses at 100 Hz lasts 0.5 s"},
              {R"({"amplitude_slew_v_per_s": -1})", "amplitude_slew_v_per_s"},
              {R"({"interval_ratio_per_train": 1})", "interval_ratio_per_train"},
-             {R"({"conditions": []})", "0 conditions"},
-             {R"({"conditions": [{"name": "a", "R": 1.1, "P": 0}]})", "R of condition \"a\" 1.1"},
-             {R"({"conditions": [{"name": "", "R": 1, "P": 0}]})", "no name"},
+             {R"({"conditions": []})", "\"conditions\" is []; a list of 1 to 64 entries"},
+             {R"({"conditions": [{"name": "a", "R": 1.1, "P": 0}]})", "conditions[0]: \"R\" is 1.1"},
+             {R"({"conditions": [{"name": "", "R": 1, "P": 0}]})", "conditions[0]: \"name\" is \"\""},
              {R"({"conditions": [{"name": "a", "R": 1, "P": 0}, {"name": "a", "R": 0, "P": 0}]})", "twice"},
          }) {
         EXPECT_THAT(refusal(text), HasSubstr(named)) << text;

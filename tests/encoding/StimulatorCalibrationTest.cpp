@@ -1,4 +1,4 @@
-// What a calibrated stimulator is told, and what it then delivers.
+// What a calibrated stimulator is programmed to, and what it then delivers.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -24,19 +24,19 @@ TEST(CalibrationLine, FollowsTheLineInItsRangeAndTheNearerEndsRatioBeyond) {
     EXPECT_DOUBLE_EQ(kMeasured.atLeast(80), 78.6);
     EXPECT_EQ(kMeasured.atMost(0), 0);
     EXPECT_DOUBLE_EQ(kMeasured.atMost(25), 24.7);
-    EXPECT_NEAR(kMeasured.told(39.4), 40, 1e-12);
-    EXPECT_NEAR(kMeasured.told(40), 40 * 40 / 39.4, 1e-12);
-    EXPECT_TRUE(std::isnan(kMeasured.told(std::numeric_limits<double>::quiet_NaN())));
+    EXPECT_NEAR(kMeasured.programmedFor(39.4), 40, 1e-12);
+    EXPECT_NEAR(kMeasured.programmedFor(40), 40 * 40 / 39.4, 1e-12);
+    EXPECT_TRUE(std::isnan(kMeasured.programmedFor(std::numeric_limits<double>::quiet_NaN())));
 }
 
 TEST(CalibrationLine, TellingUndoesDeliveringAndNeverJumps) {
     double before = 0;
     for (double wanted = 0; wanted <= 100; wanted += 0.01) {
-        const double told = kMeasured.told(wanted);
-        EXPECT_NEAR(kMeasured.delivered(told), wanted, 1e-10);
-        EXPECT_GE(told, before);
-        EXPECT_LT(told - before, 0.011);
-        before = told;
+        const double programmed = kMeasured.programmedFor(wanted);
+        EXPECT_NEAR(kMeasured.delivered(programmed), wanted, 1e-10);
+        EXPECT_GE(programmed, before);
+        EXPECT_LT(programmed - before, 0.011);
+        before = programmed;
     }
 }
 
@@ -58,17 +58,17 @@ TEST(StimulatorCalibration, ChangesWhatItKnowsAndNothingElse) {
     PulseTrain train;
     train.amplitude = Milliamps(20);
     const KnownLines nothing;
-    EXPECT_EQ(toldFor(train, nothing), train);
-    EXPECT_EQ(toldFor(Seconds(2), nothing), Seconds(2));
+    EXPECT_EQ(programmedFor(train, nothing), train);
+    EXPECT_EQ(programmedFor(Seconds(2), nothing), Seconds(2));
     EXPECT_EQ(mostDelivered(train, nothing), train);
     const KnownLines known = StimulatorCalibration{kMeasured};
     PulseTrain expected = train;
     expected.amplitude = Milliamps(kMeasured.delivered(20));
     EXPECT_EQ(mostDelivered(train, known), expected);
     EXPECT_EQ(leastDelivered(train, known), expected);
-    EXPECT_NEAR(siValue(toldFor(expected, known).amplitude), 0.02, 1e-15);
-    EXPECT_EQ(toldFor(expected, known).phaseWidth, train.phaseWidth);
-    EXPECT_EQ(toldFor(Seconds(2), known), Seconds(2));
+    EXPECT_NEAR(siValue(programmedFor(expected, known).amplitude), 0.02, 1e-15);
+    EXPECT_EQ(programmedFor(expected, known).phaseWidth, train.phaseWidth);
+    EXPECT_EQ(programmedFor(Seconds(2), known), Seconds(2));
 }
 
 TEST(StimulatorCalibration, TellsTimesThatComeOutAsWanted) {
@@ -79,14 +79,14 @@ TEST(StimulatorCalibration, TellsTimesThatComeOutAsWanted) {
                                                    CalibrationLine{1, -5e-6, 50e-6, 400e-6}};
     PulseTrain train;
     train.amplitude = Volts(25);
-    const PulseTrain told = toldFor(train, known);
-    EXPECT_NEAR(told.phaseWidth.count(), (200 - 3) / 0.99, 1e-9);
-    EXPECT_NEAR(told.interPhaseGap.count(), 105, 1e-9);
-    EXPECT_EQ(told.amplitude, train.amplitude);
-    EXPECT_NEAR(toldFor(Seconds(1), known).count(), 1.001 / 1.002, 1e-12);
+    const PulseTrain programmed = programmedFor(train, known);
+    EXPECT_NEAR(programmed.phaseWidth.count(), (200 - 3) / 0.99, 1e-9);
+    EXPECT_NEAR(programmed.interPhaseGap.count(), 105, 1e-9);
+    EXPECT_EQ(programmed.amplitude, train.amplitude);
+    EXPECT_NEAR(programmedFor(Seconds(1), known).count(), 1.001 / 1.002, 1e-12);
     train.interPhaseGap = Micros(0);
-    EXPECT_EQ(toldFor(train, known).interPhaseGap, Micros(0)) << "no gap stays none";
-    EXPECT_TRUE(std::isnan(toldFor(Seconds(std::numeric_limits<double>::quiet_NaN()), known).count()));
+    EXPECT_EQ(programmedFor(train, known).interPhaseGap, Micros(0)) << "no gap stays none";
+    EXPECT_TRUE(std::isnan(programmedFor(Seconds(std::numeric_limits<double>::quiet_NaN()), known).count()));
 }
 
 TEST(StimulatorCalibration, IsRefusedForAnyOfItsLines) {

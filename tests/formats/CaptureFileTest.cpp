@@ -1,7 +1,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "core/formats/CsvFormat.h"
+#include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "tests/measure/SyntheticPulses.h"
 #include "tests/support/Support.h"

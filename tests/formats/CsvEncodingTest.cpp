@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/formats/CaptureFormats.h"
-#include "core/formats/CsvFormat.h"
 #include "core/formats/TextBlocks.h"
+#include "core/formats/csv/CsvFormat.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/formats/CsvFormat.h"
+#include "core/formats/csv/CsvFormat.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {

@@ -1,8 +1,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "core/formats/CaptureFormats.h"
 #include "tests/measure/SyntheticPulses.h"
@@ -33,8 +35,11 @@ std::string wav(const Shape& s, const std::string& data, std::uint32_t announced
     std::string format = little(s.extensible ? 0xFFFE : s.kind, 2) + little(s.channels, 2) + little(s.rate_hz, 4) +
                          little(s.rate_hz * s.channels * s.bits / 8, 4) + little(s.channels * s.bits / 8, 2) +
                          little(s.bits, 2);
-    if (s.extensible)
-        format += little(22, 2) + little(s.bits, 2) + little(0, 4) + little(s.kind, 2) + std::string(14, 'g');
+    constexpr std::string_view kRestOfGuid("\0\0\0\0\x10\0\x80\0\0\xAA\0\x38\x9B\x71", 14);
+    if (s.extensible) {
+        format += little(22, 2) + little(s.bits, 2) + little(0, 4) + little(s.kind, 2);
+        format += kRestOfGuid;
+    }
     const auto rest = "WAVEfmt " + little(format.size(), 4) + format + "junk" + little(3, 4) + "abc" + '\0' + "data" +
                       little(announced, 4) + data;
     return "RIFF" + little(rest.size(), 4) + rest;
@@ -113,6 +118,21 @@ TEST(Wav, WhatIsWrittenReturnsBitByBit) {
     EXPECT_TRUE(std::isnan(read->capture.channels[1].samples[5]));
 }
 
+TEST(Wav, NamesOfManyChannelsReturn) {
+    const ScratchDir scratch;
+    auto capture = recordOf({}, {.rate_hz = 1000, .samples = 50});
+    for (int c = 1; c < 200; ++c) {
+        capture.channels.push_back(capture.channels[0]);
+        capture.channels.back().name = fmt::format("electrode {}", c);
+    }
+    const auto formats = ownCaptureFormats();
+    ASSERT_TRUE(formats->write(scratch.path() / "c.wav", capture));
+    const auto read = formats->read(scratch.path() / "c.wav");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_THAT(read->capture.channels, SizeIs(200));
+    EXPECT_EQ(read->capture.channels[199].name, "electrode 199");
+}
+
 TEST(Wav, HoldsOnlyWholeRates) {
     const ScratchDir scratch;
     auto capture = recordOf({}, {.rate_hz = 1000, .samples = 50});
@@ -144,9 +164,54 @@ TEST(Wav, CutShortOpenEndedAndSenseless) {
     };
     EXPECT_THAT(refusal(wav({.kind = 6, .bits = 8}, data)), HasSubstr("samples of kind 6 with 8 bits"));
     EXPECT_THAT(refusal(wav({.bits = 12}, data)), HasSubstr("with 12 bits"));
-    EXPECT_THAT(refusal(wav({.channels = 0}, data)), HasSubstr("0 channels"));
+    EXPECT_THAT(refusal(wav({.channels = 0}, data)), HasSubstr("Channel count is zero"));
     EXPECT_THAT(refusal(wav({}, little(1, 2))), HasSubstr("1 sample(s)"));
-    EXPECT_THAT(refusal("RIFF....WAVE"), HasSubstr("no fmt chunk"));
+    EXPECT_THAT(refusal("RIFF....WAVE"), HasSubstr("no data chunk"));
+    EXPECT_THAT(refusal("RIFF....WAVE" + std::string(80000, '\0')), HasSubstr("no data chunk"));
+    EXPECT_THAT(refusal("RIFF....WAVEdata" + little(6, 4) + data), HasSubstr("cannot be read as WAV"));
+}
+
+TEST(Wav, ARecordingThatWasNeverFinishedIsReadToItsEnd) {
+    RecordProperty("hazard", "H10");
+    const auto data = little(1, 2) + little(2, 2) + little(3, 2);
+    auto bytes = wav({}, data, 0);
+    for (const auto* whole : {"\x24\0\0\0", "\0\0\0\0", "\x08\0\0\0"}) {
+        bytes.replace(4, 4, whole, 4);
+        const auto read = readWav(bytes);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(1 / 32768.0F, 2 / 32768.0F, 3 / 32768.0F));
+        EXPECT_THAT(read->warnings, ::testing::Contains(HasSubstr("never finished")));
+    }
+}
+
+TEST(Wav, WhatStandsBehindTheSamplesIsNotReadAndSaid) {
+    RecordProperty("hazard", "H10");
+    const auto data = little(1, 2) + little(2, 2);
+    for (const auto& behind : {wav({.rate_hz = 8000}, data), "data" + little(4, 4) + data}) {
+        const auto read = readWav(wav({}, data) + behind);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->capture.rate_hz, 48000);
+        EXPECT_THAT(read->capture.channels[0].samples, SizeIs(2));
+        EXPECT_THAT(read->warnings, ::testing::Contains(HasSubstr("a second recording")));
+    }
+    const auto read = readWav(wav({}, data) + "LIST" + little(4, 4) + "adtl");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_THAT(read->warnings, SizeIs(1)) << "only the full scale";
+}
+
+TEST(Wav, MarkersDoNotHideTheNames) {
+    const ScratchDir scratch;
+    auto capture = recordOf({}, {.rate_hz = 1000, .samples = 50});
+    capture.channels[0].name = "electrode";
+    const auto path = scratch.path() / "c.wav";
+    ASSERT_TRUE(ownCaptureFormats()->write(path, capture));
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    bytes.insert(12, "LIST" + little(4, 4) + "adtl");
+    const auto read = readWav(bytes);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->capture.channels[0].name, capture.channels[0].name);
+    EXPECT_EQ(read->capture.channels[0].unit, capture.channels[0].unit);
 }
 
 }  // namespace

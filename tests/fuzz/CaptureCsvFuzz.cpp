@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/formats/CsvFormat.h"
+#include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 

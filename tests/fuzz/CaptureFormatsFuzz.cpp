@@ -1,13 +1,12 @@
 // Whatever bytes call themselves a capture of any format: read or refused with a sentence, in memory that the input
 // bounds. The first byte says which options come along; the rest is the file, in memory where the system allows.
-#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "core/formats/CaptureFormats.h"
+#include "tests/fuzz/CaptureCheck.h"
 
 namespace {
 
@@ -22,22 +21,6 @@ tacto::ReadOptions optionsFrom(std::uint8_t bits) {
     return options;
 }
 
-void check(const tacto::Result<tacto::CaptureReading>& reading, std::size_t size) {
-    if (!reading) {
-        if (reading.error().message.empty()) std::abort();
-        return;
-    }
-    const auto& capture = reading->capture;
-    // What measuring relies on: a rate, a start, at least two samples, channels of one length and known units.
-    if (!(capture.rate_hz > 0) || !std::isfinite(capture.rate_hz) || !std::isfinite(capture.start_s)) std::abort();
-    if (capture.samples() < 2 || capture.samples() > size) std::abort();
-    for (const auto& channel : capture.channels) {
-        if (channel.samples.size() != capture.samples()) std::abort();
-        if (!channel.unit.empty() && channel.unit != "V" && channel.unit != "A") std::abort();
-        if (std::isnan(channel.low) || !(channel.low <= channel.high)) std::abort();
-    }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -48,6 +31,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto options = optionsFrom(data[0]);
     if (file < 0 || ftruncate(file, 0) != 0) return 0;
     if (pwrite(file, data + 1, size - 1, 0) != static_cast<ssize_t>(size - 1)) return 0;
-    check(formats->read(path, options), size);
+    tacto::fuzz::checkCapture(formats->read(path, options), size);
     return 0;
 }

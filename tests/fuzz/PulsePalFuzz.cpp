@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "drivers/pulsepal/EmulatedPulsePal.h"
+#include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tacto::pulsepal;

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "drivers/sciencemode/EmulatedStimulator.h"
 #include "drivers/sciencemode/Exchange.h"
 #include "drivers/sciencemode/ReadBack.h"
+#include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
 
 namespace {
 
@@ -38,7 +38,6 @@ void parse(std::span<const std::uint8_t> payload) {
         }
     }
     if (const auto id = readDeviceIdAck(payload)) require(id->id.size() <= 10);
-    static_cast<void>(readCurrentDataAck(payload));
     static_cast<void>(readStimStatusAck(payload));
     static_cast<void>(readExtendedVersionAck(payload));
     static_cast<void>(readPlainAck(Command::LowLevelStop, payload));
@@ -47,9 +46,7 @@ void parse(std::span<const std::uint8_t> payload) {
         const auto again = payloadOf(*request);
         require(again && readChannelConfig(again->view()).has_value());
     }
-    if (const auto request = readMidLevelUpdate(payload)) require(payloadOf(*request).has_value());
     static_cast<void>(readLowLevelInit(payload));
-    static_cast<void>(readMidLevelInit(payload));
 }
 
 /// Gives the input as the device's answers.
@@ -95,16 +92,9 @@ void decode(std::span<const std::uint8_t> input) {
     for (int i = 0; i < 4; ++i) static_cast<void>(exchange.ask(Command::StimStatus));
 }
 
-/// Its dead-man is a fortieth of the real one's: what an update lets it play until then costs the time of an input.
-EmulatedSettings shortSettings() {
-    EmulatedSettings settings;
-    settings.deadMan = Seconds(0.05);
-    return settings;
-}
-
 /// Requests with sound frames: a length, a command and a payload each, with time between.
 void request(std::span<const std::uint8_t> input) {
-    EmulatedStimulator device(shortSettings());
+    EmulatedStimulator device;
     Instant now{0};
     std::array<std::uint8_t, 2048> answers{};
     while (input.size() >= 3) {

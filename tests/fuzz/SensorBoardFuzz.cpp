@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "drivers/sensor_board/EmulatedBoardLine.h"
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace {
 

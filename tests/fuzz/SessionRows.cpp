@@ -56,12 +56,12 @@ void capture(std::string_view text, Data data) {
 void about(std::string_view text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (json.is_discarded()) return;
-    require(lineOf(json).find('\n') == std::string::npos);
+    require(dumpJson(json).find('\n') == std::string::npos);
     // As text, where NaN is null and so equal to itself.
     const auto once = reproducible(aboutFrom(json));
-    require(lineOf(reproducible(aboutFrom(toJson(aboutFrom(json))))) == lineOf(once));
+    require(dumpJson(reproducible(aboutFrom(toJson(aboutFrom(json))))) == dumpJson(once));
     const auto stream = toJson(streamFrom(json));
-    require(lineOf(toJson(streamFrom(stream))) == lineOf(stream));
+    require(dumpJson(toJson(streamFrom(stream))) == dumpJson(stream));
 }
 
 }  // namespace

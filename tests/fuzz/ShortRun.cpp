@@ -1,7 +1,8 @@
 // The short run of a fuzz target in the ordinary builds, without clang:
-//   fuzzed_<Target> CORPUS_FOLDER [--inputs N] [--seconds S] [--seed K]
+//   fuzzed_<Target> CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
 //   fuzzed_<Target> FILE          one input again
-// Runs every file of the folder, then N (200000) inputs made of them, until S (3) seconds are over.
+// Runs every file of the folder, then N (200000) inputs made of them and of the dictionary's words, until S (3) seconds
+// are over. Without --seed each run draws another, and says which.
 //
 // The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
 // way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
@@ -17,6 +18,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <sys/mman.h>
@@ -37,9 +39,10 @@ constexpr int kMisused = 2;
 
 struct Options {
     std::filesystem::path inputs;
+    std::filesystem::path dictionary;
     std::uint64_t count = 200'000;
     std::uint64_t seconds = 3;
-    std::uint64_t seed = 1;
+    std::uint64_t seed = std::random_device{}();
 };
 
 /// What the running process leaves behind.
@@ -57,6 +60,10 @@ std::optional<Options> optionsFrom(int count, char** words) {
     for (int i = 2; i < count; i += 2) {
         const std::string_view name = words[i];
         const std::string_view text = words[i + 1];
+        if (name == "--dictionary") {
+            options.dictionary = text;
+            continue;
+        }
         std::uint64_t* const into = name == "--inputs"    ? &options.count
                                     : name == "--seconds" ? &options.seconds
                                     : name == "--seed"    ? &options.seed
@@ -90,6 +97,14 @@ std::vector<Bytes> corpusAt(const std::filesystem::path& where) {
     return corpus;
 }
 
+std::optional<std::vector<Bytes>> wordsAt(const std::filesystem::path& dictionary) {
+    if (dictionary.empty()) return std::vector<Bytes>();
+    std::ifstream stream(dictionary, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) return std::nullopt;
+    return tacto::fuzz::dictionaryFrom(text);
+}
+
 void run(const Bytes& input, Shared& shared) {
     shared.size = input.size();
     std::ranges::copy(input, shared.input);
@@ -101,7 +116,7 @@ void run(const Bytes& input, Shared& shared) {
 }
 
 /// The process that may die.
-void runAll(const std::vector<Bytes>& corpus, const Options& options, Shared& shared) {
+void runAll(const std::vector<Bytes>& corpus, const std::vector<Bytes>& words, const Options& options, Shared& shared) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
     for (const auto& input : corpus) {
         run(input, shared);
@@ -110,13 +125,13 @@ void runAll(const std::vector<Bytes>& corpus, const Options& options, Shared& sh
     if (!std::filesystem::is_directory(options.inputs)) return;
     tacto::Random random(options.seed, "fuzz");
     while (shared.mutated < options.count && std::chrono::steady_clock::now() < end) {
-        run(tacto::fuzz::mutated(corpus, random), shared);
+        run(tacto::fuzz::mutated(corpus, words, random), shared);
         ++shared.mutated;
     }
 }
 
 /// Fails the run: says what happened, and where the input is.
-int keep(const Shared& shared, int status, const std::filesystem::path& program) {
+int keep(const Shared& shared, int status, std::uint64_t seed, const std::filesystem::path& program) {
     auto file = program;
     file += ".crash";
     std::ofstream(file, std::ios::binary | std::ios::trunc)
@@ -126,9 +141,10 @@ int keep(const Shared& shared, int status, const std::filesystem::path& program)
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
         how = "took longer than " + std::to_string(kInputMost_s) + " s";
     }
-    std::fprintf(stderr, "After %llu files and %llu inputs made of them: an input of %zu bytes %s.\nAgain: %s %s\n",
+    std::fprintf(stderr,
+                 "After %llu files and %llu inputs made of them (seed %llu): an input of %zu bytes %s.\nAgain: %s %s\n",
                  static_cast<unsigned long long>(shared.corpus), static_cast<unsigned long long>(shared.mutated),
-                 shared.size, how.c_str(), program.c_str(), file.c_str());
+                 static_cast<unsigned long long>(seed), shared.size, how.c_str(), program.c_str(), file.c_str());
     return EXIT_FAILURE;
 }
 
@@ -137,12 +153,19 @@ int keep(const Shared& shared, int status, const std::filesystem::path& program)
 int main(int argc, char** argv) {
     const auto options = optionsFrom(argc, argv);
     if (!options) {
-        std::fprintf(stderr, "Usage: %s CORPUS_FOLDER|FILE [--inputs N] [--seconds S] [--seed K]\n", argv[0]);
+        std::fprintf(stderr, "Usage: %s CORPUS_FOLDER|FILE [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]\n",
+                     argv[0]);
         return kMisused;
     }
     const auto corpus = corpusAt(options->inputs);
     if (corpus.empty()) {
         std::fprintf(stderr, "%s: expected a file, or a folder with at least one\n", options->inputs.c_str());
+        return kMisused;
+    }
+    const auto words = wordsAt(options->dictionary);
+    if (!words) {
+        std::fprintf(stderr, "%s: a dictionary with a line \"word\" or name=\"word\" each was expected\n",
+                     options->dictionary.c_str());
         return kMisused;
     }
     void* const memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -157,13 +180,13 @@ int main(int argc, char** argv) {
         return kMisused;
     }
     if (child == 0) {
-        runAll(corpus, *options, shared);
+        runAll(corpus, *words, *options, shared);
         std::exit(EXIT_SUCCESS);  // not _exit: leaks are looked for here
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) return keep(shared, status, argv[0]);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) return keep(shared, status, options->seed, argv[0]);
     std::printf("%llu files, %llu inputs made of them (seed %llu)\n", static_cast<unsigned long long>(shared.corpus),
                 static_cast<unsigned long long>(shared.mutated), static_cast<unsigned long long>(options->seed));
     return EXIT_SUCCESS;

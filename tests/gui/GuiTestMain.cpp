@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/OffscreenScreen.h"
 #include "tests/support/Support.h"
 

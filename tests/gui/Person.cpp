@@ -6,7 +6,7 @@
 #include <QPixmap>
 #include <QTest>
 
-#include "app/gui/look/ConfirmButton.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/simulated/SimulatedDriver.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
 
 namespace tacto {
@@ -74,22 +74,23 @@ void BM_ScopeFrame(benchmark::State& state) {
     const auto samples = samplesOf(static_cast<Signal>(state.range(0)));
     shown->traces.push_back(gui::makeTrace("channel/voltage", "Voltage", "V", samples, kRate_hz, 0, 0));
     shown->traces.push_back(gui::makeTrace("channel/current", "Current", "A", samples, kRate_hz, 0, 0));
-    gui::ScopeView view;
-    view.resize(kScreen);
-    view.QWidget::show();
-    view.show(shown);
+    gui::ScopeModel model;
+    gui::ScopeScreen screen(model);
+    screen.resize(kScreen);
+    screen.QWidget::show();
+    model.show(shown);
     if (state.range(0) == kNoise) {
-        for (const auto& lane : view.lanes()) {  // each over the whole height
-            view.setLaneScale(lane.key, 10);
-            view.setLanePosition(lane.key, 0);
+        for (const auto& lane : model.lanes()) {  // each over the whole height
+            model.setLaneScale(lane.key, 10);
+            model.setLanePosition(lane.key, 0);
         }
     }
     std::size_t k = 0;
     for (auto _ : state) {
         const auto look = frame(k++);
-        view.setTimePerDivision(look.perDivision_s);
-        view.setTimeCentre(look.centre_s);
-        view.replot(QCustomPlot::rpImmediateRefresh);
+        model.setTimePerDivision(look.perDivision_s);
+        model.setTimeCentre(look.centre_s);
+        screen.replot(QCustomPlot::rpImmediateRefresh);
     }
 }
 BENCHMARK(BM_ScopeFrame)->ArgName("noise")->Arg(kPulses)->Arg(kNoise)->Unit(benchmark::kMillisecond);

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cstring>
 
-#include "drivers/sensor_board/EmulatedBoard.h"
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoard.h"
 
 namespace tacto {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <zlib.h>
 
-#include "drivers/sigrok/SigrokFormat.h"
-#include "drivers/sigrok/ZipDirectory.h"
+#include "drivers/sigrok/session_file/SigrokFormat.h"
+#include "drivers/sigrok/session_file/ZipDirectory.h"
 #include "tests/drivers/sigrok/ZipWriter.h"
 
 namespace tacto {

@@ -1,18 +1,14 @@
-#!/usr/bin/python3
-"""U of R for one slide, computed with numpy another way than core/analysis/RoughnessRepeatability.cpp does.
+"""U of R for one slide, computed with numpy another way than core/analysis/sensor_calibration/RoughnessRepeatability.cpp does.
 
 R of a slide is a function of the slide's log10 features and of the two references' mean log10 features (science.md
 section 2, items 6 and 7). Here its partial derivatives are taken numerically, the covariance of the features within a
 surface is a matrix, and u follows from the law of propagation of uncertainty (GUM 5.2.2). A Monte Carlo run says how
-often the interval holds the truth. Writes roughness_uncertainty.json beside this file; tests/analysis reads it.
-
-    /usr/bin/python3 tests/reference/roughness_uncertainty.py
+often the interval holds the truth. tests/analysis reads it.
 """
-import json
-import pathlib
-
 import numpy as np
 from scipy import stats
+
+from figures import keep
 
 W = np.array([0.5, 0.5])
 
@@ -61,21 +57,17 @@ def coverage(runs=4000):
     return held / runs
 
 
-def main():
+def figures():
     random = np.random.default_rng(1)
     covariance = np.array([[4e-4, -2e-4], [-2e-4, 2.5e-3]])
     surfaces = draw(random, [5, 7, 4], [[-1.6, -3.5], [-0.5, -1.3], [-1.0, -2.2]], covariance)
-    matrix, freedom = pooled(surfaces)
-    out = {
-        "made_by": "tests/reference/roughness_uncertainty.py, numpy " + np.__version__,
+    freedom = pooled(surfaces)[1]
+    return {
         "surfaces": [{"h": (10 ** s[:, 0]).tolist(), "v": (10 ** s[:, 1]).tolist()} for s in surfaces],
         "degrees_of_freedom": freedom,
         "expanded": [{"R": r, "U": float(expanded(surfaces, r))} for r in (0.0, 0.25, 0.5, 1.0)],
         "coverage": coverage(),
     }
-    path = pathlib.Path(__file__).with_suffix(".json")
-    path.write_text(json.dumps(out, indent=1) + "\n")
-    print(path, "coverage", out["coverage"], "U", out["expanded"])
 
 
-main()
+keep(__file__, figures)

@@ -63,6 +63,12 @@ TEST(NumberText, SaysUnknownAsADash) {
 
 TEST(NumberText, UsesATrueMinus) { EXPECT_EQ(plain(quantityText(-0.5, "V", 3)), "−500 mV"); }
 
+TEST(NumberText, WritesWhatRoundsToZeroWithoutAMinus) {
+    EXPECT_EQ(plain(quantityText(-0.002, "N", ColumnFormat{0, 2})), "0.00 N");
+    EXPECT_EQ(plain(quantityText(-0.006, "N", ColumnFormat{0, 2})), "−0.01 N");
+    EXPECT_EQ(plain(quantityText(0.0, "N", ColumnFormat{0, 2})), "0.00 N");
+}
+
 TEST(NumberText, KeepsSettingsAsTheyWereSet) {
     EXPECT_EQ(plain(settingText(1000, "ohm")), "1 kΩ");
     EXPECT_EQ(plain(settingText(25, "")), "25");

@@ -4,6 +4,7 @@
 
 #include "app/report/Report.h"
 #include "app/report/SessionReport.h"
+#include "core/session/SessionLabels.h"
 #include "core/session/SessionWriter.h"
 #include "tests/report/Samples.h"
 #include "tests/support/Support.h"
@@ -175,6 +176,32 @@ TEST_F(SessionReport, ListsFaultsAndRefusalsButNotTheQuietEvents) {
     ASSERT_EQ(model.events.size(), 2U);
     EXPECT_EQ(model.events[0].count, 3);
     EXPECT_EQ(model.events[1].text, "electrode open");
+}
+
+TEST_F(SessionReport, ListsEachMarkOfTheOperator) {
+    for (const double at : {1.0, 2.0})
+        ASSERT_TRUE(writer_->event(toInstant(at), kOperatorMarkEvent, {{"text", "table bumped"}}));
+    const auto model = closedAndRead();
+    ASSERT_EQ(model.events.size(), 2U);
+    EXPECT_EQ(model.events[1].t_s, 2.0);
+    EXPECT_EQ(model.events[1].text, "table bumped");
+}
+
+TEST_F(SessionReport, TellsWhatWasSaidAfterwardsFromWhatWasEnteredBefore) {
+    RecordProperty("hazard", "H8");
+    ASSERT_TRUE(writer_->reportItem(clock_.now(), {{"kind", "notes"}, {"operator", "A. Weber"}, {"sample", "S-1"}}));
+    const auto before = closedAndRead();
+    EXPECT_EQ(before.basis.operatorName, "A. Weber");
+    EXPECT_EQ(before.basis.sample, "S-1");
+    ASSERT_TRUE(saveLabels(path_, {"A. Weber", "S-2", "the wrong load", {"P60", "repeat"}}));
+    const auto model = read();
+    EXPECT_EQ(model.basis.operatorName, "A. Weber");
+    EXPECT_EQ(model.basis.sample, "S-2 (entered after the recording ended)");
+    EXPECT_EQ(model.basis.note, "the wrong load");
+    EXPECT_EQ(model.basis.tags, "P60, repeat");
+    EXPECT_EQ(model.chainHead, before.chainHead);
+    EXPECT_TRUE(model.damage.isEmpty());
+    EXPECT_EQ(model.verdict, before.verdict) << "it is still a session that was closed";
 }
 
 TEST_F(SessionReport, ShowsTheWorstExposureAndNotEvaluatedAboveAnyNumber) {

@@ -1,11 +1,11 @@
-// CheckNames.h - the table of every check that has a case in GateCases. A check that is added to GateChecks.h and not
+// CheckNames.h - the table of every check that has a case in GateCases. A check that is added to Rules.h and not
 // to this table does not build.
 #pragma once
 
 #include <array>
 #include <string_view>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 
 namespace tacto::test {
 
@@ -47,7 +47,7 @@ inline constexpr std::array kCheckNames{
     TACTO_CHECK(ImpedanceFromFuture),
     TACTO_CHECK(ImpedanceOutOfRange),
     TACTO_CHECK(ImpedanceJump),
-    TACTO_CHECK(MoreThanTold),
+    TACTO_CHECK(MoreThanProgrammed),
     TACTO_CHECK(Uncertainty),
     TACTO_CHECK(PulseBeyondPeriod),
     TACTO_CHECK(LongWithoutDeadMan),

@@ -7,12 +7,12 @@
 namespace tacto {
 namespace {
 
-/// Of a quantity that is told 10, and of one that is told nothing.
+/// Of a quantity that is programmed to 10, and of one that is programmed to 0.
 void expectBounds(const QuantityBounds& bounds, double least, double most) {
     EXPECT_NEAR(bounds.least(10), least, 1e-12);
     EXPECT_NEAR(bounds.most(10), most, 1e-12);
     EXPECT_EQ(bounds.least(0), 0);
-    EXPECT_EQ(bounds.most(0), 0) << "an output that is told 0 is off";
+    EXPECT_EQ(bounds.most(0), 0) << "an output that is programmed to 0 is off";
     EXPECT_TRUE(std::isnan(bounds.most(kNaN))) << "and NaN is not lost on the way";
     EXPECT_TRUE(std::isnan(bounds.least(kNaN)));
 }
@@ -28,7 +28,7 @@ TEST(DeliveryBounds, AreTheStatedAccuracyWithoutACalibration) {
 
 TEST(DeliveryBounds, AreTheLineItsUncertaintyAndItsResidualWhereACalibrationHolds) {
     RecordProperty("hazard", "H1");
-    // 10 V told: 10.9 by the line, ± 1 % and ± 0.05.
+    // 10 V programmed: 10.9 by the line, ± 1 % and ± 0.05.
     const CalibrationLine strong{1.1, -0.1, 5, 40, Spread{0.01, 0.05}};
     expectBounds({strong, true, {}}, 10, 10.9 * 1.01 + 0.05);
     const CalibrationLine weak{0.9, 0, 5, 40, Spread{0.01, 0.05}};
@@ -55,7 +55,8 @@ TEST(DeliveryBounds, ACalibrationIsNeverNarrowerThanItself) {
             const CalibrationLine line{gain, 0, 5, 40, Spread{u, 0}};
             const QuantityBounds calibrated(line, true, {}), plain({}, false, Spread{u, 0});
             for (const double command : {5.0, 17.0, 40.0}) {
-                EXPECT_GE(calibrated.most(line.told(command)), plain.most(command) * (1 - 1e-12)) << gain << ' ' << u;
+                EXPECT_GE(calibrated.most(line.programmedFor(command)), plain.most(command) * (1 - 1e-12))
+                    << gain << ' ' << u;
             }
         }
     }
@@ -70,7 +71,7 @@ TEST(DeliveryBounds, KeepsATimeWithoutSpreadToTheLastBit) {
     const CalibrationLine longer{0.99, 3e-6, 200e-6, 400e-6, Spread{}};
     const auto range = QuantityBounds(longer, true, {}).times(Micros(250));
     EXPECT_NEAR(range.most.count(), 250.5, 1e-9);
-    EXPECT_EQ(range.least, Micros(250)) << "what is told lies inside the bounds";
+    EXPECT_EQ(range.least, Micros(250)) << "what is programmed lies inside the bounds";
 }
 
 TEST(DeliveryBounds, AWindowLastsLongerByAClockThatIsSlow) {

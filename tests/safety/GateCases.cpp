@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/base/NaN.h"
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 #include "core/safety/TrainExposure.h"
 #include "core/safety/UnitRecord.h"
 #include "tests/safety/GateFixtures.h"
@@ -186,7 +186,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         const bool checked = rig.gate.approveCheck(rig.clock.now()).has_value();
         return refused && checked && rig.gate.updateImpedance(Ohms(1000), rig.clock.now()) && rig.ask(volts(10));
     });
-    add(MoreThanTold, "a stimulator that delivers more than it is told", [] {
+    add(MoreThanProgrammed, "a stimulator that delivers more than it is programmed to", [] {
         GateSetup setup = benchSetup();
         setup.limits = {limitsOf({rowFor(Quantity::PeakVoltage, 11)})};
         const bool fine = Rig(setup).ask(volts(10)).has_value();
@@ -206,10 +206,10 @@ void addStateCases(std::vector<GateCase>& cases) {
     };
     const CalibrationLine known = exactLine(1, 0, 10, 50);
     const auto times = [](double gain, double offset_us) { return exactLine(gain, offset_us * 1e-6, 50e-6, 1e-3); };
-    add(MoreThanTold, "a phase that comes out longer than it is told", [=] {
+    add(MoreThanProgrammed, "a phase that comes out longer than programmed", [=] {
         return refusedOnly(Quantity::PhaseCharge, 8.5, StimulatorCalibration{known, {}, times(1.05, 5), {}}, "8.6");
     });
-    add(MoreThanTold, "a gap that comes out shorter than it is told", [=] {
+    add(MoreThanProgrammed, "a gap that comes out shorter than programmed", [=] {
         // Told 100 us, the capacitor empties before the second phase.
         GateSetup setup = benchSetup(Load::skin(Ohms(500), Ohms(20'000), Nanofarads(50)));
         setup.limits = {limitsOf({rowFor(Quantity::PeakCurrent, 102.5)})};
@@ -219,7 +219,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.calibration = StimulatorCalibration{known, {}, {}, times(1, -20)};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::LimitExceeded, "peak current");
     });
-    add(MoreThanTold, "trains that come out sooner than they are told", [=] {
+    add(MoreThanProgrammed, "trains that come out sooner than programmed", [=] {
         const CalibrationLine sooner = exactLine(0.9, 0, 0.1, 10);
         return refusedOnly(Quantity::RmsCurrent5s, 1.15, StimulatorCalibration{known, sooner, {}, {}}, "1.239");
     });

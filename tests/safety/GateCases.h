@@ -19,7 +19,7 @@ struct GateCase {
 /// Of the interlock, the heartbeat, accepted levels and what a train reads back: InterlockCases.cpp.
 void addInterlockCases(std::vector<GateCase>& cases);
 
-/// Every check of GateChecks.h, at least once.
+/// Every check of Rules.h, at least once.
 [[nodiscard]] std::vector<GateCase> gateCases();
 
 }  // namespace tacto::test

@@ -30,7 +30,7 @@ inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}
 
 inline std::vector<LimitSet> shippedLimits() { return loadLimitSets(sourceDir() / "resources" / "limits").value(); }
 
-/// Both deliver exactly what they are told, so that limits can be met to the last digit.
+/// Both deliver exactly what is programmed, so that limits can be met to the last digit.
 inline SourceTraits voltageSource() {
     SourceTraits source;
     source.accuracy = StatedAccuracy::exact();

@@ -1,11 +1,12 @@
-// Each check of the gate, taken away in turn, must make its case fail: no check is there untested (H1).
-// Linked with tacto_safety_mutable, the same sources with removable checks; never with the product's library.
+// Each rule of the gate, taken out of force in turn, must make its case fail: no rule is there untested (H1).
+// Linked with tacto_safety_mutable, the same sources with removable rules; never with the product's library.
+#include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
-#include "core/safety/GateChecks.h"
+#include "core/safety/Rules.h"
 #include "tests/safety/CheckNames.h"
 #include "tests/safety/GateCases.h"
 #include "tests/support/Support.h"
@@ -17,7 +18,7 @@
 namespace tacto::test {
 
 TEST(GateMutation, EveryCaseHoldsWithEveryCheckInPlace) {
-    gate::skippedCheck = -1;
+    gate::removedRule = -1;
     for (const auto& c : gateCases()) EXPECT_TRUE(c.holds()) << c.name;
 }
 
@@ -35,7 +36,7 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
         checks.push_back(gate::limitCheck(gate::MeterCeiling, q));
     }
     for (const int check : checks) {
-        gate::skippedCheck = check;
+        gate::removedRule = check;
         bool tried = false;
         bool noticed = false;
         for (const auto& c : cases) {
@@ -47,15 +48,25 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
         EXPECT_TRUE(tried) << "no case for check " << check << ' ' << name;
         EXPECT_TRUE(noticed) << "check " << check << ' ' << name << " can be taken away and no case fails";
     }
-    gate::skippedCheck = -1;
+    gate::removedRule = -1;
     RecordProperty("checks", static_cast<int>(checks.size()));
 }
 
-/// Every refusal in the files that decide asks for a check by its name, or says on the line before why it cannot.
-TEST(GateMutation, EveryRefusalHasItsCheck) {
+/// Whether `line` begins the entry of a named rule in a table.
+bool beginsARule(const std::string& line) {
+    const auto brace = line.find_first_not_of(' ');
+    if (brace == std::string::npos || line[brace] != '{') return false;
+    return std::ranges::any_of(kCheckNames, [&](const CheckName& named) {
+        return line.compare(brace + 1, named.name.size() + 1, std::string(named.name) + ',') == 0;
+    });
+}
+
+/// Every refusal in the files that decide stands in the entry of a rule, is worded by a function that only words, or
+/// says on the line before why it cannot.
+TEST(GateMutation, EveryRefusalHasItsRule) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    for (const char* name : {"AcceptedLevels.cpp", "GateConfigure.cpp", "GateJudge.cpp", "GateRequest.cpp",
+    for (const char* name : {"AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp", "LimitRules.cpp",
                              "Interlock.cpp", "SafetyGate.cpp", "TrainCheck.cpp", "Heartbeat.h"}) {
         std::ifstream in(sourceDir() / "core" / "safety" / name);
         ASSERT_TRUE(in) << name;
@@ -63,26 +74,28 @@ TEST(GateMutation, EveryRefusalHasItsCheck) {
         for (std::string line; std::getline(in, line);) lines.push_back(line);
         for (std::size_t at = 0; at < lines.size(); ++at) {
             const auto& line = lines[at];
-            const bool refuses =
-                line.find("fail(ErrorCode") != std::string::npos || line.find("invalid(\"") != std::string::npos ||
-                line.ends_with("return invalid(") || line.find("refuse(ErrorCode") != std::string::npos ||
-                line.ends_with("return refuse(") || line.find("return found(") != std::string::npos ||
-                line.find("return late &&") != std::string::npos || line.find("return beyond(") != std::string::npos ||
-                (name == std::string("Heartbeat.h") && line.find("return false;") != std::string::npos);
-            const bool words =
-                line.find("const auto") != std::string::npos || line.find("std::forward<Args>") != std::string::npos;
-            if (!refuses || words) continue;
+            const auto says = [&line](const char* words) { return line.find(words) != std::string::npos; };
+            if (line.starts_with("tl::unexpected<Error> ")) continue;
+            const bool refuses = says("fail(ErrorCode") || line.ends_with("fail(") || says("invalid(") ||
+                                 says("beyond(") || says("refused(") || says("failure(") ||
+                                 says("finding = TrainFinding::") ||
+                                 (name == std::string("Heartbeat.h") && says("return false;") && !says("firstBroken("));
+            // What a table refused is passed on.
+            if (!refuses || says("return failure(kept)") || says("return failure(sound)") ||
+                says("finding = TrainFinding::Ok;"))
+                continue;
             ++refusals;
             bool named = false;
-            // Up to the start of the condition: a few lines, and not into the function before.
-            for (std::size_t back = 0; back <= 24 && back <= at && !named; ++back) {
+            for (std::size_t back = 0; back <= at && !named; ++back) {
                 const auto& above = lines[at - back];
-                named = above.find("checks(") != std::string::npos || above.find("// No check:") != std::string::npos;
-                if (back > 0 && (above == "}" || above == "    }")) break;
+                named = beginsARule(above) || above.starts_with("tl::unexpected<Error> ") ||
+                        (back <= 1 && above.find("// No rule:") != std::string::npos);
+                if (back > 0 && above.starts_with("}")) break;
             }
-            EXPECT_TRUE(named) << name << ':' << at + 1 << " refuses without a check of GateChecks.h: " << line;
+            EXPECT_TRUE(named) << name << ':' << at + 1 << " refuses without a rule of Rules.h: " << line;
         }
     }
+    RecordProperty("refusals", refusals);
     EXPECT_GE(refusals, 80) << "the files were not read as expected";
 }
 

@@ -5,21 +5,19 @@
 #include <set>
 
 #include "tests/safety/GateSequences.h"
-#include "tests/support/Campaign.h"
+#include "tests/support/Trials.h"
 
 namespace tacto::test {
 
 namespace {
-/// The full million runs in release, ten in a campaign; a debug build runs a tenth, sanitizers a hundredth.
+/// A million before a change lands; the sanitizers look for other things than rare sequences.
 /// TACTOSCOPE_H1_SEQUENCES overrides.
 std::uint64_t wantedSequences() {
     if (const char* text = std::getenv("TACTOSCOPE_H1_SEQUENCES")) return std::strtoull(text, nullptr, 10);
-#if defined(TACTOSCOPE_SANITIZED)
+#ifdef TACTOSCOPE_SANITIZED
     return 10'000;
-#elif defined(__OPTIMIZE__)
-    return static_cast<std::uint64_t>(campaignTrials(1'000'000, 10'000'000));
 #else
-    return 100'000;
+    return trials<std::uint64_t>({.local = 100'000, .ci = 1'000'000, .campaign = 10'000'000});
 #endif
 }
 constexpr std::uint64_t kCases = 100;  // RapidCheck's default number of successes

@@ -7,6 +7,7 @@
 namespace tacto::test {
 
 namespace {
+// Gauss-Legendre, five points: Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4.
 constexpr std::array<double, 5> kNode{0.0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
                                       0.9061798459386640};
 constexpr std::array<double, 5> kWeight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,

@@ -2,9 +2,9 @@
 
 #include "core/base/NaN.h"
 #include "core/safety/AcceptedLevels.h"
-#include "core/safety/GateChecks.h"
 #include "core/safety/Heartbeat.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/Rules.h"
 #include "core/safety/TrainCheck.h"
 #include "tests/safety/GateCases.h"
 #include "tests/safety/GateFixtures.h"

@@ -93,26 +93,26 @@ TEST(LimitSet, RefusesWhatItCannotMeanWithOneSentence) {
     expectRefused("{\n\"id\": \"x\",\n!}", "line 3 is not JSON");
     expectRefused("[]", "an object is expected");
     expectRefused(with("\"max\": 20", "\"max\": 0"), "a number above 0");
-    expectRefused(with("\"max\": 20", "\"max\": -1"), "finite number of 0 or more");
-    expectRefused(with("\"max\": 20", "\"max\": \"20\""), "must be a number");
+    expectRefused(with("\"max\": 20", "\"max\": -1"), "\"max\" is -1; a number above 0");
+    expectRefused(with("\"max\": 20", "\"max\": \"20\""), "\"max\" is \"20\"; a number above 0");
     expectRefused(with("\"max\": 20", "\"max\": 1e999"), "");
     expectRefused(with("\"max\": 20", "\"max\": NaN"), "is not JSON");
     expectRefused(with("\"max\": 20,", ""), "a number above 0");
-    expectRefused(with("\"mA\"", "\"A\""), "given in A; mA is accepted");
-    expectRefused(with("peak_current", "peak_amps"), "not a known quantity");
-    expectRefused(with("\"<=\"", "\"<<\""), "accepted are <=, <");
-    expectRefused(with("\"load_range\"", "\"here\""), "load_range, 500_ohm");
-    expectRefused(with("\"refuse\"", "\"ignore\""), "refuse, warn, disclose");
-    expectRefused(with("\"high\"", "\"sure\""), "high, medium, medium-low, low");
-    expectRefused(with("\"source\": \"lab rule 3\", ", ""), "\"source\" must be a text");
+    expectRefused(with("\"mA\"", "\"A\""), "\"unit\" is \"A\"; \"mA\" of peak_current was expected");
+    expectRefused(with("peak_current", "peak_amps"), "\"peak_amps\"; a known quantity");
+    expectRefused(with("\"<=\"", "\"<<\""), "<= or < was expected");
+    expectRefused(with("\"load_range\"", "\"here\""), "load_range or 500_ohm");
+    expectRefused(with("\"refuse\"", "\"ignore\""), "refuse, warn or disclose");
+    expectRefused(with("\"high\"", "\"sure\""), "high, medium, medium-low or low");
+    expectRefused(with("\"source\": \"lab rule 3\", ", ""), "\"source\" is missing; a text");
     expectRefused(with("\"max\": 20", "\"maxx\": 1, \"max\": 20"), "\"maxx\" is not a known key");
     expectRefused(with("\"max\": 20", "\"max\": 20, \"max\": 2000"), "stands twice");
-    expectRefused(with("\"max\": 20", "\"max\": 20, \"window_s\": 2"), "over 2 s");
+    expectRefused(with("\"max\": 20", "\"max\": 20, \"window_s\": 2"), "\"window_s\" is 2");
     expectRefused(with("\"max\": 20", "\"max\": 20, \"above_hz\": 9, \"up_to_hz\": 9"), "is empty");
     expectRefused(with("\"lab\"", "\"profile\""), "not accepted");
     expectRefused(with("\"lab\"", "\"../lab\""), "not accepted");
-    expectRefused(R"({"id": "lab", "title": "t", "limits": []})", "at least one row");
-    expectRefused(R"({"id": "lab", "title": "t", "limits": 3})", "a list");
+    expectRefused(R"({"id": "lab", "title": "t", "limits": []})", "a list of 1 to 1000 entries");
+    expectRefused(R"({"id": "lab", "title": "t", "limits": 3})", "\"limits\" is 3; a list of 1 to 1000 entries");
 }
 
 TEST(LimitSet, RefusesDeepAndHugeText) {
@@ -127,6 +127,13 @@ TEST(LimitSet, FolderWithoutSetsOrWithTwoOfOneIdIsRefused) {
     EXPECT_EQ(loadLimitSets(folder.path()).error().code, ErrorCode::NotFound);
     EXPECT_EQ(loadLimitSets(folder.path() / "none").error().code, ErrorCode::NotFound);
     EXPECT_EQ(loadLimitSet(folder.path() / "none.json").error().code, ErrorCode::NotFound);
+    const ScratchDir another;
+    const auto huge = another.write("huge.json", "{}");
+    std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // it holds no more than before
+    const auto refused = loadLimitSet(huge);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::ParseError);
+    EXPECT_NE(refused.error().message.find("1000000 bytes"), std::string::npos) << refused.error().message;
     folder.write("a.json", kGood);
     EXPECT_TRUE(loadLimitSets(folder.path()));
     folder.write("b.json", kGood);

@@ -48,8 +48,8 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
 
 TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     RecordProperty("hazard", "H1");
-    // 40 V every 0.5 s into 141.4 ohm makes 10.002 mA RMS at the low end of the load range. A good calibration, told a
-    // little less for it, with U = 0.8 %, does not know that it makes less.
+    // 40 V every 0.5 s into 141.4 ohm makes 10.002 mA RMS at the low end of the load range. A good calibration,
+    // programmed a little less for it, with U = 0.8 %, does not know that it makes less.
     GateSetup setup = shippedSetup(141.4);
     setup.source.amplitudeStep = 0.05;
     EXPECT_FALSE(Rig(setup).ask(volts(40), 0.5));
@@ -60,11 +60,11 @@ TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     setup.calibrated = true;
     Rig calibrated(setup);
     ASSERT_TRUE(calibrated.configured) << calibrated.configured.error().message;
-    PulseTrain told = toldFor(volts(40), setup.calibration);
-    told.amplitude = Volts(40);
-    told.phaseWidth = Micros(199);  // rounded toward zero, as a device with steps of 1 us makes it
-    told.interPhaseGap = Micros(99);
-    const auto asked = calibrated.ask(told, toldFor(Seconds(0.5), setup.calibration).count());
+    PulseTrain programmed = programmedFor(volts(40), setup.calibration);
+    programmed.amplitude = Volts(40);
+    programmed.phaseWidth = Micros(199);  // rounded toward zero, as a device with steps of 1 us makes it
+    programmed.interPhaseGap = Micros(99);
+    const auto asked = calibrated.ask(programmed, programmedFor(Seconds(0.5), setup.calibration).count());
     ASSERT_FALSE(asked);
     EXPECT_NE(asked.error().message.find("RMS current over 5 s"), std::string::npos) << asked.error().message;
     // Taken as exact it would be accepted, at 199 us and a hair less than 40 V.
@@ -72,12 +72,12 @@ TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     exact.calibration->amplitude.spread = Spread{};
     for (auto* line : {&*exact.calibration->interval, &*exact.calibration->phaseWidth, &*exact.calibration->gap})
         line->spread = Spread{};
-    EXPECT_TRUE(Rig(exact).ask(told, 0.5)) << "what was accepted before";
+    EXPECT_TRUE(Rig(exact).ask(programmed, 0.5)) << "what was accepted before";
     // One that nobody knows the uncertainty of is judged with 5 %, as a stimulator that is not calibrated.
     for (auto* line : {&*setup.calibration->interval, &*setup.calibration->phaseWidth, &*setup.calibration->gap})
         line->spread.reset();
     setup.calibration->amplitude.spread.reset();
-    EXPECT_FALSE(Rig(setup).ask(told, 0.5));
+    EXPECT_FALSE(Rig(setup).ask(programmed, 0.5));
 }
 
 TEST(SafetyGate, TheCommandIsJudgedAsItIsAndThePeakAtItsWorst) {
@@ -377,8 +377,8 @@ TEST(SafetyGate, ExposureShowsTheLastFiveSeconds) {
         return r.quantity == Quantity::RmsCurrent5s && r.set.view() == "paper";
     });
     ASSERT_NE(row, rows.end());
-    // At load_min, 400 Ω: 2.263 mA · 500 / 400; the first of the ten trains began just 5 s ago and no longer counts.
-    EXPECT_NEAR(row->value, 2.2627417 * 1.25 * std::sqrt(0.9), 1e-6);
+    // At load_min, 400 Ω, 100 mA for 0.4 ms; the first of the ten trains began just 5 s ago and no longer counts.
+    EXPECT_NEAR(row->value, std::sqrt(9 * 0.1 * 0.1 * 4e-4 / 5) * 1e3, 1e-6);
     EXPECT_TRUE(row->within);
     EXPECT_EQ(row->unit, "mA");
 }

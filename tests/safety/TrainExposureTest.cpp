@@ -5,6 +5,7 @@
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
+#include "tests/support/Figures.h"
 
 namespace tacto::test {
 
@@ -18,7 +19,7 @@ TrainExposure into(double ohm, const PulseTrain& train, double interval) {
 TEST(TrainExposure, RoughHighInto500OhmIsThePublishedFigure) {
     // 40 V into 500 Ω is 80 mA for 0.4 ms, ten times in 5 s.
     const auto e = into(500, volts(40), 0.5);
-    EXPECT_NEAR(e.at(Quantity::RmsCurrent5s), 2.2627417, 1e-6);
+    EXPECT_NEAR(e.at(Quantity::RmsCurrent5s), std::sqrt(10 * 0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
     EXPECT_NEAR(e.at(Quantity::RmsCurrentTrain), 16, 1e-9);
     EXPECT_NEAR(e.at(Quantity::RmsCurrent1s), std::sqrt(2 * 0.08 * 0.08 * 4e-4) * 1e3, 1e-9);
     EXPECT_NEAR(e.at(Quantity::PeakVoltage), 40, 1e-12);
@@ -33,12 +34,12 @@ TEST(TrainExposure, RoughHighInto500OhmIsThePublishedFigure) {
 }
 
 TEST(TrainExposure, RoughHighInto100OhmIs11Point3) {
-    EXPECT_NEAR(into(100, volts(40), 0.5).at(Quantity::RmsCurrent5s), 11.3137085, 1e-6);
+    EXPECT_NEAR(into(100, volts(40), 0.5).at(Quantity::RmsCurrent5s), std::sqrt(10 * 0.4 * 0.4 * 4e-4 / 5) * 1e3, 1e-9);
 }
 
 TEST(TrainExposure, DensitiesFollowTheArea) {
     const auto e = exposureOf(volts(40), Seconds(0.5), Load::resistor(Ohms(500)), voltageSource(), 2.0);
-    EXPECT_NEAR(e.at(Quantity::CurrentDensity), 2.2627417 / 2, 1e-6);
+    EXPECT_NEAR(e.at(Quantity::CurrentDensity), std::sqrt(10 * 0.08 * 0.08 * 4e-4 / 5) * 1e3 / 2, 1e-9);
     EXPECT_NEAR(e.at(Quantity::PowerDensity), 2 * 40 * 0.08 * 4e-4 / 2, 1e-12);
 }
 
@@ -61,14 +62,18 @@ TEST(TrainExposure, RcLoadPeaksAsScienceMdSays) {
     SourceTraits source = voltageSource();
     PulseTrain train = volts(40);
     const Load rc = benchRcLoad();
-    // A high-impedance gap keeps the capacitor charged: 361 mA; without a gap 396 mA; held at zero 200 mA on the edges.
+    // A high-impedance gap keeps the capacitor charged; held at zero it is discharged (tests/reference/loads.py).
+    const auto& scipy = figuresOf("loads").at("bench_load_40_v");
     source.gap = GapState::HighImpedance;
-    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 361, 1);
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent),
+                scipy.at("second_ma_high_impedance").get<double>(), 1e-6);
     train.interPhaseGap = Micros(0);
-    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 396, 1);
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent),
+                scipy.at("second_ma_no_gap").get<double>(), 1e-6);
     train.interPhaseGap = Micros(100);
     source.gap = GapState::HoldsZero;
-    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent), 200, 1);
+    EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent),
+                scipy.at("second_ma_zero").get<double>(), 1e-6);
 }
 
 TEST(TrainExposure, HighImpedanceGapLeaves58PercentOfAPhase) {
@@ -81,7 +86,7 @@ TEST(TrainExposure, HighImpedanceGapLeaves58PercentOfAPhase) {
     PulseTrain leading = volts(40);
     leading.shape = PulseShape::Monophasic;
     const double phase = body.deliver(leading, {true, 1e9}, 0).phaseCharge * 1e6;
-    EXPECT_NEAR(e.at(Quantity::NetCharge) / phase, 0.58, 0.01);
+    EXPECT_NEAR(e.at(Quantity::NetCharge) / phase, -figuresOf("loads").at("bench_load_net_charge").get<double>(), 0.01);
 }
 
 // Against the model that shares no arithmetic: all shapes, sources and gaps, into the RC load, from rest.
@@ -129,20 +134,22 @@ TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     SourceTraits source = currentSource();
     source.gap = GapState::HoldsZero;
     source.compliance = Volts(148);
-    PulseTrain train = milliamps(1.8292333);
-    train.phaseWidth = Micros(50'557);
+    const auto& scipy = figuresOf("loads").at("worst_second");
+    PulseTrain train = milliamps(scipy.at("amplitude_ma"));
+    train.phaseWidth = Micros(scipy.at("width_us"));
     train.interPhaseGap = Micros(0);
-    train.rate = Hertz(8.792792654);
-    train.pulses = 45;
+    train.rate = Hertz(scipy.at("rate_hz"));
+    train.pulses = scipy.at("pulses");
     constexpr double kArea = 0.060847491826668404;
-    const Body body{881.776, 51376.9, 1634.4147e-9};
+    const auto& circuit = scipy.at("load");
+    const Body body{circuit.at("series_ohm"), circuit.at("parallel_ohm"), circuit.at("capacitance_f")};
     const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
     const auto e = exposureOf(train, Seconds(5.118), load, source, kArea);
     IndependentBody truth;
     truth.fit(body);
     truth.deliver(train, {false, 148}, 0);
     const double worst = truth.worstEnergy(1) / kArea;
-    EXPECT_NEAR(worst, 0.2633, 5e-4);
+    EXPECT_NEAR(worst, scipy.at("energy_j").get<double>() / kArea, 1e-4 * worst);
     EXPECT_GE(e.at(Quantity::PowerDensity), worst);
     EXPECT_LE(e.at(Quantity::PowerDensity), 1.05 * worst) << "and not much more than that";
 }
@@ -180,9 +187,9 @@ TEST(TrainExposure, VoltageOfACurrentSourceIsCappedByCompliance) {
 }
 
 TEST(TrainExposure, CommandOfACurrentSourceIsJudgedAtTheNominalLoad) {
-    // 3.50 kΩ is the RC load's |Z| for a current source at 200 µs.
     const auto e = worstExposure(milliamps(10), Seconds(1), LoadRange::declared(benchRcLoad()), currentSource(), kNaN);
-    EXPECT_NEAR(e.at(Quantity::CommandVoltage), 35.0, 0.1);
+    EXPECT_NEAR(e.at(Quantity::CommandVoltage),
+                0.01 * figuresOf("loads").at("bench_load_impedance_ohm").at("current").get<double>(), 1e-6);
     EXPECT_GT(e.at(Quantity::PeakVoltage), 40) << "the worst case is at load_max";
 }
 

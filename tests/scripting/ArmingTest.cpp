@@ -99,7 +99,10 @@ TEST_F(Arming, IsConfirmedAgainAfterTheLoadWasFitted) {
 }
 
 TEST_F(Arming, ThatFailsLeavesTheOutputDisarmedWhateverWasArmedBefore) {
-    for (const char* second : {"bench.arm({ load: \"ten\" });", "bench.arm(7);"}) {
+    // So do the readings that disarm first, whether they read or are refused.
+    for (const char* second :
+         {"bench.arm({ load: \"ten\" });", "bench.arm(7);", "bench.measureRest({ duration_s: -1 });",
+          "bench.measureSlide(7);", "bench.measureWeight(-1);"}) {
         const auto outcome = run(
             fmt::format("bench.arm({{ load: 1000 }}); try {{ {} }} catch (e) {{ log(bench.live().state); }}", second),
             {{"confirm-arming", kInto1k}});

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "app/scripting/DeclarationReader.h"
-#include "app/scripting/ProtocolDeclaration.h"
+#include "app/scripting/engine/DeclarationReader.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
 #include "tests/scripting/RunBench.h"
+#include "tests/support/InTime.h"
 
 namespace tacto {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using test::probe;
 
 constexpr const char* kFull = R"js(protocol({
-  title: "Probe", purpose: "Does it hold?", needs: ["stimulator", "oscilloscope"],
+  title: "Probe", purpose: "Does it hold?", kind: "separability", needs: ["stimulator", "oscilloscope"],
   parameters: {
     zeta: { label: "Repeats", type: "integer", min: 5, max: 500, value: 25 },
     load: { label: "Load", unit: "ohm", min: 100, max: 100e3, value: 1e3 },
@@ -39,6 +40,7 @@ TEST(ProtocolDeclaration, ReadsEverythingInTheOrderWritten) {
     EXPECT_EQ(read.name, "probe");
     EXPECT_EQ(read.title, "Probe");
     EXPECT_EQ(read.purpose, "Does it hold?");
+    EXPECT_EQ(read.kind, "separability");
     EXPECT_EQ(read.needs, (std::set<Role>{Role::Stimulator, Role::Oscilloscope}));
     ASSERT_EQ(read.parameters.size(), 5U);
     EXPECT_EQ(read.parameters[0].name, "zeta");
@@ -77,7 +79,8 @@ TEST(ProtocolDeclaration, IsWrittenAsTheCommandLinePromises) {
 
 TEST(ProtocolDeclaration, NamesFileLineAndWhatIsWrong) {
     EXPECT_EQ(errorOf("protocol({ title: 'x', tilte: 1 });"),
-              "/lab/probe.js:2: protocol() has no tilte, only title, purpose, needs, parameters");
+              "/lab/probe.js:2: protocol(): \"tilte\" is not a known key; accepted are title, purpose, kind, needs, "
+              "parameters");
     EXPECT_EQ(errorOf("protocol({});"), "/lab/probe.js:2: protocol(): title is missing, a text is expected");
     EXPECT_EQ(errorOf("protocol({ title: 'x', needs: ['laser'] });"),
               "/lab/probe.js:2: needs names \"laser\", only sensor, stimulator, oscilloscope, massager can be needed");
@@ -106,6 +109,32 @@ TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
     EXPECT_NE(parameterError("{ value: 'b', type: 'choice', choices: { b: 'B' } }"), "");
     EXPECT_NE(parameterError("{ value: 1, units: 'ohm' }"), "");
     EXPECT_NE(parameterError("7"), "");
+}
+
+TEST(ProtocolDeclaration, KnowsDaysFilesTheReferenceAndWhatTheVerdictNeeds) {
+    const auto read = readDeclaration(probe(R"js(protocol({ title: "x", parameters: {
+  due: { type: "date", value: "2027-03-01", step: "reference" },
+  table: { type: "file", value: "" },
+  area: { label: "electrode", unit: "cm2", value: 0, needed: "density is not evaluated" },
+} });
+function run() {})js"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->parameters[0].type, ParameterType::Date);
+    EXPECT_TRUE(read->parameters[0].reference);
+    EXPECT_EQ(read->parameters[1].type, ParameterType::File);
+    EXPECT_FALSE(read->parameters[1].reference);
+    EXPECT_EQ(read->parameters[2].needed, "density is not evaluated");
+    EXPECT_EQ(parseSetting(read->parameters[0], "2028-02-29").value(), "2028-02-29");
+    EXPECT_EQ(parseSetting(read->parameters[0], "").value(), "") << "not stated";
+    EXPECT_EQ(parseSetting(read->parameters[0], "2027-02-29").error().message,
+              "due is 2027-02-29, a day such as 2027-03-01, or nothing, is expected");
+    const auto json = toJson(*read);
+    EXPECT_EQ(json["parameters"][0]["type"], "date");
+    EXPECT_EQ(json["parameters"][0]["step"], "reference");
+    EXPECT_EQ(json["parameters"][2]["needed"], "density is not evaluated");
+    EXPECT_EQ(parameterError("{ value: 1, step: 'settings' }"),
+              "/lab/probe.js:2: parameter load: step is \"settings\", reference is expected, or none");
+    EXPECT_NE(parameterError("{ value: 'soon', type: 'date' }"), "");
 }
 
 TEST(ProtocolDeclaration, RefusesTextsThatAreTooLong) {
@@ -148,7 +177,7 @@ TEST(ProtocolDeclaration, InterruptsATopLevelThatDoesNotEnd) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::Timeout);
     EXPECT_TRUE(read.error().message.starts_with("/lab/probe.js:1: ")) << read.error().message;
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+    EXPECT_IN_TIME(std::chrono::steady_clock::now() - begin < std::chrono::seconds(3));
 }
 
 TEST(ProtocolDeclaration, ATopLevelThatMakesTheEngineCrashEndsNoProgramButTheReader) {

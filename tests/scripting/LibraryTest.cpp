@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "tests/support/Support.h"
 
 namespace tacto {

@@ -6,6 +6,7 @@
 
 #include "core/base/Random.h"
 #include "tests/scripting/LoadSafetyRig.h"
+#include "tests/support/Trials.h"
 
 namespace tacto {
 namespace {
@@ -14,9 +15,10 @@ using test::LoadSafetyRig;
 
 // The sanitizers look for other things than statistics, and are ten times slower.
 #ifdef TACTOSCOPE_SANITIZED
-constexpr std::uint64_t kSeeds = 1, kRuns = 20;
+const std::uint64_t kSeeds = 1, kRuns = 20;
 #else
-constexpr std::uint64_t kSeeds = 3, kRuns = 200;
+const auto kSeeds = test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
+const auto kRuns = test::trials<std::uint64_t>({.local = 40, .ci = 200, .campaign = 2000});
 #endif
 
 /// An oscilloscope with errors anywhere within its stated tolerances (0.5 % of gain, 0.1 % of the range in offset).

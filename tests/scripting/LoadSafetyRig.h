@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/scripting/ProtocolLibrary.h"
-#include "app/scripting/ScriptRun.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "app/scripting/engine/ScriptRun.h"
 #include "core/bench/Bench.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionWriter.h"

@@ -1,5 +1,6 @@
 // The shipped load-safety protocol against the twin: what it finds, and what becomes of it when something breaks.
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <gtest/gtest.h>
 #include <set>
@@ -28,7 +29,7 @@ TEST(LoadSafetyRun, PassesOnTheCleanTwinAndFindsEveryLoadsValue) {
         EXPECT_NEAR(load["peak_ma"].get<double>(), (ohm > 100 ? 40e3 : 20e3) / ohm, 0.01 * 40e3 / ohm);
     }
     // science.md section 7: 40 V every 0.5 s into 500 ohm is 2.26 mA over 5 s.
-    EXPECT_NEAR(loadOf(outcome.results, "500 ohm")["rms_5s_ma"].get<double>(), 2.2627, 0.01);
+    EXPECT_NEAR(loadOf(outcome.results, "500 ohm")["rms_5s_ma"].get<double>(), 80 * std::sqrt(10 * 400e-6 / 5), 0.01);
     // science.md section 6: 40 V into the skin equivalent peaks at 200 mA and more.
     const auto skin = loadOf(outcome.results, "200 ohm + 10 kohm || 50 nF");
     EXPECT_EQ(skin["verdict"], "pass");

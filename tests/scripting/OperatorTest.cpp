@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/scripting/Operator.h"
+#include "app/scripting/engine/Operator.h"
 
 namespace tacto {
 namespace {
@@ -20,9 +20,10 @@ Result<nlohmann::json> answerOf(std::map<std::string, std::string> answers, cons
 }
 
 TEST(PresetOperator, NamesTheMissingAnswer) {
-    PresetOperator nobody({});
-    const auto answer = nobody.ask(question(Kind::Confirm));
-    EXPECT_EQ(answer.error().message, "\"Check the wiring\" needs an answer and nobody is here: give --set wiring=...");
+    PresetOperator absent({});
+    const auto answer = absent.ask(question(Kind::Confirm));
+    EXPECT_EQ(answer.error().message,
+              "\"Check the wiring\" needs an answer, and this run has no operator to ask: give --set wiring=...");
     EXPECT_EQ(answer.error().code, ErrorCode::NotFound);
 }
 

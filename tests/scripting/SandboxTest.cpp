@@ -1,7 +1,7 @@
 // Hazard H10: a script reaches the world through the host objects alone, and cannot take those away.
 #include <gtest/gtest.h>
 
-#include "app/scripting/Sandbox.h"
+#include "app/scripting/engine/Sandbox.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto {
@@ -121,9 +121,9 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
         const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
                      "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
                      "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer", "readReference", "replayed",
-                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "time", "traverse",
+                     "sensorStreams", "setElectrodeArea", "setEncoding", "setReferences", "step", "surfaces", "time", "traverse",
                      "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
-                     "useFingertipScales", "wait"];
+                     "useFingertipScales", "wait", "weights"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }

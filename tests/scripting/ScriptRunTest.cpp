@@ -92,14 +92,15 @@ TEST(ScriptRun, ArgumentErrorsNameTheFunctionTheValueAndWhatIsAccepted) {
               "/lab/probe.js:2: bench.wait: seconds is \"x\", a number from 0 to 86400 is expected");
     EXPECT_EQ(error("bench.wait(NaN)"),
               "/lab/probe.js:2: bench.wait: seconds is NaN, a number from 0 to 86400 is expected");
-    EXPECT_EQ(error("bench.arm({ laod: 5 })"), "/lab/probe.js:2: bench.arm: there is no option laod, only load");
+    EXPECT_EQ(error("bench.arm({ laod: 5 })"),
+              "/lab/probe.js:2: bench.arm: \"laod\" is not a known key; accepted are load");
     EXPECT_EQ(error("bench.arm({ load: -5 })"), "/lab/probe.js:2: bench.arm: load is -5, ohms above 0 is expected");
     EXPECT_EQ(error("bench.drive('manual', { roughness: 2 })"),
               "/lab/probe.js:2: bench.drive: roughness is 2, a number from 0 to 1 is expected");
     EXPECT_EQ(error("measure.train([{ capture: 99 }])"),
               "/lab/probe.js:2: capture 99 is held no longer; measure captures before 64 more are taken");
     EXPECT_EQ(error("operator.confirm('wiring', 'Check the wiring')"),
-              "/lab/probe.js:2: nobody can answer \"Check the wiring\"; give --set wiring=...");
+              "/lab/probe.js:2: this run has no operator to answer \"Check the wiring\"; give --set wiring=...");
     EXPECT_EQ(error("operator.confirm('wiring', 'Check', { drawing: '../help/window' })"),
               "/lab/probe.js:2: there is no drawing \"../help/window\"; there are: wiring");
     EXPECT_NE(error("verdict({ verdict: 'good' })"), "");

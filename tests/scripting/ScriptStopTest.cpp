@@ -161,6 +161,9 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
                                        kArmed + "a.sort();\nbench.arm({ load: 1000 }); log('alive');"));
     std::promise<void> reached;
     request.onLog = [&](const std::string&) { reached.set_value(); };
+    auto owner = std::make_shared<bool>();
+    const std::weak_ptr<bool> held = owner;
+    request.owner = std::move(owner);
     auto run = ScriptRun::start(std::move(request)).value();
     reached.get_future().wait();
     EXPECT_FALSE(run->waitFor(milliseconds(150)));
@@ -176,6 +179,18 @@ TEST(ScriptStop, AbandonsALongNativeCallWithinASecondWithOutputsOff) {
     EXPECT_TRUE(outcome.error->message.starts_with("/lab/probe.js:3: stopped by the test")) << outcome.error->message;
     EXPECT_NE(outcome.error->message.find("abandoned with the output off"), std::string::npos);
     EXPECT_TRUE(rig.outputOff());
+    run.reset();
+    EXPECT_FALSE(held.expired()) << "its thread still runs";
+}
+
+TEST(ScriptStop, AScriptThatEndedLetsGoOfItsBench) {
+    RunBench rig;
+    auto request = rig.request(withRun("log('done');"));
+    auto owner = std::make_shared<bool>();
+    const std::weak_ptr<bool> held = owner;
+    request.owner = std::move(owner);
+    EXPECT_FALSE(runProtocol(std::move(request)).value().abandoned);
+    EXPECT_TRUE(held.expired());
 }
 
 TEST(ScriptStop, AbandonsRecursiveTryFinally) {

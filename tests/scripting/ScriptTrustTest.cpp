@@ -174,7 +174,7 @@ TEST_F(ScriptTrust, WhatTheOperatorSawIsWhatTheSessionSays) {
         EXPECT_EQ(outcome.error.value_or(Error{ErrorCode::ParseError, ""}).code, ErrorCode::ParseError);
         return outcome.error ? outcome.error->message : "";
     };
-    constexpr const char* kAbout = R"("label":"Repeats","unit":"s","value":7)";
+    constexpr const char* kAbout = R"("label":"Repeats","name":"n","unit":"s","value":7)";
     EXPECT_EQ(ended(seen), "");
     EXPECT_THAT(session(), testing::AllOf(HasSubstr(R"("title":"Seen")"), HasSubstr(kAbout), HasSubstr("script: ran")));
     EXPECT_EQ(ended(seen, false), "") << "not read before";
@@ -184,6 +184,7 @@ TEST_F(ScriptTrust, WhatTheOperatorSawIsWhatTheSessionSays) {
     const std::vector<std::pair<ProtocolSource, std::string>> others = {
         {probe("protocol({ title: 'Forged' });" + body), "another title (\"Forged\" in place of \"Seen\")"},
         {declares("purpose: 'Other'"), "another purpose"},
+        {declares("purpose: 'Why', kind: 'other'"), "another kind of result"},
         {declares("purpose: 'Why', needs: ['sensor']"), "other devices"},
         {declares("purpose: 'Why'", "Certified repeats"), "another parameter \"n\""},
         {probe("protocol({ title: 'Seen', purpose: 'Why' });" + body), "other parameters"},

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-#include "app/scripting/ScriptRun.h"
+#include "app/scripting/engine/ScriptRun.h"
 
 int main(int argc, char** argv) {
     ::testing::InitGoogleTest(&argc, argv);

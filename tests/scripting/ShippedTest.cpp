@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/run/ProtocolRun.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Csv.h"
 #include "tests/support/Support.h"
 
@@ -87,7 +87,7 @@ TEST_F(Shipped, AnotherSetCanOnlyTightenAndIsNamed) {
     ASSERT_EQ(limits.sets.size(), 4U);
     const auto path = (folder_.path() / "limits/lab.json").string();
     EXPECT_EQ(addedLimitsText(limits), "Limit sets in force beside the built-in ones: lab (" + path + ").");
-    const auto about = aboutSession({}, shippedProfile().value(), limits, nullptr);
+    const auto about = aboutSession({}, {.profile = shippedProfile().value(), .limits = limits});
     ASSERT_EQ(about.limitSets.size(), 4U);
     EXPECT_EQ(about.limitSets[0].from, "");
     EXPECT_EQ(about.limitSets[3].from, path);
@@ -119,7 +119,7 @@ TEST_F(Shipped, AProtocolOfOtherBytesIsRefusedUnderItsName) {
     EXPECT_EQ(originOf(other), (folder_.path() / "protocols/ours.js").string());
     RunOrder order;
     order.script = other;
-    EXPECT_EQ(aboutSession({}, {}, shippedLimits().value(), &order).protocolFrom, originOf(other));
+    EXPECT_EQ(aboutScript(order).protocolFrom, originOf(other));
 }
 
 }  // namespace

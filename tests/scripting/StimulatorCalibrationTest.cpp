@@ -111,10 +111,10 @@ TEST(StimulatorCalibration, AnOscilloscopeThatStatesNothingAsksForItsDataSheet) 
     EXPECT_EQ(silent.verdict, ScriptVerdict::Indeterminate);
     EXPECT_THAT(silent.reasons.front(), HasSubstr("the known-reference check was not evaluated"));
     EXPECT_FALSE(silent.results.contains("amplitude"));
-    const auto told = calibrate("sim:oscilloscope?accuracy=unknown",
-                                {{"quantities", "amplitude"}, {"repeats", "2"}, {"scope_gain_pct", "1"}});
-    ASSERT_FALSE(told.error) << told.error->message;
-    EXPECT_NEAR(told.results["amplitude"]["budget"]["rows"][1]["value"].get<double>(), 0.01, 1e-9);
+    const auto stated = calibrate("sim:oscilloscope?accuracy=unknown",
+                                  {{"quantities", "amplitude"}, {"repeats", "2"}, {"scope_gain_pct", "1"}});
+    ASSERT_FALSE(stated.error) << stated.error->message;
+    EXPECT_NEAR(stated.results["amplitude"]["budget"]["rows"][1]["value"].get<double>(), 0.01, 1e-9);
 }
 
 TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <memory>
-#include <regex>
 #include <string>
 #include <vector>
 
-#include "app/scripting/Operator.h"
+#include "app/scripting/engine/Operator.h"
 #include "core/devices/Driver.h"
 
 namespace tacto::test {
@@ -42,39 +41,12 @@ private:
 class Technician final : public Operator {
 public:
     explicit Technician(std::shared_ptr<LoadFitter> hand) : hand_(std::move(hand)) {}
-    Result<nlohmann::json> ask(const OperatorQuestion& question) override {
-        asked.push_back(question);
-        if (question.name == "fit-load" || question.name == "change-load") {
-            const auto load = whatToFit(question.text);
-            if (load.empty()) return fail(ErrorCode::NotFound, "no technician understands \"{}\"", question.text);
-            if (auto fitted = hand_->fitLoad(load); !fitted) return failure(fitted);
-        }
-        if (question.kind != OperatorQuestion::Kind::Confirm) {
-            return fail(ErrorCode::NotFound, "the technician was not told what to answer to {}", question.name);
-        }
-        return nlohmann::json(true);
-    }
+    Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override {}
 
     std::vector<OperatorQuestion> asked;
 
 private:
-    /// Of the sentence that the operator reads; empty where it does not say.
-    static std::string whatToFit(const std::string& text) {
-        std::smatch found;
-        if (std::regex_search(text, found, std::regex("into (.*): make and break"))) {
-            return found[1].str() + ", intermittent 50 % seed 1";
-        }
-        if (text.find("lift one lead") != std::string::npos) return "open";
-        if (text.find("bridge it") != std::string::npos) return "short";
-        if (std::regex_search(
-                text, found,
-                std::regex("^Fit (?:the load )?(.*?)(?: in place of the load| again)?(?:, then confirm)?$"))) {
-            return found[1];
-        }
-        return {};
-    }
-
     std::shared_ptr<LoadFitter> hand_;
 };
 

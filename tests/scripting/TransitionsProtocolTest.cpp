@@ -43,7 +43,8 @@ TEST(TransitionsProtocol, FailsStepsThatAreTooLargeOnTheTrainsAsCaptured) {
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail);
     EXPECT_NEAR(groupOf(outcome, "texture up")["amplitude_jnd"].get<double>(), std::log(4) / std::log(1.1), 0.05);
     EXPECT_NEAR(groupOf(outcome, "pressure down")["interval_jnd"].get<double>(), std::log(4) / std::log(1.16), 0.01);
-    EXPECT_NEAR(groupOf(outcome, "smooth-low to rough-high")["amplitude_jnd"].get<double>(), 14.5, 0.1);
+    EXPECT_NEAR(groupOf(outcome, "smooth-low to rough-high")["amplitude_jnd"].get<double>(),
+                std::log(4) / std::log(1.1), 0.1);
     EXPECT_GT(groupOf(outcome, "texture moves at P 0")["amplitude_jnd"].get<double>(), 2) << "at an even pace";
     EXPECT_THAT(outcome.reasons.front(), HasSubstr("just-noticeable differences; at most 2 are wanted"));
     // A change taken in one train is complete with it.

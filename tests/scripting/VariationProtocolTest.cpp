@@ -6,6 +6,7 @@
 
 #include "core/session/SessionReader.h"
 #include "tests/scripting/RunBench.h"
+#include "tests/support/InTime.h"
 
 namespace tacto {
 namespace {
@@ -135,7 +136,7 @@ TEST(VariationProtocol, AStopEndsItAtOnceAndKeepsWhatIsDone) {
     const auto asked = std::chrono::steady_clock::now();
     run->stop("the test");
     const auto outcome = run->wait();
-    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
+    EXPECT_IN_TIME(std::chrono::steady_clock::now() - asked < std::chrono::seconds(2));
     EXPECT_FALSE(outcome.abandoned);
     ASSERT_TRUE(outcome.error);
     EXPECT_EQ(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;

@@ -1,8 +1,10 @@
 #include <memory>
+#include <thread>
 
 #include "core/session/SessionRecorder.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/InTime.h"
 
 namespace tacto {
 namespace {
@@ -156,6 +158,73 @@ TEST(SessionRecorder, IdleSamplesAreCommittedByTheRecordersOwnClock) {
     std::uint64_t samples = 0;
     while (samples == 0 && wall.now() < std::chrono::seconds(20)) samples = verifySession(path)->samples;
     EXPECT_EQ(samples, 1U);
+}
+
+/// Another program holds the session: the disk stands still for who writes, until busy_timeout (2 s) is over.
+class StalledDisk {
+public:
+    explicit StalledDisk(const std::filesystem::path& path) {
+        EXPECT_EQ(sqlite3_open(path.c_str(), &database_), SQLITE_OK);
+        EXPECT_EQ(sqlite3_exec(database_, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+    }
+    ~StalledDisk() {
+        sqlite3_exec(database_, "ROLLBACK", nullptr, nullptr, nullptr);
+        sqlite3_close(database_);
+    }
+
+private:
+    sqlite3* database_ = nullptr;
+};
+
+TEST(SessionRecorder, AMarkWaitsForNoDiskAndHoldsUpNeitherLoopNorStop) {
+    RecordProperty("hazard", "H2");
+    const ScratchDir dir;
+    const auto path = dir.path() / "s.tacto";
+    SteadyClock clock;
+    auto writer = SessionWriter::create(path, {}, clock).value();
+    {
+        SessionRecorder recorder(*writer, {.ownThread = true, .ringRecords = 1024});
+        recorder.event(clock.now(), "before", {});
+        ASSERT_TRUE(recorder.drain());
+        {
+            const StalledDisk stalled(path);
+            recorder.event(clock.now(), "waits for the disk", {});
+            while (recorder.standsStillFor() < std::chrono::milliseconds(5)) std::this_thread::yield();
+            const auto began = clock.now();
+            for (int i = 0; i < 100; ++i) {
+                recorder.mark(Instant(i), "table bumped");
+                recorder.event(clock.now(), "of the loop", {});
+                EXPECT_FALSE(recorder.failed());
+            }
+            EXPECT_GT(recorder.standsStillFor(), std::chrono::nanoseconds(0)) << "the disk still stood";
+            EXPECT_IN_TIME(clock.now() - began < std::chrono::milliseconds(100));
+        }
+        ASSERT_TRUE(recorder.drain());
+    }
+    ASSERT_TRUE(writer->close());
+    int marks = 0;
+    const auto events = SessionReader::open(path)->events().value();
+    for (const auto& event : events) {
+        if (event.name != kOperatorMarkEvent) continue;
+        EXPECT_EQ(event.at, Instant(marks++)) << "the moment is the one given";
+        EXPECT_EQ(event.body, (nlohmann::json{{"text", "table bumped"}}));
+    }
+    EXPECT_EQ(marks, 100);
+}
+
+TEST(SessionRecorder, WithoutAThreadMarksAreWrittenByWhoeverTurnsTheBench) {
+    const ScratchDir dir;
+    const auto path = dir.path() / "s.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, {}, clock).value();
+    {
+        SessionRecorder recorder(*writer, {.ownThread = false});
+        recorder.mark(Instant(1), "first");
+        recorder.writeMarks();
+        EXPECT_EQ(SessionReader::open(path)->events()->size(), 1U);
+        recorder.mark(Instant(2), "at the end");
+    }
+    EXPECT_EQ(SessionReader::open(path)->events()->size(), 2U);
 }
 
 }  // namespace

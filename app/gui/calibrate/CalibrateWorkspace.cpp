@@ -8,34 +8,38 @@
 
 namespace tacto::gui {
 
-CalibrateWorkspace::CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, QWidget* parent)
-    : QWidget(parent), desk_(desk), book_(book) {
+CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent)
+    : QWidget(parent), controller_(controller), book_(book) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
-    card_ = new CalibrationCard(book_, this);
-    column->addWidget(card_);
     tabs_ = new QTabWidget(this);
     tabs_->setObjectName("calibratePages");
     tabs_->setDocumentMode(true);
-    runner_ = new ProtocolWorkspace(desk_, "stimulator-calibration", tabs_);
-    sensor_ = new ProtocolWorkspace(desk_, "sensor-calibration", tabs_);
-    history_ = new CalibrationHistory(tabs_);
+    runner_ = new ProtocolWorkspace(controller_, "stimulator-calibration", tabs_);
+    sensor_ = new ProtocolWorkspace(controller_, "sensor-calibration", tabs_);
+    stored_ = new QWidget(tabs_);
+    auto* inner = new QVBoxLayout(stored_);
+    card_ = new CalibrationCard(book_, stored_);
+    inner->addWidget(card_);
+    history_ = new CalibrationHistory(stored_);
+    inner->addWidget(history_, 1);
     tabs_->addTab(runner_, tr("&Guided run"));
     tabs_->setTabToolTip(0, tr("Levels up and down, read from the oscilloscope; fit, uncertainty and verdict"));
     tabs_->addTab(sensor_, tr("Fingertip se&nsor"));
     tabs_->setTabToolTip(1, tr("Rest, weights and reference surfaces: what R and the forces mean on this rig"));
-    tabs_->addTab(history_, tr("S&tored calibrations"));
+    tabs_->addTab(stored_, tr("S&tored calibrations"));
+    tabs_->setTabToolTip(2, tr("How the calibration stands today, and everything that was stored before"));
     column->addWidget(tabs_, 1);
     for (auto* runner : runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this, runner] { tabs_->setCurrentWidget(runner); });
-    connect(card_, &CalibrationCard::calibrateWanted, this, [this] { run("full"); });
-    connect(card_, &CalibrationCard::checkWanted, this, [this] { run("check"); });
+    connect(card_, &CalibrationCard::calibrateWanted, this, [this] { prepare("full"); });
+    connect(card_, &CalibrationCard::checkWanted, this, [this] { prepare("check"); });
     const auto showHistory = [this] { history_->list(book_, card_->shown()); };
     connect(card_, &CalibrationCard::stimulatorChosen, this, showHistory);
     connect(&book_, &CalibrationBook::changed, this, showHistory);
-    connect(&desk_, &BenchDesk::changed, this, &CalibrateWorkspace::showReady);
-    connect(&desk_, &BenchDesk::finished, this, &CalibrateWorkspace::showReady);
+    connect(&controller_, &BenchController::changed, this, &CalibrateWorkspace::showReady);
+    connect(&controller_, &BenchController::finished, this, &CalibrateWorkspace::showReady);
     connect(runner_, &ProtocolWorkspace::readyChanged, this, &CalibrateWorkspace::showReady);
     // A calibration is made to be kept: here the form says so from the start.
     connect(runner_, &ProtocolWorkspace::declaredAnew, this, [this] {
@@ -46,15 +50,15 @@ CalibrateWorkspace::CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, Q
     showReady();
 }
 
-void CalibrateWorkspace::run(const QString& mode) {
+/// A run is started where its settings stand, by its own button.
+void CalibrateWorkspace::prepare(const QString& mode) {
     tabs_->setCurrentWidget(runner_);
     runner_->set("mode", mode);
-    runner_->runAsked();
-    showReady();
+    runner_->goTo(kSettings);
 }
 
 void CalibrateWorkspace::showReady() {
-    const bool busy = desk_.activity() == Activity::Running || desk_.activity() == Activity::Opening;
+    const bool busy = controller_.activity() == Activity::Running || controller_.activity() == Activity::Opening;
     card_->setReady(runner_->ready() && !busy);
 }
 

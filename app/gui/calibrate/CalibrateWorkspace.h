@@ -1,5 +1,5 @@
-// CalibrateWorkspace.h - the stimulator's calibration: how it stands, the guided run, a check of what is stored, and
-// everything that was stored before; and the fingertip sensor's. The runs are ProtocolWorkspace's.
+// CalibrateWorkspace.h - the stimulator's calibration: the guided run, or a check of what is stored; the fingertip
+// sensor's; how the stored one stands today, and what was stored before. The runs are ProtocolWorkspace's.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -19,21 +19,22 @@ class ProtocolWorkspace;
 class CalibrateWorkspace final : public QWidget {
     Q_OBJECT
 public:
-    CalibrateWorkspace(BenchDesk& desk, CalibrationBook& book, QWidget* parent = nullptr);
+    CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent = nullptr);
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
     /// The stimulator's and the sensor's.
     [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
 
 private:
-    void run(const QString& mode);
+    void prepare(const QString& mode);
     void showReady();
-    BenchDesk& desk_;
+    BenchController& controller_;
     CalibrationBook& book_;
     CalibrationCard* card_;
     QTabWidget* tabs_;
     ProtocolWorkspace* runner_;
     ProtocolWorkspace* sensor_;
     CalibrationHistory* history_;
+    QWidget* stored_;  ///< its page, with the card above
 };
 
 }  // namespace tacto::gui

@@ -2,17 +2,12 @@
 
 #include <chrono>
 
+#include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
 namespace {
-
-QString sentence(const std::string& text) {
-    auto said = QString::fromStdString(text);
-    if (!said.isEmpty()) said[0] = said[0].toUpper();
-    return said.endsWith('.') ? said : said + '.';
-}
 
 int daysBetween(CalibrationDate from, CalibrationDate to) {
     return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
@@ -22,15 +17,16 @@ QString daysText(int days) { return QObject::tr("%1 d").arg(days); }
 
 }  // namespace
 
-CalibrationBook::CalibrationBook(BenchDesk& desk, QObject* parent) : QObject(parent), desk_(desk) {
-    connect(&desk_, &BenchDesk::changed, this, &CalibrationBook::follow);
-    connect(&desk_, &BenchDesk::finished, this, &CalibrationBook::read);
+CalibrationBook::CalibrationBook(BenchController& controller, QObject* parent)
+    : QObject(parent), controller_(controller) {
+    connect(&controller_, &BenchController::changed, this, &CalibrationBook::follow);
+    connect(&controller_, &BenchController::finished, this, &CalibrationBook::read);
     last_ = connected();
     read();
 }
 
 std::optional<StimulatorId> CalibrationBook::connected() const {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open) return std::nullopt;
     for (const auto& device : open->about.devices) {
         if (device.role != nameOf(Role::Stimulator)) continue;
@@ -49,7 +45,7 @@ void CalibrationBook::follow() {
 
 void CalibrationBook::read() {
     auto store = CalibrationStore::open(calibrationFile());
-    fault_ = store ? QString() : sentence(store.error().message);
+    fault_ = store ? QString() : sentence(store.error());
     store_.reset();
     if (store) store_ = std::move(*store);
     emit changed();
@@ -63,7 +59,7 @@ std::vector<StimulatorId> CalibrationBook::known() const {
     };
     if (const auto open = connected()) add(*open);
     if (last_) add(*last_);
-    for (const auto& device : desk_.watch().devices()) {
+    for (const auto& device : controller_.watch().devices()) {
         // A simulated one has its serial number only once it is opened.
         if (device.role == Role::Stimulator && !device.simulated)
             add({device.serial, device.name, {}, device.simulated});
@@ -97,7 +93,7 @@ CalibrationStanding CalibrationBook::standing(const StimulatorId& stimulator) co
     if (valid) {
         found.state = CalibrationState::Valid;
     } else {
-        found.why = sentence(valid.error().message);
+        found.why = sentence(valid.error());
         found.state = !found.newest                                      ? CalibrationState::Never
                       : found.newest->simulated && !stimulator.simulated ? CalibrationState::OfSimulation
                                                                          : CalibrationState::Expired;

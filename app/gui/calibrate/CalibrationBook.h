@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 #include "core/calibration/CalibrationStore.h"
 
 namespace tacto::gui {
@@ -45,7 +45,7 @@ struct CalibrationStanding {
 class CalibrationBook final : public QObject {
     Q_OBJECT
 public:
-    explicit CalibrationBook(BenchDesk& desk, QObject* parent = nullptr);
+    explicit CalibrationBook(BenchController& controller, QObject* parent = nullptr);
 
     /// The stimulator of the open bench.
     [[nodiscard]] std::optional<StimulatorId> connected() const;
@@ -64,7 +64,7 @@ signals:
 
 private:
     void follow();
-    BenchDesk& desk_;
+    BenchController& controller_;
     std::optional<StimulatorId> last_;
     std::optional<CalibrationStore> store_;
     QString fault_;  ///< why store_ is empty

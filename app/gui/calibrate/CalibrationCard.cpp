@@ -5,8 +5,8 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -66,10 +66,7 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     auto* row = new QHBoxLayout;
     word_ = new QLabel(this);
     word_->setObjectName("calibrationState");
-    auto font = word_->font();
-    font.setPointSizeF(font.pointSizeF() * 1.15);
-    font.setBold(true);
-    word_->setFont(font);
+    setTextSize(*word_, TextSize::Large);
     word_->setWordWrap(true);
     row->addWidget(word_, 1);
     chooser_ = new QComboBox(this);
@@ -85,13 +82,13 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
         emit stimulatorChosen();
     });
     row->addWidget(chooser_);
-    calibrate_ = new QPushButton(tr("Cali&brate"), this);
+    calibrate_ = new QPushButton(tr("Calibrate"), this);
     calibrate_->setObjectName("calibrateButton");
     calibrate_->setToolTip(
         tr("Runs the whole calibration with the settings below, and keeps its result for the stimulator's serial "
            "number. An older one is superseded and stays in the list."));
     connect(calibrate_, &QPushButton::clicked, this, &CalibrationCard::calibrateWanted);
-    check_ = new QPushButton(tr("C&heck"), this);
+    check_ = new QPushButton(tr("Check"), this);
     check_->setObjectName("checkButton");
     connect(check_, &QPushButton::clicked, this, &CalibrationCard::checkWanted);
     for (auto* button : {calibrate_, check_}) {
@@ -137,7 +134,8 @@ void CalibrationCard::fill() {
         counts_ = warns_ = false;
         word_->setText(tr("◌ No stimulator has been open yet"));
         facts_->setText(
-            tr("A calibration says what a stimulator really delivers for what it is told, and with which uncertainty. "
+            tr("A calibration says what a stimulator really delivers for what it is programmed to, and with which "
+               "uncertainty. "
                "Calibrate runs it on the devices named under Wiring: as they stand, the simulated bench."));
         colour();
         setReady(ready_);
@@ -171,7 +169,7 @@ void CalibrationCard::setReady(bool ready) {
 
 void CalibrationCard::colour() {
     // As a sheet: a label's own palette is lost when the theme's sheet changes.
-    const auto& ink = counts_ ? colours().good : warns_ ? colours().amberText : colours().text;
+    const auto& ink = counts_ ? colours().passText : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);
 }

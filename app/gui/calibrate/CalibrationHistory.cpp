@@ -5,27 +5,15 @@
 #include <cmath>
 #include <set>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/calibrate/CalibrationTrendView.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-enum Column {
-    kState,
-    kMade,
-    kUntil,
-    kGain,
-    kOffset,
-    kUncertainty,
-    kRange,
-    kInterval,
-    kWidth,
-    kGap,
-    kInstruments,
-    kColumns
-};
+enum Column { kState, kMade, kUntil, kGain, kOffset, kUncertainty, kRange, kInstruments, kColumns };
 
 QString instrumentsOf(const StoredCalibration& c) {
     QStringList all;
@@ -37,12 +25,19 @@ QString instrumentsOf(const StoredCalibration& c) {
     return all.isEmpty() ? QString("–") : all.join("; ");
 }
 
-QString lineText(const std::optional<StoredLine>& line) {
-    if (!line) return "–";
-    return QString("× %1 %2 %3, ± %4")
-        .arg(line->gain, 0, 'f', 4)
-        .arg(line->offset < 0 ? "−" : "+", quantityText(std::abs(line->offset), "s", 2),
-             quantityText(line->uncertainty_pct, "%", 2));
+/// The times, which the trend draws: "Interval × 1.0000 + 1.0 µs, ± 0.0060 %".
+QString timesText(const StoredCalibration& c) {
+    QStringList all;
+    for (const auto& time : kStoredTimes) {
+        const auto& line = c.*time.line;
+        if (!line) continue;
+        all << QString("%1 × %2 %3 %4, ± %5")
+                   .arg(titled(qtext(time.title)))
+                   .arg(line->gain, 0, 'f', 4)
+                   .arg(line->offset < 0 ? "−" : "+", quantityText(std::abs(line->offset), "s", 2),
+                        quantityText(line->uncertainty_pct, "%", 2));
+    }
+    return all.join("\n");
 }
 
 }  // namespace
@@ -52,8 +47,10 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
     empty_ = new QLabel(this);
     empty_->setObjectName("historyEmpty");
     empty_->setWordWrap(true);
-    empty_->setForegroundRole(QPalette::PlaceholderText);
+    setTone(*empty_, Tone::Quiet);
     column->addWidget(empty_);
+    trend_ = new CalibrationTrendView(this);
+    column->addWidget(trend_, 3);
     table_ = new QTableWidget(0, kColumns, this);
     table_->setObjectName("calibrationHistory");
     table_->setAccessibleName(tr("Stored calibrations"));
@@ -61,16 +58,17 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
         tr("Every calibration of this stimulator. A newer one supersedes the older, which stays; what is "
            "stored cannot be changed without being noticed."));
     table_->setHorizontalHeaderLabels({tr("State"), tr("Made"), tr("Valid until"), tr("Gain"), tr("Offset"),
-                                       tr("U (95 %)"), tr("Range"), tr("Interval"), tr("Phase width"),
-                                       tr("Inter-phase gap"), tr("Measured with")});
+                                       tr("U (95 %)"), tr("Range"), tr("Measured with")});
     table_->verticalHeader()->hide();
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setAlternatingRowColors(true);
     table_->setWordWrap(false);
     table_->setTabKeyNavigation(false);
+    table_->horizontalHeader()->setStretchLastSection(true);  // elided; the tool tip has all of it
+    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    column->addWidget(table_, 1);
+    column->addWidget(table_, 2);
 }
 
 void CalibrationHistory::list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator) {
@@ -83,6 +81,8 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
                               .arg(QString::fromStdString(stimulator->serial)));
     empty_->setVisible(all.empty());
     table_->setVisible(!all.empty());
+    trend_->setVisible(!all.empty());
+    trend_->show({all.rbegin(), all.rend()});
     table_->setRowCount(int(all.size()));
     std::set<std::string> newer;  // units that a newer one was met of
     for (int row = 0; row < int(all.size()); ++row) {
@@ -103,18 +103,16 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
             quantityText(c.amplitude.offset, unit, 2),
             quantityText(c.amplitude.uncertainty_pct, "%", 2),
             tr("%1 to %2").arg(settingText(c.amplitude.lowest, unit), settingText(c.amplitude.highest, unit)),
-            lineText(c.interval),
-            lineText(c.phaseWidth),
-            lineText(c.gap),
             instrumentsOf(c)};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
             const bool right = column >= kGain && column <= kUncertainty;
             item->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+            item->setToolTip(column == kInstruments ? cells[column] : timesText(c));
             table_->setItem(row, column, item);
         }
     }
-    table_->resizeColumnsToContents();
+    for (int column = 0; column < kInstruments; ++column) table_->resizeColumnToContents(column);
 }
 
 }  // namespace tacto::gui

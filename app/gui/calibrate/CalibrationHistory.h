@@ -1,4 +1,5 @@
-// CalibrationHistory.h - every calibration of a stimulator, the newest first: which one counts, which were superseded.
+// CalibrationHistory.h - every calibration of a stimulator: how it changed over time, and a list, the newest first:
+// which one counts, which were superseded.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -11,6 +12,8 @@
 
 namespace tacto::gui {
 
+class CalibrationTrendView;
+
 class CalibrationHistory final : public QWidget {
     Q_OBJECT
 public:
@@ -20,6 +23,7 @@ public:
 
 private:
     QLabel* empty_;
+    CalibrationTrendView* trend_;
     QTableWidget* table_;
 };
 

@@ -1,7 +1,7 @@
 #include "app/gui/calibrate/CalibrationPlot.h"
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/PlotSheet.h"
 
 namespace tacto::gui {
@@ -9,12 +9,13 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kMargin = 0.06;
-constexpr int kBandAlpha = 40;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4;  // pixels around the axes
 constexpr int kLeastChars = 24;
 constexpr int kLeastLines = 10;
-constexpr int kOneRowChars = 76;  // the legend stands in one row from this width on
+constexpr int kLegendColumns = 2;
+constexpr double kAside = 0.006;   // of the range: readings going up stand left of their level, those down right
+constexpr double kNearest = 0.02;  // of the range: half the width of the frame around the nearest level
 
 /// The smallest range that holds all it was shown; NaN is passed over.
 struct Reach {
@@ -54,20 +55,26 @@ void CalibrationPlot::build() {
     bandBottom_ = addGraph();
     bandTop_ = addGraph();
     bandTop_->setChannelFillGraph(bandBottom_);
-    for (auto** graph : {&line_, &up_, &down_, &marked_, &means_}) *graph = addGraph();
+    for (auto** graph : {&line_, &nominal_, &up_, &down_, &marked_, &means_}) *graph = addGraph();
     for (auto* graph : {up_, down_, marked_, means_}) graph->setLineStyle(QCPGraph::lsNone);
     bars_ = new QCPErrorBars(xAxis, yAxis);
     bars_->setDataPlottable(means_);
     bars_->setErrorType(QCPErrorBars::etValueError);
-    up_->setName(tr("up"));
-    down_->setName(tr("down"));
-    marked_->setName(tr("stands out"));
-    means_->setName(tr("mean ± U"));
+    up_->setName(tr("going up"));
+    down_->setName(tr("going down"));
+    marked_->setName(tr("stands out, kept"));
+    means_->setName(tr("mean ± U (95 %)"));
     bandTop_->setName(tr("tolerance"));
     axisRect()->setMinimumMargins(QMargins(kEdge, kEdge, kEdge, kEdge));
     if (kind_ == Kind::Errors) addLegend();
     watermark_ = addWatermark(*axisRect());
     watermark_->setVisible(false);
+    watermark_->setLayer("legend");  // the band would cover it
+    nearest_ = new QCPItemRect(this);
+    nearestText_ = new QCPItemText(this);
+    nearestText_->setTextAlignment(Qt::AlignLeft);
+    for (QCPAbstractItem* item : {static_cast<QCPAbstractItem*>(nearest_), static_cast<QCPAbstractItem*>(nearestText_)})
+        item->setVisible(false);
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
@@ -75,26 +82,23 @@ void CalibrationPlot::build() {
                                           : tr("Each reading appears here\nagainst its command."));
 }
 
-/// One for both plots, above the wider one.
+/// In the corner that the band leaves: a level at the left edge has the smallest tolerance.
 void CalibrationPlot::addLegend() {
-    axisRect()->insetLayout()->take(legend);
-    plotLayout()->insertRow(0);
-    plotLayout()->addElement(0, 0, legend);
-    plotLayout()->setRowStretchFactor(0, 0.001);
-    plotLayout()->setRowSpacing(0);
-    legend->setMaximumSize(100000, 100000);  // else an empty one narrows the axes to nothing
+    axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    legend->setWrap(kLegendColumns);
     legend->clearItems();
-    named_ = {up_, down_, marked_, means_, bandTop_};
-    for (auto* graph : named_) graph->addToLegend();
+    for (auto* graph : {up_, means_, down_, bandTop_}) graph->addToLegend();
 }
 
 void CalibrationPlot::clear() {
-    for (auto* graph : {bandBottom_, bandTop_, line_, up_, down_, marked_, means_}) graph->data()->clear();
+    for (auto* graph : {bandBottom_, bandTop_, line_, nominal_, up_, down_, marked_, means_}) graph->data()->clear();
+    nearest_->setVisible(false);
+    nearestText_->setVisible(false);
     bars_->setData(QVector<double>());
     for (auto* axis : {xAxis, yAxis}) axis->setTickLabels(false);
     xAxis->setLabel(tr("commanded"));
-    yAxis->setLabel(kind_ == Kind::Errors ? tr("error") : tr("measured"));
+    yAxis->setLabel(kind_ == Kind::Errors ? tr("measured − commanded") : tr("measured"));
     legend->setVisible(false);
     empty_->setVisible(true);
     colour();
@@ -122,17 +126,18 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
         y.include(level.mean - level.commanded - of.uncertainty[k]);
     }
     const AxisUnit across = axisUnit(x.magnitude(), of.unit), upward = axisUnit(y.magnitude(), of.unit);
-    drawReadings(of, across, upward);
     if (kind_ == Kind::Errors) {
         drawBand(of, across, upward);
         drawMeans(of, across, upward);
-    } else {
-        drawLine(of, across, upward);
     }
+    drawLine(of, across, upward);
     xAxis->setRange(x.range(across.factor));
     yAxis->setRange(y.range(upward.factor));
+    drawReadings(of, across, upward);
+    if (kind_ == Kind::Errors) nameNearest(of, across, upward);
     xAxis->setLabel(tr("commanded (%1)").arg(across.unit));
-    yAxis->setLabel(kind_ == Kind::Errors ? tr("error (%1)").arg(upward.unit) : tr("measured (%1)").arg(upward.unit));
+    yAxis->setLabel(kind_ == Kind::Errors ? tr("measured − commanded (%1)").arg(upward.unit)
+                                          : tr("measured (%1)").arg(upward.unit));
     for (auto* axis : {xAxis, yAxis}) {
         axis->setTickLabels(true);
         axis->setTicker(QSharedPointer<PlainTicker>::create(kTicks));
@@ -146,8 +151,10 @@ void CalibrationPlot::drawReadings(const CalibrationReadings& of, const AxisUnit
     for (const auto& reading : of.readings) {
         const double at = reading.commanded * across.factor, value = shown(reading) * upward.factor;
         if (!std::isfinite(at) || !std::isfinite(value)) continue;
-        (reading.direction == SweepDirection::Down ? down_ : up_)->addData(at, value);
-        if (reading.outlier) marked_->addData(at, value);
+        const bool down = reading.direction == SweepDirection::Down;
+        const double aside = kind_ == Kind::Errors ? (down ? kAside : -kAside) * xAxis->range().size() : 0;
+        (down ? down_ : up_)->addData(at + aside, value);
+        if (reading.outlier) marked_->addData(at + aside, value);
     }
 }
 
@@ -155,7 +162,11 @@ void CalibrationPlot::drawLine(const CalibrationReadings& of, const AxisUnit& ac
     if (!of.fit) return;
     for (const auto* level : {&of.fit->levels.front(), &of.fit->levels.back()}) {
         const double at = level->commanded;
-        line_->addData(at * across.factor, (of.fit->gain * at + of.fit->offset) * upward.factor);
+        const double fitted = of.fit->gain * at + of.fit->offset;
+        if (kind_ == Kind::Errors)
+            nominal_->addData(at * across.factor, (fitted - at) * upward.factor);
+        else
+            line_->addData(at * across.factor, fitted * upward.factor);
     }
 }
 
@@ -179,6 +190,27 @@ void CalibrationPlot::drawMeans(const CalibrationReadings& of, const AxisUnit& a
     bars_->setData(u);
 }
 
+void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward) {
+    const auto* use = of.nearest();
+    if (use == nullptr) return;
+    const double at = use->commanded * across.factor, half = kNearest * xAxis->range().size();
+    const double band = use->tolerance * upward.factor;
+    nearest_->topLeft->setCoords(at - half, band);
+    nearest_->bottomRight->setCoords(at + half, -band);
+    nearest_->setVisible(true);
+    nearestText_->setText(tr("Nearest to the tolerance\n%1: %2 of ± %3, %4 used")
+                              .arg(settingText(use->commanded, of.unit),
+                                   uncertainText(use->error, use->expanded, of.unit),
+                                   settingText(use->tolerance, of.unit), quantityText(100 * use->share(), "%", 2)));
+    // Below the frame, on the side where there is room.
+    const bool left = at < xAxis->range().center();
+    nearestText_->setPositionAlignment((left ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignBottom);
+    nearestText_->position->setTypeX(QCPItemPosition::ptPlotCoords);
+    nearestText_->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    nearestText_->position->setCoords(at + (left ? -half : half), 0.98);
+    nearestText_->setVisible(true);
+}
+
 void CalibrationPlot::setSimulated(bool simulated) {
     if (watermark_->visible() == simulated) return;
     watermark_->setVisible(simulated);
@@ -195,33 +227,25 @@ void CalibrationPlot::colour() {
         graph->setScatterStyle({shape, QPen(ink, 1.4), filled ? QBrush(ink) : QBrush(Qt::NoBrush), size * scale});
     };
     points(up_, QCPScatterStyle::ssTriangle, c.voltage, 1, false);
-    points(down_, QCPScatterStyle::ssTriangleInverted, c.current, 1, false);
+    points(down_, QCPScatterStyle::ssTriangleInverted, c.third, 1, false);
     points(marked_, QCPScatterStyle::ssCross, c.amber, 1.8, false);
     points(means_, QCPScatterStyle::ssDisc, c.text, 0.7, true);
     bars_->setPen(QPen(c.text, 1));
     line_->setPen(QPen(c.quiet, 1));
-    auto band = c.amber;
-    for (auto* edge : {bandTop_, bandBottom_}) edge->setPen(QPen(band, 1.2, Qt::DashLine));
-    band.setAlpha(kBandAlpha);
-    bandTop_->setBrush(band);
+    nominal_->setPen(QPen(c.text, 1, Qt::DotLine));
+    QPen edge(c.passText, 1.5, Qt::CustomDashLine);
+    edge.setDashPattern({8 / 1.5, 4 / 1.5});
+    for (auto* side : {bandTop_, bandBottom_}) side->setPen(edge);
+    bandTop_->setBrush(c.passCell);
+    nearest_->setPen(QPen(c.text, 1));
+    nearestText_->setColor(c.text);
+    nearestText_->setFont(textFont(TextSize::Small));
     empty_->setColor(c.quiet);
     empty_->setFont(QApplication::font());
     legend->setTextColor(c.text);
-    legend->setBrush(QBrush(c.base));
+    legend->setBrush(Qt::NoBrush);
     legend->setBorderPen(Qt::NoPen);
-    legend->setFont(QApplication::font());
-}
-
-void CalibrationPlot::resizeEvent(QResizeEvent* event) {
-    // Names in one row where they fit, else three in a row.
-    const int wrap = width() < fontMetrics().averageCharWidth() * kOneRowChars ? 3 : 0;
-    if (!named_.empty() && legend->wrap() != wrap) {
-        legend->setWrap(wrap);
-        // A grid keeps its cells where they were: put them in anew.
-        for (auto* graph : named_) graph->removeFromLegend();
-        for (auto* graph : named_) graph->addToLegend();
-    }
-    QCustomPlot::resizeEvent(event);
+    legend->setFont(textFont(TextSize::Small));
 }
 
 void CalibrationPlot::changeEvent(QEvent* event) {

@@ -1,6 +1,6 @@
 // CalibrationPlot.h - a calibration's readings over their commands: as measured, with the fitted line; or as errors,
-// in the tolerance band, with each level's mean and its uncertainty. Going up and down are told apart, readings that
-// stand out are marked and kept. The errors carry the legend of both.
+// in the tolerance band, with each level's mean and its uncertainty, and the level nearest to its tolerance named.
+// Going up and down are told apart, readings that stand out are marked and kept.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -28,10 +28,11 @@ public:
     [[nodiscard]] int drawnMeans() const { return means_->dataCount(); }
     [[nodiscard]] bool hasBand() const { return bandTop_->dataCount() > 0; }
     [[nodiscard]] bool hasLine() const { return line_->dataCount() > 0; }
+    /// "Nearest to the tolerance: 10 V, …"; empty before the result.
+    [[nodiscard]] QString nearestShown() const { return nearestText_->visible() ? nearestText_->text() : QString(); }
 
 protected:
     void changeEvent(QEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
 
 private:
     void build();
@@ -40,6 +41,7 @@ private:
     void drawBand(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void drawMeans(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void drawReadings(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
+    void nameNearest(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     [[nodiscard]] double shown(const CalibrationReading& reading) const;
     void colour();
     const Kind kind_;
@@ -50,8 +52,10 @@ private:
     QCPGraph* down_ = nullptr;
     QCPGraph* marked_ = nullptr;
     QCPGraph* means_ = nullptr;
-    std::vector<QCPGraph*> named_;  ///< in the legend
+    QCPGraph* nominal_ = nullptr;  ///< of errors: the fitted line
     QCPErrorBars* bars_ = nullptr;
+    QCPItemRect* nearest_ = nullptr;
+    QCPItemText* nearestText_ = nullptr;
     QCPItemText* empty_ = nullptr;
     QCPItemText* watermark_ = nullptr;
 };

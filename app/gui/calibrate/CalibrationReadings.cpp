@@ -1,6 +1,7 @@
 #include "app/gui/calibrate/CalibrationReadings.h"
 
 #include <QObject>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@ struct Quantity {
 };
 constexpr std::array kQuantities{Quantity{"amplitude", "amplitude"}, Quantity{"interval", "interval_s"},
                                  Quantity{"width", "width_s"}, Quantity{"gap", "gap_s"}};
-/// A source that is told its current from a measured load is told a slightly different one each time.
+/// A source whose current follows a measured load is programmed to a slightly different one each time.
 constexpr double kSameCurrent = 0.02;
 constexpr double kSameCommand = 1e-9;
 
@@ -55,6 +56,12 @@ void CalibrationReadings::judge() {
     if (!found) return;  // one level so far: there is no line yet
     readings = found->readings;
     fit = std::move(*found);
+}
+
+const ToleranceUse* CalibrationReadings::nearest() const {
+    const auto most = std::max_element(
+        used.begin(), used.end(), [](const ToleranceUse& a, const ToleranceUse& b) { return a.share() < b.share(); });
+    return most == used.end() ? nullptr : &*most;
 }
 
 std::string calibratedQuantity(const nlohmann::json& trial) {
@@ -101,6 +108,7 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
         reading.outlier = row.value("outlier", false);
         out.readings.push_back(reading);
     }
+    out.verdict = QString::fromStdString(text(found, "verdict"));
     Calibration fit;
     fit.gain = number(found, "gain");
     fit.offset = number(found, "offset");
@@ -112,6 +120,12 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
         level.meanDown = number(row, "mean_down");
         fit.levels.push_back(level);
         out.uncertainty.push_back(number(row, "expanded_uncertainty"));
+        // A session of an earlier version has the mean's error alone.
+        const bool worst = row.contains("worst_error");
+        const ToleranceUse use{level.commanded, number(row, worst ? "worst_error" : "error"),
+                               number(row, worst ? "worst_expanded_uncertainty" : "expanded_uncertainty"),
+                               number(row, "tolerance")};
+        if (std::isfinite(use.share())) out.used.push_back(use);
     }
     out.fit = std::move(fit);
     return out;

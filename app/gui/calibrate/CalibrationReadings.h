@@ -7,13 +7,23 @@
 #pragma once
 
 #include <QString>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
-#include "core/analysis/Calibration.h"
+#include "core/analysis/calibration/Calibration.h"
 
 namespace tacto::gui {
+
+/// How much of its tolerance a level uses: the error of the worse direction and its U together.
+struct ToleranceUse {
+    double commanded = 0;
+    double error = 0;
+    double expanded = 0;   ///< U, 95 %
+    double tolerance = 0;  ///< ±
+    [[nodiscard]] double share() const { return (std::abs(error) + expanded) / tolerance; }
+};
 
 /// One quantity's: "amplitude", "interval", "width" or "gap".
 struct CalibrationReadings {
@@ -24,9 +34,13 @@ struct CalibrationReadings {
     std::optional<Calibration> fit;            ///< nothing before two levels were met
     std::vector<double> uncertainty;           ///< U of each of fit->levels; empty before the result
     double resolution = 0;                     ///< of the instrument, in `unit`
+    std::vector<ToleranceUse> used;            ///< levels that were judged; empty before the result
+    QString verdict;                           ///< "pass", ...; empty before the result
 
     /// Fits anew.
     void judge();
+    /// The level nearest to its tolerance, or furthest beyond it. Null before the result.
+    [[nodiscard]] const ToleranceUse* nearest() const;
 };
 
 /// The quantity that a trial, as record.trial() was given it, is a reading of; empty for another trial.

@@ -1,13 +1,13 @@
 #include "app/gui/calibrate/CalibrationResult.h"
 
 #include <QFormLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationReadings.h"
-#include "app/gui/look/TableText.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -31,30 +31,10 @@ QString words(const json& in, const char* key) {
     return at != in.end() && at->is_string() ? QString::fromStdString(at->get<std::string>()) : QString();
 }
 
-/// A number without a unit, as a certificate states it.
-QString plain(double value, int digits) {
-    return std::isfinite(value) ? QString::number(value, 'g', digits).replace('-', QChar(0x2212)) : QString("–");
-}
-
 /// A value whose uncertainty may be larger than itself keeps its decimals from the uncertainty.
 QString plusMinus(double value, double expanded, const QString& unit) {
     return std::isfinite(value) && std::isfinite(expanded) ? quantityText(value, expanded, unit)
                                                            : quantityText(value, unit);
-}
-
-/// Alike in prefix and decimals, so that they compare by eye.
-void putColumn(QTableWidget& table, int column, const std::vector<double>& values, const QString& unit) {
-    const auto format = columnFormat(values, unit);
-    for (int row = 0; row < int(values.size()); ++row) {
-        const double value = values[std::size_t(row)];
-        putText(table, row, column,
-                format && std::isfinite(value) ? quantityText(value, unit, *format) : quantityText(value, unit), true);
-    }
-}
-
-QString verdictText(const QString& key) {
-    const QString shape = key == "pass" ? "✔" : key == "fail" ? "✖" : "?";
-    return shape + " " + key;
 }
 
 }  // namespace
@@ -71,10 +51,7 @@ CalibrationResult::CalibrationResult(const std::string& quantity, const json& fo
     column->setContentsMargins(0, 0, 0, fontMetrics().height() / 2);
     auto* head = new QLabel(tr("%1: %2").arg(title_, verdictText(words(found, "verdict"))), this);
     head->setObjectName("calibrationVerdict");
-    auto font = head->font();
-    font.setBold(true);
-    font.setPointSizeF(font.pointSizeF() * 1.15);
-    head->setFont(font);
+    setTextSize(*head, TextSize::Large);
     column->addWidget(head);
     addSummary(found);
     addLevels(found["levels"]);
@@ -110,83 +87,72 @@ void CalibrationResult::addSummary(const json& found) {
     static_cast<QVBoxLayout*>(layout())->addLayout(form);
 }
 
-QTableWidget* CalibrationResult::addTable(const QString& name, const QStringList& columns, int rows) {
+void CalibrationResult::addTable(const QString& name, const char* objectName, const QString& tip,
+                                 const std::vector<RecordColumn>& columns, const json& rows) {
     auto* above = new QLabel(name, this);
-    auto font = above->font();
-    font.setBold(true);
-    above->setFont(font);
+    setTextSize(*above, TextSize::Body, true);
     layout()->addWidget(above);
-    auto* table = new QTableWidget(rows, int(columns.size()), this);
+    auto* table = makeRecordTable(columns, rows, this);
+    table->setObjectName(objectName);
     table->setAccessibleName(tr("%1: %2").arg(title_, name));
-    table->setHorizontalHeaderLabels(columns);
-    table->verticalHeader()->hide();
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->setAlternatingRowColors(true);
-    table->setWordWrap(false);
-    table->setTabKeyNavigation(false);
-    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table->setToolTip(tip);
     layout()->addWidget(table);
-    return table;
 }
 
 void CalibrationResult::addLevels(const json& levels) {
-    auto* table = addTable(tr("Levels"),
-                           {tr("Commanded"), tr("n"), tr("Mean"), tr("Mean up"), tr("Mean down"), tr("s"), tr("Error"),
-                            tr("U (95 %)"), tr("Tolerance ±"), tr("Verdict")},
-                           int(levels.size()));
-    table->setObjectName("calibrationLevels");
-    table->setToolTip(
-        tr("The error that is judged is that of the worse direction; a level passes when it is inside the tolerance "
-           "by more than U."));
-    const auto column = [&](const char* key) {
-        std::vector<double> values;
-        for (const auto& level : levels) values.push_back(numberIn(level, key));
-        return values;
-    };
-    const char* keys[] = {"commanded", "", "mean", "mean_up", "mean_down", "s", "error", "expanded_uncertainty",
-                          "tolerance"};
-    for (int c = 0; c < int(std::size(keys)); ++c) {
-        if (*keys[c] != '\0') putColumn(*table, c, column(keys[c]), unit_);
+    using As = RecordColumn::As;
+    auto rows = levels;
+    for (auto& row : rows) {
+        // A session of an earlier version has the mean's error alone.
+        const bool worst = row.contains("worst_error");
+        const char* error = worst ? "worst_error" : "error";
+        const char* expanded = worst ? "worst_expanded_uncertainty" : "expanded_uncertainty";
+        row["judged_error"] = row.value(error, json());
+        row["judged_u"] = row.value(expanded, json());
+        const double used =
+            (std::abs(numberIn(row, "judged_error")) + numberIn(row, "judged_u")) / numberIn(row, "tolerance");
+        row["used"] = std::isfinite(used) ? json(used) : json();
     }
-    for (int row = 0; row < table->rowCount(); ++row) {
-        const auto& level = levels[std::size_t(row)];
-        putText(*table, row, 1, countIn(level, "n"), true);
-        putText(*table, row, table->columnCount() - 1, verdictText(words(level, "verdict")), false);
-    }
-    fitToRows(*table);
+    addTable(tr("Levels"), "calibrationLevels",
+             tr("The error that is judged is that of the worse direction; a level passes when it is inside the "
+                "tolerance by more than U."),
+             {{tr("Verdict"), "verdict", As::Verdict},
+              {tr("Commanded"), "commanded", As::Number, unit_},
+              {tr("n"), "n", As::Number},
+              {tr("Mean, going up"), "mean_up", As::Number, unit_},
+              {tr("Mean, going down"), "mean_down", As::Number, unit_},
+              {tr("s"), "s", As::Number, unit_},
+              {tr("Error ± U"), "judged_error", As::Number, unit_, "judged_u"},
+              {tr("Tolerance, ±"), "tolerance", As::Number, unit_},
+              {tr("Tolerance used"), "used", As::Share}},
+             rows);
 }
 
 void CalibrationResult::addBudget(const json& budget) {
-    const auto& rows = budget["rows"];
-    auto* table = addTable(tr("Uncertainty at the largest command"),
-                           {tr("Contribution"), tr("Distribution"), tr("Value"), tr("Divisor"), tr("Sensitivity"),
-                            tr("u (%1)").arg(axisUnit(0, unit_).unit), tr("Degrees of freedom")},
-                           int(rows.size()) + 1);
-    table->setObjectName("calibrationBudget");
-    table->setToolTip(
-        tr("Each contribution is its value over the divisor of its distribution, times its sensitivity. "
-           "They are combined as the sum of squares (GUM)."));
-    for (int row = 0; row < int(rows.size()); ++row) {
-        const auto& one = rows[std::size_t(row)];
-        const double freedom = numberIn(one, "degrees_of_freedom");
-        putText(*table, row, 0, words(one, "name"), false);
-        putText(*table, row, 1, words(one, "distribution"), false);
-        putText(*table, row, 2, plain(numberIn(one, "value"), 3), true);
-        putText(*table, row, 3, plain(numberIn(one, "divisor"), 4), true);
-        putText(*table, row, 4, plain(numberIn(one, "sensitivity"), 4), true);
-        putText(*table, row, 5, plain(numberIn(one, "contribution"), 3), true);
-        putText(*table, row, 6, std::isfinite(freedom) ? plain(freedom, 3) : QString("∞"), true);
+    using As = RecordColumn::As;
+    auto rows = budget["rows"];
+    for (auto& row : rows) {
+        if (row.contains("degrees_of_freedom") && !row["degrees_of_freedom"].is_number())
+            row["degrees_of_freedom"] = "∞";
     }
-    const int last = int(rows.size());
     const double factor = numberIn(budget, "coverage_factor");
-    putText(*table, last, 0, tr("combined"), false);
-    putText(*table, last, 1,
-            tr("%1%2").arg(words(budget, "method"),
-                           std::isfinite(factor) ? tr(", k = %1").arg(factor, 0, 'f', 2) : QString()),
-            false);
-    putText(*table, last, 5, plain(numberIn(budget, "combined"), 3), true);
-    fitToRows(*table);
+    const auto method = words(budget, "method");
+    rows.push_back(
+        {{"name", tr("combined").toStdString()},
+         {"distribution",
+          (std::isfinite(factor) ? tr("%1, k = %2").arg(method).arg(factor, 0, 'f', 2) : method).toStdString()},
+         {"contribution", budget.value("combined", json())}});
+    addTable(tr("Uncertainty at the largest command"), "calibrationBudget",
+             tr("Each contribution is its value over the divisor of its distribution, times its sensitivity. "
+                "They are combined as the sum of squares (GUM)."),
+             {{tr("Contribution"), "name"},
+              {tr("Distribution"), "distribution"},
+              {tr("Value"), "value", As::Number},
+              {tr("Divisor"), "divisor", As::Number},
+              {tr("Sensitivity"), "sensitivity", As::Number},
+              {tr("u"), "contribution", As::Number, unit_},
+              {tr("Degrees of freedom"), "degrees_of_freedom"}},
+             rows);
 }
 
 }  // namespace tacto::gui

@@ -4,9 +4,10 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QTableWidget>
 #include <QWidget>
 #include <nlohmann/json.hpp>
+
+#include "app/gui/theme/RecordTable.h"
 
 namespace tacto::gui {
 
@@ -21,7 +22,8 @@ private:
     void addSummary(const nlohmann::json& found);
     void addLevels(const nlohmann::json& levels);
     void addBudget(const nlohmann::json& budget);
-    [[nodiscard]] QTableWidget* addTable(const QString& name, const QStringList& columns, int rows);
+    void addTable(const QString& name, const char* objectName, const QString& tip,
+                  const std::vector<RecordColumn>& columns, const nlohmann::json& rows);
     QString title_;
     QString unit_;
 };

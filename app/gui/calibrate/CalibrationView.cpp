@@ -3,14 +3,15 @@
 #include <QVBoxLayout>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/calibrate/ToleranceCard.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kBesideChars = 76;  // two plots stand side by side from this width on
-constexpr int kBelowLines = 26;   // one above the other from this height on; else the errors alone
+constexpr int kLowLines = 30;  // below this height the cards lose a line, so that the plot keeps its own
 
 }  // namespace
 
@@ -19,41 +20,56 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
-    tabs_ = new QTabBar(this);
-    tabs_->setObjectName("quantities");
-    tabs_->setAccessibleName(tr("Calibrated quantity"));
-    tabs_->setToolTip(
-        tr("The quantities that are calibrated, one after the other. The plots follow the run until you "
-           "choose one."));
-    tabs_->setExpanding(false);
-    tabs_->setDrawBase(false);
-    connect(tabs_, &QTabBar::currentChanged, this, &CalibrationView::choose);
-    column->addWidget(tabs_);
-    says_ = new QLabel(this);
-    says_->setObjectName("calibrationSays");
-    says_->setWordWrap(true);
-    says_->setForegroundRole(QPalette::PlaceholderText);
-    column->addWidget(says_);
-    plots_ = new QBoxLayout(QBoxLayout::LeftToRight);
-    measured_ = new CalibrationPlot(CalibrationPlot::Kind::Measured, this);
-    measured_->setObjectName("calibrationMeasured");
-    errors_ = new CalibrationPlot(CalibrationPlot::Kind::Errors, this);
+    column->addWidget(buildHead());
+    plots_ = new QStackedWidget(this);
+    errors_ = new CalibrationPlot(CalibrationPlot::Kind::Errors, plots_);
     errors_->setObjectName("calibrationErrors");
-    plots_->addWidget(measured_, 2);
-    plots_->addWidget(errors_, 3);
-    column->addLayout(plots_, 1);
+    measured_ = new CalibrationPlot(CalibrationPlot::Kind::Measured, plots_);
+    measured_->setObjectName("calibrationMeasured");
+    plots_->addWidget(errors_);
+    plots_->addWidget(measured_);
+    connect(kind_, &QComboBox::currentIndexChanged, plots_, &QStackedWidget::setCurrentIndex);
+    column->addWidget(plots_, 1);
+    row_ = new QHBoxLayout;
+    row_->setSpacing(8);
+    column->addLayout(row_);
     begin({});
+}
+
+QWidget* CalibrationView::buildHead() {
+    auto* head = new QWidget(this);
+    auto* row = new QHBoxLayout(head);
+    row->setContentsMargins(0, 0, 0, 0);
+    title_ = new QLabel(head);
+    title_->setObjectName("calibrationShown");
+    setTextSize(*title_, TextSize::Body, true);
+    row->addWidget(title_);
+    says_ = new ElidedLabel(head);
+    says_->setObjectName("calibrationSays");
+    says_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    setTextSize(*says_, TextSize::Small);
+    setTone(*says_, Tone::Quiet);
+    row->addWidget(says_, 1);
+    kind_ = new QComboBox(head);
+    kind_->setObjectName("calibrationPlotKind");
+    kind_->setAccessibleName(tr("Plot"));
+    kind_->addItems({tr("Residuals"), tr("Measured")});
+    kind_->setToolTip(
+        tr("Residuals: each reading's distance from its command, in the tolerance band. Measured: each "
+           "reading against its command, with the fitted line."));
+    row->addWidget(kind_);
+    return head;
 }
 
 void CalibrationView::begin(const nlohmann::json& parameters) {
     parameters_ = parameters;
     all_.clear();
+    for (auto* card : cards_) delete card;
+    cards_.clear();
+    shown_ = -1;
     follow_ = true;
-    following_ = true;
-    while (tabs_->count() > 0) tabs_->removeTab(0);
-    following_ = false;
-    tabs_->hide();
-    says_->hide();
+    title_->setText(tr("Residuals in their tolerance"));
+    says_->setText({});
     measured_->clear();
     errors_->clear();
 }
@@ -66,17 +82,23 @@ CalibrationReadings& CalibrationView::of(const std::string& quantity) {
     made.quantity = quantity;
     made.tolerance_pct = toleranceOf(quantity, parameters_);
     all_.push_back(made);
-    following_ = true;
-    tabs_->addTab(quantityTitle(quantity));
-    if (follow_) tabs_->setCurrentIndex(tabs_->count() - 1);
-    following_ = false;
-    tabs_->show();
+    auto* card = new ToleranceCard(quantityTitle(quantity), this);
+    row_->addWidget(card, 1);
+    cards_.push_back(card);
+    const int index = int(cards_.size()) - 1;
+    connect(card, &ToleranceCard::clicked, this, [this, index] {
+        follow_ = false;
+        choose(index);
+    });
+    if (follow_) shown_ = index;
+    arrange();
     return all_.back();
 }
 
 void CalibrationView::add(const nlohmann::json& trial) {
-    if (!isReading(trial)) return;
-    auto& readings = of(calibratedQuantity(trial));
+    const auto quantity = calibratedQuantity(trial);
+    if (quantity.empty()) return;
+    auto& readings = of(quantity);
     readings.unit = unitFrom(trial);
     if (const auto at = trial.find("instrument"); at != trial.end() && readings.quantity == "amplitude") {
         const auto step = at->find("resolution");
@@ -87,11 +109,9 @@ void CalibrationView::add(const nlohmann::json& trial) {
 }
 
 void CalibrationView::draw() {
-    if (!std::exchange(dirty_, false)) return;
-    const int shown = tabs_->currentIndex();
-    if (shown < 0) return;
-    all_[std::size_t(shown)].judge();
-    choose(shown);
+    if (!std::exchange(dirty_, false) || shown_ < 0) return;
+    all_[std::size_t(shown_)].judge();
+    choose(shown_);
 }
 
 void CalibrationView::end(const nlohmann::json& results) {
@@ -101,26 +121,24 @@ void CalibrationView::end(const nlohmann::json& results) {
         auto judged = readingsFrom(key, found);
         if (judged) of(key) = std::move(*judged);
     }
-    if (!all_.empty()) {
-        following_ = true;
-        if (follow_) tabs_->setCurrentIndex(0);
-        following_ = false;
-        choose(tabs_->currentIndex());
-    }
+    if (!all_.empty()) choose(follow_ ? 0 : shown_);
 }
 
 void CalibrationView::choose(int index) {
     if (index < 0 || index >= int(all_.size())) return;
-    if (!following_ && sender() == tabs_) follow_ = false;
+    shown_ = index;
     auto& chosen = all_[std::size_t(index)];
     if (!chosen.fit) chosen.judge();
     measured_->show(chosen);
     errors_->show(chosen);
+    for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->show(all_[i]);
+    cards_[std::size_t(index)]->setChecked(true);
     say();
 }
 
 void CalibrationView::say() {
-    const auto& shown = all_[std::size_t(tabs_->currentIndex())];
+    const auto& shown = all_[std::size_t(shown_)];
+    title_->setText(tr("%1: residuals in their tolerance").arg(quantityTitle(shown.quantity)));
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
     QStringList said{tr("n = %1").arg(shown.readings.size())};
@@ -130,7 +148,7 @@ void CalibrationView::say() {
     }
     said << (marked == 0 ? tr("none stands out") : tr("standing out, marked and kept: %1").arg(marked));
     says_->setText(said.join(" · "));
-    says_->show();
+    says_->setToolTip(says_->text());
 }
 
 void CalibrationView::setSimulated(bool simulated) {
@@ -145,14 +163,11 @@ std::size_t CalibrationView::readings() const {
 }
 
 QString CalibrationView::quantityShown() const {
-    return tabs_->currentIndex() < 0 ? QString() : tabs_->tabText(tabs_->currentIndex());
+    return shown_ < 0 ? QString() : quantityTitle(all_[std::size_t(shown_)].quantity);
 }
 
 void CalibrationView::arrange() {
-    const bool beside = width() >= fontMetrics().averageCharWidth() * kBesideChars;
-    const bool below = height() >= fontMetrics().height() * kBelowLines;
-    plots_->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-    measured_->setVisible(beside || below);
+    for (auto* card : cards_) card->setLow(height() < fontMetrics().height() * kLowLines);
 }
 
 void CalibrationView::resizeEvent(QResizeEvent* event) {

@@ -1,12 +1,13 @@
-// CalibrationView.h - a calibration while it runs: a tab for each quantity, its readings against their commands, and
-// their errors in the tolerance band beside them (the errors alone where there is no room for both).
+// CalibrationView.h - a calibration while it runs and at its end: one plot, the errors in their tolerance band (or the
+// readings against their commands), and a card for each quantity that says how much of its tolerance it uses.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QBoxLayout>
+#include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
-#include <QTabBar>
+#include <QStackedWidget>
 #include <QWidget>
 #include <vector>
 
@@ -15,6 +16,7 @@
 namespace tacto::gui {
 
 class CalibrationPlot;
+class ToleranceCard;
 
 class CalibrationView final : public QWidget {
     Q_OBJECT
@@ -22,8 +24,7 @@ public:
     explicit CalibrationView(QWidget* parent = nullptr);
     /// `parameters`: of the protocol; its tolerances are drawn.
     void begin(const nlohmann::json& parameters);
-    /// Whether a trial, as record.trial() was given it, is a reading of a calibration.
-    [[nodiscard]] static bool isReading(const nlohmann::json& trial) { return !calibratedQuantity(trial).empty(); }
+    /// A reading, as record.trial() was given it; a trial that is none is passed over.
     void add(const nlohmann::json& trial);
     /// Draws what came since.
     void draw();
@@ -37,18 +38,22 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    [[nodiscard]] QWidget* buildHead();
     [[nodiscard]] CalibrationReadings& of(const std::string& quantity);
     void choose(int index);
     void arrange();
     void say();
     nlohmann::json parameters_;
-    std::vector<CalibrationReadings> all_;  // as the tabs
+    std::vector<CalibrationReadings> all_;
+    std::vector<ToleranceCard*> cards_;  // as all_
+    int shown_ = -1;
     bool dirty_ = false;
-    bool follow_ = true;  // the tab goes with the run until the operator chooses one
-    bool following_ = false;
-    QTabBar* tabs_;
-    QLabel* says_;
-    QBoxLayout* plots_;
+    bool follow_ = true;  // the plot goes with the run until the operator chooses a card
+    QLabel* title_ = nullptr;
+    QLabel* says_ = nullptr;
+    QComboBox* kind_ = nullptr;
+    QStackedWidget* plots_;
+    QHBoxLayout* row_;
     CalibrationPlot* measured_;
     CalibrationPlot* errors_;
 };

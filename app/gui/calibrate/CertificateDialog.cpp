@@ -7,8 +7,8 @@
 #include <QHeaderView>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "core/base/Text.h"
 
 namespace tacto::gui {
@@ -30,11 +30,6 @@ enum CertificateColumn {
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
-QString sentenceOf(const Error& error) {
-    auto said = qtext(error.message);
-    return titled(said) + ".";
-}
-
 QString markOf(CertificateState state) {
     switch (state) {
         case CertificateState::Counts:
@@ -55,7 +50,7 @@ QString figureTitle(const CertificateFigure& figure) {
 
 }  // namespace
 
-CertificateDialog::CertificateDialog(BenchDesk& desk, QWidget* parent) : QDialog(parent) {
+CertificateDialog::CertificateDialog(BenchController& controller, QWidget* parent) : QDialog(parent) {
     setObjectName("certificateDialog");
     setWindowTitle(tr("Oscilloscope certificates"));
     auto* column = new QVBoxLayout(this);
@@ -66,7 +61,7 @@ CertificateDialog::CertificateDialog(BenchDesk& desk, QWidget* parent) : QDialog
                        "the data sheet's. A bench that is open keeps what it was opened with."),
                     this));
     empty_ = new QLabel(tr("No certificate is entered."), this);
-    empty_->setForegroundRole(QPalette::PlaceholderText);
+    setTone(*empty_, Tone::Quiet);
     column->addWidget(empty_);
     table_ = new QTableWidget(0, kCertificateColumns, this);
     table_->setObjectName("certificates");
@@ -113,7 +108,7 @@ CertificateDialog::CertificateDialog(BenchDesk& desk, QWidget* parent) : QDialog
         asksWithdraw_ = false;
         nameWithdraw();
     });
-    if (const auto open = desk.open()) {
+    if (const auto open = controller.open()) {
         for (const auto& device : open->about.devices) {
             if (device.role != nameOf(Role::Oscilloscope)) continue;
             texts_[0]->setText(qtext(device.name));
@@ -199,7 +194,7 @@ void CertificateDialog::judge() {
     if (enter_ == nullptr) return;
     const auto certificate = written();
     enter_->setEnabled(certificate.has_value());
-    if (!certificate) return says_->setText(sentenceOf(certificate.error()));
+    if (!certificate) return says_->setText(sentence(certificate.error()));
     const auto today = utcToday();
     says_->setText(certificate->due < today    ? tr("It is expired: it would be kept and not used.")
                    : certificate->date > today ? tr("It is dated in the future: it is not used before its date.")
@@ -210,9 +205,8 @@ void CertificateDialog::enter() {
     const auto certificate = written();
     if (!certificate) return;
     auto store = CertificateStore::open(certificateFile());
-    if (!store) return says_->setText(sentenceOf(store.error()));
-    if (const auto added = store->add(*certificate, utcToday()); !added)
-        return says_->setText(sentenceOf(added.error()));
+    if (!store) return says_->setText(sentence(store.error()));
+    if (const auto added = store->add(*certificate, utcToday()); !added) return says_->setText(sentence(added.error()));
     list();
     texts_[2]->clear();  // the next one has another number
     says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
@@ -242,10 +236,10 @@ void CertificateDialog::withdraw() {
     }
     asksWithdraw_ = false;
     auto store = CertificateStore::open(certificateFile());
-    if (!store) return says_->setText(sentenceOf(store.error()));
+    if (!store) return says_->setText(sentence(store.error()));
     const auto certificate = store->all().at(std::size_t(index)).certificate;  // lines are only ever added
     if (const auto done = store->withdraw(certificate.number, certificate.serial, utcToday()); !done)
-        return says_->setText(sentenceOf(done.error()));
+        return says_->setText(sentence(done.error()));
     list();
     says_->setText(tr("Certificate %1 is withdrawn.").arg(qtext(certificate.number)));
 }
@@ -258,7 +252,7 @@ void CertificateDialog::list() {
     table_->setVisible(any);
     withdraw_->setVisible(any);
     if (!store) {
-        empty_->setText(tr("%1 No certificate is used.").arg(sentenceOf(store.error())));
+        empty_->setText(tr("%1 No certificate is used.").arg(sentence(store.error())));
         return;
     }
     const auto today = utcToday();

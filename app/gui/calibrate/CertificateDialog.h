@@ -14,8 +14,8 @@
 #include <QTableWidget>
 #include <array>
 
-#include "app/gui/desk/BenchDesk.h"
-#include "app/gui/look/ConfirmButton.h"
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "core/calibration/CertificateStore.h"
 
 namespace tacto::gui {
@@ -23,8 +23,8 @@ namespace tacto::gui {
 class CertificateDialog final : public QDialog {
     Q_OBJECT
 public:
-    /// Proposes the oscilloscope that is open on `desk`.
-    explicit CertificateDialog(BenchDesk& desk, QWidget* parent);
+    /// Proposes the oscilloscope that is open on `controller`.
+    explicit CertificateDialog(BenchController& controller, QWidget* parent);
 
 protected:
     void changeEvent(QEvent* event) override;

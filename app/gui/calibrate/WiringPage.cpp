@@ -5,7 +5,7 @@
 #include <QSvgRenderer>
 #include <QVBoxLayout>
 
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 

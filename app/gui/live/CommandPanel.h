@@ -1,4 +1,4 @@
-// CommandPanel.h - what the encoder asks for now, in words and numbers: feel, amplitude, interval, current.
+// CommandPanel.h - what the fingertip feels now, in words, and what became of its trains.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -14,18 +14,14 @@ class CommandPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit CommandPanel(QWidget* parent = nullptr);
-    void setSimulated(bool simulated);
     /// `stale`: the fingertip's samples are old, and what it felt last is not what it feels.
     void show(const Telemetry& telemetry, bool stale);
 
 private:
     QLabel* words_;
-    QLabel* amplitude_;
-    QLabel* interval_;
-    QLabel* current_;
+    QLabel* near_;
     QLabel* trains_;
     QLabel* refusal_;
-    bool simulated_ = false;
 };
 
 /// Is what the fingertip shows fresh, what was lost, and the flags of R, in words; `stale` marks what is not to be

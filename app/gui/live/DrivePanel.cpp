@@ -6,7 +6,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -17,24 +17,30 @@ constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next 
 
 }  // namespace
 
-DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QGroupBox(tr("Drive"), parent), desk_(desk) {
+DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
     auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(8);
     sources_ = new QButtonGroup(this);
-    off_ = new QRadioButton(tr("O&ff"), this);
+    off_ = new QPushButton(tr("Off"), this);
     off_->setToolTip(
         tr("No train is sent. Every stop, disarm and fault comes back to this. Arrows move, Return chooses."));
-    byHand_ = new QRadioButton(tr("By &hand"), this);
+    byHand_ = new QPushButton(tr("By hand"), this);
     byHand_->setToolTip(tr("R and P come from the two sliders. Arrows move, Return chooses."));
-    finger_ = new QRadioButton(tr("From the fin&gertip"), this);
+    finger_ = new QPushButton(tr("Fingertip"), this);
+    finger_->setObjectName("driveFingertip");
     finger_->setToolTip(tr("R and P come from what the fingertip feels; without contact no train is sent."));
     auto* row = new QHBoxLayout;
+    row->setSpacing(0);
     for (auto* button : {off_, byHand_, finger_}) {
+        button->setCheckable(true);
+        button->setAutoDefault(false);
+        button->setProperty("role", "segment");
         sources_->addButton(button);
-        row->addWidget(button);
+        row->addWidget(button, 1);
         button->installEventFilter(this);
-        connect(button, &QRadioButton::clicked, this, &DrivePanel::drive);
+        connect(button, &QPushButton::clicked, this, &DrivePanel::drive);
     }
-    row->addStretch();
     off_->setChecked(true);
     layout->addLayout(row);
     auto* grid = new QGridLayout;
@@ -43,10 +49,18 @@ DrivePanel::DrivePanel(BenchDesk& desk, QWidget* parent) : QGroupBox(tr("Drive")
     pressure_ = addIndex(*grid, 1, tr("&P"), tr("Pressure P"),
                          tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
+    output_ = new QLabel(this);
+    output_->setObjectName("driveOutput");
+    setTextSize(*output_, TextSize::Large);
+    layout->addWidget(output_);
     says_ = new QLabel(this);
     says_->setObjectName("driveSays");
     says_->setWordWrap(true);
-    says_->setForegroundRole(QPalette::PlaceholderText);
+    says_->setAlignment(Qt::AlignTop);
+    setTone(*says_, Tone::Quiet);
+    setTextSize(*says_, TextSize::Small);
+    says_->setMinimumHeight(2 *
+                            QFontMetrics(textFont(TextSize::Small)).lineSpacing());  // nothing moves while it drives
     layout->addWidget(says_);
     begin();
 }
@@ -81,7 +95,7 @@ DrivePanel::Index DrivePanel::addIndex(QGridLayout& grid, int row, const QString
 }
 
 bool DrivePanel::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() != QEvent::KeyPress) return QGroupBox::eventFilter(watched, event);
+    if (event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
     const auto buttons = sources_->buttons();
     const auto at = buttons.indexOf(qobject_cast<QAbstractButton*>(watched));
     const int key = static_cast<QKeyEvent*>(event)->key();
@@ -100,8 +114,8 @@ bool DrivePanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void DrivePanel::begin() {
-    const auto open = desk_.open();
-    const bool live = desk_.activity() == Activity::Live;
+    const auto open = controller_.open();
+    const bool live = controller_.activity() == Activity::Live;
     setEnabled(live);
     finger_->setEnabled(live && open && !open->streams.empty());
     finger_->setToolTip(open && open->streams.empty()
@@ -118,7 +132,7 @@ DriveSource DrivePanel::chosen() const {
 void DrivePanel::drive() {
     asked_ = chosen();
     askedAt_.start();
-    desk_.drive(*asked_, roughness_.box->value(), pressure_.box->value());
+    controller_.drive(*asked_, roughness_.box->value(), pressure_.box->value());
 }
 
 void DrivePanel::follow(DriveSource driving) {
@@ -131,9 +145,16 @@ void DrivePanel::follow(DriveSource driving) {
     (driving == DriveSource::Manual ? byHand_ : driving == DriveSource::Sensor ? finger_ : off_)->setChecked(true);
 }
 
+QString DrivePanel::outputText(const Telemetry& telemetry) const {
+    if (chosen() == DriveSource::Off || !std::isfinite(telemetry.amplitude_v)) return tr("Off");
+    return tr("%1 every %2")
+        .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3));
+}
+
 QString DrivePanel::words(const Telemetry& telemetry) const {
     const auto state = telemetry.state;
-    if (desk_.activity() == Activity::Running) return tr("A protocol has the bench and drives the output itself.");
+    if (controller_.activity() == Activity::Running)
+        return tr("A protocol has the bench and drives the output itself.");
     if (off_->isChecked()) return tr("Nothing drives the output.");
     if (state == InterlockState::Faulted) return tr("Nothing is delivered: there is a fault.");
     const bool armed = state == InterlockState::Armed || state == InterlockState::Delivering;
@@ -141,8 +162,11 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
         return tr("Paused: nothing is delivered until resumed.");
     if (!armed) return tr("Nothing is delivered until the output is armed.");
     if (std::isfinite(telemetry.amplitude_v)) {
-        return tr("Asked for: %1 every %2.")
-            .arg(quantityText(telemetry.amplitude_v, "V", 3), quantityText(telemetry.interval_s, "s", 3));
+        const double amps = telemetry.amplitude_v / telemetry.impedance_ohm;
+        return std::isfinite(amps)
+                   ? tr("%1 at %2, measured")
+                         .arg(quantityText(amps, "A", 3), quantityText(telemetry.impedance_ohm, "ohm", 3))
+                   : tr("The current is not known: no impedance was measured.");
     }
     if (finger_->isChecked() && telemetry.sensorFinished) return tr("The recording has ended: no train is sent.");
     if (finger_->isChecked() && !telemetry.contact) return tr("The fingertip touches nothing: no train is sent.");
@@ -150,8 +174,24 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     return tr("No train is due.");
 }
 
+/// While the fingertip drives, the sliders show what it feels and take no hand.
+void DrivePanel::followFinger(const Telemetry& telemetry) {
+    const bool finger = finger_->isChecked() && controller_.activity() == Activity::Live;
+    for (const auto& [index, value] : {std::pair(&roughness_, telemetry.roughness), {&pressure_, telemetry.pressure}}) {
+        index->slider->setEnabled(!finger);
+        index->box->setEnabled(!finger);
+        if (!finger || !std::isfinite(value)) continue;
+        const QSignalBlocker quietSlider(index->slider), quietBox(index->box);
+        index->slider->setValue(int(std::lround(value * kSteps)));
+        index->box->setValue(value);
+    }
+}
+
 void DrivePanel::refresh(const Telemetry& telemetry) {
-    if (desk_.activity() == Activity::Live) follow(telemetry.driving);
+    if (controller_.activity() == Activity::Live) follow(telemetry.driving);
+    followFinger(telemetry);
+    const auto output = outputText(telemetry);
+    if (output_->text() != output) output_->setText(output);
     const auto text = words(telemetry);
     if (says_->text() != text) says_->setText(text);
 }

@@ -10,24 +10,25 @@
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QGridLayout>
-#include <QGroupBox>
 #include <QLabel>
-#include <QRadioButton>
+#include <QPushButton>
 #include <QSlider>
 #include <optional>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
-class DrivePanel final : public QGroupBox {
+class DrivePanel final : public QWidget {
     Q_OBJECT
 public:
-    explicit DrivePanel(BenchDesk& desk, QWidget* parent = nullptr);
+    explicit DrivePanel(BenchController& controller, QWidget* parent = nullptr);
     /// Another bench, or none.
     void begin();
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] DriveSource chosen() const;
+    /// "39.1 V every 770 ms", "Off".
+    [[nodiscard]] QString headline() const { return output_->text(); }
 
 protected:
     /// Arrows go from source to source without choosing: on the way from off to the fingertip nothing drives by hand.
@@ -43,14 +44,17 @@ private:
                                  const QString& tip);
     void drive();
     void follow(DriveSource driving);
+    [[nodiscard]] QString outputText(const Telemetry& telemetry) const;
     [[nodiscard]] QString words(const Telemetry& telemetry) const;
+    void followFinger(const Telemetry& telemetry);
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     QButtonGroup* sources_;
-    QRadioButton* off_;
-    QRadioButton* byHand_;
-    QRadioButton* finger_;
+    QPushButton* off_;
+    QPushButton* byHand_;
+    QPushButton* finger_;
     Index roughness_{}, pressure_{};
+    QLabel* output_;
     QLabel* says_;
     std::optional<DriveSource> asked_;  // of the bench, which has not answered yet
     QElapsedTimer askedAt_;

@@ -73,14 +73,15 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
     frames_.clear();
     commands_.clear();
     trains_.clear();
+    marks_.clear();
     now_s_ = 0;
-    began_s_ = std::nan("");
     missed_ = 0;
+    fault_.reset();
+    faulted_ = false;
 }
 
 void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
     now_s_ = toSeconds(telemetry.at);
-    if (std::isnan(began_s_)) began_s_ = now_s_;
     while (const auto sample = tap.samples.pop()) {
         if (sample->stream >= samples_.size()) continue;  // of a bench that was opened since
         samples_[sample->stream].push(sample->t_s, {sample->values.data(), sample->channels});
@@ -99,6 +100,14 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry) {
         commands_.push(now_s_, columns);
     }
     missed_ = tap.samples.dropped();
+    const bool faulted = telemetry.state == InterlockState::Faulted;
+    if (faulted && !faulted_) fault_ = Fault{now_s_, telemetry.reason};
+    faulted_ = faulted;
+}
+
+void LiveHistory::addMark(LiveMark mark) {
+    if (marks_.size() == kMaxMarks) marks_.erase(marks_.begin());
+    marks_.push_back(std::move(mark));
 }
 
 const Series* LiveHistory::samples(StreamKind kind) const noexcept {

@@ -1,8 +1,9 @@
-// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, the encoder's command, trains.
+// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, the encoder's command, trains,
+// the operator's marks.
 // What the live plots draw.
 //
-// Bounded: each series is a ring of fixed size that forgets its oldest; nothing is allocated after begin().
-// Times are the session's, in seconds.
+// Bounded: each series is a ring of fixed size that forgets its oldest; nothing is allocated after begin() but for a
+// mark. Times are the session's, in seconds.
 //
 // Thread-safety: the GUI thread; the one reader of the bench's tap.
 #pragma once
@@ -10,7 +11,9 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/Stream.h"
@@ -44,7 +47,7 @@ public:
     };
     /// The samples from `first` up to `end` <= size(): in two pieces where the ring turns over, for who reads many.
     [[nodiscard]] std::array<Piece, 2> pieces(std::size_t first, std::size_t end) const noexcept;
-    /// Of the newest; not to be asked of an empty one.
+    /// Time of the newest; not to be asked of an empty one.
     [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
     /// The first sample at or after `t_s`; size() when there is none.
     [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;
@@ -81,9 +84,16 @@ private:
     std::size_t count_ = 0;
 };
 
+/// A moment that the operator marked.
+struct LiveMark {
+    double t_s = 0;
+    std::string word;
+};
+
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
+    static constexpr std::size_t kMaxMarks = 64;  ///< of the kept time; the newest
     /// Columns of frames(): R, P, h, v; contact and sliding are 0 or 1.
     enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kContact, kSliding, kColumns };
     /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN while it asked for nothing.
@@ -103,10 +113,17 @@ public:
     [[nodiscard]] const Series& commands() const noexcept { return commands_; }
     /// Impedance checks included.
     [[nodiscard]] const TrainRing& trains() const noexcept { return trains_; }
-    /// Of the bench, at the last take().
+    /// The operator's marks, in the order in which they were made.
+    [[nodiscard]] const std::vector<LiveMark>& marks() const noexcept { return marks_; }
+    void addMark(LiveMark mark);
+    /// Time of the bench at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
-    /// Of the bench, at the first take().
-    [[nodiscard]] double began_s() const noexcept { return began_s_; }
+    /// When the last fault came, and why; nothing without one since begin().
+    struct Fault {
+        double at_s = 0;
+        FixedText<200> why;
+    };
+    [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
     /// Samples left out of the picture because the window looked too rarely; the recording has them.
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
@@ -116,9 +133,11 @@ private:
     Series frames_;
     Series commands_;
     TrainRing trains_;
+    std::vector<LiveMark> marks_;  // kMaxMarks at most
     double now_s_ = 0;
-    double began_s_ = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t missed_ = 0;
+    std::optional<Fault> fault_;
+    bool faulted_ = false;
 };
 
 }  // namespace tacto::gui

@@ -1,19 +1,24 @@
 #include "app/gui/live/LiveWorkspace.h"
 
+#include <QHBoxLayout>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "app/gui/live/CommandPanel.h"
-#include "app/gui/live/DrivePanel.h"
 #include "app/gui/live/ProfileEditor.h"
 #include "app/gui/live/RigPanel.h"
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/Look.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/acquisition/Recording.h"
 #include "core/measure/PulseMeasurement.h"
 
@@ -38,32 +43,152 @@ bool isReplay(const OpenBench& bench) {
 
 }  // namespace
 
+LiveWorkspace::LiveWorkspace(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    stack_ = new QStackedWidget(this);
+    layout->addWidget(stack_, 1);
+    stack_->addWidget(buildEmpty());
+    auto* opening = new QLabel(tr("Opening…"), stack_);
+    opening->setAlignment(Qt::AlignCenter);
+    stack_->addWidget(opening);
+    stack_->addWidget(buildBench());
+    buildTools();
+    layout->insertWidget(0, tools_);
+    connect(&controller_, &BenchController::changed, this, &LiveWorkspace::begin);
+    connect(&controller_, &BenchController::captured, this, [this](const std::shared_ptr<const Capture>& capture) {
+        if (capture && !capture->untriggered) readCapture(*capture);  // one that shows a train, not just the signal
+    });
+    connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
+        history_.addMark({at_s, word.toStdString()});
+    });
+    connect(&controller_, &BenchController::failed, this, [this] {
+        if (controller_.activity() == Activity::Opening) pendingSpeed_.reset();
+    });
+    begin();
+}
+
+QWidget* LiveWorkspace::buildEmpty() {
+    auto* empty = new QWidget(stack_);
+    auto* column = new QVBoxLayout(empty);
+    column->addStretch();
+    auto* what = new EmptyState(tr("No device is open. Here you see what a fingertip feels, and drive the stimulator "
+                                   "with it or by hand."),
+                                tr("Open the simulated bench"), empty);
+    connect(what, &EmptyState::nextStep, this, &LiveWorkspace::openSimulated);
+    what->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+    column->addWidget(what);
+    auto* recording = new QPushButton(tr("Open a &recording…"), empty);
+    recording->setToolTip(
+        tr("The recording.json of a recorded fingertip: it is replayed into the simulated stimulator."));
+    connect(recording, &QPushButton::clicked, this, &LiveWorkspace::chooseRecording);
+    column->addWidget(recording, 0, Qt::AlignCenter);
+    auto* example = new QPushButton(tr("Replay the &example"), empty);
+    example->setToolTip(tr("A real fingertip sliding over linen at 20 mm/s, from a public data set."));
+    connect(example, &QPushButton::clicked, this, &LiveWorkspace::replayExample);
+    column->addWidget(example, 0, Qt::AlignCenter);
+    column->addStretch();
+    return empty;
+}
+
+QWidget* LiveWorkspace::buildBench() {
+    auto* bench = new QWidget(stack_);
+    auto* layout = new QVBoxLayout(bench);
+    layout->setContentsMargins(6, 6, 6, 6);
+    auto* split = new QSplitter(Qt::Horizontal, bench);
+    split->setChildrenCollapsible(false);
+    strips_ = new StripPlots(history_, split);
+    strips_->setMinimumWidth(fontMetrics().averageCharWidth() * 40);
+    split->addWidget(strips_);
+    split->addWidget(buildSide());
+    split->setStretchFactor(0, 1);
+    split->setStretchFactor(1, 0);
+    layout->addWidget(split, 1);
+    return bench;
+}
+
+QWidget* LiveWorkspace::buildSide() {
+    auto* area = new QScrollArea;
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* side = new QWidget(area);
+    auto* layout = new QVBoxLayout(side);
+    layout->setContentsMargins(6, 0, 6, 0);
+    auto* where = new QLabel(tr("Where the fingertip is"), side);
+    setTextSize(*where, TextSize::Small, true);
+    layout->addWidget(where);
+    plane_ = new TactilePlane(side);
+    layout->addWidget(plane_, 1);
+    command_ = new CommandPanel(side);
+    layout->addWidget(command_);
+    taxels_ = new TaxelMap(side);
+    layout->addWidget(taxels_);
+    rig_ = new RigPanel(controller_, side);
+    connect(rig_, &RigPanel::replayAgain, this, &LiveWorkspace::replayAgain);
+    layout->addWidget(rig_);
+    auto* profile = new QPushButton(tr("Encoding profile…"), side);
+    profile->setToolTip(tr("How R and P become amplitude and interval, and the shape of a pulse."));
+    connect(profile, &QPushButton::clicked, this, &LiveWorkspace::editProfile);
+    layout->addWidget(profile);
+    area->setWidget(side);
+    for (auto* ground : {side, area->viewport()}) ground->setAutoFillBackground(false);
+    area->setMinimumWidth(side->minimumSizeHint().width() + fontMetrics().averageCharWidth() * 4);
+    return area;
+}
+
+void LiveWorkspace::buildTools() {
+    tools_ = new QWidget(this);
+    auto* row = new QHBoxLayout(tools_);
+    row->setContentsMargins(8, 0, 0, 0);
+    row->setSpacing(8);
+    freeze_ = new QPushButton(icon("pause"), tr("Free&ze"), tools_);
+    makeQuiet(*freeze_);
+    freeze_->setCheckable(true);
+    freeze_->setToolTip(tr("The plots stand still, to be dragged and zoomed; output and recording go on."));
+    connect(freeze_, &QPushButton::toggled, strips_, &StripPlots::setFrozen);
+    auto* window = new QComboBox(tools_);
+    for (const int seconds : {2, 5, 10, 30}) window->addItem(tr("%1 s").arg(seconds), seconds);
+    window->setCurrentIndex(2);
+    window->setToolTip(tr("How much time the plots show."));
+    window->setAccessibleName(tr("Window"));
+    connect(window, &QComboBox::currentIndexChanged, this,
+            [this, window] { strips_->setWindow(window->currentData().toDouble()); });
+    health_ = new ElidedLabel(tools_);
+    health_->setObjectName("sensorHealth");
+    health_->setAccessibleName(tr("Sensor health"));
+    health_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    setTone(*health_, Tone::Quiet);
+    setTextSize(*health_, TextSize::Small);
+    row->addWidget(freeze_);
+    row->addWidget(window);
+    row->addWidget(health_, 1);
+}
+
 void LiveWorkspace::begin() {
-    const auto open = desk_.open();
-    stack_->setCurrentIndex(open ? kBench : desk_.activity() == Activity::Opening ? kOpening : kEmpty);
+    const auto open = controller_.open();
+    tools_->setEnabled(open != nullptr);
+    stack_->setCurrentIndex(open ? kBench : controller_.activity() == Activity::Opening ? kOpening : kEmpty);
     const bool touch = open && isSimulated(*open, "sensor"), source = open && isSimulated(*open, "stimulator");
-    if (desk_.tap() != tap_) {
-        tap_ = desk_.tap();
+    if (controller_.tap() != tap_) {
+        tap_ = controller_.tap();
         history_.begin(open ? open->streams : std::vector<StreamInfo>{});
         freeze_->setChecked(false);
         strips_->begin(touch, source, open && open->source && open->source->drive == Drive::Current ? "mA" : "V");
         taxels_->clear();
         taxels_->setVisible(history_.info(StreamKind::Taxels) != nullptr);
         taxels_->setSimulated(touch);
-        command_->setSimulated(source);
         rig_->begin(pendingSpeed_.value_or(1), open && isReplay(*open));
         if (tap_) pendingSpeed_.reset();
     }
-    drive_->begin();
-    plane_->setOrigin(touch, desk_.profile().roughness.calibrated);
-    plane_->setConditions(desk_.profile().encoding.conditions);
+    plane_->setOrigin(touch, controller_.profile().roughness.calibrated);
+    plane_->setConditions(controller_.profile().encoding.conditions);
 }
 
 void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     if (!tap_) return;
     history_.take(*tap_, telemetry);
     if (!visible || stack_->currentIndex() != kBench) return;
-    drive_->refresh(telemetry);
     rig_->refresh(telemetry);
     strips_->redraw();
     const auto isDue = [](QElapsedTimer& since, int every_ms) {
@@ -85,10 +210,15 @@ void LiveWorkspace::showPlane(const Telemetry& telemetry) {
 
 void LiveWorkspace::showSide(const Telemetry& telemetry) {
     const auto health = healthWords(telemetry, !history_.streams().empty(), history_.missed());
-    if (health_->text() != health.text) health_->setText(health.text);
-    auto colour = palette();
-    if (health.stale) colour.setColor(QPalette::WindowText, colours().amberText);
-    health_->setPalette(colour);
+    if (health_->text() != health.text) {
+        health_->setText(health.text);
+        health_->setToolTip(
+            tr("%1\nAge of the newest sample, places where samples are missing, samples that came too fast "
+               "to be kept; then "
+               "the flags of R and P. Old samples drive no train.")
+                .arg(health.text));
+    }
+    setTone(*health_, health.stale ? Tone::Warning : Tone::Quiet);
     command_->show(telemetry, health.stale);
     showTaxels(health.stale);
 }
@@ -104,7 +234,7 @@ void LiveWorkspace::showTaxels(bool stale) {
 }
 
 void LiveWorkspace::readCapture(const Capture& capture) {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open || !open->source || capture.samples() > kLongestReading) return;
     if (sinceReading_.isValid() && sinceReading_.elapsed() < kReadingEvery_ms) return;
     sinceReading_.start();
@@ -121,9 +251,9 @@ void LiveWorkspace::readCapture(const Capture& capture) {
 }
 
 void LiveWorkspace::openOrder(LiveOrder order) {
-    order.profile = desk_.profile();
+    order.profile = controller_.profile();
     pendingSpeed_ = order.speed;
-    desk_.openLive(order);
+    controller_.openLive(order);
 }
 
 void LiveWorkspace::openSimulated() {
@@ -133,7 +263,7 @@ void LiveWorkspace::openSimulated() {
 }
 
 bool LiveWorkspace::openRecording(const QString& path) {
-    // Reading it may take a while, on the desk's thread; here only whether there is something to read.
+    // Reading it may take a while, on the controller's thread; here only whether there is something to read.
     const std::filesystem::path file = path.toStdString();
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::is_directory(file, error) ? file / "recording.json" : file, error)) {
@@ -159,7 +289,7 @@ void LiveWorkspace::replayExample() {
 }
 
 void LiveWorkspace::replayAgain() {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open) return;
     LiveOrder order;
     order.seed = open->about.seed;
@@ -179,6 +309,6 @@ void LiveWorkspace::chooseRecording() {
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 
-void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(desk_, this)); }
+void LiveWorkspace::editProfile() { openDialog(new ProfileEditor(controller_, this)); }
 
 }  // namespace tacto::gui

@@ -10,13 +10,13 @@
 #include <QStackedWidget>
 #include <QWidget>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 #include "app/gui/live/LiveHistory.h"
 
 namespace tacto::gui {
 
 class CommandPanel;
-class DrivePanel;
+class ElidedLabel;
 class RigPanel;
 class StripPlots;
 class TactilePlane;
@@ -25,7 +25,7 @@ class TaxelMap;
 class LiveWorkspace final : public QWidget {
     Q_OBJECT
 public:
-    explicit LiveWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
+    explicit LiveWorkspace(BenchController& controller, QWidget* parent = nullptr);
     /// Thirty to sixty times a second. Takes what came either way; draws when `visible`.
     void refresh(const Telemetry& telemetry, bool visible);
     /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
@@ -33,6 +33,8 @@ public:
     bool openRecording(const QString& path);
     /// Opens the encoding profile's editor; it is its own owner.
     void editProfile();
+    /// The row of tools above the plots; a page of tabs may take it into its own row.
+    [[nodiscard]] QWidget* tools() { return tools_; }
     [[nodiscard]] const LiveHistory& history() const { return history_; }
     [[nodiscard]] const StripPlots& plots() const { return *strips_; }
 
@@ -44,7 +46,7 @@ private:
     [[nodiscard]] QWidget* buildEmpty();
     [[nodiscard]] QWidget* buildBench();
     [[nodiscard]] QWidget* buildSide();
-    [[nodiscard]] QWidget* buildFoot();
+    void buildTools();
     void begin();
     void showPlane(const Telemetry& telemetry);
     void showSide(const Telemetry& telemetry);
@@ -56,7 +58,7 @@ private:
     void replayExample();
     void replayAgain();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     LiveHistory history_;
     std::shared_ptr<BenchTap> tap_;
     std::optional<double> pendingSpeed_;  // of what was ordered here and is not open yet
@@ -65,10 +67,10 @@ private:
     TaxelMap* taxels_ = nullptr;
     TactilePlane* plane_ = nullptr;
     CommandPanel* command_ = nullptr;
-    DrivePanel* drive_ = nullptr;
     RigPanel* rig_ = nullptr;
     QPushButton* freeze_ = nullptr;
-    QLabel* health_ = nullptr;
+    QWidget* tools_ = nullptr;
+    ElidedLabel* health_ = nullptr;
     QElapsedTimer sinceReading_, sincePlane_, sinceSide_;
     std::vector<float> newest_;  // reused
 };

@@ -3,9 +3,10 @@
 #include <QFile>
 #include <cmath>
 
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/WholeFile.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 
 namespace tacto::gui {
@@ -15,7 +16,7 @@ namespace {
 const std::string kSource = "profile";
 
 /// The core's sentence without the name of its source, which here is always the form.
-QString sentence(const Error& error) {
+QString refusalOf(const Error& error) {
     auto text = QString::fromStdString(error.message);
     const auto prefix = QString::fromStdString(kSource + ": ");
     return text.startsWith(prefix) ? text.mid(prefix.size()) : text;
@@ -28,7 +29,7 @@ void ProfileEditor::fill(const Profile& profile) {
     document_ = toJson(profile);
     name_->setText(QString::fromStdString(profile.name));
     for (auto& row : rows_) {
-        const auto& value = document_[row.field->section][row.field->key];
+        const auto& value = document_[row.field->section()][row.field->key];
         if (row.box != nullptr)
             row.box->setCurrentIndex(row.box->findData(QString::fromStdString(value.get<std::string>())));
         else
@@ -44,13 +45,13 @@ ProfileEditor::Read ProfileEditor::read() const {
     auto document = document_;
     document["name"] = name_->text().trimmed().toStdString();
     for (const auto& row : rows_) {
-        auto& value = document[row.field->section][row.field->key];
+        auto& value = document[row.field->section()][row.field->key];
         if (row.box != nullptr) {
             value = row.box->currentData().toString().toStdString();
             continue;
         }
         const auto text = row.line->text().trimmed();
-        if (text.isEmpty() && row.field->mayBeEmpty) {
+        if (text.isEmpty() && row.field->stored->mayBeNull) {
             value = nullptr;
             continue;
         }
@@ -59,9 +60,9 @@ ProfileEditor::Read ProfileEditor::read() const {
             return {{}, tr("\"%1\" is not a number; %2 is expected").arg(text, row.field->range()), row.field};
         value = *number;
     }
-    auto profile = parseProfile(document.dump(), kSource);
+    auto profile = parseProfile(dumpJson(document), kSource);
     if (profile) return {std::move(*profile), {}, nullptr};
-    const auto refusal = sentence(profile.error());
+    const auto refusal = refusalOf(profile.error());
     return {{}, refusal, fieldIn(refusal)};
 }
 
@@ -76,7 +77,7 @@ void ProfileEditor::judge() {
         apply_->setEnabled(false);
         return say(tr("Not to be applied: %1").arg(now.refusal), true);
     }
-    const bool same = toJson(*now.profile) == toJson(desk_.profile());
+    const bool same = toJson(*now.profile) == toJson(controller_.profile());
     apply_->setEnabled(!same);
     say(same ? tr("In force.") : tr("Changed, not applied yet."), false);
     preview_->show(now.profile->encoding, now.profile->loadLow);
@@ -100,9 +101,9 @@ void ProfileEditor::mark(const Read& now) {
 
 void ProfileEditor::enableWhatMatters() {
     for (auto& row : rows_) {
-        if (row.field->needs == nullptr) continue;
-        const auto chosen = findChild<QComboBox*>(row.field->needs)->currentData().toString();
-        QString needed = row.field->needsValue;
+        if (row.field->form.needs == nullptr) continue;
+        const auto chosen = findChild<QComboBox*>(row.field->form.needs)->currentData().toString();
+        QString needed = row.field->form.needsValue;
         const bool matters = needed.startsWith('!') ? chosen != needed.mid(1) : chosen == needed;
         // One that is refused can always be mended.
         row.line->setEnabled(matters || !row.refusal->text().isEmpty());
@@ -121,7 +122,7 @@ void ProfileEditor::apply() {
     const auto now = read();
     if (!now.profile) return;
     applying_ = true;
-    desk_.setProfile(*now.profile);
+    controller_.setProfile(*now.profile);
 }
 
 void ProfileEditor::openFile(const QString& path) {
@@ -133,7 +134,7 @@ void ProfileEditor::openFile(const QString& path) {
 void ProfileEditor::saveFile(const QString& path) {
     const auto now = read();
     if (!now.profile) return;
-    const auto written = writeWholeFile(path, QByteArray::fromStdString(toJson(*now.profile).dump(2) + "\n"));
+    const auto written = writeWholeFile(path, QByteArray::fromStdString(dumpJson(toJson(*now.profile), 2) + "\n"));
     if (written) return say(tr("Saved to %1.").arg(path), false);
     say(tr("%1 was not written: %2. What was there before is untouched.")
             .arg(path, QString::fromStdString(written.error().message)),

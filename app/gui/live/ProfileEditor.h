@@ -15,7 +15,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 #include "app/gui/live/ProfileFields.h"
 #include "app/gui/live/ProfilePreview.h"
 
@@ -25,7 +25,7 @@ class ProfileEditor final : public QDialog {
     Q_OBJECT
 public:
     /// Deletes itself when closed.
-    explicit ProfileEditor(BenchDesk& desk, QWidget* parent = nullptr);
+    explicit ProfileEditor(BenchController& controller, QWidget* parent = nullptr);
     /// The sentence that refuses what the form holds; empty when it is sound.
     [[nodiscard]] QString trouble() const { return trouble_; }
     /// A profile file into the form; what is wrong with it is said, and the form stays.
@@ -58,7 +58,7 @@ private:
     void chooseFile();
     void chooseTarget();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     nlohmann::json document_;  ///< what the form began with; keeps what the form does not show
     QLineEdit* name_;
     QTabWidget* tabs_;

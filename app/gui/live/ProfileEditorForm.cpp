@@ -6,7 +6,8 @@
 #include <QVBoxLayout>
 
 #include "app/gui/live/ProfileEditor.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/run/Shipped.h"
 
 namespace tacto::gui {
@@ -15,7 +16,7 @@ namespace {
 constexpr int kLook_ms = 100;
 }
 
-ProfileEditor::ProfileEditor(BenchDesk& desk, QWidget* parent) : QDialog(parent), desk_(desk) {
+ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDialog(parent), controller_(controller) {
     setWindowTitle(tr("Encoding profile"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
@@ -54,16 +55,16 @@ ProfileEditor::ProfileEditor(BenchDesk& desk, QWidget* parent) : QDialog(parent)
     says_->setWordWrap(true);
     layout->addWidget(says_);
     layout->addWidget(buildButtons());
-    fill(desk_.profile());
-    connect(&desk_, &BenchDesk::changed, this, [this] {
+    fill(controller_.profile());
+    connect(&controller_, &BenchController::changed, this, [this] {
         applying_ = false;
         judge();
     });
-    connect(&desk_, &BenchDesk::failed, this, [this](const QString& what) {
+    connect(&controller_, &BenchController::failed, this, [this](const QString& what) {
         if (std::exchange(applying_, false)) say(tr("Not applied: %1").arg(what), true);
     });
     connect(&look_, &QTimer::timeout, this, [this] {
-        const auto telemetry = desk_.telemetry();
+        const auto telemetry = controller_.telemetry();
         preview_->setPoint(telemetry.roughness, telemetry.pressure);
         preview_->setImpedance(telemetry.impedance_ohm);
         facts_->setText(preview_->facts());
@@ -82,7 +83,7 @@ QWidget* ProfileEditor::buildTab(ProfileTab tab) {
     auto* page = new QWidget(area);
     auto* form = new QFormLayout(page);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
-    for (const auto& field : profileFields()) {
+    for (const auto& field : profileForm()) {
         if (field.tab != tab) continue;
         auto row = buildRow(field, page);
         auto* holder = new QWidget(page);
@@ -96,7 +97,7 @@ QWidget* ProfileEditor::buildTab(ProfileTab tab) {
             across->addWidget(row.line);
             across->addSpacing(fontMetrics().averageCharWidth());
             auto* range = new QLabel(field.range(), holder);
-            range->setForegroundRole(QPalette::PlaceholderText);
+            setTone(*range, Tone::Quiet);
             across->addWidget(range, 1);
         }
         column->addLayout(across);
@@ -121,7 +122,8 @@ ProfileEditor::Row ProfileEditor::buildRow(const ProfileField& field, QWidget* p
     QWidget* input = nullptr;
     if (field.isChoice()) {
         input = row.box = new QComboBox(page);
-        for (const auto& [value, text] : field.choices) row.box->addItem(profileWords(text), value);
+        for (std::size_t i = 0; i < field.form.words.size(); ++i)
+            row.box->addItem(profileWords(field.form.words[i]), qtext(field.stored->words[i]));
         connect(row.box, &QComboBox::currentIndexChanged, this, &ProfileEditor::judge);
     } else {
         input = row.line = new QLineEdit(page);

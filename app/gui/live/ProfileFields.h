@@ -1,14 +1,16 @@
-// ProfileFields.h - the fields of a profile as people read them: label, unit, what is accepted, what it does.
+// ProfileFields.h - the fields of a profile as people read them: where each stands in the form, its label, what it
+// does.
 //
-// What is accepted is told here and judged by the core alone (parseProfile()); a test holds the two together.
+// Units, ranges and choices are those of the core's table (profileFields() of core/bench/Profile.h), which alone
+// judges.
 //
 // Thread-safety: constants.
 #pragma once
 
 #include <QString>
-#include <span>
-#include <utility>
 #include <vector>
+
+#include "core/base/RecordFields.h"
 
 namespace tacto::gui {
 
@@ -18,28 +20,24 @@ inline constexpr int kProfileTabs = 4;
 
 struct ProfileField {
     ProfileTab tab;
-    const char* section;  ///< of the profile's file
     const char* key;
     const char* label;
-    const char* unit;
     const char* tip;
-    double low = 0;  ///< accepted from, to; choices have none
-    double high = 0;
-    bool openLow = false;  ///< `low` itself is not accepted
-    bool openHigh = false;
-    bool mayBeEmpty = false;                                     ///< null in the file
-    const char* accepts = nullptr;                               ///< instead of low and high
-    std::vector<std::pair<const char*, const char*>> choices{};  ///< value in the file, text; empty for a number
-    const char* needs = nullptr;                                 ///< key of the choice that gives it meaning...
-    const char* needsValue = nullptr;  ///< ...when it is this, or with '!' in front when it is not
-    const char* alsoCalled = nullptr;  ///< in the core's sentences, where not by key
+    struct Form {
+        std::vector<const char*> words{};  ///< for the words of the file, in their order; empty for a number
+        const char* accepts = nullptr;     ///< shown in place of the range
+        const char* needs = nullptr;       ///< key of the choice that gives it meaning...
+        const char* needsValue = nullptr;  ///< ...when it is this, or with '!' in front when it is not
+    } form{};
+    const FieldInfo* stored = nullptr;  ///< the field of the core
 
-    [[nodiscard]] bool isChoice() const noexcept { return !choices.empty(); }
+    [[nodiscard]] const char* section() const noexcept;  ///< of the profile's file
+    [[nodiscard]] bool isChoice() const noexcept { return !stored->words.empty(); }
     /// "0.01 to 500 V".
     [[nodiscard]] QString range() const;
 };
 
-[[nodiscard]] std::span<const ProfileField> profileFields();
+[[nodiscard]] const std::vector<ProfileField>& profileForm();
 /// The field that a refusal is about: the one that it names first. Null when it names none.
 [[nodiscard]] const ProfileField* fieldIn(const QString& refusal);
 /// Translated.

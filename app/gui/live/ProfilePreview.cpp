@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Waveform.h"
 

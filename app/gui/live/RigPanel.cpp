@@ -11,14 +11,14 @@ constexpr const char* kMaterials[] = {"glass", "plastic", "paper", "denim", "P40
 constexpr double kPaces[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0};
 }  // namespace
 
-RigPanel::RigPanel(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+RigPanel::RigPanel(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     surfaces_ = buildSurfaces();
     layout->addWidget(surfaces_);
     pace_ = buildPace();
     layout->addWidget(pace_);
-    connect(&desk_, &BenchDesk::presented, this, &RigPanel::follow);
+    connect(&controller_, &BenchController::presented, this, &RigPanel::follow);
     begin(1, false);
 }
 
@@ -72,14 +72,14 @@ QWidget* RigPanel::buildPace() {
     row->addWidget(paceBox_);
     row->addStretch();
     row->addWidget(again_);
-    connect(paceBox_, &QComboBox::currentIndexChanged, this, [this] { desk_.setSpeed(speed()); });
+    connect(paceBox_, &QComboBox::currentIndexChanged, this, [this] { controller_.setSpeed(speed()); });
     connect(again_, &QPushButton::clicked, this, &RigPanel::replayAgain);
     return holder;
 }
 
 void RigPanel::begin(double speed, bool recording) {
-    const auto open = desk_.open();
-    const bool live = desk_.activity() == Activity::Live;
+    const auto open = controller_.open();
+    const bool live = controller_.activity() == Activity::Live;
     recording_ = recording;
     surfaces_->setVisible(live && open && open->surfaces);
     pace_->setVisible(live && open && open->paced);
@@ -112,7 +112,7 @@ void RigPanel::present() {
     if (!material_->currentData().isValid()) return;
     endOwnStrokes();
     enableRest();
-    desk_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
+    controller_.present(material_->currentData().toString().toStdString(), speed_->value(), force_->value());
 }
 
 void RigPanel::follow(const QString& material, double speed_mm_s, double force_n) {

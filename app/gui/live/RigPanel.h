@@ -9,14 +9,14 @@
 #include <QLabel>
 #include <QPushButton>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
 class RigPanel final : public QWidget {
     Q_OBJECT
 public:
-    explicit RigPanel(BenchDesk& desk, QWidget* parent = nullptr);
+    explicit RigPanel(BenchController& controller, QWidget* parent = nullptr);
     /// Another bench, or none. `speed` is what its time runs at; `recording` whether one is replayed.
     void begin(double speed, bool recording);
     void refresh(const Telemetry& telemetry);
@@ -33,7 +33,7 @@ private:
     void follow(const QString& material, double speed_mm_s, double force_n);
     void enableRest();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     QWidget* surfaces_;
     QComboBox* material_;
     QDoubleSpinBox* speed_;

@@ -118,7 +118,7 @@ double Spectrogram::densityAt_db(double t_s, double hz) const noexcept {
 
 QString Spectrogram::scaleText() const {
     const auto range = map_->dataRange();
-    return QObject::tr("dark %1 to bright %2 dB of 1 %3")
+    return QObject::tr("%1 to %2 dB re 1 %3")
         .arg(QString::number(range.lower, 'f', 0).replace('-', QChar(0x2212)))
         .arg(QString::number(range.upper, 'f', 0).replace('-', QChar(0x2212)))
         .arg(absolute_ ? "(m/s²)²/Hz" : "count²/Hz");

@@ -1,12 +1,16 @@
 #include "app/gui/live/StripCaption.h"
 
 #include <QFontMetricsF>
+#include <algorithm>
+
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
-constexpr double kBefore_px = 2, kBetween_px = 8, kUnder_px = 1;
-}
+constexpr double kBefore_px = 2, kBetween_px = 14, kSample_px = 18, kToSample_px = 5, kUnder_px = 2;
+constexpr int kKeysFrom = 132;  // so that they stand below each other; a longer title moves its own
+}  // namespace
 
 StripCaption::StripCaption(QCPAxisRect& below) : QCPAbstractItem(below.parentPlot()), below_(below) {
     setLayer("legend");
@@ -14,48 +18,83 @@ StripCaption::StripCaption(QCPAxisRect& below) : QCPAbstractItem(below.parentPlo
     setClipToAxisRect(false);  // it stands above the strip, clear of its trace
 }
 
-void StripCaption::setFont(const QFont& font) {
-    font_ = font;
-    for (auto& its : words_) layOut(its);
+void StripCaption::dress() {
+    font_ = textFont(TextSize::Small);
+    strong_ = textFont(TextSize::Small, QFont::Bold);
+    layOut(title_, strong_);
+    layOut(value_, describes_ ? font_ : strong_);
+    for (auto& each : keys_) layOut(each.words, font_);
 }
 
-void StripCaption::setWord(std::size_t index, const QString& text) {
-    auto& its = word(index);
-    if (its.text.text() == text) return;
-    its.text.setText(text);
-    layOut(its);
+int StripCaption::lineHeight() const { return QFontMetrics(strong_).height(); }
+
+void StripCaption::setTitle(const QString& text) { set(title_, text, strong_); }
+
+void StripCaption::setValue(const QString& text, bool describes) {
+    if (std::exchange(describes_, describes) != describes) layOut(value_, describes ? font_ : strong_);
+    set(value_, text, describes ? font_ : strong_);
 }
 
-void StripCaption::setColour(std::size_t index, const QColor& colour) { word(index).colour = colour; }
+void StripCaption::setKey(std::size_t index, const QString& text) { set(key(index).words, text, font_); }
 
-StripCaption::Word& StripCaption::word(std::size_t index) {
-    while (words_.size() <= index) {
-        words_.emplace_back();
-        words_.back().text.setTextFormat(Qt::PlainText);
-    }
-    return words_[index];
+void StripCaption::setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark) {
+    key(index).line = line;
+    key(index).mark = mark;
 }
 
-void StripCaption::layOut(Word& word) const {
-    word.text.prepare(QTransform(), font_);
-    word.width = QFontMetricsF(font_).horizontalAdvance(word.text.text());
+StripCaption::Key& StripCaption::key(std::size_t index) {
+    if (keys_.size() <= index) keys_.resize(index + 1);
+    return keys_[index];
+}
+
+void StripCaption::set(Words& words, const QString& text, const QFont& font) {
+    if (words.text.text() == text) return;
+    words.text.setTextFormat(Qt::PlainText);
+    words.text.setText(text);
+    layOut(words, font);
+}
+
+void StripCaption::layOut(Words& words, const QFont& font) {
+    words.text.prepare(QTransform(), font);
+    words.width = QFontMetricsF(font).horizontalAdvance(words.text.text());
+}
+
+void StripCaption::write(QCPPainter& painter, const Words& words, const QFont& font, double x) const {
+    const QFontMetricsF metrics(font);
+    const double top = below_.top() - kUnder_px - metrics.height();
+    painter.setFont(font);
+    // Files are drawn at other resolutions than what was laid out.
+    if (painter.modes().testFlag(QCPPainter::pmVectorized))
+        painter.drawText(QPointF(x, top + metrics.ascent()), words.text.text());
+    else
+        painter.drawStaticText(QPointF(x, top), words.text);
 }
 
 void StripCaption::draw(QCPPainter* painter) {
-    const QFontMetricsF metrics(font_);
-    const double top = below_.top() - kUnder_px - metrics.height();
+    const auto& c = colours();
+    const double middle = below_.top() - kUnder_px - QFontMetricsF(font_).height() / 2;
+    const double right = below_.left() + below_.width() - value_.width;
     double x = below_.left() + kBefore_px;
-    painter->setFont(font_);
-    for (const auto& word : words_) {
-        if (word.text.text().isEmpty()) continue;
-        painter->setPen(word.colour);
-        // Files are drawn at other resolutions than what was laid out.
-        if (painter->modes().testFlag(QCPPainter::pmVectorized))
-            painter->drawText(QPointF(x, top + metrics.ascent()), word.text.text());
-        else
-            painter->drawStaticText(QPointF(x, top), word.text);
-        x += word.width + kBetween_px;
+    painter->setPen(c.text);
+    write(*painter, title_, strong_, x);
+    x = std::max(below_.left() + double(scaledPx(kKeysFrom)), x + title_.width + kBetween_px);
+    for (const auto& each : keys_) {
+        if (each.words.text.text().isEmpty()) continue;
+        const double end = x + kSample_px + kToSample_px + each.words.width;
+        if (end > right - kBetween_px) break;  // there is no room for it beside the value
+        painter->setPen(each.line);
+        painter->drawLine(QPointF(x, middle), QPointF(x + kSample_px, middle));
+        if (!each.mark.isNone()) {
+            each.mark.applyTo(painter, each.line);
+            each.mark.drawShape(painter, x + kSample_px / 2, middle);
+        }
+        painter->setBrush(Qt::NoBrush);
+        painter->setPen(c.quiet);
+        write(*painter, each.words, font_, x + kSample_px + kToSample_px);
+        x = end + kBetween_px;
     }
+    painter->setPen(describes_ ? c.quiet : c.text);
+    write(*painter, value_, describes_ ? font_ : strong_, right);
 }
 
 }  // namespace tacto::gui

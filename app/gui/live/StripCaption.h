@@ -1,5 +1,5 @@
-// StripCaption.h - the line above a strip: what it shows and in which unit, then the name of each thing drawn in it, in
-// its colour.
+// StripCaption.h - the line above a strip: what it shows and in which unit, a key for each thing drawn in it, and at
+// the right the newest value.
 //
 // Laid out when a word changes, not for every picture: shaping these few words sixty times a second cost more than
 // drawing the traces they name.
@@ -18,11 +18,17 @@ class StripCaption final : public QCPAbstractItem {
 public:
     /// Owned by the plot of `below`, as every item is.
     explicit StripCaption(QCPAxisRect& below);
-    void setFont(const QFont& font);
-    [[nodiscard]] const QFont& font() const { return font_; }
-    /// Word 0 comes first; an empty one takes no room.
-    void setWord(std::size_t index, const QString& text);
-    void setColour(std::size_t index, const QColor& colour);
+    /// In the current theme and text size.
+    void dress();
+    [[nodiscard]] int lineHeight() const;
+
+    void setTitle(const QString& text);
+    /// Of one digit form, so that it does not jump. One that describes the picture stands back.
+    void setValue(const QString& text, bool describes = false);
+    /// An empty key takes no room.
+    void setKey(std::size_t index, const QString& text);
+    /// What is drawn beside the key: a piece of the line, and the mark in its middle.
+    void setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark = QCPScatterStyle::ssNone);
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
 
@@ -30,16 +36,27 @@ protected:
     void draw(QCPPainter* painter) override;
 
 private:
-    struct Word {
+    struct Words {
         QStaticText text;
-        QColor colour;
         double width = 0;
     };
-    [[nodiscard]] Word& word(std::size_t index);
-    void layOut(Word& word) const;
+    struct Key {
+        Words words;
+        QPen line{Qt::NoPen};
+        QCPScatterStyle mark{QCPScatterStyle::ssNone};
+    };
+    [[nodiscard]] Key& key(std::size_t index);
+    static void set(Words& words, const QString& text, const QFont& font);
+    static void layOut(Words& words, const QFont& font);
+    void write(QCPPainter& painter, const Words& words, const QFont& font, double x) const;
+
     QCPAxisRect& below_;
     QFont font_;
-    std::vector<Word> words_;
+    QFont strong_;
+    Words title_;
+    Words value_;
+    bool describes_ = false;
+    std::vector<Key> keys_;
 };
 
 }  // namespace tacto::gui

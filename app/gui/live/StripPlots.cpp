@@ -1,31 +1,49 @@
 #include "app/gui/live/StripPlots.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
-#include "app/gui/live/StripIndex.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
+/// From top to bottom.
+enum StripIndex : std::size_t { kAcceleration, kForce, kTaxels, kSpectrum, kIndices, kTrains, kStripCount };
+
+/// What a strip of samples shows; the spectrum is the acceleration's.
+constexpr StreamKind streamOf(StripIndex strip) noexcept {
+    return strip == kForce ? StreamKind::Force : strip == kTaxels ? StreamKind::Taxels : StreamKind::Acceleration;
+}
+
 constexpr std::size_t kMaxTaxels = TapSample::kMaxChannels;
 constexpr double kGapSteps = 2.5;  // of a stream's own step: beyond, a sample is missing
 constexpr double kFrameGap_s = 0.1;
+constexpr int kTextEvery = 4;  // pictures: as fast as one reads
 // How much of the height each strip gets.
-constexpr double kHeights[] = {1.3, 0.8, 0.9, 1.2, 1, 1.1};
+constexpr double kHeights[] = {1.1, 0.6, 0.6, 1.1, 0.9, 1.7};
+
+/// Ticks in seconds before an instant: they stand still while the traces move.
+class AgoTicker final : public QCPAxisTicker {
+protected:
+    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
+        const double ago = tick - tickOrigin();
+        return QCPAxisTicker::getTickLabel(std::abs(ago) < 1e-9 ? 0 : ago, locale, format, precision)
+            .replace('-', QChar(0x2212));
+    }
+};
 
 QColor axisColour(std::size_t axis) {
     const auto& c = colours();
-    const QColor all[] = {c.voltage, c.current, c.math};
+    const QColor all[] = {c.voltage, c.current, c.third};
     return all[axis % 3];
 }
 
-QColor withAlpha(QColor colour, int alpha) {
-    colour.setAlpha(alpha);
-    return colour;
-}
+QString indexText(float value) { return std::isfinite(value) ? QString::number(double(value), 'f', 2) : QString("–"); }
 
 }  // namespace
 
@@ -39,183 +57,221 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     setNoAntialiasingOnDrag(true);
     layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
     auto* unused = axisRect();
-    strips_.resize(kStripCount);
-    makeStrip(kAcceleration, tr("Acceleration"), 1, false);
-    makeStrip(kForce, tr("Force"), 0.5, true);
-    makeStrip(kTaxels, tr("Taxels"), 0, false);
-    makeStrip(kSpectrum, tr("Spectrum"), 0, true);
-    makeStrip(kIndices, tr("Indices"), 1, true);
-    makeStrip(kTrains, tr("Trains"), 0, true);
+    const std::tuple<QString, StripAxis> kinds[kStripCount] = {
+        {tr("Acceleration"), {1, false, 3}}, {tr("Force"), {0.5, true, 2}}, {tr("Taxels"), {0, false, 3}},
+        {tr("Spectrum"), {0, true, 3}},      {tr("Indices"), {1, true, 2}}, {tr("Trains"), {0, true, 3}}};
+    for (const auto& [title, axis] : kinds) strips_.emplace_back(*this, int(strips_.size()) + 1, title, axis);
     plotLayout()->remove(unused);
     plotLayout()->simplify();
     plotLayout()->setRowSpacing(1);
     auto* group = new QCPMarginGroup(this);
     for (std::size_t i = 0; i < strips_.size(); ++i) {
-        strips_[i].axes->setMarginGroup(QCP::msLeft | QCP::msRight, group);
+        strips_[i].axes().setMarginGroup(QCP::msLeft | QCP::msRight, group);
         plotLayout()->setRowStretchFactor(int(i), kHeights[i]);
-        connect(strips_[i].axes->axis(QCPAxis::atBottom), qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this,
-                &StripPlots::shareTime);
+        connect(&strips_[i].time(), qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &StripPlots::shareTime);
     }
-    auto* time = strips_.back().axes->axis(QCPAxis::atBottom);
-    time->setTickLabels(true);
-    time->setLabel(tr("time (s)"));
+    strips_.back().time().setTickLabels(true);
+    strips_.back().time().setLabel(tr("seconds before now"));
+    ticker_ = QSharedPointer<AgoTicker>::create();
+    ticker_->setTickCount(8);
+    for (auto& strip : strips_) strip.time().setTicker(ticker_);
     const auto graphIn = [&](std::size_t strip) {
-        auto* axes = strips_[strip].axes;
-        return new RollingGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
+        return new RollingGraph(&strips_[strip].time(), &strips_[strip].values());
     };
     for (std::size_t i = 0; i < 3; ++i) acceleration_.push_back(graphIn(kAcceleration));
     force_.push_back(graphIn(kForce));
     for (std::size_t i = 0; i < kMaxTaxels; ++i) taxels_.push_back(graphIn(kTaxels));
-    spectrogram_ = std::make_unique<Spectrogram>(*strips_[kSpectrum].axes);
+    spectrogram_ = std::make_unique<Spectrogram>(strips_[kSpectrum].axes());
     roughness_ = graphIn(kIndices);
     pressure_ = graphIn(kIndices);
     pressure_->setDashed(true);
-    auto* trains = strips_[kTrains].axes;
-    auto *across = trains->axis(QCPAxis::atBottom), *up = trains->axis(QCPAxis::atLeft);
-    command_ = addGraph(across, up);
-    command_->setLineStyle(QCPGraph::lsStepLeft);
-    delivered_ = new QCPBars(across, up);
-    delivered_->setWidthType(QCPBars::wtAbsolute);
-    delivered_->setWidth(3);
-    for (auto** graph : {&measured_, &scoped_, &failed_}) {
-        *graph = addGraph(across, up);
-        (*graph)->setLineStyle(QCPGraph::lsNone);
-    }
-    readings_.reserve(kReadings);
+    trains_ = std::make_unique<TrainGraphs>(strips_[kTrains]);
+    fault_ = new QCPItemText(this);
+    fault_->position->setAxisRect(&strips_[kTrains].axes());
+    fault_->position->setAxes(&strips_[kTrains].time(), &strips_[kTrains].values());
+    fault_->position->setTypeX(QCPItemPosition::ptPlotCoords);
+    fault_->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    fault_->setClipAxisRect(&strips_[kTrains].axes());
+    fault_->setLayer("axes");
+    fault_->setPadding(QMargins(8, 2, 8, 2));
+    fault_->setVisible(false);
     begin(false, false, "V");
-}
-
-void StripPlots::makeStrip(std::size_t index, const QString& title, double least, bool fromZero) {
-    auto& strip = strips_[index];
-    strip.axes = new QCPAxisRect(this);
-    plotLayout()->addElement(int(index) + 1, 0, strip.axes);  // before its items: they look for it there
-    strip.title = title;
-    strip.least = least;
-    strip.fromZero = fromZero;
-    strip.axes->setMinimumSize(50, 24);
-    strip.axes->setRangeDrag(Qt::Horizontal);
-    strip.axes->setRangeZoom(Qt::Horizontal);
-    for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
-        strip.axes->axis(side)->setVisible(false);
-        strip.axes->axis(side)->grid()->setVisible(false);
-    }
-    auto *bottom = strip.axes->axis(QCPAxis::atBottom), *left = strip.axes->axis(QCPAxis::atLeft);
-    bottom->setTickLabels(false);
-    bottom->ticker()->setTickCount(8);
-    left->ticker()->setTickCount(index == kIndices || index == kForce ? 2 : 3);
-    left->setNumberFormat("gb");
-    left->setNumberPrecision(4);
-    for (auto* axis : {bottom, left}) axis->setLayer("axes");
-    strip.watermark = addWatermark(*strip.axes);
-    strip.watermark->setRotation(0);
-    strip.hatch = new QCPItemRect(this);
-    for (auto* corner : {strip.hatch->topLeft, strip.hatch->bottomRight}) {
-        corner->setAxisRect(strip.axes);
-        corner->setAxes(bottom, left);
-        corner->setTypeX(QCPItemPosition::ptPlotCoords);
-        corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    }
-    strip.hatch->setClipAxisRect(strip.axes);
-    strip.hatch->setPen(Qt::NoPen);
-    strip.hatch->setVisible(false);
-    strip.caption = new StripCaption(*strip.axes);
 }
 
 void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit) {
     for (std::size_t i = 0; i < strips_.size(); ++i)
-        strips_[i].simulated = i == kTrains ? simulatedSource : simulatedTouch;
+        strips_[i].setSimulated(i == kTrains ? simulatedSource : simulatedTouch);
     setFrozen(false);
-    readings_.clear();
-    nextReading_ = 0;
+    trains_->begin();
     for (const auto index : {kAcceleration, kForce, kTaxels}) {
         auto& strip = strips_[index];
         const auto* info = history_.info(streamOf(index));
-        strip.present = info != nullptr;
+        strip.setPresent(info != nullptr);
         if (info == nullptr) continue;
         const auto symbol = symbolOf(info->unit);
-        strip.unit = QString::fromUtf8(symbol.data(), qsizetype(symbol.size())).replace("m/s2", "m/s²");
-        strip.scale = info->unit == StreamUnit::Pascal ? 1e-3 : 1;
-        if (info->unit == StreamUnit::Pascal) strip.unit = "kPa";
+        const bool pascals = info->unit == StreamUnit::Pascal;
+        strip.setUnit(pascals ? QString("kPa")
+                              : QString::fromUtf8(symbol.data(), qsizetype(symbol.size())).replace("m/s2", "m/s²"));
     }
     spectrogram_->begin(history_.info(StreamKind::Acceleration));
-    strips_[kSpectrum].present = spectrogram_->top_hz() > 0;
-    strips_[kSpectrum].unit = "Hz";
-    strips_[kIndices].present = !history_.streams().empty();
-    strips_[kTrains].unit = commandUnit;
-    strips_[kTaxels].fromZero = strips_[kTaxels].unit == "kPa";  // counts stand anywhere
+    strips_[kSpectrum].setPresent(spectrogram_->top_hz() > 0);
+    strips_[kSpectrum].setUnit("Hz");
+    strips_[kIndices].setPresent(!history_.streams().empty());
+    strips_[kTrains].setUnit(commandUnit);
+    strips_[kTaxels].setFromZero(strips_[kTaxels].unit() == "kPa");  // counts stand anywhere
     attach();
     colour();
     layOut();
 }
 
 void StripPlots::attach() {
-    const auto give = [&](StreamKind kind, std::vector<RollingGraph*>& graphs, const Strip& strip) {
+    const auto give = [&](StreamKind kind, std::vector<RollingGraph*>& graphs) {
         const auto* series = shown().samples(kind);
         const auto* info = shown().info(kind);
         for (std::size_t c = 0; c < graphs.size(); ++c) {
             const bool has = series != nullptr && c < series->channels();
-            graphs[c]->setScale(strip.scale);
+            graphs[c]->setScale(has && info->unit == StreamUnit::Pascal ? 1e-3 : 1);
             graphs[c]->show(has ? series : nullptr, c, has ? kGapSteps / info->rate_hz : 1);
             graphs[c]->setVisible(has);
         }
     };
-    give(StreamKind::Acceleration, acceleration_, strips_[kAcceleration]);
-    give(StreamKind::Force, force_, strips_[kForce]);
-    give(StreamKind::Taxels, taxels_, strips_[kTaxels]);
+    give(StreamKind::Acceleration, acceleration_);
+    give(StreamKind::Force, force_);
+    give(StreamKind::Taxels, taxels_);
     roughness_->show(&shown().frames(), LiveHistory::kRoughness, kFrameGap_s);
     pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
 }
 
 void StripPlots::layOut() {
-    for (auto& strip : strips_) {
-        strip.axes->setVisible(strip.present);
-        strip.axes->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-        const int line = QFontMetrics(strip.caption->font()).height();
-        strip.axes->setMinimumMargins(strip.present ? QMargins(4, line + 2, 8, 2) : QMargins());
-        strip.axes->setMinimumSize(strip.present ? 50 : 0, strip.present ? line * 3 : 0);
-        strip.axes->setMaximumSize(QWIDGETSIZE_MAX, strip.present ? QWIDGETSIZE_MAX : 1);
-        strip.caption->setVisible(strip.present);
-        strip.watermark->setVisible(strip.present && strip.simulated);
-        strip.hatch->setVisible(false);
-    }
+    for (auto& strip : strips_) strip.layOut();
 }
 
 void StripPlots::colour() {
     const auto& c = colours();
     stylePlot(*this);
-    auto small = QApplication::font();
-    if (small.pointSizeF() > 0) small.setPointSizeF(small.pointSizeF() * 0.9);
-    auto faint = QApplication::font();
-    if (faint.pointSizeF() > 0) faint.setPointSizeF(faint.pointSizeF() * 1.5);
-    faint.setBold(true);
-    const std::vector<QColor> keys[kStripCount] = {
-        {axisColour(0), axisColour(1), axisColour(2)},
-        {c.text},
-        {c.voltage},
-        {c.quiet},
-        {conditionLook("rough-high").color, conditionLook("smooth-high").color},
-        {c.quiet, c.voltage, c.text, c.math, c.amber}};
-    for (std::size_t i = 0; i < strips_.size(); ++i) {
-        auto& strip = strips_[i];
-        strip.watermark->setFont(faint);
-        strip.caption->setFont(small);
-        strip.caption->setWord(0, strip.unit.isEmpty() ? strip.title : QString("%1 (%2)").arg(strip.title, strip.unit));
-        strip.caption->setColour(0, c.text);
-        for (std::size_t k = 0; k < keys[i].size(); ++k) strip.caption->setColour(k + 1, keys[i][k]);
-        strip.hatch->setBrush(QBrush(withAlpha(c.quiet, 90), Qt::BDiagPattern));
+    for (auto& strip : strips_) strip.dress();
+    for (std::size_t i = 0; i < acceleration_.size(); ++i) {
+        acceleration_[i]->setPen(QPen(axisColour(i)));
+        strips_[kAcceleration].caption().setSample(i, QPen(axisColour(i), 2));
     }
-    for (std::size_t i = 0; i < acceleration_.size(); ++i) acceleration_[i]->setPen(QPen(axisColour(i)));
     force_.front()->setPen(QPen(c.text));
-    for (auto* taxel : taxels_) taxel->setPen(QPen(withAlpha(c.voltage, 110)));
-    roughness_->setPen(QPen(keys[kIndices][0]));
-    pressure_->setPen(QPen(keys[kIndices][1]));
-    command_->setPen(QPen(c.quiet, 1));
-    delivered_->setPen(Qt::NoPen);
-    delivered_->setBrush(c.voltage);
-    measured_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(c.text), Qt::NoBrush, 7));
-    scoped_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDiamond, QPen(c.math, 1.5), Qt::NoBrush, 9));
-    failed_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCross, QPen(c.amber, 1.5), Qt::NoBrush, 8));
+    auto faint = c.voltage;
+    faint.setAlpha(110);
+    for (auto* taxel : taxels_) taxel->setPen(QPen(faint));
+    marks_.colour();
+    roughness_->setPen(QPen(conditionInTheme("rough-high").color));
+    pressure_->setPen(QPen(conditionInTheme("smooth-high").color));
+    strips_[kIndices].caption().setSample(0, QPen(roughness_->pen().color(), 2));
+    strips_[kIndices].caption().setSample(1, QPen(pressure_->pen().color(), 2, Qt::DashLine));
+    trains_->colour();
+    const auto faulted = stateStyle(InterlockState::Faulted);
+    fault_->setFont(textFont(TextSize::Small, QFont::DemiBold));
+    fault_->setBrush(faulted.ground);
+    fault_->setColor(faulted.ink);
     write();
+}
+
+void StripPlots::setWindow(double seconds) {
+    window_s_ = seconds;
+    if (frozen_) shareTime(QCPRange(frozen_->now_s() - seconds, frozen_->now_s()));
+}
+
+void StripPlots::setFrozen(bool frozen) {
+    if (frozen == (frozen_ != nullptr)) return;
+    frozen_ = frozen ? std::make_unique<LiveHistory>(history_) : nullptr;
+    setInteraction(QCP::iRangeDrag, frozen);
+    setInteraction(QCP::iRangeZoom, frozen);
+    strips_.back().time().setLabel(frozen ? tr("seconds before the picture was frozen") : tr("seconds before now"));
+    attach();
+}
+
+void StripPlots::addScopeReading(double t_s, double amplitude) { trains_->addScopeReading(t_s, amplitude); }
+
+QCPRange StripPlots::shownTime() const { return strips_.back().time().range(); }
+
+const Strip& StripPlots::stripOf(StreamKind kind) const {
+    return strips_[kind == StreamKind::Force ? kForce : kind == StreamKind::Taxels ? kTaxels : kAcceleration];
+}
+
+void StripPlots::redraw() {
+    if (frozen_) return;
+    // In whole pixels: a column keeps its samples while it moves, and the trace does not shimmer.
+    const double pixel = window_s_ / std::max(1, strips_.back().axes().width());
+    const double now = std::floor(history_.now_s() / pixel) * pixel;
+    ticker_->setTickOrigin(now);
+    shareTime(QCPRange(now - window_s_, now));
+    if (frame_++ % kTextEvery == 0) write();
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
+void StripPlots::shareTime(const QCPRange& time) {
+    if (std::exchange(sharing_, true)) return;
+    for (auto& strip : strips_) strip.time().setRange(time);
+    strips_[kAcceleration].fit(acceleration_, time);
+    strips_[kForce].fit(force_, time);
+    strips_[kTaxels].fit(taxels_, time);
+    strips_[kIndices].values().setRange(-0.08, 1.08);
+    if (const auto* series = shown().samples(StreamKind::Acceleration);
+        series != nullptr && spectrogram_->top_hz() > 0) {
+        strips_[kSpectrum].values().setRange(0, spectrogram_->top_hz());
+        spectrogram_->update(*series, time, std::max(50, strips_[kSpectrum].axes().width() / 2));
+    }
+    for (const auto index : {kAcceleration, kForce, kTaxels})
+        strips_[index].hatch(shown().samples(streamOf(index)), shown().now_s());
+    trains_->draw(shown(), time);
+    marks_.draw(shown().marks(), time);
+    for (auto& strip : strips_) strip.thinTicks();
+    markFault(time);
+    sharing_ = false;
+}
+
+/// In every lane the instant, in the trains' the cause too, on the side where it has room.
+void StripPlots::markFault(const QCPRange& time) {
+    const auto& fault = shown().fault();
+    const bool seen = fault && time.contains(fault->at_s);
+    for (auto& strip : strips_) strip.markFault(seen ? fault->at_s : std::nan(""));
+    fault_->setVisible(seen);
+    if (!seen) return;
+    const bool left = fault->at_s > time.center();
+    const double share = (left ? fault->at_s - time.lower : time.upper - fault->at_s) / time.size();
+    const auto words = qtext(fault->why.view());
+    fault_->setText(QFontMetrics(fault_->font())
+                        .elidedText(words.isEmpty() ? tr("fault") : words, Qt::ElideRight,
+                                    static_cast<int>(share * strips_[kTrains].axes().width()) - 16));
+    fault_->setPositionAlignment(Qt::AlignTop | (left ? Qt::AlignRight : Qt::AlignLeft));
+    fault_->position->setCoords(fault->at_s, 0);
+}
+
+void StripPlots::write() {
+    const auto newest = [](const Series* series, std::size_t channel) {
+        return series == nullptr || series->empty() ? std::nanf("") : series->value(series->size() - 1, channel);
+    };
+    const QStringList axes{"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i)
+        strips_[kAcceleration].caption().setKey(i, acceleration_[i]->visible() ? axes[int(i)] : QString());
+    const auto* force = shown().samples(StreamKind::Force);
+    // One form for all values: digits that do not jump.
+    strips_[kForce].caption().setValue(
+        quantityText(double(newest(force, 0)), strips_[kForce].unit(), ColumnFormat{0, 2}));
+    const auto* taxels = shown().samples(StreamKind::Taxels);
+    strips_[kTaxels].caption().setValue(taxels == nullptr ? QString() : taxelText(*taxels), true);
+    strips_[kSpectrum].caption().setValue(spectrogram_->scaleText(), true);
+    const auto& frames = shown().frames();
+    auto& indices = strips_[kIndices].caption();
+    indices.setKey(0, tr("roughness R"));
+    indices.setKey(1, tr("pressure P"));
+    indices.setValue(tr("R %1 · P %2")
+                         .arg(indexText(newest(&frames, LiveHistory::kRoughness)),
+                              indexText(newest(&frames, LiveHistory::kPressure))));
+    trains_->caption();
+}
+
+QString StripPlots::taxelText(const Series& taxels) const {
+    if (taxels.empty()) return tr("%1 taxels").arg(taxels.channels());
+    double sum = 0;
+    for (std::size_t c = 0; c < taxels.channels(); ++c) sum += double(taxels.value(taxels.size() - 1, c));
+    const auto unit = strips_[kTaxels].unit() == "kPa" ? QString("Pa") : strips_[kTaxels].unit();
+    return tr("%1 taxels, mean %2").arg(taxels.channels()).arg(quantityText(sum / double(taxels.channels()), unit, 2));
 }
 
 void StripPlots::changeEvent(QEvent* event) {

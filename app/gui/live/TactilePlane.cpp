@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -73,18 +73,15 @@ std::optional<QPointF> TactilePlane::point() const {
 void TactilePlane::colour() {
     stylePlot(*this);
     const auto& c = colours();
-    auto small = QApplication::font();
-    small.setPointSizeF(small.pointSizeF() * 0.8);
+    const auto small = textFont(TextSize::Small);
     for (std::size_t i = 0; i < marks_.size(); ++i) {
-        const auto look = conditionLook(QString::fromStdString(conditions_[i].name), int(i));
-        marks_[i]->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 2), QBrush(look.color), 10));
+        const auto style = conditionInTheme(QString::fromStdString(conditions_[i].name), int(i));
+        marks_[i]->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 2), QBrush(style.color), 10));
         names_[i]->setColor(c.text);
         names_[i]->setFont(small);
     }
-    auto font = watermark_->font();
-    font.setPointSizeF(16);
-    watermark_->setFont(font);
-    trail_->setPen(QPen(c.reference, 1.5));
+    watermark_->setFont(textFont(TextSize::Large, QFont::Bold));
+    trail_->setPen(QPen(c.frame, 1.5));
     now_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, c.text, c.text, 11));
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -85,9 +85,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     }
     const int columns = gridFor(values_.size()).width(), rows = gridFor(values_.size()).height();
     const double w = double(width()) / columns, h = double(height()) / rows;
-    auto small = font();
-    small.setPointSizeF(small.pointSizeF() * 0.85);
-    painter.setFont(small);
+    painter.setFont(textFont(TextSize::Small));
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const QRectF cell((int(i) % columns) * w + 1, double(int(i) / columns) * h + 1, w - 2, h - 2);
         const float value = values_[i];
@@ -108,10 +106,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
                          width <= int(cell.width()) ? number : number.section(QChar(0x202f), 0, 0));
     }
     if (simulated_) {
-        auto large = font();
-        large.setPointSizeF(large.pointSizeF() * 1.6);
-        large.setBold(true);
-        painter.setFont(large);
+        painter.setFont(textFont(TextSize::Large, QFont::Bold));
         painter.setPen(c.watermark);
         painter.drawText(rect(), Qt::AlignCenter, tr("SIMULATED"));
     }

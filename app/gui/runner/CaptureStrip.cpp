@@ -1,7 +1,9 @@
 #include "app/gui/runner/CaptureStrip.h"
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include <algorithm>
+
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
 
 namespace tacto::gui {
@@ -65,6 +67,20 @@ void CaptureStrip::colour() {
     current_->setPen(QPen(c.current, 1, Qt::DashLine));
     yAxis->setLabelColor(c.voltage);
     yAxis2->setLabelColor(c.current);
+    thinTicks();
+}
+
+void CaptureStrip::thinTicks() {
+    constexpr int kMost = 5, kApart = 2;  // what is readable may come to half as many again
+    const QFontMetrics metrics(xAxis->tickLabelFont());
+    xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * metrics.horizontalAdvance("−00000")), 1, kMost));
+    const int up = std::clamp(height() / (2 * kApart * metrics.height()), 1, kMost);
+    for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
+}
+
+void CaptureStrip::resizeEvent(QResizeEvent* event) {
+    QCustomPlot::resizeEvent(event);
+    thinTicks();
 }
 
 void CaptureStrip::changeEvent(QEvent* event) {

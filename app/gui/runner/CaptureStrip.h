@@ -19,9 +19,12 @@ public:
 
 protected:
     void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
     void colour();
+    /// No more numbers than have room.
+    void thinTicks();
     QCPGraph* voltage_ = nullptr;
     QCPGraph* current_ = nullptr;
     QCPItemText* watermark_ = nullptr;

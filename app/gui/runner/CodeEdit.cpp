@@ -4,7 +4,7 @@
 #include <QPainter>
 #include <QTextBlock>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -51,7 +51,7 @@ void CodeEdit::changeEvent(QEvent* event) {
     QPlainTextEdit::changeEvent(event);
     if (event->type() == QEvent::PaletteChange && highlighter_ != nullptr) {
         highlighter_->recolour();
-        showMark();
+        showMarks();
     }
 }
 
@@ -71,7 +71,7 @@ void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
 
 void CodeEdit::mark(int line) {
     marked_ = std::min(line, blockCount());  // engines report a missing brace behind the end
-    showMark();
+    showMarks();
     margin_->update();
     if (line <= 0) return;
     const auto block = document()->findBlockByNumber(marked_ - 1);
@@ -80,7 +80,15 @@ void CodeEdit::mark(int line) {
     centerCursor();
 }
 
-void CodeEdit::showMark() {
+int CodeEdit::markWords(const QString& words) {
+    found_.clear();
+    QTextCursor from(document());
+    while (!words.isEmpty() && !(from = document()->find(words, from)).isNull()) found_ << from;
+    showMarks();
+    return int(found_.size());
+}
+
+void CodeEdit::showMarks() {
     QList<QTextEdit::ExtraSelection> selections;
     const auto block = document()->findBlockByNumber(marked_ - 1);
     if (marked_ > 0 && block.isValid()) {
@@ -90,6 +98,12 @@ void CodeEdit::showMark() {
         selection.format.setBackground(tint);
         selection.format.setProperty(QTextFormat::FullWidthSelection, true);
         selection.cursor = QTextCursor(block);
+        selections << selection;
+    }
+    for (const auto& found : found_) {
+        QTextEdit::ExtraSelection selection;
+        selection.format.setBackground(colours().selection);
+        selection.cursor = found;
         selections << selection;
     }
     setExtraSelections(selections);

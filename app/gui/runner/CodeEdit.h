@@ -1,4 +1,4 @@
-// CodeEdit.h - a script as text, with line numbers and one line marked.
+// CodeEdit.h - a script as text, with line numbers, one line marked, and the words that were searched.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -16,6 +16,8 @@ public:
     /// Marks a line, from 1, and goes there; 0 takes the mark away.
     void mark(int line);
     [[nodiscard]] int marked() const { return marked_; }
+    /// Marks these words wherever they stand, whatever their case; empty takes the marks away. Returns how often.
+    int markWords(const QString& words);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -24,11 +26,12 @@ protected:
 private:
     void paintNumbers(QPaintEvent* event, QWidget& margin);
     [[nodiscard]] int marginWidth() const;
-    void showMark();
+    void showMarks();
     class Margin;
     QWidget* margin_;
     ScriptHighlighter* highlighter_;
     int marked_ = 0;
+    QList<QTextCursor> found_;  // of markWords()
 };
 
 }  // namespace tacto::gui

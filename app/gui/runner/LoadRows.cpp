@@ -2,8 +2,9 @@
 
 #include <QHeaderView>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/runner/ResultPanel.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "app/report/TableContent.h"
 #include "core/electrode/Load.h"
 
 namespace tacto::gui {
@@ -12,22 +13,7 @@ namespace {
 
 constexpr int kVerdictRole = Qt::UserRole;
 constexpr int kCountRole = Qt::UserRole + 1;
-
-struct RowLook {
-    QString shape;
-    QColor colour;
-};
-
-/// Word, shape and colour tell a verdict apart; what is neither pass nor fail is quiet.
-RowLook lookOf(const QString& verdict) {
-    if (verdict == "pass" || verdict == "fail" || verdict == "indeterminate") {
-        const auto look = verdictLook(verdict);
-        return {look.shape, look.colour};
-    }
-    if (verdict == "refused as expected") return {"⊘", colours().text};
-    if (verdict == "not applicable") return {"–", colours().quiet};
-    return {"○", colours().text};
-}
+constexpr int kNameRole = Qt::UserRole + 2;  // as parseLoad() reads it
 
 QString number(const nlohmann::json& values, const char* key, const char* unit) {
     const auto at = values.find(key);
@@ -62,23 +48,21 @@ void LoadRows::begin() {
     resizeColumnsToContents();
 }
 
-bool LoadRows::isOfLoad(const nlohmann::json& trial) {
-    const auto at = trial.find("load");
-    return at != trial.end() && at->is_string();
-}
-
 int LoadRows::rowOf(const QString& load) {
     for (int row = 0; row < rowCount(); ++row) {
-        if (item(row, kLoad)->text() == load) return row;
+        if (item(row, kLoad)->data(kNameRole).toString() == load) return row;
     }
     const int row = rowCount();
     insertRow(row);
     for (int column = 0; column < kColumns; ++column) {
-        auto* cell = new QTableWidgetItem(column == kLoad ? load : column == kVerdict ? QString() : QString("–"));
+        auto* cell = new QTableWidgetItem(column == kLoad      ? loadText(load)
+                                          : column == kVerdict ? QString()
+                                                               : QString("–"));
         const bool right = column != kLoad && column != kVerdict;
         cell->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
         setItem(row, column, cell);
     }
+    item(row, kLoad)->setData(kNameRole, load);
     return row;
 }
 
@@ -93,13 +77,14 @@ void LoadRows::numbers(int row, const nlohmann::json& values, const char* measur
 void LoadRows::judge(int row, const QString& verdict) {
     auto* cell = item(row, kVerdict);
     cell->setData(kVerdictRole, verdict);
-    cell->setText(lookOf(verdict).shape + " " + verdict);
-    cell->setForeground(lookOf(verdict).colour);
+    cell->setText(verdictText(verdict));
+    cell->setForeground(verdictStyle(verdict).colour);
 }
 
 void LoadRows::add(const nlohmann::json& trial) {
-    if (!isOfLoad(trial)) return;
-    const int row = rowOf(QString::fromStdString(trial["load"].get<std::string>()));
+    const auto load = trial.find("load");
+    if (load == trial.end() || !load->is_string()) return;
+    const int row = rowOf(QString::fromStdString(load->get<std::string>()));
     scrollToItem(item(row, kLoad));
     const auto verdict = trial.find("load_verdict");
     if (verdict != trial.end() && verdict->is_string()) {
@@ -132,7 +117,7 @@ void LoadRows::end(const nlohmann::json& results) {
 
 QString LoadRows::verdictOf(const QString& load) const {
     for (int row = 0; row < rowCount(); ++row) {
-        if (item(row, kLoad)->text() == load) return item(row, kVerdict)->text();
+        if (item(row, kLoad)->data(kNameRole).toString() == load) return item(row, kVerdict)->text();
     }
     return {};
 }
@@ -141,7 +126,7 @@ void LoadRows::colour() {
     for (int row = 0; row < rowCount(); ++row) {
         auto* cell = item(row, kVerdict);
         if (const auto verdict = cell->data(kVerdictRole).toString(); !verdict.isEmpty())
-            cell->setForeground(lookOf(verdict).colour);
+            cell->setForeground(verdictStyle(verdict).colour);
     }
 }
 

@@ -14,13 +14,12 @@ public:
     explicit LoadRows(QWidget* parent = nullptr);
     /// The bench set, all of it still to be done.
     void begin();
-    /// Whether a trial, as record.trial() was given it, is one of a load.
-    [[nodiscard]] static bool isOfLoad(const nlohmann::json& trial);
-    /// A command that was measured, or (with load_verdict) what a load has come to.
+    /// A command that was measured, or (with load_verdict) what a load has come to; a trial that names no load is
+    /// passed over.
     void add(const nlohmann::json& trial);
     /// The run's results, whose verdicts are the last word; null for a run without any. What was not reached says so.
     void end(const nlohmann::json& results);
-    /// "✔ pass", as it stands there; empty for a load that is not listed.
+    /// "✔ pass", as it stands there; empty for a load ("500 ohm") that is not listed.
     [[nodiscard]] QString verdictOf(const QString& load) const;
 
 protected:

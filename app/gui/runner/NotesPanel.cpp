@@ -4,30 +4,61 @@
 
 namespace tacto::gui {
 
-NotesPanel::NotesPanel(QWidget* parent) : QGroupBox(tr("For the report"), parent) {
+NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the report"), parent), day_(day) {
     auto* form = new QFormLayout(this);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    operator_ = field("operator", tr("who does the run"), tr("Stands on the report's first page, to be signed."));
-    reviewer_ = field("reviewer", tr("who checks it"), tr("Stands on the report's first page, to be signed."));
-    ambient_ =
-        field("ambient", tr("22.5 °C, 45 % RH"), tr("Ambient conditions. As you enter them; none are measured."));
-    form->addRow(tr("O&perator"), operator_);
-    form->addRow(tr("Re&viewer"), reviewer_);
-    form->addRow(tr("A&mbient"), ambient_);
+    const auto add = [&](const QString& label, const char* name, std::string RunNotes::*text,
+                         const QString& placeholder, const QString& tip) {
+        auto* edit = new QLineEdit(this);
+        edit->setObjectName(name);
+        edit->setPlaceholderText(placeholder);
+        edit->setToolTip(tip);
+        edit->setMaxLength(static_cast<int>(kNoteLimit));
+        connect(edit, &QLineEdit::textEdited, this, [this, edit] { takeUp(*edit); });
+        form->addRow(label, edit);
+        fields_.push_back({edit, text});
+    };
+    const auto all = tr("The same for all sessions of today. ");
+    add(tr("O&perator"), "operator", &RunNotes::operatorName, tr("who does the run"),
+        all + tr("Stands on the report's first page, to be signed."));
+    add(tr("Samp&le"), "sample", &RunNotes::sample, tr("your id of what is measured"),
+        all + tr("Stands on the report's first page and in the list of sessions."));
+    add(tr("Reviewer"), "reviewer", &RunNotes::reviewer, tr("who checks it"),
+        all + tr("Stands on the report's first page, to be signed."));
+    add(tr("A&mbient"), "ambient", &RunNotes::ambient, tr("22.5 °C, 45 % RH"),
+        all + tr("Ambient conditions. As you enter them; none are measured."));
+    connect(&day_, &DayNotes::changed, this, &NotesPanel::load);
+    load();
 }
 
-QLineEdit* NotesPanel::field(const char* name, const QString& placeholder, const QString& tip) {
-    auto* edit = new QLineEdit(this);
-    edit->setObjectName(name);
-    edit->setPlaceholderText(placeholder);
-    edit->setToolTip(tip);
-    edit->setMaxLength(static_cast<int>(kNoteLimit));
-    return edit;
+/// What still stands here from another day is not entered along with it.
+void NotesPanel::takeUp(const QLineEdit& edited) {
+    if (!day_.asked()) {
+        for (const auto& field : fields_) {
+            if (field.edit != &edited) field.edit->clear();
+        }
+    }
+    day_.set(notes());
+}
+
+void NotesPanel::showEvent(QShowEvent* event) {
+    load();
+    QGroupBox::showEvent(event);
+}
+
+void NotesPanel::load() {
+    const auto now = day_.notes();
+    for (const auto& [edit, text] : fields_) {
+        const auto stored = QString::fromStdString(now.*text);
+        // Not under the hand that types: a blank at the end would go.
+        if (edit->text().simplified() != stored) edit->setText(stored);
+    }
 }
 
 RunNotes NotesPanel::notes() const {
-    const auto text = [](const QLineEdit* edit) { return edit->text().simplified().toStdString(); };
-    return {text(operator_), text(reviewer_), text(ambient_)};
+    RunNotes notes;
+    for (const auto& [edit, text] : fields_) notes.*text = edit->text().simplified().toStdString();
+    return notes;
 }
 
 }  // namespace tacto::gui

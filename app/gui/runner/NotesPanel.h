@@ -1,27 +1,36 @@
-// NotesPanel.h - what the report says beside what is measured: operator, reviewer, ambient conditions. Kept while the
-// window is open and not beyond: the next person at the bench may be another.
+// NotesPanel.h - what the report says beside what is measured: operator, sample, reviewer, ambient conditions. Every
+// such panel shows and changes the same notes, those of the day.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QGroupBox>
 #include <QLineEdit>
+#include <vector>
 
-#include "app/run/RunNotes.h"
+#include "app/gui/controller/DayNotes.h"
 
 namespace tacto::gui {
 
 class NotesPanel final : public QGroupBox {
     Q_OBJECT
 public:
-    explicit NotesPanel(QWidget* parent = nullptr);
+    /// `day` outlives the panel.
+    explicit NotesPanel(DayNotes& day, QWidget* parent = nullptr);
     [[nodiscard]] RunNotes notes() const;
 
+protected:
+    void showEvent(QShowEvent* event) override;
+
 private:
-    [[nodiscard]] QLineEdit* field(const char* name, const QString& placeholder, const QString& tip);
-    QLineEdit* operator_;
-    QLineEdit* reviewer_;
-    QLineEdit* ambient_;
+    void load();
+    void takeUp(const QLineEdit& edited);
+    DayNotes& day_;
+    struct Field {
+        QLineEdit* edit;
+        std::string RunNotes::*text;
+    };
+    std::vector<Field> fields_;
 };
 
 }  // namespace tacto::gui

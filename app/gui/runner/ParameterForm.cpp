@@ -1,17 +1,25 @@
 #include "app/gui/runner/ParameterForm.h"
 
+#include <QCalendarWidget>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFormLayout>
+#include <QDate>
 #include <QHBoxLayout>
 #include <QLineEdit>
+#include <QMenu>
+#include <QToolButton>
 #include <QVBoxLayout>
+#include <QWidgetAction>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Theme.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 
 namespace {
+
+constexpr int kLabelWidth = 280;  // before a label wraps
 
 QString rangeText(const ProtocolParameter& parameter) {
     const auto unit = QString::fromStdString(parameter.unit);
@@ -25,20 +33,27 @@ QString rangeText(const ProtocolParameter& parameter) {
 QString plain(const nlohmann::json& value) {
     if (value.is_string()) return QString::fromStdString(value.get<std::string>());
     if (value.is_number()) return QString::number(value.get<double>(), 'g', 10);
-    return QString::fromStdString(value.dump());
+    return QString::fromStdString(dumpJson(value));
+}
+
+QFormLayout* rowsIn(QWidget& part) {
+    auto* form = new QFormLayout(&part);
+    form->setContentsMargins(0, 0, 0, 0);
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form->setRowWrapPolicy(QFormLayout::WrapAllRows);  // a narrow column: nothing is cut
+    return form;
 }
 
 }  // namespace
 
-ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
-    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setRowWrapPolicy(QFormLayout::WrapAllRows);  // a narrow column: nothing is cut
-}
+ParameterForm::ParameterForm(QWidget* parent)
+    : QWidget(parent),
+      settingsRows_(rowsIn(*this)),
+      reference_(new QWidget(parent)),
+      referenceRows_(rowsIn(*reference_)) {}
 
 ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
-    Field field{parameter, {}, {}, nullptr, nullptr};
+    Field field{parameter, {}, {}, nullptr, nullptr, nullptr};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
@@ -61,12 +76,9 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
         field.write = [box](const QString& word) { box->setChecked(word == "true"); };
         field.editor = box;
     } else {
-        auto* line = new QLineEdit(plain(parameter.value), this);
-        connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
-        field.text = [line] { return line->text(); };
-        field.write = [line](const QString& text) { line->setText(text); };
-        field.editor = line;
+        addLine(field);
     }
+    if (field.whole == nullptr) field.whole = field.editor;
     field.editor->setObjectName(QString::fromStdString(parameter.name));
     const auto range = rangeText(parameter);
     const auto label = QString::fromStdString(parameter.label);
@@ -77,50 +89,143 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     return field;
 }
 
+void ParameterForm::addLine(Field& field) {
+    auto* line = new QLineEdit(plain(field.parameter.value), this);
+    connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
+    field.text = [line] { return line->text(); };
+    field.write = [line](const QString& text) { line->setText(text); };
+    field.editor = line;
+    if (field.parameter.type == ParameterType::Date) addCalendar(field);
+    if (field.parameter.type == ParameterType::File) addFileChooser(field);
+}
+
+namespace {
+
+/// The line with a button that fills it.
+QWidget* withButton(QWidget* line, QToolButton* button, QWidget* parent) {
+    auto* holder = new QWidget(parent);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(4);
+    row->addWidget(line, 1);
+    button->setFocusPolicy(Qt::StrongFocus);
+    row->addWidget(button);
+    return holder;
+}
+
+}  // namespace
+
+void ParameterForm::addCalendar(Field& field) {
+    auto* line = static_cast<QLineEdit*>(field.editor);
+    line->setPlaceholderText(tr("not stated"));
+    line->setClearButtonEnabled(true);
+    auto* button = new QToolButton(this);
+    button->setText("▾");
+    button->setObjectName("calendar-" + QString::fromStdString(field.parameter.name));
+    button->setAccessibleName(tr("Choose the day"));
+    button->setToolTip(tr("Chooses the day in a calendar."));
+    button->setPopupMode(QToolButton::InstantPopup);
+    auto* menu = new QMenu(button);
+    auto* calendar = new QCalendarWidget(menu);
+    calendar->setVerticalHeaderFormat(QCalendarWidget::NoVerticalHeader);
+    auto* action = new QWidgetAction(menu);
+    action->setDefaultWidget(calendar);
+    menu->addAction(action);
+    button->setMenu(menu);
+    connect(menu, &QMenu::aboutToShow, calendar, [line, calendar] {
+        const auto day = QDate::fromString(line->text().trimmed(), Qt::ISODate);
+        calendar->setSelectedDate(day.isValid() ? day : QDate::currentDate());
+    });
+    const auto take = [line, menu](QDate day) {
+        line->setText(day.toString(Qt::ISODate));
+        menu->close();
+    };
+    connect(calendar, &QCalendarWidget::clicked, line, take);
+    connect(calendar, &QCalendarWidget::activated, line, take);
+    field.whole = withButton(line, button, this);
+}
+
+void ParameterForm::addFileChooser(Field& field) {
+    auto* line = static_cast<QLineEdit*>(field.editor);
+    line->setPlaceholderText(tr("no file"));
+    line->setClearButtonEnabled(true);
+    auto* button = new QToolButton(this);
+    button->setText("…");
+    button->setObjectName("choose-" + QString::fromStdString(field.parameter.name));
+    button->setAccessibleName(tr("Choose the file"));
+    button->setToolTip(tr("Chooses a file."));
+    const auto title = QString::fromStdString(field.parameter.label);
+    connect(button, &QToolButton::clicked, this, [this, line, title] {
+        FileQuestion question;
+        question.title = title;
+        askForFile(*this, question, [line](const QString& path) { line->setText(path); });
+    });
+    field.whole = withButton(line, button, this);
+}
+
 void ParameterForm::show(const ProtocolDeclaration& declaration) {
-    auto* form = static_cast<QFormLayout*>(layout());
-    while (form->rowCount() > 0) form->removeRow(0);
+    for (auto* rows : {settingsRows_, referenceRows_}) {
+        while (rows->rowCount() > 0) rows->removeRow(0);
+    }
     fields_.clear();
     declaration_ = declaration;
-    for (const auto& parameter : declaration.parameters) {
-        auto field = makeField(parameter);
-        auto* column = new QWidget(this);
-        auto* stack = new QVBoxLayout(column);
-        stack->setContentsMargins(0, 0, 0, 0);
-        stack->setSpacing(1);
-        auto* line = new QHBoxLayout;
-        line->addWidget(field.editor, 1);
-        if (const auto range = rangeText(parameter); !range.isEmpty()) {
-            auto* quiet = new QLabel(range, column);
-            quiet->setTextFormat(Qt::PlainText);
-            quiet->setForegroundRole(QPalette::PlaceholderText);
-            line->addSpacing(fontMetrics().averageCharWidth());
-            line->addWidget(quiet);
+    for (const bool decisive : {true, false}) {
+        for (const auto& parameter : declaration.parameters) {
+            if (parameter.needed.empty() == decisive) continue;
+            auto field = makeField(parameter);
+            field.atFirst = field.text();
+            addRow(field);
+            fields_.push_back(std::move(field));
         }
-        stack->addLayout(line);
-        field.trouble = new QLabel(column);
-        field.trouble->setTextFormat(Qt::PlainText);
-        field.trouble->setObjectName("trouble-" + QString::fromStdString(parameter.name));
-        field.trouble->setWordWrap(true);
-        field.trouble->hide();
-        stack->addWidget(field.trouble);
-        auto label = QString::fromStdString(parameter.label);
-        if (!parameter.unit.empty())
-            label += QString(" (%1)").arg(axisUnit(0, QString::fromStdString(parameter.unit)).unit);
-        form->addRow(label, column);
-        if (auto* written = qobject_cast<QLabel*>(form->labelForField(column))) {
-            written->setBuddy(field.editor);
-            written->setWordWrap(true);
-        }
-        fields_.push_back(std::move(field));
     }
-    if (fields_.empty()) {
+    if (settingsRows_->rowCount() == 0) {
         auto* none = new QLabel(tr("This protocol has nothing to set."), this);
-        none->setForegroundRole(QPalette::PlaceholderText);
+        setTone(*none, Tone::Quiet);
         none->setWordWrap(true);
-        form->addRow(none);
+        settingsRows_->addRow(none);
     }
     judge();
+}
+
+void ParameterForm::addRow(Field& field) {
+    const auto& parameter = field.parameter;
+    auto* column = new QWidget(this);
+    auto* stack = new QVBoxLayout(column);
+    stack->setContentsMargins(0, 0, 0, 0);
+    stack->setSpacing(1);
+    auto* line = new QHBoxLayout;
+    line->addWidget(field.whole, 1);
+    if (const auto range = rangeText(parameter); !range.isEmpty()) {
+        auto* quiet = new QLabel(range, column);
+        quiet->setTextFormat(Qt::PlainText);
+        setTone(*quiet, Tone::Quiet);
+        line->addSpacing(fontMetrics().averageCharWidth());
+        line->addWidget(quiet);
+    }
+    stack->addLayout(line);
+    field.trouble = new QLabel(column);
+    field.trouble->setTextFormat(Qt::PlainText);
+    field.trouble->setObjectName("trouble-" + QString::fromStdString(parameter.name));
+    field.trouble->setWordWrap(true);
+    setTone(*field.trouble, Tone::Warning);
+    field.trouble->hide();
+    stack->addWidget(field.trouble);
+    auto label = QString::fromStdString(parameter.label);
+    if (!parameter.unit.empty())
+        label += QString(" (%1)").arg(axisUnit(0, QString::fromStdString(parameter.unit)).unit);
+    auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
+    rows->addRow(label, column);
+    if (auto* written = qobject_cast<QLabel*>(rows->labelForField(column))) {
+        written->setBuddy(field.editor);
+        written->setWordWrap(true);
+        written->setMinimumWidth(
+            std::min(scaledPx(kLabelWidth), 2 * fontMetrics().averageCharWidth() * int(label.size())));
+        setTextSize(*written, TextSize::Body, !parameter.needed.empty());
+    }
+}
+
+bool ParameterForm::hasReference() const {
+    return std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return field.parameter.reference; });
 }
 
 Result<ProtocolSettings> ParameterForm::read() {
@@ -128,10 +233,12 @@ Result<ProtocolSettings> ParameterForm::read() {
     for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
     auto applied = applySettings(declaration_, settings);
     if (!applied) return applied;
-    // A default that was left as it is stays the script's word.
+    // A default that was left as it is stays the script's word, to the last digit and blank: what a field shows of it
+    // may read as another value, which the operator did not choose.
     for (const auto& field : fields_) {
-        if (applied->parameters[field.parameter.name] == field.parameter.value)
-            applied->given.erase(field.parameter.name);
+        auto& value = applied->parameters[field.parameter.name];
+        if (field.text() == field.atFirst) value = field.parameter.value;
+        if (value == field.parameter.value) applied->given.erase(field.parameter.name);
     }
     return applied;
 }
@@ -149,19 +256,51 @@ void ParameterForm::set(const std::string& name, const QString& text) {
     }
 }
 
-void ParameterForm::goToRefused() {
+void ParameterForm::setKnown(std::set<std::string> names) {
+    if (names == known_) return;
+    known_ = std::move(names);
+    judge();
+}
+
+/// 0 and nothing are no answer to what the verdict needs.
+bool ParameterForm::lacks(const Field& field) const {
+    if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
+    const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
+    return value && (*value == 0 || *value == "");
+}
+
+QString ParameterForm::unanswered() const {
     for (const auto& field : fields_) {
-        if (!field.trouble->isHidden()) return field.editor->setFocus();
+        if (!lacks(field)) continue;
+        return tr("Enter \"%1\" first: without it %2.")
+            .arg(QString::fromStdString(field.parameter.label), QString::fromStdString(field.parameter.needed));
     }
+    return {};
+}
+
+int ParameterForm::refused(bool reference) const {
+    return int(std::count_if(fields_.begin(), fields_.end(), [reference](const Field& field) {
+        return field.parameter.reference == reference && !field.trouble->isHidden();
+    }));
+}
+
+std::optional<bool> ParameterForm::goToRefused() {
+    for (const auto& field : fields_) {
+        if (field.trouble->isHidden()) continue;
+        field.editor->setFocus();
+        return field.parameter.reference;
+    }
+    return std::nullopt;
 }
 
 void ParameterForm::judge() {
-    refused_ = 0;
     for (const auto& field : fields_) {
         const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
-        field.trouble->setText(value ? QString() : "⚠ " + QString::fromStdString(value.error().message));
-        field.trouble->setVisible(!value);
-        if (!value) ++refused_;
+        const auto why = !value         ? QString::fromStdString(value.error().message)
+                         : lacks(field) ? tr("Without it %1.").arg(QString::fromStdString(field.parameter.needed))
+                                        : QString();
+        field.trouble->setText(why.isEmpty() ? QString() : "⚠ " + why);
+        field.trouble->setVisible(!why.isEmpty());
     }
     emit edited();
 }

@@ -1,15 +1,19 @@
-// ParameterForm.h - a protocol's parameters as a form: labels, units and ranges as the script declares them.
+// ParameterForm.h - a protocol's parameters as a form: labels, units and ranges as the script declares them. Days are
+// chosen in a calendar, files by a dialog. What decides the verdict stands first. The parameters of the known reference
+// are a part of their own.
 //
 // Every field is text checked by the same rules as the command line; a refusal stands below its field.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QFormLayout>
 #include <QLabel>
 #include <QWidget>
 #include <functional>
+#include <set>
 
-#include "app/scripting/ProtocolDeclaration.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
 
@@ -18,16 +22,23 @@ class ParameterForm final : public QWidget {
 public:
     explicit ParameterForm(QWidget* parent = nullptr);
     void show(const ProtocolDeclaration& declaration);
+    /// The fields of the known reference, to be placed by the owner. Empty where the protocol has none.
+    [[nodiscard]] QWidget& referencePart() { return *reference_; }
+    [[nodiscard]] bool hasReference() const;
     /// Errors: of the first field that is refused; all refusals are shown.
     [[nodiscard]] Result<ProtocolSettings> read();
     /// The text of a parameter as it stands; empty for none of that name.
     [[nodiscard]] QString text(const std::string& name) const;
     /// Writes into a field, as if it were typed; a name or a choice that is not there is left alone.
     void set(const std::string& name, const QString& text);
-    /// How many fields are refused as they stand.
-    [[nodiscard]] int refused() const { return refused_; }
-    /// The first refused field gets the focus.
-    void goToRefused();
+    /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: 0 will do there.
+    void setKnown(std::set<std::string> names);
+    /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
+    [[nodiscard]] QString unanswered() const;
+    /// How many fields of the part are refused as they stand, or have no answer though the verdict needs it.
+    [[nodiscard]] int refused(bool reference) const;
+    /// The first such field gets the focus. Returns whether it is one of the reference; nothing where there is none.
+    std::optional<bool> goToRefused();
 
 signals:
     void edited();
@@ -37,14 +48,24 @@ private:
         ProtocolParameter parameter;
         std::function<QString()> text;
         std::function<void(const QString&)> write;
-        QWidget* editor = nullptr;
+        QWidget* editor = nullptr;  // has the parameter's name
+        QWidget* whole = nullptr;   // the editor with its buttons
         QLabel* trouble = nullptr;
+        QString atFirst{};  // the text as the script's default shows it
     };
     [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
+    void addLine(Field& field);
+    void addCalendar(Field& field);
+    void addFileChooser(Field& field);
+    void addRow(Field& field);
+    [[nodiscard]] bool lacks(const Field& field) const;
     void judge();
     ProtocolDeclaration declaration_;
+    QFormLayout* settingsRows_;
+    QWidget* reference_;
+    QFormLayout* referenceRows_;
     std::vector<Field> fields_;
-    int refused_ = 0;
+    std::set<std::string> known_;
 };
 
 }  // namespace tacto::gui

@@ -6,9 +6,9 @@
 #include <QPushButton>
 #include <QSvgRenderer>
 
-#include "app/gui/look/ConfirmButton.h"
-#include "app/gui/look/Look.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Theme.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
@@ -28,7 +28,7 @@ QString accepted(const OperatorQuestion& question) {
 
 }  // namespace
 
-PromptPanel::PromptPanel(OperatorDesk& desk, QWidget* parent) : QFrame(parent), desk_(desk) {
+PromptPanel::PromptPanel(WindowOperator& controller, QWidget* parent) : QFrame(parent), controller_(controller) {
     setObjectName("prompt");
     setAccessibleName(tr("Question"));
     setFrameShape(QFrame::StyledPanel);
@@ -55,10 +55,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     says->setObjectName("question");
     says->setTextFormat(Qt::PlainText);  // a script's words: no picture is fetched for them
     says->setWordWrap(true);
-    auto font = says->font();
-    font.setPointSizeF(font.pointSizeF() * 1.15);
-    font.setBold(true);
-    says->setFont(font);
+    setTextSize(*says, TextSize::Body, true);
     column->addWidget(says);
     if (auto* drawing = buildDrawing(question)) column->addWidget(drawing);
     auto* row = new QHBoxLayout;
@@ -67,7 +64,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     auto* refuse = new QPushButton(tr("&Refuse and end the run"), body_);
     refuse->setAutoDefault(false);
     refuse->setToolTip(tr("The output goes off; what was recorded so far is kept."));
-    connect(refuse, &QPushButton::clicked, this, [this] { desk_.refuse(); });
+    connect(refuse, &QPushButton::clicked, this, [this] { controller_.refuse(); });
     row->addWidget(refuse);
     if (first_ == nullptr) first_ = refuse;
     column->addLayout(row);
@@ -166,7 +163,7 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
 }
 
 void PromptPanel::answer(const QString& text) {
-    const auto taken = desk_.answer(asked_, text.trimmed().toStdString());
+    const auto taken = controller_.answer(asked_, text.trimmed().toStdString());
     if (taken || trouble_ == nullptr) return;
     trouble_->setText("⚠ " + QString::fromStdString(taken.error().message));
     trouble_->show();

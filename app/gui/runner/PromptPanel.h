@@ -8,14 +8,14 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
-#include "app/gui/desk/OperatorDesk.h"
+#include "app/gui/controller/WindowOperator.h"
 
 namespace tacto::gui {
 
 class PromptPanel final : public QFrame {
     Q_OBJECT
 public:
-    explicit PromptPanel(OperatorDesk& desk, QWidget* parent = nullptr);
+    explicit PromptPanel(WindowOperator& controller, QWidget* parent = nullptr);
     /// Shows the question until close(); an answer that does not fit is refused below it.
     void ask(const OperatorQuestion& question);
     void close();
@@ -29,7 +29,7 @@ private:
     [[nodiscard]] QWidget* buildChoices(const OperatorQuestion& question);
     [[nodiscard]] QWidget* buildEntry(const OperatorQuestion& question);
     void answer(const QString& text);
-    OperatorDesk& desk_;
+    WindowOperator& controller_;
     std::uint64_t asked_ = 0;  // the question that is shown
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;

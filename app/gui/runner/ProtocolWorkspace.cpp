@@ -2,61 +2,143 @@
 
 #include <QApplication>
 #include <QFileInfo>
-#include <QScrollBar>
+#include <QLineEdit>
+#include <QShortcut>
+#include <QVBoxLayout>
 #include <set>
 
-#include "app/gui/calibrate/CalibrationView.h"
-#include "app/gui/calibrate/WiringPage.h"
-#include "app/gui/look/ExposureTable.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/runner/CaptureStrip.h"
-#include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/PromptPanel.h"
-#include "app/gui/runner/ResultPanel.h"
+#include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
+#include "app/gui/runner/RunViews.h"
 #include "app/gui/runner/ScriptEditor.h"
+#include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/StepList.h"
 #include "app/gui/runner/WiringPanel.h"
-#include "app/gui/runner/WorstCase.h"
+#include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/report/TableContent.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr const char* kOfLoads = "load-safety";  // shows its loads before the first was measured
-constexpr const char* kOfCalibration = "stimulator-calibration";
+constexpr int kPreviewAfter_ms = 150;
+constexpr int kPathWidth = 240, kPathPad = 16;
 
-enum Step { kWiring, kSettings, kRun, kResult, kAllDone };
+using State = StepList::State;
 
-QString sentence(const Error& error) {
-    auto what = QString::fromStdString(error.message);
-    if (!what.isEmpty()) what[0] = what[0].toUpper();
-    return what.endsWith('.') ? what : what + '.';
+RunViews::Plot plotOf(const ProtocolDeclaration& declaration) {
+    if (declaration.kind == "load-safety") return RunViews::Plot::Loads;  // before the first was measured
+    if (declaration.kind == "stimulator-calibration") return RunViews::Plot::Calibration;
+    if (declaration.needs.contains(Role::Oscilloscope)) return RunViews::Plot::Trials;
+    // No trains to look at: a fingertip by itself, or nothing that would be drawn.
+    return declaration.needs == std::set{Role::Sensor} ? RunViews::Plot::Slides : RunViews::Plot::None;
 }
 
 }  // namespace
 
+ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent)
+    : QWidget(parent),
+      controller_(controller),
+      fixed_(protocol),
+      reading_([this](const auto& source, const auto& declaration) { declared(source, declaration); }) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(0);
+    row->addWidget(buildPath());
+    auto* edge = new QFrame(this);
+    edge->setFrameShape(QFrame::VLine);
+    edge->setForegroundRole(QPalette::Mid);
+    row->addWidget(edge);
+    auto* column = new QVBoxLayout;
+    prompt_ = new PromptPanel(controller_.windowOperator(), this);
+    column->addWidget(prompt_);
+    pages_ = new ProcedurePages(controller_.day(), this);
+    column->addWidget(pages_, 1);
+    row->addLayout(column, 1);
+    connectPages();
+    // Wherever the focus is: of the workspaces in a window one is visible.
+    auto* runs = new QShortcut(Qt::Key_F5, this, nullptr, nullptr, Qt::WindowShortcut);
+    connect(runs, &QShortcut::activated, this, &ProtocolWorkspace::runAsked);
+    connect(&controller_, &BenchController::finished, this, &ProtocolWorkspace::ended);
+    connect(&controller_, &BenchController::changed, this, [this] {
+        if (asked_) withdraw();  // it was asked of the profile and the bench as they were
+        previewLater_.start();
+        const auto open = controller_.open();
+        if (running_ && open) pages_->views().setSimulated(open->simulated());
+    });
+    connect(&controller_.windowOperator(), &WindowOperator::asked, this, [this](const OperatorQuestion& question) {
+        if (!running_) return;  // the other workspace's run
+        prompt_->ask(question);
+        QApplication::alert(window());
+        emit attentionWanted();
+    });
+    connect(&controller_.windowOperator(), &WindowOperator::closed, prompt_, &PromptPanel::close);
+    previewLater_.setSingleShot(true);
+    previewLater_.setInterval(kPreviewAfter_ms);
+    connect(&previewLater_, &QTimer::timeout, this, &ProtocolWorkspace::preview);
+    fillChooser({});
+}
+
+QWidget* ProtocolWorkspace::buildPath() {
+    auto* path = new QWidget(this);
+    path->setObjectName("path");
+    path->setFixedWidth(scaledPx(kPathWidth));
+    auto* column = new QVBoxLayout(path);
+    column->setContentsMargins(0, kPathPad / 2, 0, kPathPad / 2);
+    auto* top = new QVBoxLayout;
+    top->setContentsMargins(kPathPad, 0, kPathPad, 0);
+    head_ = new ProtocolHead(fixed_.isEmpty(), path);
+    connect(head_, &ProtocolHead::chosen, this, &ProtocolWorkspace::choose);
+    connect(head_, &ProtocolHead::editWanted, this, [this] { edit(source_, 0, {}); });
+    connect(head_, &ProtocolHead::newWanted, this, [this] { edit({}, 0, {}); });
+    top->addWidget(head_);
+    column->addLayout(top);
+    steps_ =
+        new StepList({tr("Wiring"), tr("Known reference"), tr("Settings"), tr("Run"), tr("Result"), tr("Sign")}, path);
+    connect(steps_, &StepList::chosen, this, [this](int step) { goTo(Step(step)); });
+    column->addWidget(steps_);
+    column->addStretch();
+    auto* foot = new QVBoxLayout;
+    foot->setContentsMargins(kPathPad, 0, kPathPad, 0);
+    panel_ = new RunPanel(path);
+    connect(panel_, &RunPanel::runWanted, this, &ProtocolWorkspace::runAsked);
+    connect(panel_, &RunPanel::confirmed, this, &ProtocolWorkspace::runNow);
+    connect(panel_, &RunPanel::stopWanted, this, [this] { controller_.stop("operator (Stop)"); });
+    connect(panel_, &RunPanel::pauseWanted, this, [this](bool pause) {
+        paused_ = pause;
+        pause ? controller_.pause() : controller_.resume();
+    });
+    connect(panel_, &RunPanel::lineWanted, this, [this](int line, const QString& why) { edit(source_, line, why); });
+    connect(panel_, &RunPanel::profileChangeWanted, this, &ProtocolWorkspace::profileChangeWanted);
+    foot->addWidget(panel_);
+    column->addLayout(foot);
+    return path;
+}
+
+void ProtocolWorkspace::connectPages() {
+    connect(&pages_->form(), &ParameterForm::edited, this, &ProtocolWorkspace::judge);
+    connect(&pages_->wiring(), &WiringPanel::edited, this, &ProtocolWorkspace::judge);
+    connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
+            [this](int line, const QString& why) { edit(source_, line, why); });
+    connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
+    connect(&pages_->sign(), &SignPage::stateChanged, this, [this] { steps_->setNote(kSign, pages_->sign().state()); });
+}
+
+void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    steps_->fit();
+}
+
 void ProtocolWorkspace::fillChooser(const QString& select) {
-    if (chooser_ == nullptr) return choose(fixed_);
-    const QSignalBlocker quiet(chooser_);
-    chooser_->clear();
-    const ProtocolLibrary library;
-    for (const auto& source : library.list()) {
-        chooser_->addItem(source.shipped ? QString::fromStdString(source.name)
-                                         : tr("%1 (the lab's own)").arg(QString::fromStdString(source.name)),
-                          QString::fromStdString(source.name));
-        chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(originOf(source)), Qt::ToolTipRole);
-    }
-    for (const auto& refused : library.refused()) {
-        const auto path = QString::fromStdString(refused.path.string());
-        chooser_->addItem(tr("%1 (refused)").arg(path), path);
-        chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(refused.why), Qt::ToolTipRole);
-    }
-    if (chooser_->count() == 0) return panel_->say(tr("No protocol was found. Write one: New…"));
-    chooser_->setCurrentIndex(std::max(0, chooser_->findData(select)));
-    choose(chooser_->currentData().toString());
+    if (!head_->chooses()) return choose(fixed_);
+    if (!head_->fill(select)) panel_->say(tr("No protocol was found. Write one: New…"));
 }
 
 void ProtocolWorkspace::choose(const QString& nameOrPath) {
@@ -72,132 +154,111 @@ void ProtocolWorkspace::choose(const QString& nameOrPath) {
 void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration) {
     if (source.name != source_.name || running_) return;
     // The form is made anew: who was in it shall be in it again, or no key reaches the workspace.
-    const bool wasInForm = form_->isAncestorOf(QApplication::focusWidget());
+    const bool wasInForm = pages_->form().isAncestorOf(QApplication::focusWidget());
+    last_.reset();
+    pages_->sign().clear();
     if (!declaration) {
-        form_->show({});
-        wiring_->show({});
-        purpose_->setText(QString::fromStdString(source.name));
+        pages_->offer({});
+        head_->show(QString::fromStdString(source.name), {});
         const auto why = QString::fromStdString(declaration.error().message);
         panel_->say(why + tr(" Fix this before running."), lineOf(why));
     } else {
         declaration_ = *declaration;
         panel_->say({});
-        purpose_->setText(QString::fromStdString(declaration_->purpose));
-        wiring_->show(*declaration_);
-        showPlot(plotOf());
-        const auto& needs = declaration_->needs;
-        const auto has = [&](Role role) { return std::find(needs.begin(), needs.end(), role) != needs.end(); };
-        tabs_->setTabVisible(tabs_->indexOf(drawing_), has(Role::Stimulator) && has(Role::Oscilloscope));
-        tabs_->setTabVisible(tabs_->indexOf(worstPage_), has(Role::Stimulator));  // else nothing is judged
-        form_->show(*declaration_);
+        head_->show(QString::fromStdString(declaration_->title), QString::fromStdString(declaration_->purpose));
+        pages_->views().showPlot(plotOf(*declaration_));
+        pages_->offer(*declaration_);
     }
-    steps_->setNote(kRun, {});
-    steps_->setNote(kResult, {});
-    steps_->setCurrent(kSettings);
-    // Once the form is laid out: before that it does not know how wide it must be.
-    QTimer::singleShot(0, this, &ProtocolWorkspace::giveRoom);
+    steps_->setStepVisible(kReference, pages_->form().hasReference());
+    for (const auto step : {kRun, kResult, kSign}) {
+        steps_->setState(step, State::ToDo);
+        steps_->setNote(step, {});
+    }
+    steps_->setOutOfReach(kRun, tr("Nothing has run yet: press Run."));
+    steps_->setOutOfReach(kResult, tr("There is no result yet: press Run."));
+    showStep(kSettings);
+    panel_->setLeading(true);
     judge();
     showButtons();
     if (wasInForm) QTimer::singleShot(0, this, [this] { goTo(kSettings); });
     if (declaration_) emit declaredAnew();
 }
 
-/// Settings scroll up and down only: nothing may be cut at the right.
-void ProtocolWorkspace::giveRoom() {
-    before_->setMinimumWidth(before_->widget()->minimumSizeHint().width() +
-                             before_->verticalScrollBar()->sizeHint().width());
-}
-
-ProtocolWorkspace::Plot ProtocolWorkspace::plotOf() const {
-    if (source_.name == kOfLoads) return Plot::Loads;
-    if (source_.name == kOfCalibration) return Plot::Calibration;
-    if (!declaration_) return Plot::Trials;
-    if (declaration_->needs.contains(Role::Oscilloscope)) return Plot::Trials;
-    // No trains to look at: a fingertip by itself, or nothing that would be drawn.
-    return declaration_->needs == std::set{Role::Sensor} ? Plot::Slides : Plot::None;
-}
-
 void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
-    if (!running_) form_->set(parameter, text);
+    if (!running_) pages_->form().set(parameter, text);
 }
 
-void ProtocolWorkspace::goTo(int step) {
-    if (step == kWiring || step == kSettings) {
-        QWidget* part = step == kWiring ? static_cast<QWidget*>(wiring_) : form_;
-        before_->ensureWidgetVisible(part, 0, 0);
-        if (auto* first = part->findChild<QLineEdit*>())
-            first->setFocus();
-        else
-            panel_->setFocus();
-        const bool drawn = step == kWiring && tabs_->isTabVisible(tabs_->indexOf(drawing_));
-        const bool judged = tabs_->isTabVisible(tabs_->indexOf(worstPage_));
-        tabs_->setCurrentWidget(drawn ? static_cast<QWidget*>(drawing_) : judged ? worstPage_ : log_);
-    } else {
-        tabs_->setCurrentWidget(step == kRun ? static_cast<QWidget*>(log_) : result_);
-    }
+void ProtocolWorkspace::showStep(Step step) {
+    pages_->showStep(step);
+    steps_->setShown(step);
+}
+
+void ProtocolWorkspace::goTo(Step step) {
+    showStep(step);
+    if (step != kWiring && step != kReference && step != kSettings) return;
+    if (auto* first = pages_->currentWidget()->findChild<QLineEdit*>())
+        first->setFocus();
+    else
+        panel_->setFocus();
 }
 
 void ProtocolWorkspace::judge() {
-    const auto uris = devicesOf(wiring_->devices());
-    steps_->setTroubled(kWiring, !uris);
-    steps_->setNote(kWiring, wiring_->devices());
-    const int refused = form_->refused();
-    steps_->setTroubled(kSettings, refused > 0 || !declaration_);
+    auto& form = pages_->form();
+    const auto devices = pages_->wiring().devices();
+    const auto state = [](bool troubled) { return troubled ? State::Troubled : State::Done; };
+    steps_->setState(kWiring, state(!devicesOf(devices)));
+    steps_->setNote(kWiring, devices);
+    steps_->setState(kReference, state(form.refused(true) > 0));
+    const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
+    bool isNumber = false;
+    const double ohms = load.toDouble(&isNumber);
+    steps_->setNote(kReference, isNumber ? settingText(ohms, "ohm") : loadText(load));
+    const int refused = form.refused(false);
+    const bool begun = running_ || last_ != nullptr;
+    steps_->setState(kSettings, refused > 0 || !declaration_ ? State::Troubled : begun ? State::Done : State::UnderWay);
     steps_->setNote(kSettings, refused > 0 ? tr("%n to mend", nullptr, refused) : QString());
-    asked_.reset();
-    panel_->setReady(declaration_.has_value(), obstacle_);
+    withdraw();
+    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
     previewLater_.start();
 }
 
-/// A run whose strongest command the gate refuses would end there, with nothing to show for it.
-void ProtocolWorkspace::setObstacle(const QString& why) {
+/// What was asked was about other settings, or another profile.
+void ProtocolWorkspace::withdraw() {
+    asked_.reset();
+    panel_->withdrawQuestion();
+}
+
+/// A run whose strongest command the gate refuses would end there, with nothing to show for it; so would one whose
+/// verdict wants an answer that it does not have.
+void ProtocolWorkspace::setObstacle(const QString& why, bool byProfile) {
     obstacle_ = why;
-    panel_->setReady(declaration_.has_value(), obstacle_);
+    byProfile_ = byProfile;
+    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
     emit readyChanged();
 }
 
 void ProtocolWorkspace::preview() {
-    const auto settings = form_->read();
-    if (!settings) {
-        worst_->show({});
-        setObstacle({});
-        return worstSays_->setText(tr("Shown again when every setting is accepted."));
-    }
-    const auto load = declaredLoad(settings->parameters);
-    const auto worst = worstCase(desk_.profile(), desk_.limits().sets, load);
-    if (!worst) {
-        worst_->show({});
-        setObstacle({});
-        return worstSays_->setText("⚠ " + sentence(worst.error()));
-    }
-    worst_->show(worst->rows);
-    // Without a load of its own the protocol is judged by its script, load by load.
+    previewLater_.stop();
+    const auto& area = controller_.profile().electrodeArea;
+    pages_->form().setKnown(area ? std::set<std::string>{"area"} : std::set<std::string>{});
     const bool drives = declaration_ && declaration_->needs.contains(Role::Stimulator);
-    const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();
-    setObstacle(judged ? tr("%1 Choose another load or profile. Nothing is put out.").arg(worst->refused) : QString());
-    bool isNumber = false;
-    const auto words = QString::fromStdString(load);
-    const double ohms = words.section(' ', 0, 0).toDouble(&isNumber);
-    const auto strongest = tr("The profile's strongest command, %1 every %2 into %3.")
-                               .arg(settingText(desk_.profile().encoding.amplitudeMax.value(), "V"),
-                                    settingText(desk_.profile().encoding.intervalMin.count(), "s"),
-                                    isNumber && words.endsWith(" ohm") ? settingText(ohms, "ohm") : words);
-    worstSays_->setText(worst->refused.isEmpty() ? tr("%1 Every limit that can be evaluated is kept.").arg(strongest)
-                                                 : tr("⚠ %1 %2").arg(strongest, worst->refused));
+    const auto refused = pages_->worst().judge(controller_, pages_->form().read(), drives);
+    const auto unanswered = pages_->form().unanswered();
+    setObstacle(unanswered.isEmpty() ? refused : unanswered, unanswered.isEmpty());
 }
 
 Result<RunOrder> ProtocolWorkspace::order() {
     if (!declaration_) return fail(ErrorCode::InvalidArgument, "there is no protocol to run");
-    auto settings = form_->read();
+    auto settings = pages_->form().read();
     if (!settings) return failure(settings);
     RunOrder order;
     order.script = source_;
     order.declaration = *declaration_;
     order.settings = std::move(*settings);
-    if (auto filled = wiring_->fill(order); !filled) return failure(filled);
-    order.notes = notes_->notes();
-    order.profile = desk_.profile();
-    order.limits = desk_.limits();
+    if (auto filled = pages_->wiring().fill(order); !filled) return failure(filled);
+    order.notes = controller_.day().notes();
+    order.profile = controller_.profile();
+    order.limits = controller_.limits();
     return order;
 }
 
@@ -207,14 +268,20 @@ void ProtocolWorkspace::runAsked() {
     auto asked = order();
     if (!asked) {
         panel_->say(sentence(asked.error()));
-        return form_->goToRefused();
+        const bool inWiring = !devicesOf(pages_->wiring().devices());
+        const auto part = pages_->form().goToRefused();
+        if (part || inWiring) showStep(part ? (*part ? kReference : kSettings) : kWiring);
+        return;
     }
     preview();  // of these settings, not of those of a moment ago
-    if (!obstacle_.isEmpty()) return;
-    const auto harmless = desk_.allVirtual(asked->uris);
+    if (!obstacle_.isEmpty()) {
+        if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
+        return;
+    }
+    const auto harmless = controller_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
     asked_ = std::move(*asked);
-    askedAt_ = desk_.mark();
+    askedAt_ = controller_.mark();
     askedSince_.start();
     if (*harmless) return runNow();
     panel_->say({});
@@ -225,55 +292,38 @@ void ProtocolWorkspace::runAsked() {
 
 /// Also one that is just ending: what it still says is not this page's.
 bool ProtocolWorkspace::anotherRuns() const {
-    return desk_.activity() != Activity::Closed && desk_.activity() != Activity::Live;
+    return controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live;
 }
 
 void ProtocolWorkspace::runNow() {
     if (running_ || !asked_) return;
     if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
     // The first of the two steps is void after a stop, and does not wait for ever.
-    if (desk_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
+    if (controller_.stoppedSince(askedAt_) || askedSince_.nsecsElapsed() > Interlock::kConfirmWithin.count())
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
     paused_ = seenPaused_ = false;
-    result_->clear();
-    document_->close();
-    tabs_->setTabEnabled(tabs_->indexOf(pdf_), false);
-    log_->clear();
-    plane_->begin(false, featuresOf(plotOf()));
-    loads_->begin();
-    calibration_->begin(asked_->settings.parameters);
-    calibration_->setSimulated(false);
-    showPlot(plotOf());
-    wave_->show(nullptr);
+    last_.reset();
+    pages_->views().begin(plotOf(*declaration_), asked_->settings.parameters);
+    pages_->sign().clear();
+    panel_->setLeading(true);
     panel_->begin();
-    steps_->setNote(kRun, {});
-    steps_->setNote(kResult, {});
-    steps_->setCurrent(kRun);
-    tabs_->setCurrentWidget(log_);
+    steps_->setState(kSettings, State::Done);
+    steps_->setState(kRun, State::UnderWay);
+    steps_->setOutOfReach(kRun, {});
+    steps_->setState(kResult, State::ToDo);
+    steps_->setOutOfReach(kResult, tr("There is no result yet: the run goes on."));
+    for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
+    showStep(kRun);
     showButtons();
-    desk_.run(*std::exchange(asked_, std::nullopt), askedAt_);
+    controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
 }
 
 void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     if (!running_) return;
-    const auto feed = desk_.takeRunFeed();
-    for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
-    for (const auto& trial : feed.trials) {
-        plane_->add(trial);
-        if (LoadRows::isOfLoad(trial)) {
-            loads_->add(trial);
-            showPlot(Plot::Loads);
-        } else if (CalibrationView::isReading(trial)) {
-            calibration_->add(trial);
-            showPlot(Plot::Calibration);
-        }
-    }
-    calibration_->draw();
-    if (!feed.captures.empty()) {
-        wave_->show(feed.captures.back());
-        emit captured(feed.captures.back());
-    }
+    const auto feed = controller_.takeRunFeed();
+    pages_->views().take(feed);
+    if (!feed.captures.empty()) emit captured(feed.captures.back());
     if (feed.progress) steps_->setNote(kRun, tr("%1 of %2").arg(feed.progress->done).arg(feed.progress->total));
     // It may have been paused and resumed from elsewhere.
     const bool isPaused = telemetry.state == InterlockState::Paused;
@@ -281,50 +331,78 @@ void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
     panel_->show(feed.progress ? &*feed.progress : nullptr, paused_, prompt_->open());
 }
 
-void ProtocolWorkspace::ended(const FinishedRun& run) {
+void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     if (!running_) return;
     refresh({});
     running_ = false;
+    last_ = run;
     prompt_->close();
-    const auto& error = run.result.outcome.error;
-    plane_->setSimulated(run.result.simulated);
-    calibration_->setSimulated(run.result.simulated);
+    const auto& error = run->result.outcome.error;
+    const bool watched = panel_->isAncestorOf(QApplication::focusWidget());
     panel_->end(error.has_value());
-    // A script may return anything under any name.
-    const auto shows = [&](auto&& show) {
-        try {
-            show();
-        } catch (const nlohmann::json::exception& problem) {
-            panel_->say(
-                tr("The results do not have the shape that is shown here (%1); the session holds them as they are.")
-                    .arg(QString::fromUtf8(problem.what())));
-        }
-    };
-    shows([&] { loads_->end(run.result.outcome.results); });
-    shows([&] { calibration_->end(run.result.outcome.results); });
-    shows([&] { result_->show(run); });
-    steps_->setCurrent(kAllDone);
-    steps_->setTroubled(kRun, false);
-    steps_->setNote(kResult, result_->word());
-    tabs_->setCurrentWidget(result_);
+    panel_->setLeading(false);
+    if (const auto odd = pages_->views().end(*run); !odd.isEmpty()) panel_->say(odd);
+    pages_->sign().show(*run);
+    steps_->setState(kRun, error ? State::Troubled : State::Done);
+    steps_->setState(kResult, State::Done);
+    steps_->setNote(kResult, pages_->views().word());
+    steps_->setOutOfReach(kResult, {});
+    showStep(kResult);
     showButtons();
+    if (watched) steps_->focusShown();  // Stop had the keys, and is gone
     if (!error) return;
-    if (run.result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
-    if (editor_ != nullptr && editor_->isVisible() && run.result.outcome.line > 0)
-        editor_->showError(run.result.outcome.line, QString::fromStdString(error->message));
+    if (run->result.session.empty()) panel_->say(tr("%1 Output is off.").arg(sentence(*error)));
+    if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)
+        editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
+}
+
+void ProtocolWorkspace::goOn(NextStep next) {
+    if (!last_) return;
+    switch (next) {
+        case NextStep::UseProfile:
+            return useProfile();
+        case NextStep::Check:
+        case NextStep::Calibrate:
+            set("mode", next == NextStep::Check ? "check" : "full");
+            return runAsked();
+        case NextStep::SafetyCheck:
+            emit safetyCheckWanted();
+            return;
+        case NextStep::Live:
+            emit liveWanted();
+            return;
+        case NextStep::Sign:
+            return goTo(kSign);
+        case NextStep::Session:
+            emit sessionWanted(QString::fromStdString(last_->result.session.string()));
+            return;
+        case NextStep::ChangeSettings:
+            return goTo(kSettings);
+    }
+}
+
+/// The bench checks it as any other: a profile that it cannot have is refused, and failed() says why.
+void ProtocolWorkspace::useProfile() {
+    const auto& made = memberAt(last_->result.outcome.results, "profile.profile");
+    const auto profile = parseProfile(dumpJson(made), "the profile of this result");
+    if (!profile) return panel_->say(sentence(profile.error()));
+    controller_.setProfile(*profile);
+    steps_->setNote(kResult, tr("profile in use"));
 }
 
 void ProtocolWorkspace::showButtons() {
-    panel_->setReady(declaration_.has_value(), obstacle_);
-    form_->setEnabled(!running_);
-    wiring_->setEnabled(!running_);
-    notes_->setEnabled(!running_);
-    if (chooser_ != nullptr) chooser_->setEnabled(!running_);
+    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
+    pages_->setChangeable(!running_);
+    head_->setChangeable(!running_);
+}
+
+ScriptEditor* ProtocolWorkspace::unsavedScript() const {
+    return editor_ != nullptr && editor_->unsaved() ? editor_ : nullptr;
 }
 
 void ProtocolWorkspace::edit(const ProtocolSource& source, int line, const QString& why) {
     if (editor_ == nullptr) {
-        editor_ = new ScriptEditor(this);
+        editor_ = new ScriptEditor(controller_, this);
         connect(editor_, &ScriptEditor::saved, this, &ProtocolWorkspace::saved);
         connect(editor_, &ScriptEditor::runRequested, this, [this](const QString& path) {
             editor_->hide();
@@ -340,20 +418,7 @@ void ProtocolWorkspace::edit(const ProtocolSource& source, int line, const QStri
 void ProtocolWorkspace::saved(const QString& path) {
     if (running_) return;  // the next choice reads it
     const auto name = QFileInfo(path).completeBaseName();
-    if (chooser_ != nullptr)
-        fillChooser(name);
-    else if (name == fixed_)
-        choose(fixed_);
-}
-
-void ProtocolWorkspace::openReport(const QString& pdf) {
-    document_->load(pdf);
-    const bool readable = document_->pageCount() > 0;
-    tabs_->setTabEnabled(tabs_->indexOf(pdf_), readable);
-    if (readable)
-        tabs_->setCurrentWidget(pdf_);
-    else
-        panel_->say(tr("%1 cannot be shown here. Open it with another program.").arg(pdf));
+    if (head_->chooses() || name == fixed_) fillChooser(name);
 }
 
 }  // namespace tacto::gui

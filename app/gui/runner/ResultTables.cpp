@@ -1,214 +1,160 @@
 #include "app/gui/runner/ResultTables.h"
 
 #include <QFormLayout>
-#include <QHeaderView>
-#include <QJsonDocument>
-#include <QJsonObject>
 #include <QLabel>
-#include <QTreeWidget>
 
 #include "app/gui/calibrate/CalibrationResult.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/look/TableText.h"
+#include "app/gui/theme/Theme.h"
+#include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
 namespace {
 
-QString titleOf(const QString& key) {
-    const auto name = columnName(key);
-    return name.title.isEmpty() ? key : name.title;
+using nlohmann::json;
+using Shape = ResultTable::Shape;
+
+QStringList textsOf(const json& list) {
+    QStringList texts;
+    if (!list.is_array()) return texts;
+    for (const auto& one : list) {
+        if (one.is_string()) texts << visible(QString::fromStdString(one.get<std::string>()));
+    }
+    return texts;
 }
 
-QJsonValue inQt(const nlohmann::json& value) {
-    const auto wrapped = nlohmann::json{{"v", value}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return QJsonDocument::fromJson(QByteArray::fromStdString(wrapped)).object().value("v");
+QStringList namesOf(const json& records) {
+    QStringList names;
+    if (!records.is_array()) return names;
+    for (const auto& one : records) {
+        const auto& name = memberAt(one, "name");
+        names << (name.is_string() ? visible(QString::fromStdString(name.get<std::string>())) : QString());
+    }
+    return names;
 }
 
-bool isOneCell(const nlohmann::json& value) {
-    return value.is_primitive() || value.contains("mean") || (value.contains("value") && value.contains("low"));
-}
-
-bool isRows(const nlohmann::json& value) {
-    return value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [](const auto& row) {
-               return row.is_object() &&
-                      std::all_of(row.begin(), row.end(), [](const auto& cell) { return isOneCell(cell); });
-           });
-}
-
-bool isMatrix(const nlohmann::json& value) {
-    return value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [&](const auto& row) {
+bool isMatrix(const json& value) {
+    return value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [&](const json& row) {
                return row.is_array() && row.size() == value.front().size() &&
-                      std::all_of(row.begin(), row.end(), [](const auto& cell) { return cell.is_primitive(); });
+                      std::all_of(row.begin(), row.end(), [](const json& cell) { return cell.is_number(); });
            });
-}
-
-/// What names a row stands first, how many it is of second; the rest as it comes.
-QStringList columnsOf(const nlohmann::json& rows) {
-    QStringList columns;
-    for (const auto& row : rows) {
-        for (const auto& [key, cell] : row.items()) {
-            if (const auto name = QString::fromStdString(key); !columns.contains(name)) columns << name;
-        }
-    }
-    const QStringList first{"name", "condition", "a", "b", "n"};
-    std::stable_sort(columns.begin(), columns.end(), [&](const QString& one, const QString& other) {
-        const auto rank = [&](const QString& key) { return first.contains(key) ? first.indexOf(key) : first.size(); };
-        return rank(one) < rank(other);
-    });
-    return columns;
-}
-
-void grow(QTreeWidgetItem* item, const QString& key, const nlohmann::json& value) {
-    item->setText(0, titleOf(key));
-    if (isOneCell(value)) return item->setText(1, shownValue(value, key));
-    int index = 0;
-    for (const auto& [inner, part] : value.items()) {
-        ++index;
-        grow(new QTreeWidgetItem(item), value.is_array() ? QString::number(index) : QString::fromStdString(inner),
-             part);
-    }
 }
 
 }  // namespace
 
-QString shownValue(const nlohmann::json& value, const QString& key) {
-    if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
-    if (value.is_object() && value.contains("value") && value["value"].is_number()) {
-        const auto number = [&](const char* name) {
-            const auto at = value.find(name);
-            return at != value.end() && at->is_number() ? at->get<double>() : std::nan("");
-        };
-        Estimate estimate;
-        estimate.value = number("value");
-        estimate.low = number("low");
-        estimate.high = number("high");
-        // A share of a whole, where all three lie within 0 and 1 and the key names no unit.
-        if (estimate.low >= 0 && estimate.high <= 1 && columnName(key).unit.isEmpty()) return proportionText(estimate);
-    }
-    return cellText(inQt(value), columnName(key).unit);
-}
-
 ResultTables::ResultTables(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {
+    setObjectName("resultTables");
     layout_->setContentsMargins(0, 0, 0, 0);
 }
 
-void ResultTables::show(const nlohmann::json& results) {
+void ResultTables::show(const json& results) {
     delete std::exchange(body_, nullptr);
     if (!results.is_object() || results.empty()) return;
     body_ = new QWidget(this);
     column_ = new QVBoxLayout(body_);
     column_->setContentsMargins(0, 0, 0, 0);
-    addValues(results);
-    for (const auto& [key, value] : results.items()) {
-        if (key == "trials" || key == "reasons" || key == "kind" || isOneCell(value) || value.empty()) continue;
-        const auto title = titleOf(QString::fromStdString(key));
-        if (CalibrationResult::isCalibration(value))
-            column_->addWidget(new CalibrationResult(key, value, body_));
-        else if (isRows(value))
-            addRows(title, value);
-        else if (isMatrix(value))
-            addMatrix(title, value, results);
-        else
-            addTree(title, value);
-    }
+    const auto& kind = memberAt(results, "kind");
+    const auto& known = tablesOf(kind.is_string() ? kind.get<std::string>() : std::string());
+    for (const auto& table : known.empty() ? tablesIn(results) : known) add(table, results);
     column_->addStretch();
     layout_->addWidget(body_);
 }
 
-void ResultTables::addValues(const nlohmann::json& results) {
-    auto* form = new QFormLayout;
-    for (const auto& [key, value] : results.items()) {
-        const auto name = QString::fromStdString(key);
-        if (key == "verdict" || key == "kind" || !isOneCell(value)) continue;
-        auto* shown = new QLabel(shownValue(value, name), body_);
-        shown->setTextFormat(Qt::PlainText);
-        shown->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        form->addRow(titleOf(name), shown);
+void ResultTables::add(const ResultTable& table, const json& results) {
+    const auto& value = table.at.empty() ? results : memberAt(results, table.at);
+    switch (table.shape) {
+        case Shape::Facts:
+            if (value.is_object()) addFacts(table, value);
+            break;
+        case Shape::Rows:
+            if (value.is_array()) addRows(table, value);
+            break;
+        case Shape::Sentences:
+            addSentences(table, value);
+            break;
+        case Shape::Confusion:
+            if (isMatrix(value)) addConfusion(table, results);
+            break;
+        case Shape::Calibration:
+            if (CalibrationResult::isCalibration(value)) column_->addWidget(new CalibrationResult(table.at, value));
+            break;
     }
+}
+
+void ResultTables::addHeading(const QString& title) {
+    auto* head = new QLabel(title, body_);
+    head->setTextFormat(Qt::PlainText);
+    setTextSize(*head, TextSize::Body, true);
+    column_->addSpacing(fontMetrics().height() / 2);
+    column_->addWidget(head);
+}
+
+void ResultTables::addFacts(const ResultTable& table, const json& record) {
+    auto* form = new QFormLayout;
+    form->setHorizontalSpacing(fontMetrics().averageCharWidth() * 3);
+    for (const auto& column : table.columns) {
+        if (memberAt(record, column.at).is_null()) continue;
+        auto one = columnText(column, json::array({record}));
+        auto* shown = new QLabel(one.cells.first(), body_);
+        shown->setTextFormat(Qt::PlainText);
+        shown->setWordWrap(true);
+        shown->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        auto* name = new QLabel(one.header.replace('\n', ' '), body_);
+        name->setTextFormat(Qt::PlainText);
+        setTone(*name, Tone::Quiet);
+        form->addRow(name, shown);
+    }
+    if (form->rowCount() == 0) return delete form;
+    addHeading(table.title);
     column_->addLayout(form);
 }
 
-QTableWidget* ResultTables::addTable(const QString& title, int rows, const QStringList& columns) {
-    auto* above = new QLabel(title, body_);
-    above->setTextFormat(Qt::PlainText);
-    auto font = above->font();
-    font.setBold(true);
-    above->setFont(font);
-    column_->addWidget(above);
-    auto* table = new QTableWidget(rows, int(columns.size()), body_);
-    table->setAccessibleName(title);
-    table->setHorizontalHeaderLabels(columns);
-    table->verticalHeader()->hide();
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->setAlternatingRowColors(true);
-    table->setWordWrap(false);
-    table->setTabKeyNavigation(false);
-    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    column_->addWidget(table);
-    return table;
+void ResultTables::addRows(const ResultTable& table, const json& records) {
+    auto shown = json::array();
+    for (const auto& record : records) {
+        if (record.is_object() && (table.but.empty() || memberAt(record, "verdict") != table.but))
+            shown.push_back(record);
+    }
+    if (shown.empty() || table.columns.empty()) return;
+    addHeading(table.title);
+    auto* made = makeRecordTable(table.columns, shown, body_);
+    made->setAccessibleName(table.title);
+    column_->addWidget(made);
 }
 
-void ResultTables::addRows(const QString& title, const nlohmann::json& rows) {
-    const auto columns = columnsOf(rows);
-    QStringList titles;
-    for (const auto& key : columns) titles << titleOf(key);
-    auto* table = addTable(title, int(rows.size()), titles);
-    for (int c = 0; c < int(columns.size()); ++c) {
-        const auto& key = columns[c];
-        const auto unit = columnName(key).unit;
-        std::vector<double> numbers;  // compared with each other: alike in prefix and decimals
-        for (const auto& row : rows) {
-            const auto at = row.find(key.toStdString());
-            numbers.push_back(at != row.end() && at->is_number() ? at->get<double>() : std::nan(""));
-        }
-        const auto format = columnFormat(numbers, unit);
-        for (int r = 0; r < int(rows.size()); ++r) {
-            const auto& row = rows[std::size_t(r)];
-            const auto at = row.find(key.toStdString());
-            const double number = numbers[std::size_t(r)];
-            const auto text = at == row.end()                   ? QString("–")
-                              : format && std::isfinite(number) ? quantityText(number, unit, *format)
-                                                                : shownValue(*at, key);
-            putText(*table, r, c, text, at != row.end() && !at->is_string());
-        }
+void ResultTables::addSentences(const ResultTable& table, const json& sentences) {
+    const auto texts = textsOf(sentences);
+    if (texts.isEmpty()) return;
+    addHeading(table.title);
+    for (const auto& text : texts) {
+        auto* line = new QLabel(text, body_);
+        line->setTextFormat(Qt::PlainText);
+        line->setWordWrap(true);
+        line->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        column_->addWidget(line);
     }
-    fitToRows(*table);
 }
 
-void ResultTables::addMatrix(const QString& title, const nlohmann::json& rows, const nlohmann::json& results) {
-    QStringList names;
-    if (const auto at = results.find("conditions");
-        at != results.end() && at->is_array() && at->size() == rows.size()) {
-        for (const auto& condition : *at) {
-            if (condition.is_object()) names << QString::fromStdString(condition.value("name", std::string()));
+void ResultTables::addConfusion(const ResultTable& table, const json& results) {
+    const auto& counts = memberAt(results, table.at);
+    const auto names = namesOf(memberAt(results, "conditions"));
+    auto across = textsOf(memberAt(results, "columns"));
+    if (across.isEmpty()) across = names;
+    addHeading(table.title);
+    auto* made = new QTableWidget(int(counts.size()), int(counts.front().size()) + 1, body_);
+    made->setAccessibleName(table.title);
+    QStringList header{tr("Presented ↓  recognised as →")};
+    for (int c = 1; c < made->columnCount(); ++c) header << across.value(c - 1, QString::number(c));
+    made->setHorizontalHeaderLabels(header);
+    for (int r = 0; r < made->rowCount(); ++r) {
+        putText(*made, r, 0, names.value(r, QString::number(r + 1)), false);
+        for (int c = 1; c < made->columnCount(); ++c) {
+            const double count = counts[std::size_t(r)][std::size_t(c) - 1].get<double>();
+            putText(*made, r, c, settingText(count, {}), true);
         }
     }
-    const int columns = int(rows.front().size());
-    const bool named = names.size() == qsizetype(rows.size()) && names.size() == columns;
-    QStringList header{named ? tr("Presented ↓  recognised as →") : QString()};
-    for (int c = 0; c < columns; ++c) header << (named ? names[c] : QString::number(c + 1));
-    auto* table = addTable(title, int(rows.size()), header);
-    for (int r = 0; r < int(rows.size()); ++r) {
-        putText(*table, r, 0, named ? names[r] : QString::number(r + 1), false);
-        for (int c = 0; c < columns; ++c)
-            putText(*table, r, c + 1, shownValue(rows[std::size_t(r)][std::size_t(c)], {}), true);
-    }
-    fitToRows(*table);
-}
-
-void ResultTables::addTree(const QString& title, const nlohmann::json& value) {
-    auto* tree = new QTreeWidget(body_);
-    tree->setAccessibleName(title);
-    tree->setHeaderLabels({tr("Result"), tr("Value")});
-    tree->setAlternatingRowColors(true);
-    auto* root = new QTreeWidgetItem(tree);
-    grow(root, title, value);
-    root->setText(0, title);
-    root->setExpanded(true);
-    tree->resizeColumnToContents(0);
-    column_->addWidget(tree);
+    layOutRecordTable(*made);
+    column_->addWidget(made);
 }
 
 }  // namespace tacto::gui

@@ -1,14 +1,14 @@
-// ResultTables.h - the numbers that a protocol's verdict was given, laid out for reading: single values in a form,
-// lists of rows as tables, matrices with the names of the conditions; anything else as a tree.
+// ResultTables.h - the numbers that a protocol's verdict was given, as tables by the schema of their kind
+// (ResultSchema.h).
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QString>
-#include <QTableWidget>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <nlohmann/json.hpp>
+
+#include "app/gui/runner/ResultSchema.h"
 
 namespace tacto::gui {
 
@@ -16,22 +16,20 @@ class ResultTables final : public QWidget {
     Q_OBJECT
 public:
     explicit ResultTables(QWidget* parent = nullptr);
-    /// Replaces what is shown. What stands elsewhere (verdict, reasons, the trials) is left out.
+    /// Replaces what is shown.
     void show(const nlohmann::json& results);
     [[nodiscard]] bool empty() const { return body_ == nullptr; }
 
 private:
-    void addValues(const nlohmann::json& results);
-    void addRows(const QString& title, const nlohmann::json& rows);
-    void addMatrix(const QString& title, const nlohmann::json& rows, const nlohmann::json& results);
-    void addTree(const QString& title, const nlohmann::json& value);
-    QTableWidget* addTable(const QString& title, int rows, const QStringList& columns);
+    void add(const ResultTable& table, const nlohmann::json& results);
+    void addHeading(const QString& title);
+    void addFacts(const ResultTable& table, const nlohmann::json& record);
+    void addRows(const ResultTable& table, const nlohmann::json& records);
+    void addSentences(const ResultTable& table, const nlohmann::json& sentences);
+    void addConfusion(const ResultTable& table, const nlohmann::json& results);
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
     QVBoxLayout* column_ = nullptr;
 };
-
-/// A value as a cell of a table shows it: a number with its unit, a statistic, an estimate, yes or no.
-[[nodiscard]] QString shownValue(const nlohmann::json& value, const QString& key);
 
 }  // namespace tacto::gui

@@ -1,10 +1,12 @@
 #include "app/gui/runner/RunPanel.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "app/gui/look/ConfirmButton.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -51,8 +53,17 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     obstacle_->setObjectName("runObstacle");
     obstacle_->setWordWrap(true);
     obstacle_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    setTone(*obstacle_, Tone::Warning);
     obstacle_->hide();
     layout->addWidget(obstacle_);
+    changeProfile_ = new QPushButton(tr("Change profile…"), this);
+    changeProfile_->setObjectName("changeProfile");
+    changeProfile_->setAutoDefault(false);
+    changeProfile_->setToolTip(
+        tr("Opens the encoding profile: a smaller amplitude or a longer interval keeps the limit."));
+    connect(changeProfile_, &QPushButton::clicked, this, &RunPanel::profileChangeWanted);
+    changeProfile_->hide();
+    layout->addWidget(changeProfile_);
     trouble_ = new QLabel(this);
     trouble_->setTextFormat(Qt::PlainText);
     trouble_->setObjectName("runTrouble");
@@ -72,6 +83,7 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     auto* row = new QHBoxLayout;
     run_ = new QPushButton(tr("R&un"), this);
     run_->setObjectName("runButton");
+    makePrimary(*run_);
     connect(run_, &QPushButton::clicked, this, &RunPanel::runWanted);
     setFocusProxy(run_);
     pause_ = new ConfirmButton({}, this);
@@ -86,19 +98,19 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
     connect(stop_, &QPushButton::clicked, this, &RunPanel::stopWanted);
     for (auto* button : {run_, static_cast<QPushButton*>(pause_), stop_}) {
         button->setAutoDefault(false);
-        row->addWidget(button);
+        row->addWidget(button, 1);
     }
     layout->addLayout(row);
     bar_ = new QProgressBar(this);
     bar_->setAccessibleName(tr("Progress"));
     bar_->setRange(0, 1);
     bar_->setValue(0);
-    bar_->setFormat(tr("not started"));
     layout->addWidget(bar_);
-    left_ = new QLabel(" ", this);
+    bar_->hide();
+    left_ = new QLabel(tr("F5 runs; Esc stops."), this);
     left_->setTextFormat(Qt::PlainText);
     left_->setObjectName("timeLeft");
-    left_->setForegroundRole(QPalette::PlaceholderText);
+    setTone(*left_, Tone::Quiet);
     layout->addWidget(left_);
     showButtons();
 }
@@ -119,7 +131,7 @@ QWidget* RunPanel::buildQuestion() {
         question_->hide();
         emit confirmed();
     });
-    back_ = new QPushButton(tr("&Back"), holder);
+    back_ = new QPushButton(tr("Back"), holder);
     back_->setToolTip(tr("Nothing is opened and nothing put out."));
     back_->setAutoDefault(false);
     connect(back_, &QPushButton::clicked, this, [this] {
@@ -134,13 +146,20 @@ QWidget* RunPanel::buildQuestion() {
     return holder;
 }
 
-void RunPanel::setReady(bool ready, const QString& obstacle) {
+void RunPanel::setLeading(bool leading) {
+    makePrimary(*run_, leading);
+    run_->setText(leading ? tr("R&un") : tr("R&un again"));
+}
+
+void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {
     ready_ = ready && obstacle.isEmpty();
+    changeProfile_->setVisible(byProfile && !obstacle.isEmpty());
     if (!ready_) question_->hide();
     obstacle_->setText(obstacle.isEmpty() ? QString() : "⚠ " + obstacle);
     obstacle_->setVisible(!obstacle.isEmpty());
+    // A script's words are no markup.
     run_->setToolTip(!obstacle.isEmpty()
-                         ? obstacle
+                         ? (Qt::mightBeRichText(obstacle) ? obstacle.toHtmlEscaped() : obstacle)
                          : tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is "
                               "open under Live is closed first."));
     showButtons();
@@ -160,6 +179,11 @@ void RunPanel::askToArm(const QString& what) {
     back_->setFocus();
 }
 
+void RunPanel::withdrawQuestion() {
+    if (question_->isAncestorOf(QApplication::focusWidget())) run_->setFocus();
+    question_->hide();
+}
+
 void RunPanel::begin() {
     say({});
     question_->hide();
@@ -168,6 +192,7 @@ void RunPanel::begin() {
     progress_ = {};
     since_.restart();
     timeLeft_.begin();
+    bar_->show();
     bar_->setRange(0, 0);
     bar_->setFormat(tr("starting"));
     left_->setText(tr("opening the devices"));
@@ -205,15 +230,16 @@ void RunPanel::end(bool early) {
     bar_->setRange(0, std::max(1, int(progress_.total)));
     bar_->setValue(early ? int(progress_.done) : bar_->maximum());
     bar_->setFormat(early ? tr("ended early%1").arg(steps) : tr("done"));
+    bar_->setVisible(early);
     left_->setText(tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
     showButtons();
 }
 
 void RunPanel::showButtons() {
     run_->setEnabled(!running_ && ready_);
-    pause_->setEnabled(running_);
+    pause_->setVisible(running_);
     pause_->setMeaning(paused_ ? tr("&Resume") : tr("&Pause"), paused_);
-    stop_->setEnabled(running_);
+    stop_->setVisible(running_);
 }
 
 }  // namespace tacto::gui

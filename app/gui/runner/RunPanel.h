@@ -9,7 +9,7 @@
 #include <QPushButton>
 #include <QWidget>
 
-#include "app/scripting/ScriptRun.h"
+#include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto::gui {
 
@@ -36,12 +36,16 @@ class RunPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RunPanel(QWidget* parent = nullptr);
-    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may.
-    void setReady(bool ready, const QString& obstacle = {});
+    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may. The
+    /// profile may be what is in the way: then it can be changed from here.
+    void setReady(bool ready, const QString& obstacle = {}, bool byProfile = false);
+    /// Run is what goes on; once a result is shown something else is, and Run is there to run again.
+    void setLeading(bool leading);
     /// A sentence in the way of the run; empty for none. `line` of the script that it is about; 0 for none.
     void say(const QString& what, int line = 0);
     /// The second deliberate step before a run on hardware: confirmed() follows, or nothing.
     void askToArm(const QString& what);
+    void withdrawQuestion();
     void begin();
     /// At each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
     void show(const ScriptProgress* progress, bool paused, bool waiting);
@@ -53,6 +57,7 @@ signals:
     void pauseWanted(bool pause);
     void stopWanted();
     void lineWanted(int line, const QString& why);
+    void profileChangeWanted();
 
 private:
     [[nodiscard]] QWidget* buildQuestion();
@@ -60,6 +65,7 @@ private:
     QLabel* obstacle_;
     QLabel* trouble_;
     QPushButton* toLine_;
+    QPushButton* changeProfile_;
     QWidget* question_;
     QLabel* questionText_ = nullptr;
     QPushButton* arm_ = nullptr;

@@ -1,12 +1,19 @@
 #include "app/gui/runner/ScriptEditor.h"
 
 #include <QDir>
+#include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QRegularExpression>
+#include <QShortcut>
+#include <QSplitter>
+#include <QTextBrowser>
+#include <QVBoxLayout>
 
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/WholeFile.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto::gui {
 
@@ -30,7 +37,152 @@ function run(p) {
 }
 )js";
 
+constexpr int kCheckAfter_ms = 600;  // without a key press
+constexpr int kLook_ms = 100;
+
 }  // namespace
+
+ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
+    : QDialog(parent),
+      controller_(controller),
+      reading_([this](const auto&, const auto& declaration) { checked(declaration); }) {
+    setObjectName("scriptEditor");
+    setWindowFlag(Qt::WindowMinMaxButtonsHint);
+    setSizeGripEnabled(true);
+    auto* layout = new QVBoxLayout(this);
+    auto* split = new QSplitter(Qt::Horizontal, this);
+    split->setChildrenCollapsible(false);
+    auto* text = new QWidget(split);
+    auto* column = new QVBoxLayout(text);
+    column->setContentsMargins(0, 0, 0, 0);
+    code_ = new CodeEdit(text);
+    code_->setAccessibleName(tr("Script"));
+    find_ = new FindBar(*code_, text);
+    column->addWidget(find_);
+    column->addWidget(code_, 1);
+    auto* reference = new QTextBrowser(split);
+    reference->setAccessibleName(tr("Reference of the host objects"));
+    reference->setMarkdown(QString::fromStdString(scriptReference()));
+    split->addWidget(text);
+    split->addWidget(reference);
+    split->setStretchFactor(0, 3);
+    split->setStretchFactor(1, 2);
+    layout->addWidget(split, 1);
+    message_ = new QLabel(this);
+    message_->setTextFormat(Qt::PlainText);
+    message_->setObjectName("scriptMessage");
+    message_->setWordWrap(true);
+    message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    layout->addWidget(message_);
+    naming_ = buildNaming();
+    leaving_ = buildLeaving();
+    layout->addWidget(naming_);
+    layout->addWidget(leaving_);
+    buildButtons();
+    later_.setSingleShot(true);
+    later_.setInterval(kCheckAfter_ms);
+    connect(&later_, &QTimer::timeout, this, &ScriptEditor::check);
+    connect(code_, &QPlainTextEdit::textChanged, this, [this] {
+        if (code_->document()->isModified()) later_.start();
+    });
+    connect(code_->document(), &QTextDocument::modificationChanged, this, &QWidget::setWindowModified);
+    resize(fontMetrics().averageCharWidth() * 150, fontMetrics().height() * 42);
+}
+
+QWidget* ScriptEditor::buildNaming() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    name_ = new QLineEdit(holder);
+    name_->setObjectName("protocolName");
+    name_->setToolTip(tr("Letters, digits, - and _. The name of a shipped protocol takes that one's place."));
+    auto* label = new QLabel(tr("Save as &protocol"), holder);
+    label->setBuddy(name_);
+    auto* save = new QPushButton(tr("Sa&ve as"), holder);
+    save->setToolTip(tr("Writes it into the lab's own protocols."));
+    auto* back = new QPushButton(tr("Do not save"), holder);
+    back->setToolTip(tr("Back to the text."));
+    row->addWidget(label);
+    row->addWidget(name_, 1);
+    row->addWidget(save);
+    row->addWidget(back);
+    connect(name_, &QLineEdit::returnPressed, this, [this] { saveAs(name_->text().trimmed()); });
+    connect(save, &QPushButton::clicked, this, [this] { saveAs(name_->text().trimmed()); });
+    connect(back, &QPushButton::clicked, this, [this] {
+        stay();
+        naming_->hide();
+        code_->setFocus();
+    });
+    for (auto* button : {save, back}) button->setAutoDefault(false);
+    holder->hide();
+    return holder;
+}
+
+QWidget* ScriptEditor::buildLeaving() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->addWidget(new QLabel(tr("⚠ There are changes that are not saved."), holder), 1);
+    const auto add = [&](const QString& text, const QString& tip, auto act) {
+        auto* button = new QPushButton(text, holder);
+        button->setAutoDefault(false);
+        button->setToolTip(tip);
+        connect(button, &QPushButton::clicked, this, act);
+        row->addWidget(button);
+    };
+    add(tr("&Keep editing"), tr("Back to the text."), [this] {
+        stay();
+        leaving_->hide();
+        code_->setFocus();
+    });
+    add(tr("Save and close"), tr("Into the lab's own protocols."), [this] { saveAndLeave(); });
+    add(tr("&Discard the changes"), tr("What was saved before stays as it is."), [this] {
+        leaving_->hide();
+        leave();
+    });
+    holder->hide();
+    return holder;
+}
+
+void ScriptEditor::buildButtons() {
+    auto* row = new QHBoxLayout;
+    const auto button = [&](const QString& text, const QString& tip, auto slot) {
+        auto* made = new QPushButton(text, this);
+        made->setToolTip(tip);
+        made->setAutoDefault(false);
+        connect(made, &QPushButton::clicked, this, slot);
+        row->addWidget(made);
+        return made;
+    };
+    const auto saveAndRun = [this] {
+        runWhenSaved_ = !source_.shipped;
+        if (runWhenSaved_ && !source_.path.empty() && !code_->document()->isModified()) {
+            runWhenSaved_ = false;
+            emit runRequested(QString::fromStdString(source_.path.string()));
+        } else {
+            save();
+        }
+    };
+    button(tr("&Check"), tr("Reads what the script declares. Nothing is delivered."), &ScriptEditor::check);
+    save_ = button(tr("&Save"), tr("Into the lab's own protocols (Ctrl+S)."), &ScriptEditor::save);
+    row->addStretch();
+    button(tr("&Run…"), tr("Saves it and shows its settings in the workspace, where F5 runs it (F5)."), saveAndRun);
+    button(tr("C&lose"), tr("Closes the editor; asks where something is not saved."), &QDialog::reject);
+    static_cast<QVBoxLayout*>(layout())->addLayout(row);
+    connect(new QShortcut(QKeySequence::Save, this), &QShortcut::activated, this, &ScriptEditor::save);
+    connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, this, [this] {
+        find_->begin();
+        look();
+        look_.start();
+    });
+    for (const bool forward : {true, false}) {
+        const auto keys = forward ? QKeySequence::FindNext : QKeySequence::FindPrevious;
+        connect(new QShortcut(keys, this), &QShortcut::activated, this, [this, forward] { find_->go(forward); });
+    }
+    look_.setInterval(kLook_ms);
+    connect(&look_, &QTimer::timeout, this, &ScriptEditor::look);
+    connect(new QShortcut(QKeySequence(Qt::Key_F5), this), &QShortcut::activated, this, saveAndRun);
+}
 
 void ScriptEditor::edit(const ProtocolSource& source) {
     const bool same = !source.text.empty() && source.path == source_.path && source.name == source_.name;
@@ -49,7 +201,7 @@ void ScriptEditor::edit(const ProtocolSource& source) {
     later_.stop();
     naming_->hide();
     leaving_->hide();
-    runWhenSaved_ = leaveWhenSaved_ = false;
+    stay();
     message_->setText(source.shipped
                           ? tr("This protocol comes with the program and cannot be changed here. Save a copy "
                                "to make it the lab's own.")
@@ -63,10 +215,13 @@ void ScriptEditor::edit(const ProtocolSource& source) {
     code_->setFocus();
 }
 
+QString ScriptEditor::scriptName() const {
+    return source_.name.empty() ? tr("new") : QString::fromStdString(source_.name);
+}
+
 void ScriptEditor::showTitle() {
-    const auto name = source_.name.empty() ? tr("new") : QString::fromStdString(source_.name);
-    setWindowTitle(source_.shipped ? tr("Protocol script: %1 (read-only)").arg(name)
-                                   : tr("Protocol script: %1[*]").arg(name));
+    setWindowTitle(source_.shipped ? tr("Protocol script: %1 (read-only)").arg(scriptName())
+                                   : tr("Protocol script: %1[*]").arg(scriptName()));
     setWindowModified(code_->document()->isModified());
     save_->setText(source_.shipped || source_.path.empty() ? tr("&Save a copy…") : tr("&Save"));
 }
@@ -123,7 +278,7 @@ void ScriptEditor::saveTo(const QString& path) {
     QDir().mkpath(QFileInfo(path).absolutePath());
     const auto text = code_->toPlainText().toUtf8();
     if (const auto written = writeWholeFile(path, text); !written) {
-        runWhenSaved_ = leaveWhenSaved_ = false;
+        stay();
         return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.")
                                      .arg(path, QString::fromStdString(written.error().message)));
     }
@@ -139,17 +294,52 @@ void ScriptEditor::saveTo(const QString& path) {
     emit saved(path);
     check();
     if (std::exchange(runWhenSaved_, false)) emit runRequested(path);
-    if (std::exchange(leaveWhenSaved_, false)) leave();
+    if (!std::exchange(leaveWhenSaved_, false)) return;
+    const auto left = std::exchange(left_, {});
+    leave();
+    if (left) left();
+}
+
+void ScriptEditor::saveAndLeave(std::function<void()> then) {
+    leaving_->hide();
+    runWhenSaved_ = false;
+    leaveWhenSaved_ = true;
+    left_ = std::move(then);
+    raise();
+    activateWindow();
+    save();
+}
+
+/// What was to follow once it is saved does not.
+void ScriptEditor::stay() {
+    runWhenSaved_ = leaveWhenSaved_ = false;
+    left_ = {};
+}
+
+void ScriptEditor::look() {
+    const auto state = controller_.telemetry().state;
+    wasLive_ =
+        state != InterlockState::Disconnected && state != InterlockState::Disarmed && state != InterlockState::Faulted;
+    if (!find_->isVisible()) look_.stop();
+}
+
+/// Esc stops the output, wherever the focus is. It closes the search only when there was nothing to stop, so that a
+/// stop does not lose the operator's place.
+void ScriptEditor::keyPressEvent(QKeyEvent* event) {
+    if (event->key() != Qt::Key_Escape || !find_->isVisible()) return QDialog::keyPressEvent(event);
+    if (!std::exchange(wasLive_, false)) find_->close();
 }
 
 void ScriptEditor::reject() {
-    if (!code_->document()->isModified()) return leave();
+    if (!unsaved()) return leave();
     leaving_->show();
     if (auto* first = leaving_->findChild<QPushButton*>()) first->setFocus();
 }
 
 void ScriptEditor::leave() {
+    stay();
     code_->document()->setModified(false);
+    naming_->hide();
     later_.stop();
     QDialog::reject();
 }

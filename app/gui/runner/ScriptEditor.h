@@ -11,8 +11,11 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTimer>
+#include <functional>
 
+#include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/CodeEdit.h"
+#include "app/gui/runner/FindBar.h"
 #include "app/gui/runner/ScriptReading.h"
 
 namespace tacto::gui {
@@ -20,13 +23,22 @@ namespace tacto::gui {
 class ScriptEditor final : public QDialog {
     Q_OBJECT
 public:
-    explicit ScriptEditor(QWidget* parent = nullptr);
+    /// `controller` outlives it.
+    explicit ScriptEditor(const BenchController& controller, QWidget* parent = nullptr);
     /// Opens the script; a source without text is a new one, from a template. What is unsaved stays, and a sentence
     /// says so.
     void edit(const ProtocolSource& source);
     /// Marks the line and says why.
     void showError(int line, const QString& why);
     [[nodiscard]] CodeEdit& code() { return *code_; }
+    [[nodiscard]] bool unsaved() const { return code_->document()->isModified(); }
+    /// "bend", "new": the script's name.
+    [[nodiscard]] QString scriptName() const;
+    /// Saves and closes; asks for a name where the script has none, in place. `then` is called once it is saved, and
+    /// forgotten when the operator goes back to the text or the file cannot be written.
+    void saveAndLeave(std::function<void()> then = {});
+    /// Closes without saving.
+    void leave();
 
 signals:
     void saved(const QString& path);
@@ -35,6 +47,9 @@ signals:
 
 public slots:
     void reject() override;  ///< Esc and the window's cross: asks first where something is unsaved
+
+protected:
+    void keyPressEvent(QKeyEvent* event) override;
 
 private:
     [[nodiscard]] QWidget* buildNaming();
@@ -45,20 +60,26 @@ private:
     void save();
     void saveAs(const QString& name);
     void saveTo(const QString& path);
-    void leave();
+    void look();
+    void stay();
     void showTitle();
 
+    const BenchController& controller_;
     ProtocolSource source_;
     CodeEdit* code_;
+    FindBar* find_ = nullptr;
     QLabel* message_;
     QWidget* naming_ = nullptr;  // "save as": a name
     QLineEdit* name_ = nullptr;
     QWidget* leaving_ = nullptr;  // "not saved"
     QPushButton* save_ = nullptr;
     QTimer later_;
+    QTimer look_;           // at the output, while the search is open
+    bool wasLive_ = false;  // at the last look: by the time Esc comes here, it has stopped the output
     bool runWhenSaved_ = false;
     bool leaveWhenSaved_ = false;
-    ScriptReading reading_;  // Last: its thread ends first
+    std::function<void()> left_;  // saveAndLeave()'s
+    ScriptReading reading_;       // Last: its thread ends first
 };
 
 }  // namespace tacto::gui

@@ -1,6 +1,6 @@
 #include "app/gui/runner/ScriptHighlighter.h"
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -18,10 +18,10 @@ void ScriptHighlighter::recolour() {
         {QRegularExpression(
              R"(\b(const|let|var|function|return|if|else|for|of|in|while|do|break|continue|new|throw|try|)"
              R"(catch|finally|true|false|null|undefined|typeof|switch|case|default)\b)"),
-         in(c.accent, true)},
+         in(c.voltage, true)},
         {QRegularExpression(
              R"(\b(bench|operator|analysis|report|random|record|measure|plot|protocol|progress|verdict|log)\b)"),
-         in(c.math, true)},
+         in(c.third, true)},
         {QRegularExpression(R"(\b\d+(\.\d+)?([eE][+-]?\d+)?\b)"), in(c.voltage)},
         {QRegularExpression(R"("([^"\\]|\\.)*"|'([^'\\]|\\.)*'|`([^`\\]|\\.)*`)"), in(c.current)},
     };

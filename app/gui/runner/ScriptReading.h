@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/scripting/ProtocolDeclaration.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
 

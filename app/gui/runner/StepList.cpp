@@ -1,8 +1,16 @@
 #include "app/gui/runner/StepList.h"
 
+#include <QEvent>
 #include <QVBoxLayout>
 
+#include "app/gui/runner/StepButton.h"
+#include "app/gui/theme/Theme.h"
+
 namespace tacto::gui {
+
+namespace {
+constexpr int kRoomyWindow = 760;  // below this height steps have no notes
+}
 
 StepList::StepList(const QStringList& steps, QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Steps"));
@@ -10,52 +18,41 @@ StepList::StepList(const QStringList& steps, QWidget* parent) : QWidget(parent) 
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     for (const auto& step : steps) {
-        auto* button = new QPushButton(this);
-        button->setFlat(true);
-        button->setAutoDefault(false);
-        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-        button->setToolTip(tr("Shows this step."));
-        connect(button, &QPushButton::clicked, this, [this, index = int(rows_.size())] { emit chosen(index); });
+        const auto place = buttons_.empty()            ? StepButton::Place::First
+                           : step == steps.constLast() ? StepButton::Place::Last
+                                                       : StepButton::Place::Between;
+        auto* button = new StepButton(step, place, this);
+        connect(button, &StepButton::clicked, this, [this, index = int(buttons_.size())] { emit chosen(index); });
         column->addWidget(button);
-        rows_.push_back({step, {}, false, button});
+        buttons_.push_back(button);
     }
-    write();
+    setShown(0);
 }
 
-void StepList::setCurrent(int current) {
-    current_ = current;
-    write();
+void StepList::setState(int step, State state) { buttons_.at(std::size_t(step))->setState(state); }
+
+StepList::State StepList::state(int step) const { return buttons_.at(std::size_t(step))->state(); }
+
+void StepList::setNote(int step, const QString& note) { buttons_.at(std::size_t(step))->setNote(note); }
+
+void StepList::setOutOfReach(int step, const QString& why) { buttons_.at(std::size_t(step))->setOutOfReach(why); }
+
+void StepList::setStepVisible(int step, bool visible) { buttons_.at(std::size_t(step))->setVisible(visible); }
+
+void StepList::setShown(int step) {
+    shown_ = step;
+    buttons_.at(std::size_t(step))->setChecked(true);
 }
 
-void StepList::setTroubled(int step, bool troubled) {
-    auto& row = rows_.at(std::size_t(step));
-    if (std::exchange(row.troubled, troubled) != troubled) write();
+void StepList::focusShown() { buttons_.at(std::size_t(shown_))->setFocus(); }
+
+void StepList::fit() {
+    for (auto* button : buttons_) button->setLow(window()->height() < scaledPx(kRoomyWindow));
 }
 
-void StepList::setNote(int step, const QString& note) {
-    auto& row = rows_.at(std::size_t(step));
-    if (std::exchange(row.note, note) != note) write();
-}
-
-void StepList::write() {
-    for (int i = 0; i < int(rows_.size()); ++i) {
-        auto& row = rows_[std::size_t(i)];
-        const auto* shape = row.troubled ? "⚠" : i < current_ ? "✔" : i == current_ ? "◔" : "○";
-        const auto state = row.troubled    ? tr("to be mended")
-                           : i < current_  ? tr("done")
-                           : i == current_ ? tr("under way")
-                                           : tr("to do");
-        row.button->setText(QString("%1  %2").arg(shape, row.note.isEmpty() ? row.name : row.name + ": " + row.note));
-        row.button->setAccessibleName(row.name);
-        row.button->setAccessibleDescription(row.note.isEmpty() ? state : state + ", " + row.note);
-        auto font = this->font();
-        font.setBold(i == current_);
-        row.button->setFont(font);
-        // A button's text stands in the middle; a path reads from the left.
-        row.button->setStyleSheet(
-            "QPushButton { text-align: left; border: none; padding: 2px; }"
-            "QPushButton:focus { border: 1px solid palette(highlight); padding: 1px; }");
-    }
+void StepList::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) fit();
 }
 
 }  // namespace tacto::gui

@@ -1,41 +1,46 @@
-// StepList.h - a procedure is a path: its steps, each to do, under way, done or ended early, with a word on how it
-// stands. A click goes there.
+// StepList.h - a procedure is a path: its steps below each other, each to do, under way, done or ended early by its
+// shape, with a word on how it stands. A click goes to a step that was reached.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QPushButton>
 #include <QStringList>
 #include <QWidget>
 #include <vector>
 
 namespace tacto::gui {
 
+class StepButton;
+
 class StepList final : public QWidget {
     Q_OBJECT
 public:
+    enum class State { ToDo, UnderWay, Done, Troubled };
     explicit StepList(const QStringList& steps, QWidget* parent = nullptr);
-    /// Steps before `current` are done, those behind it to do; all are done at the end.
-    void setCurrent(int current);
-    /// A step with something to mend before it can be done.
-    void setTroubled(int step, bool troubled);
+    void setState(int step, State state);
+    [[nodiscard]] State state(int step) const;
     /// "sim:", "3 of 8", "PASS"; empty for nothing.
     void setNote(int step, const QString& note);
-    [[nodiscard]] int current() const { return current_; }
+    /// `why`: the sentence that says why a click does not go there yet; empty: it does.
+    void setOutOfReach(int step, const QString& why);
+    /// A procedure may lack a step.
+    void setStepVisible(int step, bool visible);
+    /// The step whose page is shown.
+    void setShown(int step);
+    [[nodiscard]] int shown() const { return shown_; }
+    void focusShown();
+    /// Again when the window's height is another one: in a low one steps have no notes.
+    void fit();
 
 signals:
     void chosen(int step);
 
+protected:
+    void changeEvent(QEvent* event) override;
+
 private:
-    void write();
-    struct Row {
-        QString name;
-        QString note;
-        bool troubled = false;
-        QPushButton* button = nullptr;
-    };
-    std::vector<Row> rows_;
-    int current_ = 0;
+    std::vector<StepButton*> buttons_;
+    int shown_ = 0;
 };
 
 }  // namespace tacto::gui

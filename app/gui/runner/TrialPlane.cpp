@@ -1,7 +1,7 @@
 #include "app/gui/runner/TrialPlane.h"
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -111,9 +111,9 @@ void TrialPlane::colour() {
     legend->setFont(QApplication::font());
     int index = 0;
     for (const auto& [name, graph] : conditions_) {
-        const auto look = conditionLook(name, index++);
-        graph->setPen(QPen(look.color));
-        graph->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 1.5), QBrush(Qt::NoBrush), 8));
+        const auto style = conditionInTheme(name, index++);
+        graph->setPen(QPen(style.color));
+        graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5), QBrush(Qt::NoBrush), 8));
     }
 }
 

@@ -5,9 +5,11 @@
 #include <QRegularExpression>
 #include <QToolButton>
 
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/ExposureTable.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/calibrate/InstrumentDialog.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -29,7 +31,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QGroupBox(tr("Wiring"), parent) {
     needs_ = new QLabel(this);
     needs_->setTextFormat(Qt::PlainText);
     needs_->setWordWrap(true);
-    needs_->setForegroundRole(QPalette::PlaceholderText);
+    setTone(*needs_, Tone::Quiet);
     form->addRow(needs_);
     auto* devices = buildDevices();
     form->addRow(tr("&Devices"), devices);
@@ -81,6 +83,11 @@ QWidget* WiringPanel::buildDevices() {
                     [this] { addFolder("recording", tr("Folder of the recording")); });
     menu->addAction(tr("&Captures as oscilloscope…"), this,
                     [this] { addFolder("capture", tr("Folder of the captures")); });
+    menu->addAction(tr("Saved &instruments…"), this, [this] {
+        auto* dialog = new InstrumentDialog(this);
+        connect(dialog, &InstrumentDialog::chosen, this, &WiringPanel::useOscilloscope);
+        openDialog(dialog);
+    });
     add->setMenu(menu);
     row->addWidget(add);
     return holder;
@@ -110,6 +117,18 @@ QWidget* WiringPanel::buildOutput() {
     });
     row->addWidget(choose);
     return holder;
+}
+
+/// In the place of the oscilloscope that is named already.
+void WiringPanel::useOscilloscope(const QString& address) {
+    QStringList all{address};
+    const auto before = devicesOf(devices());
+    for (const auto& uri : before.value_or(std::vector<DeviceUri>())) {
+        const bool simulated = uri.scheme == "sim" && uri.path == "oscilloscope";
+        if (uri.scheme != "sigrok" && uri.scheme != "capture" && !simulated) all << qtext(uri.text());
+    }
+    if (all.size() == 1) all << "sim:";
+    devices_->setText(all.join(' '));
 }
 
 void WiringPanel::addFolder(const QString& scheme, const QString& title) {

@@ -30,6 +30,7 @@ signals:
 private:
     [[nodiscard]] QWidget* buildDevices();
     [[nodiscard]] QWidget* buildOutput();
+    void useOscilloscope(const QString& address);
     void addFolder(const QString& scheme, const QString& title);
     void judge();
     QLabel* needs_;

@@ -1,8 +1,8 @@
 #include "app/gui/runner/WorstCase.h"
 
-#include "app/gui/look/ExposureTable.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
 #include "core/encoding/Encoder.h"
 
@@ -36,10 +36,10 @@ Result<WorstCase> worstCase(const Profile& profile, const std::vector<LimitSet>&
                                profile.encoding.intervalMin);
     for (const auto& row : worst.rows) {
         if (row.action != LimitAction::Refuse || std::isnan(row.limit) || !row.evaluated || row.within) continue;
-        worst.refused = QObject::tr("%1 would be %2; %3 allows %4 %5. Such a train will be refused.")
+        worst.refused = QObject::tr("%1 would be %2; %3 %4 is allowed (%5). Such a train will be refused.")
                             .arg(qtext(titleOf(row.quantity)), quantityText(row.value, qtext(row.unit), 3),
-                                 qtext(row.set.view()), row.strict ? QObject::tr("less than") : QObject::tr("at most"),
-                                 settingText(row.limit, qtext(row.unit)));
+                                 row.strict ? QObject::tr("less than") : QObject::tr("at most"),
+                                 settingText(row.limit, qtext(row.unit)), qtext(titleOf(limits, row.set.view())));
         break;
     }
     return worst;

@@ -12,6 +12,7 @@
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/Steps.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -74,7 +75,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     }
     choose(amps_, 200e-3);
     fillRates();
-    said_->setForegroundRole(QPalette::PlaceholderText);
+    setTone(*said_, Tone::Quiet);
     said_->setWordWrap(true);
     auto* form = new QFormLayout(this);
     form->setContentsMargins(0, 0, 0, 0);

@@ -24,7 +24,7 @@ class AcquisitionPanel final : public QWidget {
 public:
     explicit AcquisitionPanel(QWidget* parent = nullptr);
 
-    /// Of the oscilloscope that is open; without one the last stay.
+    /// Settings of the oscilloscope that is open; without one the last stay.
     void setTraits(const ScopeTraits& traits);
     /// As set here, within what the oscilloscope can do.
     [[nodiscard]] ScopeSettings settings() const;

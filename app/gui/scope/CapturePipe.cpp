@@ -1,6 +1,8 @@
 #include "app/gui/scope/CapturePipe.h"
 
 #include <QFileInfo>
+#include <cmath>
+#include <utility>
 
 #include "app/gui/scope/ScopeExport.h"
 #include "app/run/CaptureFormatsList.h"
@@ -22,16 +24,37 @@ CapturePipe::~CapturePipe() {
     thread_.waitForDone();
 }
 
+void CapturePipe::setAverage(std::size_t captures) {
+    thread_.start([this, captures] { average_.setCaptures(captures); });
+}
+
+void CapturePipe::beginAnew() {
+    gap_ = true;
+    thread_.start([this] { average_.clear(); });
+}
+
 void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
     if (!capture || capture->samples() == 0 || !(capture->rate_hz > 0)) return;
     if (pending_ >= kMaxPending) {
         ++skipped_;
+        gap_ = true;
         return;
     }
     ++pending_;
-    thread_.start([this, capture = std::move(capture), source, wish = wish_]() mutable {
+    const bool follows = !std::exchange(gap_, false);
+    const bool ours = source.isEmpty();
+    thread_.start([this, capture = std::move(capture), source, wish = wish_, follows, ours,
+                   mask = ours ? mask_ : nullptr]() mutable {
+        std::optional<MaskCheck> judged;
+        if (mask && !capture->untriggered) judged = mask->check(*capture);
+        const bool averages = ours && average_.captures() > 1 && std::isfinite(capture->trigger_s);
+        if (averages) capture = average_.add(std::move(capture));
         auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, wish));
         shown->source = source;
+        shown->mask = std::move(judged);
+        shown->judgedBy = mask;
+        shown->follows = follows;
+        shown->averaged = averages ? average_.count() : 0;
         QMetaObject::invokeMethod(
             this,
             [this, shown] {
@@ -57,7 +80,7 @@ void CapturePipe::open(const QString& path) {
             auto its = std::const_pointer_cast<ShownCapture>(
                 prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, wish));
             its->source = QFileInfo(path).fileName();
-            // Of what is not evident: which instrument's table it was taken for.
+            // Says what is not evident: which instrument's table it was taken for.
             if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";
             its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
             shown = its;

@@ -1,5 +1,5 @@
 // CapturePipe.h - from a capture to something that can be looked at, on a thread of its own: reading files, measuring,
-// building pyramids. Nothing here makes the window wait.
+// averaging, judging by a mask, building pyramids. Nothing here makes the window wait.
 //
 // Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and is told
 // so by skipped(); the session file is not this one's business.
@@ -15,6 +15,7 @@
 #include <stop_token>
 
 #include "app/gui/scope/Trace.h"
+#include "core/measure/CaptureAverage.h"
 
 namespace tacto::gui {
 
@@ -24,6 +25,14 @@ public:
     explicit CapturePipe(QObject* parent = nullptr);
     ~CapturePipe() override;  ///< waits for the work at hand
 
+    /// How many of the bench's captures are averaged from now on; 1: none. Another number begins anew.
+    void setAverage(std::size_t captures);
+    /// Judges the bench's captures from now on; null: none is.
+    void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
+    /// What comes next does not follow on what came last: the oscilloscope was set anew.
+    void breakOff() { gap_ = true; }
+    /// Another bench: nothing of the one before goes into a mean.
+    void beginAnew();
     void setWish(const MathOptions& wish) { wish_ = wish; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
@@ -36,7 +45,7 @@ public:
     void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
 
     [[nodiscard]] bool opening() const noexcept { return opening_; }
-    /// Of the file that is being read, 0 to 100. openingChanged() tells each.
+    /// Progress of the file that is being read, 0 to 100. openingChanged() tells each.
     [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
     [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
 
@@ -52,6 +61,9 @@ private:
 
     QThreadPool thread_;  // one, so that results come in order
     MathOptions wish_;
+    std::shared_ptr<const CaptureMask> mask_;
+    CaptureAverage average_;  // the thread's
+    bool gap_ = false;        // a capture was left out since the last
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;

@@ -1,8 +1,10 @@
-// CaptureStatistics.h - what the captures seen so far say of each channel: science.md section 8's values, each with its
-// last reading, mean, standard deviation, extremes and number.
+// CaptureStatistics.h - what the captures seen so far say of each channel: every reading with its last value, mean,
+// standard deviation, extremes and number.
 //
-// Readings are those of core/measure: one per measured pulse (one per train for the interval), so that the statistics
-// of one capture are measureChannel()'s own. "Last" is the mean over the newest capture.
+// Readings are those of core/measure: one per measured pulse (one per train for the interval, one per capture for the
+// waveform), so that the statistics of one capture are measureChannel()'s own. Intervals also run from the last train
+// of a capture to the first of the next, where none was left out between them. "Last" is the mean over the newest
+// capture.
 //
 // Thread-safety: one owner.
 #pragma once
@@ -12,36 +14,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/measure/PulseMeasurement.h"
+#include "app/gui/scope/Reading.h"
 
 namespace tacto::gui {
 
-/// In the order of the table: what is looked at first stands where it is seen without scrolling.
-enum class Reading {
-    Amplitude,
-    Width,
-    Interval,
-    Rise,
-    Fall,
-    Charge,
-    Overshoot,
-    Droop,
-    Gap,
-    Imbalance,
-    Pulses,
-};
-inline constexpr std::size_t kReadings = 11;
-
-struct ReadingName {
-    QString title;
-    QString explained;  ///< one or two sentences for a tool tip
-    QString unit;       ///< "s", "%"; empty: the channel's own, or a plain number
-};
-[[nodiscard]] ReadingName readingName(Reading reading);
-/// Unit in which a reading on a channel of this unit is shown: amplitude V, charge C or µV·s.
-[[nodiscard]] QString unitOf(Reading reading, const QString& channelUnit);
-/// What a value of core/measure is shown times: 100 for fractions, a million for µV·s.
-[[nodiscard]] double shownFactor(Reading reading, const QString& channelUnit);
+enum class Statistic { Last, Mean, Sd, Min, Max, Count };
+inline constexpr std::array kStatistics{Statistic::Last, Statistic::Mean, Statistic::Sd,
+                                        Statistic::Min,  Statistic::Max,  Statistic::Count};
+/// "mean", "s.d.", "n".
+[[nodiscard]] QString nameOf(Statistic statistic);
 
 /// NaN where there is nothing: all but n without a reading, the deviation with one.
 class RunningStatistics {
@@ -54,23 +35,32 @@ public:
     [[nodiscard]] double min() const noexcept { return n_ > 0 ? min_ : kNotMeasured; }
     [[nodiscard]] double max() const noexcept { return n_ > 0 ? max_ : kNotMeasured; }
     [[nodiscard]] std::size_t n() const noexcept { return n_; }
+    [[nodiscard]] double of(Statistic statistic) const noexcept;
 
 private:
     double last_ = kNotMeasured, mean_ = 0, squares_ = 0, min_ = 0, max_ = 0;
     std::size_t n_ = 0;
 };
 
+/// As it stands in a cell; the number of readings without a unit.
+[[nodiscard]] QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its,
+                                    const QString& channelUnit, int digits = 4);
+
 class CaptureStatistics {
 public:
     struct Channel {
         QString name;
+        QString letter;  ///< "V"
         QString unit;
         std::array<RunningStatistics, kReadings> readings;
+        double lastOnset_s = kNotMeasured;  ///< of the last train, where an interval may begin
         [[nodiscard]] const RunningStatistics& of(Reading r) const { return readings[static_cast<std::size_t>(r)]; }
     };
 
     /// Channels that come or go begin anew.
-    void add(const std::vector<ChannelMeasurement>& measured);
+    void add(const ShownCapture& shown);
+    /// What comes next does not follow on what came last: no interval runs across.
+    void breakOff();
     void clear();
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
     [[nodiscard]] std::size_t captures() const noexcept { return captures_; }

@@ -21,12 +21,6 @@
 
 namespace tacto::gui {
 
-/// One record on the axis.
-struct TraceSpan {
-    TracePtr trace;
-    double key_s = 0;  ///< of its sample 0 on the key axis
-};
-
 class EnvelopeGraph final : public QCPAbstractPlottable {
     Q_OBJECT
 public:
@@ -75,7 +69,7 @@ private:
     double position_ = 0;
     bool marked_ = true;
     QColor clipColour_;
-    // Of the drawing under way; members so that a frame allocates nothing.
+    // Scratch of the drawing under way; members so that a frame allocates nothing.
     QVector<QLineF> lines_;
     double tallPixels_ = 0;  ///< of the device, in verticals
     std::vector<std::int32_t> tops_, bottoms_;

@@ -3,55 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/Steps.h"
+
 namespace tacto::gui {
 
-namespace {
-
-/// As few decimals as show every number of a row as it is, to a two-hundredth of their step.
-int decimalsFor(const QVector<double>& values, double step) {
-    for (int decimals = 0; decimals < 9; ++decimals) {
-        const double scale = std::pow(10.0, decimals);
-        const bool enough = std::all_of(values.begin(), values.end(), [&](double v) {
-            return std::abs(std::round(v * scale) / scale - v) < std::abs(step) / 200;
-        });
-        if (enough) return decimals;
-    }
-    return 9;
-}
-
-}  // namespace
-
-void GraticuleTicker::setQuantity(double position, double perCoordinate, double factor) {
+void RoundTicker::setQuantity(double position, double perCoordinate, double factor) {
     position_ = position;
     perCoordinate_ = perCoordinate;
     factor_ = factor;
 }
 
-void GraticuleTicker::generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks,
-                               QVector<double>* subTicks, QVector<QString>* labels) {
+double RoundTicker::stepOver(const QCPRange& range) const {
+    return stepNotBelow(std::max(range.size() / divisions_, least_) * perCoordinate_);
+}
+
+/// As many decimals as the step has: all numbers of a row end alike.
+QString RoundTicker::written(double quantity, double step) const {
+    constexpr int kMostDecimals = 15;
+    const double shownStep = step * factor_;
+    int decimals = 0;
+    const auto isWhole = [&](double x) { return std::abs(std::round(x) - x) < 1e-6; };
+    while (decimals < kMostDecimals && !isWhole(shownStep * std::pow(10.0, decimals))) ++decimals;
+    const double value = std::abs(quantity) < step / 2 ? 0.0 : quantity * factor_;
+    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
+}
+
+QString RoundTicker::widestIn(const QCPRange& range) const {
+    const double step = stepOver(range);
+    const auto at = [&](double coordinate) {
+        return written(std::round((coordinate - position_) * perCoordinate_ / step) * step, step);
+    };
+    const auto first = at(range.lower), last = at(range.upper);
+    return first.size() > last.size() ? first : last;
+}
+
+void RoundTicker::generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks,
+                           QVector<double>* subTicks, QVector<QString>* labels) {
+    constexpr double kOnTheEdge = 1e-6;  // of a step
     ticks.clear();
-    QVector<double> values;
-    for (int i = 0; i <= divisions_; ++i) {
-        const double at = range.lower + range.size() * i / divisions_;
-        ticks << at;
-        values << (at - position_) * perCoordinate_ * factor_;
-    }
     if (subTicks != nullptr) subTicks->clear();
-    if (labels == nullptr) return;
-    labels->clear();
-    const double step = std::abs(range.size() / divisions_ * perCoordinate_ * factor_);
-    const int decimals = decimalsFor(values, step);
-    // Where not every division has a number, zero has one.
-    const auto isZero = [&](double v) { return std::abs(v) < step / 400; };
-    const auto zero = std::find_if(values.begin(), values.end(), isZero) - values.begin();
-    const int first = zero <= divisions_ ? static_cast<int>(zero) % every_ : 0;
-    for (int i = 0; i <= divisions_; ++i) {
-        if (blank_ || i % every_ != first) {
-            labels->append(QString());
-            continue;
-        }
-        const double value = isZero(values[i]) ? 0.0 : values[i];
-        labels->append(QString::number(value, 'f', decimals).replace('-', QChar(0x2212)));
+    if (labels != nullptr) labels->clear();
+    const double step = stepOver(range);
+    const double first = std::ceil((range.lower - position_) * perCoordinate_ / step - kOnTheEdge);
+    const double last = std::floor((range.upper - position_) * perCoordinate_ / step + kOnTheEdge);
+    for (double k = first; k <= last; ++k) {
+        ticks << std::clamp(k * step / perCoordinate_ + position_, range.lower, range.upper);
+        if (labels != nullptr) labels->append(blank_ ? QString() : written(k * step, step));
     }
 }
 

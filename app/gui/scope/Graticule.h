@@ -1,5 +1,4 @@
-// Graticule.h - ten by eight divisions with the numbers that belong to them, and the ground on which there is no
-// record.
+// Graticule.h - round numbers along an axis whatever part of it is shown, and the ground on which there is no record.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,25 +9,32 @@
 
 namespace tacto::gui {
 
-/// Divides its axis into a fixed number of divisions, wherever it begins, and writes the quantity that stands there:
-/// (coordinate - position) · perCoordinate · factor.
-class GraticuleTicker final : public QCPAxisTicker {
+/// Puts numbers, and with them the lines of the grid, where the quantity is a multiple of a step of the 1-2-5 ladder:
+/// at the divisions where a division is such a step, otherwise where the numbers are round. The quantity at a
+/// coordinate is (coordinate - position) · perCoordinate; it is written times `factor`, a power of ten (1e3 for ms).
+class RoundTicker final : public QCPAxisTicker {
 public:
-    explicit GraticuleTicker(int divisions) : divisions_(divisions) {}
-    /// `factor` makes the shown unit of the quantity's own (1e3 for ms).
+    /// `divisions`: as many steps fit the axis at most.
+    explicit RoundTicker(int divisions) : divisions_(divisions) {}
     void setQuantity(double position, double perCoordinate, double factor);
-    /// A number at every n-th division only, where there is no room for more.
-    void setEvery(int n) { every_ = n; }
+    /// No two numbers are nearer to each other, in coordinates.
+    void setLeast(double coordinates) { least_ = coordinates; }
     void setBlank(bool blank) { blank_ = blank; }
+    /// In the quantity's own unit.
+    [[nodiscard]] double stepOver(const QCPRange& range) const;
+    /// The wider of the two numbers at the ends, as it would be written.
+    [[nodiscard]] QString widestIn(const QCPRange& range) const;
     void generate(const QCPRange& range, const QLocale& locale, QChar format, int precision, QVector<double>& ticks,
                   QVector<double>* subTicks, QVector<QString>* labels) override;
 
 private:
+    [[nodiscard]] QString written(double quantity, double step) const;
+
     const int divisions_;
     double position_ = 0;
     double perCoordinate_ = 1;
     double factor_ = 1;
-    int every_ = 1;
+    double least_ = 0;
     bool blank_ = false;
 };
 

@@ -11,9 +11,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/StepBox.h"
 #include "app/gui/scope/Steps.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -25,21 +26,19 @@ void offerScales(QComboBox& box, double now, const QString& unit) {
     const QSignalBlocker quiet(&box);
     if (box.findData(now) < 0) {
         box.clear();
-        for (const double step : stepsBetween(now / 1200, now * 1200)) {
-            box.addItem(QObject::tr("%1/div").arg(settingText(step, unit)), step);
-        }
+        for (const double step : stepsBetween(now / 1200, now * 1200)) addStep(box, step, unit);
     }
-    int at = 0;
-    for (int i = 0; i < box.count(); ++i) {
-        if (std::abs(box.itemData(i).toDouble() - now) < std::abs(box.itemData(at).toDouble() - now)) at = i;
-    }
-    box.setCurrentIndex(at);
+    showStep(box, now, unit);
 }
 
 }  // namespace
 
-LanePanel::LanePanel(ScopeView& view, QWidget* parent)
-    : QWidget(parent), view_(view), grid_(new QGridLayout), store_(new QPushButton(tr("Store as reference"), this)) {
+LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
+    : QWidget(parent),
+      model_(model),
+      screen_(screen),
+      grid_(new QGridLayout),
+      store_(new QPushButton(tr("Store as reference"), this)) {
     store_->setToolTip(tr("Keeps the lane that is worked with as it looks now, to compare with what comes."));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -48,18 +47,19 @@ LanePanel::LanePanel(ScopeView& view, QWidget* parent)
     grid_->setColumnStretch(1, 1);
     layout->addLayout(grid_);
     layout->addWidget(store_);
-    connect(store_, &QPushButton::clicked, this, [this] { view_.storeReference(); });
-    connect(&view_, &ScopeView::lanesChanged, this, &LanePanel::build);
-    connect(&view_, &ScopeView::viewChanged, this, &LanePanel::follow);
-    connect(&view_, &ScopeView::activeLaneChanged, this, &LanePanel::follow);
+    connect(store_, &QPushButton::clicked, this, [this] { model_.storeReference(); });
+    connect(&model_, &ScopeModel::lanesChanged, this, &LanePanel::build);
+    connect(&model_, &ScopeModel::viewChanged, this, &LanePanel::follow);
+    connect(&model_, &ScopeModel::activeLaneChanged, this, &LanePanel::follow);
     build();
 }
 
 void LanePanel::build() {
-    const auto lanes = view_.lanes();
+    const auto& lanes = model_.lanes();
     // The same lanes in other colours or shown otherwise need no new widgets (and keep the focus).
-    const bool same = lanes.size() == rows_.size() &&
-                      std::all_of(lanes.begin(), lanes.end(), [&](const LaneInfo& l) { return rows_.contains(l.key); });
+    const bool same = lanes.size() == rows_.size() && std::all_of(lanes.begin(), lanes.end(), [&](const ScopeLane& l) {
+                          return rows_.contains(l.key);
+                      });
     if (!same) {
         while (auto* item = grid_->takeAt(0)) {
             if (item->widget() != nullptr) item->widget()->deleteLater();
@@ -69,7 +69,7 @@ void LanePanel::build() {
         int row = 0;
         for (const auto& l : lanes) addRow(l, row++);
         // They come late, but the tab key is to find them between the screen and the button below them.
-        QWidget* before = &view_;
+        QWidget* before = &screen_;
         for (const auto& l : lanes) {
             const auto& its = rows_[l.key];
             for (QWidget* next :
@@ -83,7 +83,7 @@ void LanePanel::build() {
     follow();
 }
 
-void LanePanel::addRow(const LaneInfo& lane, int row) {
+void LanePanel::addRow(const ScopeLane& lane, int row) {
     auto& its = rows_[lane.key];
     const auto key = lane.key;
     its.letter = new QToolButton(this);
@@ -94,20 +94,20 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
         tr("Works with this lane: Ctrl+wheel, level cursors, edges to snap to and the right axis are "
            "its own."));
     connect(its.letter, &QToolButton::clicked, this, [this, key] {
-        view_.setActiveLane(key);
+        model_.setActiveLane(key);
         follow();
     });
     its.shown = new QCheckBox(lane.title, this);
     its.shown->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     its.shown->setToolTip(tr("Shows or hides this lane."));
-    connect(its.shown, &QCheckBox::clicked, this, [this, key](bool on) { view_.setLaneShown(key, on); });
+    connect(its.shown, &QCheckBox::clicked, this, [this, key](bool on) { model_.setLaneShown(key, on); });
     grid_->addWidget(its.letter, 2 * row, 0);
-    if (lane.reference) {
+    if (lane.reference()) {
         its.remove = new QToolButton(this);
         its.remove->setText(tr("Remove"));
         its.remove->setAccessibleName(tr("Remove %1").arg(lane.title));
         its.remove->setToolTip(tr("Forgets this reference."));
-        connect(its.remove, &QToolButton::clicked, this, [this, key] { view_.removeReference(key); });
+        connect(its.remove, &QToolButton::clicked, this, [this, key] { model_.removeReference(key); });
         grid_->addWidget(its.shown, 2 * row, 1);
         grid_->addWidget(its.remove, 2 * row, 2, Qt::AlignRight);
         return;
@@ -117,7 +117,7 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
     its.scale->setAccessibleName(tr("Scale of %1").arg(lane.title));
     its.scale->setToolTip(tr("How much one of the eight divisions is. Ctrl+wheel over the screen does the same."));
     connect(its.scale, &QComboBox::activated, this,
-            [this, key, box = its.scale] { view_.setLaneScale(key, box->currentData().toDouble()); });
+            [this, key, box = its.scale] { model_.setLaneScale(key, box->currentData().toDouble()); });
     its.scale->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     its.scale->setMinimumContentsLength(9);
     its.position = new QDoubleSpinBox(this);
@@ -130,36 +130,43 @@ void LanePanel::addRow(const LaneInfo& lane, int row) {
     its.position->setKeyboardTracking(false);
     its.position->setAlignment(Qt::AlignRight);
     connect(its.position, &QDoubleSpinBox::valueChanged, this,
-            [this, key](double value) { view_.setLanePosition(key, value); });
+            [this, key](double value) { model_.setLanePosition(key, value); });
     grid_->addWidget(its.scale, 2 * row + 1, 0, 1, 2);
     grid_->addWidget(its.position, 2 * row + 1, 2);
 }
 
 void LanePanel::follow() {
     bool canStore = false;
-    for (const auto& lane : view_.lanes()) {
+    for (const auto& lane : model_.lanes()) {
         const auto found = rows_.find(lane.key);
         if (found == rows_.end()) continue;
         auto& its = found->second;
-        const bool active = lane.key == view_.activeLane();
-        canStore = canStore || (active && !lane.reference);
+        const bool active = lane.key == model_.activeLane();
+        canStore = canStore || (active && !lane.reference());
         its.letter->setText(lane.letter);
         its.letter->setChecked(active);
-        auto palette = QPalette();
-        palette.setColor(QPalette::ButtonText, active ? colours().base : lane.colour);
-        if (active) palette.setColor(QPalette::Button, lane.colour);
-        its.letter->setPalette(palette);
+        const auto colour = laneColour(model_, lane);
+        const auto letter =
+            active ? QString("QToolButton { background: %1; color: %2; }").arg(colour.name(), colours().base.name())
+                   : QString("QToolButton { color: %1; }").arg(colour.name());
+        if (its.letter->styleSheet() != letter) its.letter->setStyleSheet(letter);
         its.shown->setText(lane.title);
         its.shown->setChecked(lane.shown);
         if (its.scale == nullptr) continue;
-        offerScales(*its.scale, lane.scale.perDivision, lane.unit);
+        const auto scale = model_.scaleOf(lane);
+        offerScales(*its.scale, scale.perDivision, lane.unit);
         its.position->setMinimumWidth(fontMetrics().horizontalAdvance("−0.00 div") + 32);
         const QSignalBlocker quiet(its.position);
-        if (!its.position->hasFocus() || std::abs(its.position->value() - lane.scale.position) > 5e-3) {
-            its.position->setValue(lane.scale.position);
+        if (!its.position->hasFocus() || std::abs(its.position->value() - scale.position) > 5e-3) {
+            its.position->setValue(scale.position);
         }
     }
-    store_->setEnabled(canStore && !view_.roll());
+    store_->setEnabled(canStore && !model_.roll());
+}
+
+void LanePanel::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) follow();
 }
 
 }  // namespace tacto::gui

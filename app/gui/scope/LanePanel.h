@@ -16,14 +16,18 @@ class QToolButton;
 
 namespace tacto::gui {
 
-class ScopeView;
-struct LaneInfo;
+class ScopeModel;
+class ScopeScreen;
+struct ScopeLane;
 
 class LanePanel final : public QWidget {
     Q_OBJECT
 public:
-    /// `view` outlives this.
-    LanePanel(ScopeView& view, QWidget* parent);
+    /// Both outlive this.
+    LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent);
+
+protected:
+    void changeEvent(QEvent* event) override;
 
 private:
     struct Row {
@@ -34,10 +38,11 @@ private:
         QToolButton* remove = nullptr;       ///< of a reference
     };
     void build();
-    void addRow(const LaneInfo& lane, int row);
+    void addRow(const ScopeLane& lane, int row);
     void follow();
 
-    ScopeView& view_;
+    ScopeModel& model_;
+    ScopeScreen& screen_;
     QGridLayout* grid_;
     QPushButton* store_;
     std::map<QString, Row> rows_;

@@ -3,18 +3,23 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
-#include "app/gui/scope/CaptureStatistics.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr std::array<Reading, 4> kShown{Reading::Amplitude, Reading::Width, Reading::Interval, Reading::Charge};
+constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
+constexpr int kRowHeight = 24;
+constexpr int kIndent = 2;  ///< of the names that are buttons
 
 /// The value at the end of the leading phase: the plateau is the mean around 60 % of the width, and the droop is the
 /// slope over the whole of it.
@@ -30,22 +35,10 @@ const ChannelMeasurement* measuredIn(const std::vector<ChannelMeasurement>& meas
     return nullptr;
 }
 
-double valueOf(Reading reading, const ChannelMeasurement& channel) {
-    const auto& statistics = reading == Reading::Amplitude  ? channel.amplitude
-                             : reading == Reading::Width    ? channel.width_s
-                             : reading == Reading::Interval ? channel.interval_s
-                                                            : channel.charge;
-    if (statistics.n == 0) return kNotMeasured;
-    return reading == Reading::Charge ? std::abs(statistics.mean) : statistics.mean;
-}
-
-QString whyMissing(Reading reading, const ChannelMeasurement& channel) {
-    if (reading == Reading::Charge && channel.unit != "A") return QObject::tr("Charge is read on the current channel.");
-    if (channel.pulses.empty()) return QObject::tr("No pulse stands out of the baseline on this channel.");
-    if (channel.measuredPulses == 0) {
-        return QObject::tr("The pulses are clipped, cut off or too coarse to be measured: the oscilloscope names it.");
-    }
-    return QObject::tr("The record holds one train. For an interval choose a longer record in the oscilloscope.");
+QString inColour(const QString& text, const QString& unit) {
+    const auto& c = colours();
+    const auto colour = unit == "A" ? c.currentText : unit == "V" ? c.voltage : c.text;
+    return QString("<span style=\"color:%1\">%2</span>").arg(colour.name(), text.toHtmlEscaped());
 }
 
 }  // namespace
@@ -60,57 +53,87 @@ double impedanceOf(const std::vector<ChannelMeasurement>& measured) {
 MeasurementSummary::MeasurementSummary(QWidget* parent)
     : QWidget(parent),
       head_(new QLabel(this)),
-      grid_(new QGridLayout),
+      column_(new QVBoxLayout(this)),
       impedanceName_(new QLabel(tr("|Z|"), this)),
       impedance_(new QLabel(this)),
-      note_(new QLabel(this)) {
+      note_(new QLabel(this)),
+      choose_(new QPushButton(tr("Add or remove…"), this)),
+      reset_(new QPushButton(tr("Reset"), this)) {
     setAccessibleName(tr("Measurements"));
     head_->setObjectName("summaryHead");
     head_->setWordWrap(true);
     note_->setObjectName("summaryNote");
     note_->setWordWrap(true);
-    for (std::size_t r = 0; r < kRows; ++r) {
-        const auto name = readingName(kShown[r]);
-        names_[r] = new QLabel(name.title, this);
-        names_[r]->setToolTip(name.explained);
-        grid_->addWidget(names_[r], static_cast<int>(r) + 1, 0);
-    }
+    for (auto* label : {head_, note_, impedanceName_, impedance_}) setTextSize(*label, TextSize::Small);
+    impedanceName_->setIndent(scaledPx(kIndent));
     impedanceName_->setToolTip(
         tr("Impedance of the load: voltage over current at the end of the leading phase, at this pulse's width."));
     impedance_->setAlignment(Qt::AlignRight);
-    impedance_->setFont(digits(font()));
     impedance_->setAccessibleName(tr("Impedance"));
-    grid_->setColumnStretch(0, 1);
-    grid_->setHorizontalSpacing(fontMetrics().averageCharWidth() * 2);
-    grid_->setVerticalSpacing(3);
-    auto* layout = new QVBoxLayout(this);
-    layout->addWidget(head_);
-    layout->addLayout(grid_);
-    layout->addWidget(note_);
-    layout->addStretch();
+    choose_->setToolTip(tr("Chooses what is shown, here and below the oscilloscope's screen."));
+    choose_->setMenu(makeReadingsMenu(*chosen_, choose_));
+    reset_->setToolTip(tr("Forgets the captures counted here; the next one is the first."));
+    connect(reset_, &QPushButton::clicked, this, [this] {
+        statistics_.clear();
+        if (shown_) statistics_.add(*shown_);
+        lay();
+    });
+    column_->setContentsMargins(0, 0, 0, 0);
+    column_->setSpacing(scaledPx(4));
+    column_->addWidget(head_);
+    auto* load = new QHBoxLayout;
+    load->addWidget(impedanceName_);
+    load->addWidget(impedance_, 1);
+    column_->addLayout(load);
+    column_->addWidget(note_);
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(scaledPx(4));
+    buttons->addWidget(choose_);
+    buttons->addWidget(reset_);
+    buttons->addStretch();
+    column_->addLayout(buttons);
+    column_->addStretch();
+    connect(&own_, &ChosenReadings::changed, this, &MeasurementSummary::lay);
     connect(&pipe_, &CapturePipe::prepared, this, &MeasurementSummary::take);
     restyle();
     fill();
+}
+
+void MeasurementSummary::follow(ChosenReadings& chosen) {
+    chosen_ = &chosen;
+    delete choose_->menu();
+    choose_->setMenu(makeReadingsMenu(chosen, choose_));
+    connect(&chosen, &ChosenReadings::changed, this, &MeasurementSummary::lay);
+    lay();
 }
 
 void MeasurementSummary::take(const ShownPtr& shown) {
     if (!shown) return;
     if (shown->capture->untriggered) {
         quietSince_ = true;
+        statistics_.breakOff();
         return sayHead();
     }
+    const bool sameSource = shown_ && shown_->source == shown->source;
+    if (!sameSource || !shown->source.isEmpty()) statistics_.clear();
+    const auto before = statistics_.channels().size();
     quietSince_ = false;
     shown_ = shown;
     since_.start();
-    fill();
+    statistics_.add(*shown);
+    const bool begins = statistics_.captures() == 1;  // perhaps of channels in another order
+    begins || before != statistics_.channels().size() ? lay() : fill();
 }
 
-void MeasurementSummary::measure(std::shared_ptr<const Capture> capture) { pipe_.take(std::move(capture)); }
+void MeasurementSummary::measure(std::shared_ptr<const Capture> capture) {
+    pipe_.take(std::move(capture), tr("the run's latest train"));
+}
 
 void MeasurementSummary::clear() {
     shown_.reset();
+    statistics_.clear();
     quietSince_ = false;
-    fill();
+    lay();
 }
 
 void MeasurementSummary::refresh(const Telemetry& telemetry) {
@@ -120,68 +143,106 @@ void MeasurementSummary::refresh(const Telemetry& telemetry) {
     sayImpedance();
 }
 
-void MeasurementSummary::lay(const std::vector<ChannelMeasurement>& measured) {
-    const bool same =
-        std::equal(columns_.begin(), columns_.end(), measured.begin(), measured.end(),
-                   [](const Column& c, const ChannelMeasurement& m) {
-                       return c.name == QString::fromStdString(m.name) && c.unit == QString::fromStdString(m.unit);
-                   });
-    if (same) return;
-    for (auto& column : columns_) {
-        delete column.title;
-        for (auto* value : column.values) delete value;
+void MeasurementSummary::lay() {
+    delete rows_;
+    figures_.clear();
+    quiet_.clear();
+    rows_ = new QWidget(this);
+    grid_ = new QGridLayout(rows_);
+    grid_->setContentsMargins(0, 0, 0, 0);
+    grid_->setHorizontalSpacing(scaledPx(4));
+    grid_->setVerticalSpacing(0);
+    grid_->setColumnStretch(0, 1);
+    column_->insertWidget(1, rows_);
+    const auto& channels = statistics_.channels();
+    const int first = channels.size() > kBesideTheName ? 0 : 1;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        auto* title = new QLabel(inColour(channels[c].letter, channels[c].unit), rows_);
+        title->setToolTip(titled(channels[c].name));
+        title->setAlignment(Qt::AlignRight);
+        setTextSize(*title, TextSize::Small, true);
+        grid_->addWidget(title, 0, first + static_cast<int>(c));
+        if (first == 0) grid_->setColumnStretch(static_cast<int>(c), 1);
     }
-    columns_.clear();
-    for (const auto& m : measured) {
-        Column column{QString::fromStdString(m.name), QString::fromStdString(m.unit), new QLabel(this), {}};
-        const int at = static_cast<int>(columns_.size()) + 1;
-        column.title->setAlignment(Qt::AlignRight);
-        grid_->addWidget(column.title, 0, at);
-        for (std::size_t r = 0; r < kRows; ++r) {
-            auto* value = column.values[r] = new QLabel(this);
-            value->setAlignment(Qt::AlignRight);
-            value->setFont(digits(font()));
-            value->setAccessibleName(tr("%1 of %2").arg(readingName(kShown[r]).title, titled(column.name)));
-            grid_->addWidget(value, static_cast<int>(r) + 1, at);
-        }
-        columns_.push_back(column);
+    if (!channels.empty()) {
+        for (const auto reading : chosen_->all()) layRow(reading);
     }
-    const int last = std::max(1, static_cast<int>(columns_.size()));
-    const int row = static_cast<int>(kRows) + 1;
-    grid_->addWidget(impedanceName_, row, 0);
-    grid_->addWidget(impedance_, row, 1, 1, last);
+    rows_->setVisible(!channels.empty());
     restyle();
+    fill();
+}
+
+void MeasurementSummary::layRow(Reading reading) {
+    const auto name = nameOf(reading);
+    const bool below = statistics_.channels().size() > kBesideTheName;
+    auto* button = new QToolButton(rows_);
+    button->setText(name.title);
+    button->setToolTip(tr("%1 A click unfolds its statistics.").arg(name.explained));
+    button->setAutoRaise(true);
+    button->setCheckable(true);
+    button->setChecked(unfolded_ == reading);
+    setTextSize(*button, TextSize::Small, unfolded_ == reading);
+    button->setProperty("role", "row");
+    button->setFixedHeight(std::max(scaledPx(kRowHeight), button->minimumSizeHint().height()));
+    connect(button, &QToolButton::clicked, this, [this, reading] { unfold(reading); });
+    int row = grid_->rowCount();
+    grid_->addWidget(button, row, 0, 1, below ? static_cast<int>(statistics_.channels().size()) : 1, Qt::AlignLeft);
+    layFigures(reading, Statistic::Last, below ? row + 1 : row, below ? 0 : 1);
+    if (unfolded_ != reading) return;
+    for (std::size_t s = 1; s < kStatistics.size(); ++s) {
+        row = grid_->rowCount();
+        auto* title = new QLabel("    " + nameOf(kStatistics[s]), rows_);
+        setTextSize(*title, TextSize::Small);
+        quiet_.push_back(title);
+        grid_->addWidget(title, row, 0, 1, below ? static_cast<int>(statistics_.channels().size()) : 1);
+        layFigures(reading, kStatistics[s], below ? row + 1 : row, below ? 0 : 1);
+    }
+}
+
+void MeasurementSummary::layFigures(Reading reading, Statistic statistic, int row, int column) {
+    const auto& channels = statistics_.channels();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        auto* label = new QLabel(rows_);
+        label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        const auto name = tr("%1 of %2").arg(nameOf(reading).title, titled(channels[c].name));
+        label->setAccessibleName(statistic == Statistic::Last ? name : tr("%1, %2").arg(name, nameOf(statistic)));
+        setTextSize(*label, TextSize::Small);
+        if (statistic != Statistic::Last) quiet_.push_back(label);
+        grid_->addWidget(label, row, column + static_cast<int>(c));
+        figures_.push_back({reading, statistic, c, label});
+    }
+}
+
+void MeasurementSummary::unfold(Reading reading) {
+    unfolded_ = unfolded_ == reading ? std::nullopt : std::optional(reading);
+    // The button that was clicked goes with the rows: not in its own signal.
+    QMetaObject::invokeMethod(this, &MeasurementSummary::lay, Qt::QueuedConnection);
 }
 
 void MeasurementSummary::fill() {
-    const bool some = shown_ != nullptr;
-    if (some) lay(shown_->measurement);
-    for (auto* name : names_) name->setVisible(some);
-    for (auto& column : columns_) {
-        column.title->setVisible(some);
-        for (auto* value : column.values) value->setVisible(some);
-    }
-    impedanceName_->setVisible(some);
-    impedance_->setVisible(some);
     QStringList why;
-    for (std::size_t c = 0; some && c < columns_.size(); ++c) {
-        const auto& channel = shown_->measurement[c];
-        for (std::size_t r = 0; r < kRows; ++r) {
-            const auto reading = kShown[r];
-            auto* label = columns_[c].values[r];
-            const bool charge = reading == Reading::Charge && columns_[c].unit != "A";
-            const double value = charge ? kNotMeasured : valueOf(reading, channel);
-            label->setText(
-                quantityText(shownFactor(reading, columns_[c].unit) * value, unitOf(reading, columns_[c].unit)));
-            const bool missing = std::isnan(value);
-            label->setToolTip(missing ? whyMissing(reading, channel) : readingName(reading).explained);
-            if (missing && reading == Reading::Amplitude) {
-                why << tr("%1: %2").arg(titled(columns_[c].name), whyMissing(reading, channel));
-            }
+    for (const auto& figure : figures_) {
+        const auto& channel = statistics_.channels()[figure.channel];
+        const auto& its = channel.of(figure.reading);
+        const auto text = statisticText(figure.reading, figure.statistic, its, channel.unit);
+        figure.label->setText(text);
+        const bool missing = text == "–" && shown_;
+        const auto reason =
+            missing ? whyMissing(figure.reading, shown_->measurement[figure.channel], shown_->waveforms[figure.channel])
+                    : QString();
+        const bool single = figure.statistic == Statistic::Sd && its.n() == 1;
+        figure.label->setToolTip(!missing ? nameOf(figure.reading).explained
+                                 : single ? tr("One reading has no standard deviation.")
+                                          : reason);
+        if (missing && figure.reading == Reading::Amplitude && figure.statistic == Statistic::Last) {
+            why << tr("%1: %2").arg(titled(channel.name), reason);
         }
     }
     note_->setText(why.join('\n'));
     note_->setVisible(!why.isEmpty());
+    for (QWidget* widget : std::initializer_list<QWidget*>{impedanceName_, impedance_, choose_, reset_}) {
+        widget->setVisible(shown_ != nullptr);
+    }
     sayHead();
     sayImpedance();
 }
@@ -195,7 +256,9 @@ void MeasurementSummary::sayHead() {
     }
     QStringList parts;
     parts << (shown_->source.isEmpty() ? ageText(static_cast<double>(since_.elapsed()) / 1000) : shown_->source);
+    if (statistics_.captures() > 1) parts << tr("last of %1").arg(statistics_.captures());
     if (quietSince_) parts << tr("no trigger since");
+    if (shown_->averaged > 0) parts << tr("averaged %1").arg(shown_->averaged);
     if (shown_->capture->simulated) parts << tr("simulated");
     head_->setText(parts.join(QStringLiteral(" · ")));
 }
@@ -214,26 +277,21 @@ void MeasurementSummary::sayImpedance() {
 
 void MeasurementSummary::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) restyle();
+    if (event->type() == QEvent::PaletteChange)
+        QMetaObject::invokeMethod(this, &MeasurementSummary::lay, Qt::QueuedConnection);
+    if (event->type() == QEvent::FontChange) restyle();
 }
 
 void MeasurementSummary::restyle() {
     // The numbers are the data; what stands around them is quiet. Roles and rich text follow a theme: a label's own
     // palette is laid aside when the theme's style sheet comes.
-    for (auto* label : {head_, note_, impedanceName_}) label->setForegroundRole(QPalette::PlaceholderText);
-    for (auto* label : names_) label->setForegroundRole(QPalette::PlaceholderText);
-    const auto& c = colours();
-    for (auto& column : columns_) {
-        column.title->setText(
-            QString("<span style=\"color:%1\">%2</span>")
-                .arg((column.unit == "A" ? c.current : c.voltage).name(), titled(column.name).toHtmlEscaped()));
-        for (auto* value : column.values) {
-            value->setFont(digits(font()));
-            // As wide as what may come: figures that jump cannot be read.
-            value->setMinimumWidth(value->fontMetrics().horizontalAdvance("000.0 mm"));
-        }
-    }
-    impedance_->setFont(digits(font()));
+    for (auto* label : {head_, note_, impedanceName_}) setTone(*label, Tone::Quiet);
+    for (auto* label : quiet_) setTone(*label, Tone::Quiet);
+    const auto numbers = digits(textFont(TextSize::Small));
+    // As wide as what may come: figures that jump cannot be read. Three and more share the width that there is.
+    const bool below = statistics_.channels().size() > kBesideTheName;
+    const int wide = QFontMetrics(numbers).horizontalAdvance("00.00 mA");
+    for (const auto& figure : figures_) figure.label->setMinimumWidth(below ? 0 : wide);
 }
 
 }  // namespace tacto::gui

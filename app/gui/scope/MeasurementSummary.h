@@ -1,9 +1,10 @@
-// MeasurementSummary.h - what the latest capture says, in a dock's width: amplitude, width, interval and charge of each
-// channel, |Z| of the load, how old it is, and whether it is simulated.
+// MeasurementSummary.h - what the latest capture says, in a dock's width: the chosen readings as rows with the channels
+// as columns, statistics below the row that is unfolded, |Z| of the load, how old it is, and whether it is simulated.
 //
 // For the window's "Measurements" dock:
 //
 //     auto* summary = new MeasurementSummary(dock);
+//     summary->follow(scope->readings());
 //     connect(scope, &ScopeWorkspace::captureShown, summary, &MeasurementSummary::take);
 //     scope->setWatched(true);        // captures are taken though the oscilloscope is not visible
 //     ... 30 times a second: scope->refresh(telemetry) whatever is visible, and
@@ -11,20 +12,26 @@
 //
 // A protocol's captures (RunFeed::captures) are handed to measure(), which measures them in the background.
 // An untriggered record changes no number: the figures keep their age, and it is said that no trigger came since.
+// Up to two channels stand beside the reading's name, more of them below it: nothing is cut.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>
 #include <QWidget>
-#include <array>
+#include <optional>
 #include <vector>
 
 #include "app/gui/scope/CapturePipe.h"
+#include "app/gui/scope/CaptureStatistics.h"
+#include "app/gui/scope/ChosenReadings.h"
 #include "core/bench/Telemetry.h"
 
 class QGridLayout;
 class QLabel;
+class QPushButton;
+class QToolButton;
+class QVBoxLayout;
 
 namespace tacto::gui {
 
@@ -37,6 +44,8 @@ class MeasurementSummary final : public QWidget {
 public:
     explicit MeasurementSummary(QWidget* parent = nullptr);
 
+    /// Shows what is chosen there, and chooses there. `chosen` outlives this.
+    void follow(ChosenReadings& chosen);
     /// Age and the impedance check's |Z|, which stands in where the capture gives none. Cheap.
     void refresh(const Telemetry& telemetry);
     /// A capture that has not been measured yet. Of those that come too fast some are left out.
@@ -51,32 +60,43 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    static constexpr std::size_t kRows = 4;
-    struct Column {
-        QString name, unit;
-        QLabel* title = nullptr;
-        std::array<QLabel*, kRows> values{};
+    struct Figure {
+        Reading reading = Reading::Amplitude;
+        Statistic statistic = Statistic::Last;
+        std::size_t channel = 0;
+        QLabel* label = nullptr;
     };
-    void lay(const std::vector<ChannelMeasurement>& measured);
+    void lay();
+    void layRow(Reading reading);
+    void layFigures(Reading reading, Statistic statistic, int row, int column);
+    void unfold(Reading reading);
     void fill();
     void sayHead();
     void sayImpedance();
     void restyle();
 
+    ChosenReadings own_;
+    ChosenReadings* chosen_ = &own_;
     CapturePipe pipe_;
+    CaptureStatistics statistics_;
     ShownPtr shown_;  // the latest that was triggered
     bool quietSince_ = false;
     QElapsedTimer since_;
     double checked_ohm_ = kNotMeasured;
     double checkAge_s_ = kNotMeasured;
+    std::optional<Reading> unfolded_;
 
     QLabel* head_;
-    QGridLayout* grid_;
-    std::array<QLabel*, kRows> names_{};
-    std::vector<Column> columns_;
+    QVBoxLayout* column_;
+    QWidget* rows_ = nullptr;  // made anew when channels, choice or fold change
+    QGridLayout* grid_ = nullptr;
+    std::vector<Figure> figures_;
+    std::vector<QLabel*> quiet_;
     QLabel* impedanceName_;
     QLabel* impedance_;
     QLabel* note_;
+    QPushButton* choose_;
+    QPushButton* reset_;
 };
 
 }  // namespace tacto::gui

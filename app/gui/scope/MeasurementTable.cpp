@@ -6,75 +6,34 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMenu>
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-enum Statistic { kLast, kMean, kSd, kMin, kMax, kCount, kStatistics };
+constexpr int kPerChannel = static_cast<int>(kStatistics.size());
 
-QString statisticName(int statistic) {
-    switch (statistic) {
-        case kLast:
-            return QObject::tr("last");
-        case kMean:
-            return QObject::tr("mean");
-        case kSd:
-            return QObject::tr("s.d.");
-        case kMin:
-            return QObject::tr("min");
-        case kMax:
-            return QObject::tr("max");
-        default:
-            return QObject::tr("n");
-    }
-}
-
-double statisticOf(const RunningStatistics& s, int statistic) {
-    switch (statistic) {
-        case kLast:
-            return s.last();
-        case kMean:
-            return s.mean();
-        case kSd:
-            return s.sd();
-        case kMin:
-            return s.min();
-        case kMax:
-            return s.max();
-        default:
-            return static_cast<double>(s.n());
-    }
-}
-
-/// A share to a thousandth of a per cent: what is below that is noise.
-QString percentText(double value) {
-    if (!std::isfinite(value)) return "–";
-    const double size = std::abs(value);
-    const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
-    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + QChar(0x202f) + "%";
-}
-
-QString readingText(Reading reading, double value, const QString& channelUnit) {
-    const auto unit = unitOf(reading, channelUnit);
-    const double shown = shownFactor(reading, channelUnit) * value;
-    return unit == "%" ? percentText(shown) : quantityText(shown, unit);
+int columnOf(std::size_t channel, std::size_t statistic) {
+    return 1 + static_cast<int>(channel) * kPerChannel + static_cast<int>(statistic);
 }
 
 }  // namespace
 
-MeasurementTable::MeasurementTable(QWidget* parent)
+MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     : QWidget(parent),
+      chosen_(chosen),
       table_(new QTableWidget(this)),
       seen_(new QLabel(this)),
       warnings_(new QLabel(this)),
+      choose_(new QPushButton(tr("Add or remove…"), this)),
       reset_(new QPushButton(tr("Reset statistics"), this)) {
     table_->setObjectName("measurements");
     table_->setAccessibleName(tr("Measurements"));
@@ -85,61 +44,46 @@ MeasurementTable::MeasurementTable(QWidget* parent)
     table_->setFrameShape(QFrame::NoFrame);
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setHighlightSections(false);
-    table_->setColumnCount(2 + static_cast<int>(kReadings));
-    QStringList titles{tr("Channel"), QString()};
-    for (std::size_t r = 0; r < kReadings; ++r) titles << readingName(static_cast<Reading>(r)).title;
-    table_->setHorizontalHeaderLabels(titles);
-    for (std::size_t r = 0; r < kReadings; ++r) {
-        auto* header = table_->horizontalHeaderItem(2 + static_cast<int>(r));
-        header->setToolTip(readingName(static_cast<Reading>(r)).explained);
-        header->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    }
-    table_->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    sizeColumns();
-    reset_->setToolTip(tr("Forgets the captures seen so far; the next one is the first."));
-    connect(reset_, &QPushButton::clicked, this, &MeasurementTable::clear);
+    setTextSize(*table_, TextSize::Small);
+    choose_->setToolTip(tr("Chooses the rows, here and in the dock."));
+    choose_->setMenu(makeReadingsMenu(chosen_, choose_));
+    reset_->setToolTip(tr("Forgets the captures seen so far, and what is averaged; the next one is the first."));
+    connect(reset_, &QPushButton::clicked, this, [this] {
+        clear();
+        emit resetClicked();
+    });
+    connect(&chosen_, &ChosenReadings::changed, this, [this] {
+        lay();
+        refill();
+    });
     warnings_->setWordWrap(true);
     warnings_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     warnings_->setObjectName("warnings");
     warnings_->hide();
+    seen_->setWordWrap(true);
     auto* line = new QHBoxLayout;
     line->addWidget(seen_, 1);
+    line->addWidget(choose_);
     line->addWidget(reset_);
-    seen_->setWordWrap(true);
     auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setContentsMargins(8, 4, 8, 0);
     layout->setSpacing(4);
     layout->addLayout(line);
     layout->addWidget(table_, 1);
     layout->addWidget(warnings_);
     layout->addStretch();  // takes the room of a table that is not there yet
+    restyle();
     refill();
 }
 
-/// Wide enough for what may come: columns that jump with every capture cannot be read.
-void MeasurementTable::sizeColumns() {
-    table_->setFont(digits(font()));
-    table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 4);
-    auto bold = digits(font());
-    bold.setBold(true);
-    const QFontMetrics wide(bold);
-    for (std::size_t r = 0; r < kReadings; ++r) {
-        const int c = 2 + static_cast<int>(r);
-        const auto widest = static_cast<Reading>(r) == Reading::Charge ? "00000 µV·s" : "−000.0 mm";
-        const auto title = table_->horizontalHeaderItem(c)->text();
-        table_->setColumnWidth(c, std::max(wide.horizontalAdvance(widest), fontMetrics().horizontalAdvance(title)) +
-                                      fontMetrics().averageCharWidth() * 2);
-    }
-    setMinimumHeight(fontMetrics().height() * 3);  // it may be squeezed: the screen goes first
-}
-
-void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings) {
+void MeasurementTable::add(const ShownPtr& shown) {
     passedOver_ = false;
-    const auto rows = statistics_.channels().size();
-    statistics_.add(measured);
-    if (rows != statistics_.channels().size() || statistics_.captures() == 1) layRows();
+    newest_ = shown;
+    const auto channels = statistics_.channels().size();
+    statistics_.add(*shown);
+    if (channels != statistics_.channels().size() || statistics_.captures() == 1) lay();
     QStringList sentences;
-    for (const auto& warning : warnings) sentences << titled(QString::fromStdString(warning)) + ".";
+    for (const auto& warning : shown->warnings) sentences << sentence(QString::fromStdString(warning));
     warnings_->setText(sentences.join("\n"));
     warnings_->setVisible(!sentences.isEmpty());
     refill();
@@ -147,6 +91,7 @@ void MeasurementTable::add(const std::vector<ChannelMeasurement>& measured, cons
 
 void MeasurementTable::passOverUntriggered() {
     passedOver_ = true;
+    statistics_.breakOff();
     warnings_->clear();
     warnings_->hide();
     refill();
@@ -154,6 +99,7 @@ void MeasurementTable::passOverUntriggered() {
 
 void MeasurementTable::clear() {
     passedOver_ = false;
+    newest_.reset();
     statistics_.clear();
     warnings_->clear();
     warnings_->hide();
@@ -161,49 +107,54 @@ void MeasurementTable::clear() {
     refill();
 }
 
-void MeasurementTable::layRows() {
+void MeasurementTable::lay() {
     const auto& channels = statistics_.channels();
-    table_->setRowCount(static_cast<int>(channels.size()) * kStatistics);
+    const auto& readings = chosen_.all();
+    table_->setColumnCount(1 + static_cast<int>(channels.size()) * kPerChannel);
+    QStringList titles{tr("Measurement")};
+    for (const auto& channel : channels) {
+        titles << titled(channel.name);
+        for (std::size_t s = 1; s < kStatistics.size(); ++s) titles << nameOf(kStatistics[s]);
+    }
+    table_->setHorizontalHeaderLabels(titles);
+    for (int c = 0; c < table_->columnCount(); ++c) {
+        table_->horizontalHeaderItem(c)->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+    }
+    table_->setRowCount(static_cast<int>(readings.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
+        const auto name = nameOf(readings[static_cast<std::size_t>(row)]);
         for (int c = 0; c < table_->columnCount(); ++c) {
-            auto* item = new QTableWidgetItem;
-            item->setTextAlignment((c < 2 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+            auto* item = new QTableWidgetItem(c == 0 ? name.title : QString());
+            item->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
             table_->setItem(row, c, item);
         }
-        const auto& channel = channels[static_cast<std::size_t>(row / kStatistics)];
-        if (row % kStatistics == 0) table_->item(row, 0)->setText(titled(channel.name));
-        table_->item(row, 1)->setText(statisticName(row % kStatistics));
+        table_->item(row, 0)->setToolTip(name.explained);
     }
     restyle();
 }
 
-void MeasurementTable::fillRow(int row, const CaptureStatistics::Channel& channel, int statistic) {
-    for (std::size_t r = 0; r < kReadings; ++r) {
-        const auto reading = static_cast<Reading>(r);
-        const auto& its = channel.readings[r];
-        const double value = statisticOf(its, statistic);
-        const bool count =
-            statistic == kCount || (reading == Reading::Pulses && statistic != kMean && statistic != kSd);
-        auto* item = table_->item(row, 2 + static_cast<int>(r));
-        item->setText(count ? (std::isnan(value) ? "–" : QString::number(value, 'f', 0))
-                            : readingText(reading, value, channel.unit));
-        item->setToolTip(std::isnan(value)
-                             ? (its.n() == 1
-                                    ? tr("One reading has no standard deviation.")
-                                    : tr("Nothing of this kind was measured. %1").arg(readingName(reading).explained))
-                             : QString());
-    }
-}
-
 void MeasurementTable::refill() {
     const auto& channels = statistics_.channels();
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        for (int s = 0; s < kStatistics; ++s) fillRow(static_cast<int>(c) * kStatistics + s, channels[c], s);
+    for (int row = 0; row < table_->rowCount(); ++row) {
+        const auto reading = chosen_.all()[static_cast<std::size_t>(row)];
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const auto& its = channels[c].of(reading);
+            for (std::size_t s = 0; s < kStatistics.size(); ++s) {
+                auto* item = table_->item(row, columnOf(c, s));
+                item->setText(statisticText(reading, kStatistics[s], its, channels[c].unit));
+                item->setToolTip(item->text() != "–" ? QString()
+                                 : its.n() == 1      ? tr("One reading has no standard deviation.")
+                                 : newest_ == nullptr
+                                     ? QString()
+                                     : whyMissing(reading, newest_->measurement[c], newest_->waveforms[c]));
+            }
+        }
     }
     const auto n = static_cast<int>(statistics_.captures());
     auto said = n == 0   ? tr("Measurements appear with the first capture.")
                 : n == 1 ? tr("Over 1 capture")
                          : tr("Over %1 captures").arg(n);
+    if (n > 1 && newest_ && newest_->averaged > 0) said += tr(" · of averages: the spread is theirs");
     if (passedOver_) {
         said = n == 0 ? tr("Untriggered: nothing is measured. Measurements appear with the first trigger.")
                       : said + tr(" · what is shown now is untriggered and not counted");
@@ -215,16 +166,30 @@ void MeasurementTable::refill() {
 
 QString MeasurementTable::asText() const {
     QStringList lines;
-    QStringList head;
-    for (int c = 0; c < table_->columnCount(); ++c) head << table_->horizontalHeaderItem(c)->text();
+    QStringList head{tr("Measurement")};
+    for (const auto& channel : statistics_.channels()) {
+        for (const auto statistic : kStatistics) head << titled(channel.name) + " " + nameOf(statistic);
+    }
     lines << head.join('\t');
     for (int row = 0; row < table_->rowCount(); ++row) {
         QStringList cells;
         for (int c = 0; c < table_->columnCount(); ++c) cells << table_->item(row, c)->text();
-        cells[0] = table_->item(row - row % kStatistics, 0)->text();
         lines << cells.join('\t');
     }
     return lines.join('\n');
+}
+
+QStringList MeasurementTable::asLines() const {
+    QStringList lines;
+    for (const auto& channel : statistics_.channels()) {
+        QStringList parts;
+        for (const auto reading : chosen_.all()) {
+            const auto text = readingText(reading, channel.of(reading).last(), channel.unit);
+            if (text != "–") parts << nameOf(reading).title + " " + text;
+        }
+        if (!parts.isEmpty()) lines << channel.letter + ":  " + parts.join(QStringLiteral("   "));
+    }
+    return lines;
 }
 
 void MeasurementTable::keyPressEvent(QKeyEvent* event) {
@@ -237,28 +202,31 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
 
 void MeasurementTable::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) restyle();
-    if (event->type() != QEvent::FontChange) return;
-    sizeColumns();
-    restyle();
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) restyle();
 }
 
 void MeasurementTable::restyle() {
-    // The newest reading stands out by weight, its channel by colour; the rest is quiet.
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        const auto& channel = statistics_.channels()[static_cast<std::size_t>(row / kStatistics)];
-        for (int c = 0; c < table_->columnCount(); ++c) {
-            auto* item = table_->item(row, c);
-            const bool last = row % kStatistics == kLast;
-            auto numbers = digits(font());
-            numbers.setBold(last);
-            item->setFont(numbers);
-            item->setForeground(c == 0   ? (channel.unit == "A" ? colours().current : colours().voltage)
-                                : c == 1 ? colours().quiet
-                                         : colours().text);
+    const auto plain = digits(textFont(TextSize::Small)), strong = digits(textFont(TextSize::Small, QFont::DemiBold));
+    table_->verticalHeader()->setDefaultSectionSize(QFontMetrics(plain).height() + scaledPx(6));
+    // The newest reading stands out by weight and its channel's colour; the rest is quiet. Columns are wide enough for
+    // what may come: figures that jump cannot be read.
+    const auto& channels = statistics_.channels();
+    const int number = QFontMetrics(strong).horizontalAdvance("−000.0 mV") + scaledPx(12);
+    for (int c = 0; c < table_->columnCount(); ++c) {
+        const int statistic = c == 0 ? -1 : (c - 1) % kPerChannel;
+        const bool isLast = statistic == 0, isCount = statistic == kPerChannel - 1;
+        const auto* channel = c == 0 ? nullptr : &channels[static_cast<std::size_t>((c - 1) / kPerChannel)];
+        const auto colour = channel == nullptr || !isLast ? (c == 0 ? colours().text : colours().quiet)
+                            : channel->unit == "A"        ? colours().currentText
+                                                          : colours().voltage;
+        for (int row = 0; row < table_->rowCount(); ++row) {
+            table_->item(row, c)->setFont(isLast ? strong : plain);
+            table_->item(row, c)->setForeground(colour);
         }
+        if (c > 0) table_->setColumnWidth(c, isCount ? QFontMetrics(plain).horizontalAdvance("000000") : number);
     }
-    for (const int column : {0, 1}) table_->resizeColumnToContents(column);
+    table_->resizeColumnToContents(0);
+    setMinimumHeight(fontMetrics().height() * 3);  // it may be squeezed: the screen goes first
 }
 
 }  // namespace tacto::gui

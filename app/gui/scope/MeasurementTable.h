@@ -1,5 +1,5 @@
-// MeasurementTable.h - the measured values of every channel with their statistics over the captures seen, a button that
-// begins anew, and in words what could not be measured and why.
+// MeasurementTable.h - the chosen readings as rows, and for each channel its last value with the statistics over the
+// captures seen; a button that begins anew, one that chooses, and in words what could not be measured and why.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -7,6 +7,7 @@
 #include <QWidget>
 
 #include "app/gui/scope/CaptureStatistics.h"
+#include "app/gui/scope/ChosenReadings.h"
 
 class QLabel;
 class QPushButton;
@@ -17,33 +18,41 @@ namespace tacto::gui {
 class MeasurementTable final : public QWidget {
     Q_OBJECT
 public:
-    explicit MeasurementTable(QWidget* parent = nullptr);
+    /// `chosen` outlives this.
+    explicit MeasurementTable(ChosenReadings& chosen, QWidget* parent = nullptr);
 
     /// One more capture.
-    void add(const std::vector<ChannelMeasurement>& measured, const std::vector<std::string>& warnings);
+    void add(const ShownPtr& shown);
     /// What is shown now was not triggered: it is not counted, and that is said until the next capture.
     void passOverUntriggered();
     void clear();
     [[nodiscard]] const CaptureStatistics& statistics() const noexcept { return statistics_; }
     /// The table as tab-separated text, for the clipboard.
     [[nodiscard]] QString asText() const;
+    /// The last values of the chosen readings in a line for each channel, for a picture.
+    [[nodiscard]] QStringList asLines() const;
+
+signals:
+    /// The user begins anew: what is averaged does too.
+    void resetClicked();
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;
     void changeEvent(QEvent* event) override;
 
 private:
-    void layRows();
-    void sizeColumns();
+    void lay();
     void restyle();
     void refill();
-    void fillRow(int row, const CaptureStatistics::Channel& channel, int statistic);
 
+    ChosenReadings& chosen_;
     CaptureStatistics statistics_;
+    ShownPtr newest_;  // that was counted
     bool passedOver_ = false;
     QTableWidget* table_;
     QLabel* seen_;
     QLabel* warnings_;
+    QPushButton* choose_;
     QPushButton* reset_;
 };
 

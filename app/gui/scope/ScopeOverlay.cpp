@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
 constexpr double kReach = 5;  ///< pixels beside a line within which it is taken hold of
+constexpr int kFlagWidth = 136;
+constexpr double kFlagPadding = 8;
+constexpr double kArrow = 6;
 
 }  // namespace
 
@@ -20,11 +23,7 @@ void ScopeOverlay::applyDefaultAntialiasingHint(QCPPainter* painter) const { pai
 
 QRect ScopeOverlay::clipRect() const { return area().adjusted(-1, -1, 2, 2).toRect(); }
 
-QFont ScopeOverlay::font() const {
-    auto small = mParentPlot->font();
-    if (small.pointSizeF() > 0) small.setPointSizeF(small.pointSizeF() * 0.85);
-    return small;
-}
+QFont ScopeOverlay::font() const { return textFont(TextSize::Small); }
 
 double ScopeOverlay::x(double key_s) const {
     const auto range = keys_->range();
@@ -69,14 +68,40 @@ ScopeOverlay::Pennant ScopeOverlay::lanePennant(int lane) const {
     return pennant(Qt::LeftEdge, y(its.height), its.letter);
 }
 
-ScopeOverlay::Pennant ScopeOverlay::timeTag(int cursor) const {
-    return pennant(Qt::BottomEdge, x(state.timeCursors_s[static_cast<std::size_t>(cursor)]),
-                   cursor == 0 ? QStringLiteral("X1") : QStringLiteral("X2"));
+ScopeOverlay::Pennant ScopeOverlay::levelTag(int cursor) const {
+    const auto i = static_cast<std::size_t>(cursor);
+    return pennant(Qt::RightEdge, y(state.levelCursors[i]), state.levelTexts[i]);
 }
 
-ScopeOverlay::Pennant ScopeOverlay::levelTag(int cursor) const {
-    return pennant(Qt::RightEdge, y(state.levelCursors[static_cast<std::size_t>(cursor)]),
-                   cursor == 0 ? QStringLiteral("Y1") : QStringLiteral("Y2"));
+QSizeF ScopeOverlay::sizeOf(const OverlayState::Flag& flag) const {
+    const QFontMetricsF metrics(font()), strong(textFont(TextSize::Small, QFont::DemiBold));
+    const double between = metrics.height();
+    double width = strong.horizontalAdvance(flag.name) + between + strong.horizontalAdvance(flag.position);
+    for (const auto& row : flag.rows) {
+        width = std::max(width, strong.horizontalAdvance(row.letter) + between + metrics.horizontalAdvance(row.text));
+    }
+    const double line = metrics.height();
+    const double rows = flag.rows.empty() ? 0 : static_cast<double>(flag.rows.size()) * line + kFlagPadding;
+    return {std::max<double>(width + 2 * kFlagPadding, scaledPx(kFlagWidth)), line + kFlagPadding / 2 + rows};
+}
+
+std::vector<QRectF> ScopeOverlay::flagBoxes() const {
+    std::vector<QRectF> boxes;
+    if (state.flags.size() != 2) return boxes;
+    const auto a = area();
+    const bool ordered = state.timeCursors_s[0] <= state.timeCursors_s[1];
+    const double top = a.top() + QFontMetricsF(font()).height() * 1.6;  // below the trigger's mark
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto size = sizeOf(state.flags[i]);
+        const double at = x(state.timeCursors_s[i]);
+        bool left = ordered == (i == 0);
+        if (left && at - size.width() < a.left()) left = false;
+        if (!left && at + size.width() > a.right()) left = true;
+        const double from = std::clamp(left ? at - size.width() : at, a.left(), a.right() - size.width());
+        boxes.emplace_back(QPointF(from, top), size);
+    }
+    if (boxes[0].intersects(boxes[1])) boxes[1].moveTop(boxes[0].bottom() + kFlagPadding);
+    return boxes;
 }
 
 GripAt ScopeOverlay::at(const QPointF& pixel) const {
@@ -84,8 +109,9 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
     if (!a.adjusted(-1, -1, 1, 1).contains(pixel)) return {};
     const auto within = [&](const Pennant& p) { return p.shape.boundingRect().adjusted(-2, -2, 2, 2).contains(pixel); };
     // Marks first, then lines: what is drawn last is found first.
-    for (int c = static_cast<int>(state.timeCursors_s.size()) - 1; c >= 0; --c) {
-        if (within(timeTag(c))) return {Grip::TimeCursor, c};
+    const auto flags = flagBoxes();
+    for (int c = static_cast<int>(flags.size()) - 1; c >= 0; --c) {
+        if (flags[static_cast<std::size_t>(c)].contains(pixel)) return {Grip::TimeCursor, c};
     }
     for (int c = static_cast<int>(state.levelCursors.size()) - 1; c >= 0; --c) {
         if (within(levelTag(c))) return {Grip::LevelCursor, c};
@@ -115,18 +141,20 @@ void ScopeOverlay::draw(QCPPainter* painter) {
     if (area().isEmpty()) return;  // not laid out yet
     painter->setFont(font());
     drawMarks(*painter);
-    drawNote(*painter);
     drawTrigger(*painter);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
         drawPennant(*painter, lanePennant(lane), its.letter, its.colour, its.active);
     }
-    drawCursors(*painter);
+    drawTimeCursors(*painter);
+    drawLevelCursors(*painter);
     drawHover(*painter);
+    drawNotes(*painter);
+    drawAlarm(*painter);
     if (!state.box) return;
-    auto fill = colours().accent;
+    auto fill = colours().frame;
     fill.setAlpha(40);
-    painter->setPen(QPen(colours().accent, 1));
+    painter->setPen(QPen(colours().frame, 1));
     painter->setBrush(fill);
     painter->drawRect(state.box->intersected(area()));
 }
@@ -154,7 +182,7 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
     if (t.moment_s) {
         const double at = x(*t.moment_s);
         if (at >= a.left() && at <= a.right()) {
-            drawLine(painter, QLineF(at, a.top(), at, a.bottom()), colours().reference, Qt::DotLine);
+            drawLine(painter, QLineF(at, a.top(), at, a.bottom()), colours().zero, Qt::DotLine);
         }
         drawPennant(painter, pennant(Qt::TopEdge, at, "T"), "T", t.colour, true);
     }
@@ -168,27 +196,77 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
     if (!t.text.isEmpty()) drawTag(painter, QPointF(a.center().x(), a.top() + a.height() * 0.12), t.text, t.colour);
 }
 
-void ScopeOverlay::drawCursors(QCPPainter& painter) const {
+void ScopeOverlay::drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag,
+                            bool focused) const {
+    const auto& c = colours();
+    const double line = QFontMetricsF(font()).height();
+    const QRectF head(box.left(), box.top(), box.width(), line + kFlagPadding / 2);
+    painter.setPen(QPen(focused ? c.text : c.quiet, 1));
+    painter.setBrush(c.base);
+    painter.drawRect(box);
+    painter.fillRect(head, focused ? c.text : c.quiet);
+    painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+    painter.setPen(c.base);
+    const auto inside = [](const QRectF& row) { return row.adjusted(kFlagPadding, 0, -kFlagPadding, 0); };
+    painter.drawText(inside(head), Qt::AlignLeft | Qt::AlignVCenter, flag.name);
+    painter.drawText(inside(head), Qt::AlignRight | Qt::AlignVCenter, flag.position);
+    QRectF row(box.left(), head.bottom() + kFlagPadding / 2, box.width(), line);
+    for (const auto& its : flag.rows) {
+        painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+        painter.setPen(its.colour);
+        painter.drawText(inside(row), Qt::AlignLeft | Qt::AlignVCenter, its.letter);
+        painter.setFont(font());
+        painter.setPen(c.text);
+        painter.drawText(inside(row), Qt::AlignRight | Qt::AlignVCenter, its.text);
+        row.translate(0, line);
+    }
+    painter.setFont(font());
+}
+
+void ScopeOverlay::drawTimeCursors(QCPPainter& painter) const {
+    if (state.timeCursors_s.size() != 2) return;
     const auto& c = colours();
     const auto a = area();
-    for (int i = 0; i < static_cast<int>(state.timeCursors_s.size()); ++i) {
-        const bool focused = state.focusedCursor == i;
+    for (int i = 0; i < 2; ++i) {
         const double at = x(state.timeCursors_s[static_cast<std::size_t>(i)]);
-        const auto colour = focused ? c.accent : c.quiet;
-        if (at >= a.left() && at <= a.right()) {
-            drawLine(painter, QLineF(at, a.top(), at, a.bottom()), colour, Qt::DashLine);
-        }
-        drawPennant(painter, timeTag(i), i == 0 ? "X1" : "X2", colour, focused);
+        if (at < a.left() || at > a.right()) continue;
+        drawLine(painter, QLineF(at, a.top(), at, a.bottom()), state.focusedCursor == i ? c.text : c.quiet,
+                 Qt::DashLine);
     }
-    for (int i = 0; i < static_cast<int>(state.levelCursors.size()); ++i) {
+    const double from = std::clamp(x(std::min(state.timeCursors_s[0], state.timeCursors_s[1])), a.left(), a.right());
+    const double to = std::clamp(x(std::max(state.timeCursors_s[0], state.timeCursors_s[1])), a.left(), a.right());
+    const double half = std::round(a.center().y());
+    drawLine(painter, QLineF(from, half, to, half), c.text, Qt::SolidLine);
+    for (const auto& [end, inwards] : {std::pair(from, kArrow), std::pair(to, -kArrow)}) {
+        drawLine(painter, QLineF(end, half, end + inwards, half - kArrow / 2), c.text, Qt::SolidLine);
+        drawLine(painter, QLineF(end, half, end + inwards, half + kArrow / 2), c.text, Qt::SolidLine);
+    }
+    drawTag(painter, QPointF((from + to) / 2, half), state.timeSpan, c.text);
+    const auto boxes = flagBoxes();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        drawFlag(painter, boxes[i], state.flags[i], state.focusedCursor == static_cast<int>(i));
+    }
+}
+
+void ScopeOverlay::drawLevelCursors(QCPPainter& painter) const {
+    if (state.levelCursors.size() != 2) return;
+    const auto& c = colours();
+    const auto a = area();
+    for (int i = 0; i < 2; ++i) {
         const bool focused = state.focusedCursor == 2 + i;
-        const double at = y(state.levelCursors[static_cast<std::size_t>(i)]);
-        const auto colour = focused ? c.accent : c.quiet;
+        const auto which = static_cast<std::size_t>(i);
+        const double at = y(state.levelCursors[which]);
+        const auto colour = focused ? c.text : c.quiet;
         if (at >= a.top() && at <= a.bottom()) {
             drawLine(painter, QLineF(a.left(), at, a.right(), at), colour, Qt::DashLine);
         }
-        drawPennant(painter, levelTag(i), i == 0 ? "Y1" : "Y2", colour, focused);
+        drawPennant(painter, levelTag(i), state.levelTexts[which], colour, focused);
     }
+    const double top = std::clamp(y(std::max(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
+    const double bottom = std::clamp(y(std::min(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
+    const double at = std::round(a.left() + a.width() * 0.85);
+    drawLine(painter, QLineF(at, top, at, bottom), c.text, Qt::SolidLine);
+    drawTag(painter, QPointF(at, (top + bottom) / 2), state.levelSpan, c.text);
 }
 
 void ScopeOverlay::drawMarks(QCPPainter& painter) const {
@@ -217,14 +295,33 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
     }
 }
 
-void ScopeOverlay::drawNote(QCPPainter& painter) const {
-    if (state.note.isEmpty()) return;
+/// In the corner, one below the other: the middle belongs to the signal, the edges to handles.
+void ScopeOverlay::drawNotes(QCPPainter& painter) const {
     const QFontMetricsF metrics(font());
     const auto a = area();
-    // In the corner: the middle belongs to the signal, the edges to handles.
-    const double width = metrics.horizontalAdvance(state.note) + 12;
-    drawTag(painter, QPointF(a.right() - width / 2 - metrics.height() * 2, a.top() + metrics.height()), state.note,
-            colours().text);
+    double at = a.top() + metrics.height();
+    for (const auto& note : state.notes) {
+        const double width = metrics.horizontalAdvance(note) + 12;
+        drawTag(painter, QPointF(a.right() - width / 2 - metrics.height() * 2, at), note, colours().text);
+        at += metrics.height() * 1.6;
+    }
+}
+
+/// Ink, as every verdict that is not passed: red is for STOP and faults.
+void ScopeOverlay::drawAlarm(QCPPainter& painter) const {
+    if (state.alarm.isEmpty()) return;
+    const auto& c = colours();
+    const auto a = area();
+    const auto large = textFont(TextSize::Large, QFont::DemiBold);
+    const QFontMetricsF metrics(large);
+    QRectF box(0, 0, std::min(metrics.horizontalAdvance(state.alarm) + metrics.height(), a.width()),
+               metrics.height() * 1.4);
+    box.moveCenter(QPointF(a.center().x(), a.bottom() - metrics.height() * 0.9));
+    painter.fillRect(box, c.fail);
+    painter.setFont(large);
+    painter.setPen(c.failText);
+    painter.drawText(box, Qt::AlignCenter, metrics.elidedText(state.alarm, Qt::ElideRight, box.width()));
+    painter.setFont(font());
 }
 
 void ScopeOverlay::drawHover(QCPPainter& painter) const {

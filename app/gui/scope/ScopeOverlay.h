@@ -1,6 +1,6 @@
 // ScopeOverlay.h - what lies over the traces of an oscilloscope and can be taken hold of: the lanes' zero marks,
-// trigger level and moment, cursors; and what only shows: the zoom box, the width under the mouse, pulses that were not
-// measured.
+// trigger level and moment, cursors with what they read as flags; and what only shows: the zoom box, the width under
+// the mouse, pulses that were not measured, and what is said of the whole record.
 //
 // Draws on a layer of its own, so that moving a cursor does not draw the traces again. It knows nothing of captures:
 // the view fills in `state` and asks what lies under the mouse.
@@ -11,6 +11,8 @@
 #include <optional>
 #include <qcustomplot.h>
 #include <vector>
+
+#include "app/gui/scope/TraceEdges.h"
 
 namespace tacto::gui {
 
@@ -24,6 +26,7 @@ struct GripAt {
 /// Times in seconds on the key axis, heights in divisions above the middle.
 struct OverlayState {
     struct Lane {
+        QString key;
         QString letter;  ///< "V"
         QColor colour;
         double height = 0;
@@ -41,19 +44,31 @@ struct OverlayState {
         QString why;
         QColor colour;
     };
-    struct Hover {
-        double from_s = 0, to_s = 0;
-        QString text;
+    /// What a cursor reads; it stands beyond what the two cursors enclose.
+    struct Flag {
+        struct Row {
+            QString letter;  ///< of the lane
+            QString text;    ///< "20.1 V ↑"
+            QColor colour;
+        };
+        QString name;      ///< "t₁"
+        QString position;  ///< "200.0 µs"
+        std::vector<Row> rows;
     };
     std::vector<Lane> lanes;
     std::optional<Trigger> trigger;
     std::vector<double> timeCursors_s;  ///< two or none
+    std::vector<Flag> flags;            ///< of the time cursors
+    QString timeSpan;                   ///< between them
     std::vector<double> levelCursors;   ///< two or none, heights
+    std::vector<QString> levelTexts;    ///< of the level cursors: "y₁ 40.0 V"
+    QString levelSpan;                  ///< between them
     int focusedCursor = -1;             ///< 0, 1: time; 2, 3: level
     std::optional<QRectF> box;          ///< pixels
-    std::optional<Hover> hover;
+    std::optional<EdgeReading> hover;
     std::vector<Mark> marks;  ///< in time order
-    QString note;             ///< about the whole record: "not triggered"
+    QStringList notes;        ///< about the whole record: "not triggered", "averaged 16"
+    QString alarm;            ///< of a failed mask test, until it is acknowledged
 };
 
 class ScopeOverlay final : public QCPLayerable {
@@ -81,16 +96,21 @@ private:
     /// Held inside the area, so that what is off the screen can be fetched back.
     [[nodiscard]] Pennant pennant(Qt::Edge edge, double along, const QString& text) const;
     [[nodiscard]] Pennant lanePennant(int lane) const;
-    [[nodiscard]] Pennant timeTag(int cursor) const;
+    /// In the order of the cursors; empty without them.
+    [[nodiscard]] std::vector<QRectF> flagBoxes() const;
+    [[nodiscard]] QSizeF sizeOf(const OverlayState::Flag& flag) const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
+    void drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const;
+    void drawTimeCursors(QCPPainter& painter) const;
+    void drawLevelCursors(QCPPainter& painter) const;
     void drawPennant(QCPPainter& painter, const Pennant& pennant, const QString& text, const QColor& colour,
                      bool filled) const;
     void drawLine(QCPPainter& painter, const QLineF& line, const QColor& colour, Qt::PenStyle style) const;
     void drawTrigger(QCPPainter& painter) const;
-    void drawCursors(QCPPainter& painter) const;
     void drawMarks(QCPPainter& painter) const;
     void drawHover(QCPPainter& painter) const;
-    void drawNote(QCPPainter& painter) const;
+    void drawNotes(QCPPainter& painter) const;
+    void drawAlarm(QCPPainter& painter) const;
     void drawTag(QCPPainter& painter, const QPointF& centre, const QString& text, const QColor& colour) const;
 
     QCPAxis* keys_;

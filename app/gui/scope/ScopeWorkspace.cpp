@@ -1,63 +1,355 @@
 #include "app/gui/scope/ScopeWorkspace.h"
 
-#include <QButtonGroup>
+#include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QLabel>
+#include <QMimeData>
 #include <QPushButton>
+#include <QShortcut>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QToolButton>
+#include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/scope/AcquisitionPanel.h"
 #include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeControls.h"
+#include "app/gui/scope/ScopeFiles.h"
+#include "app/gui/scope/ScopeGestures.h"
+#include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/SpectrumPanel.h"
-#include "app/gui/scope/ViewPanel.h"
-#include "app/report/NumberText.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/run/CaptureFormatsList.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr double kLevelShare = 0.2;         ///< of the commanded amplitude, in Auto
-constexpr qint64 kQuietAfter_ms = 1500;     ///< without a trigger this long it is said
-constexpr qint64 kFollowEvery_ms = 300;     ///< the level is moved no more often: a request gives up the one under way
-constexpr Seconds kFreeRunAfter{0.4};       ///< without a trigger, while nothing is delivered that could be one
-constexpr double kFreeRunIntervals = 1.25;  ///< while something is: of the longest interval between two trains
-constexpr double kTimeKnown = 0.02;         ///< of a sample's distance to the next: what a cursor reads of an edge
-constexpr double kFollowFrom = 1.3;         ///< and only when it would change by more than this factor
-
-bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
-    return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
-           a.triggerOnCurrent == b.triggerOnCurrent && a.triggerLevel == b.triggerLevel &&
-           a.voltageRange == b.voltageRange && a.currentRange == b.currentRange;
-}
+constexpr std::array<const char*, 4> kModes{"auto", "normal", "single", "roll"};  // in ScopeMode's order
 
 }  // namespace
 
-bool ScopeWorkspace::benchCanCapture() const {
-    return desk_.activity() == Activity::Live && desk_.open() && desk_.open()->scope;
+ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
+    : QWidget(parent),
+      controller_(controller),
+      files_(std::make_unique<ScopeFiles>(pipe_, model_, *this)),
+      tools_(new ScopeTools(files_->menu(), this)),
+      cancelOpen_(new QToolButton(this)),
+      screen_(new ScopeScreen(model_, this)),
+      gestures_(std::make_unique<ScopeGestures>(model_, *screen_)),
+      controls_(new ScopeControls(model_, *screen_, this)),
+      spectrum_(new SpectrumPanel(this)),
+      table_(new MeasurementTable(readings_, this)),
+      status_(new QLabel(this)),
+      stack_(new QStackedWidget(this)),
+      plots_(new QSplitter(Qt::Vertical, this)) {
+    acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
+    setAcceptDrops(true);
+    files_->show(*screen_, *table_, [this] { return caption(); });
+    layOut();
+    connectTools();
+    connectModel();
+    connectPanels();
+    connectBench();
+    restore();
+    benchChanged();
+}
+
+/// A screen that is taken down still gets events (it loses mouse and focus): what handles them goes before it, and it
+/// before the model.
+ScopeWorkspace::~ScopeWorkspace() {
+    save();
+    disconnect(&model_, nullptr, this, nullptr);
+    gestures_.reset();
+    delete stack_;
+}
+
+void ScopeWorkspace::layOut() {
+    status_->setObjectName("scopeStatus");
+    status_->setWordWrap(true);
+    setTextSize(*status_, TextSize::Small);
+    cancelOpen_->setText(tr("Cancel"));
+    cancelOpen_->setToolTip(tr("Gives up reading. What is shown stays."));
+    cancelOpen_->setAutoRaise(true);
+    cancelOpen_->setFocusPolicy(Qt::StrongFocus);
+
+    plots_->setChildrenCollapsible(false);
+    plots_->addWidget(screen_);
+    plots_->addWidget(spectrum_);
+    plots_->addWidget(table_);
+    plots_->setStretchFactor(0, 5);
+    plots_->setStretchFactor(1, 2);
+    plots_->setStretchFactor(2, 2);
+    plots_->setSizes({600, 200, 190});
+    spectrum_->hide();
+    table_->hide();
+
+    auto* left = new QWidget(this);
+    auto* column = new QVBoxLayout(left);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    auto* statusLine = new QHBoxLayout;
+    statusLine->setContentsMargins(8, 2, 8, 0);
+    statusLine->addWidget(status_, 1);
+    statusLine->addWidget(cancelOpen_);
+    column->addLayout(statusLine);
+    column->addWidget(plots_, 1);
+
+    auto* whole = new QWidget(this);
+    auto* rows = new QVBoxLayout(whole);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addWidget(tools_);
+    auto* row = new QHBoxLayout;
+    row->addWidget(left, 1);
+    row->addWidget(controls_);
+    rows->addLayout(row, 1);
+
+    stack_->addWidget(buildEmpty());
+    stack_->addWidget(whole);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSizeConstraint(QLayout::SetNoConstraint);  // see minimumSizeHint()
+    layout->addWidget(stack_);
+}
+
+QWidget* ScopeWorkspace::buildEmpty() {
+    auto* empty = new EmptyState(tr("The oscilloscope shows and measures what really arrives at the electrodes.\n"
+                                    "No bench is open, and no capture is loaded."),
+                                 tr("Open the simulated bench"), this);
+    connect(empty, &EmptyState::nextStep, this, &ScopeWorkspace::openBenchWanted);
+    auto* open = new QPushButton(tr("Open a capture…"), empty);
+    open->setToolTip(tr("A CSV file with time_s and a column per channel, as this program saves them."));
+    connect(open, &QPushButton::clicked, files_.get(), &ScopeFiles::askOpen);
+    auto* column = static_cast<QVBoxLayout*>(empty->layout());
+    column->insertWidget(column->count() - 1, open, 0, Qt::AlignCenter);
+    return empty;
+}
+
+void ScopeWorkspace::connectTools() {
+    connect(tools_, &ScopeTools::runClicked, this, [this] { running() ? hold() : run(); });
+    connect(tools_, &ScopeTools::modeChosen, this, &ScopeWorkspace::setMode);
+    connect(tools_, &ScopeTools::fitClicked, &model_, &ScopeModel::fit);
+    connect(tools_, &ScopeTools::undoClicked, &model_, &ScopeModel::undoZoom);
+    connect(tools_, &ScopeTools::boxToggled, gestures_.get(), &ScopeGestures::setBoxZoom);
+    connect(tools_, &ScopeTools::timeCursorsToggled, &model_, &ScopeModel::setTimeCursors);
+    connect(tools_, &ScopeTools::levelCursorsToggled, &model_, &ScopeModel::setLevelCursors);
+    connect(gestures_.get(), &ScopeGestures::boxZoomEnded, tools_, &ScopeTools::endBox);
+    connect(tools_, &ScopeTools::controlsClicked, this, [this](bool on) {
+        controlsWanted_ = on;
+        controlsForced_ = on;
+        fitControls();
+    });
+    connect(tools_, &ScopeTools::tableClicked, table_, &QWidget::setVisible);
+    connect(tools_, &ScopeTools::timeBaseChosen, &model_, &ScopeModel::setTimePerDivision);
+    connect(tools_, &ScopeTools::spectrumClicked, &controls_->view(), &ViewPanel::setSpectrum);
+    connect(tools_, &ScopeTools::averageClicked, this,
+            [this](bool on) { controls_->view().setAverage(on ? controls_->view().lastAverage() : 1); });
+    connect(tools_, &ScopeTools::maskClicked, this, [this](bool on) {
+        on ? controls_->mask().make(model_.shown()) : controls_->mask().remove();
+        showState();
+    });
+    connect(cancelOpen_, &QToolButton::clicked, &pipe_, &CapturePipe::cancelOpen);
+    connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
+    connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
+    const auto onKey = [this](const QKeySequence& key, auto task) {
+        auto* shortcut = new QShortcut(key, this);
+        // The tools may stand in another row than this: the keys are this view's wherever the focus is in the window.
+        shortcut->setContext(Qt::WindowShortcut);
+        connect(shortcut, &QShortcut::activated, this, task);
+    };
+    onKey(Qt::Key_A, [this] { setMode(ScopeMode::Auto); });
+    onKey(Qt::Key_N, [this] { setMode(ScopeMode::Normal); });
+    onKey(Qt::Key_S, [this] { setMode(ScopeMode::Single); });
+    onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
+    onKey(Qt::Key_T, [this] { tools_->toggleTimeCursors(); });
+    onKey(Qt::Key_L, [this] { tools_->toggleLevelCursors(); });
+    onKey(Qt::Key_B, [this] { tools_->toggleBox(); });
+    onKey(Qt::Key_D, [this] { emit driveWanted(); });
+    onKey(QKeySequence::Save, [this] {
+        if (model_.shown()) files_->askSavePicture();
+    });
+    onKey(QKeySequence::Undo, [this] { model_.undoZoom(); });
+}
+
+void ScopeWorkspace::connectModel() {
+    connect(&model_, &ScopeModel::cursorsChanged, this, &ScopeWorkspace::sayCursors);
+    connect(&model_, &ScopeModel::viewChanged, this, [this] {
+        tools_->setCanUndo(model_.canUndo());
+        tools_->showTimeBase(model_.viewport().perDivision_s);
+        sayCursors();
+        showSpectrum();
+    });
+    connect(&model_, &ScopeModel::lanesChanged, this, [this] {
+        spectrum_->setLanes(model_.lanes());
+        showSpectrum();
+    });
+    connect(&model_, &ScopeModel::triggerLevelChosen, this, [this](double level) {
+        controls_->acquisition().setLevel(level);
+        acquisition_->settingsChanged();
+        say();
+    });
+    connect(&model_, &ScopeModel::preTriggerChosen, &controls_->acquisition(), &AcquisitionPanel::setPreTrigger);
+}
+
+void ScopeWorkspace::connectPanels() {
+    const auto* view = &controls_->view();
+    const auto* mask = &controls_->mask();
+    connect(&controls_->acquisition(), &AcquisitionPanel::changed, this, [this] {
+        acquisition_->settingsChanged();
+        say();
+    });
+    connect(view, &ViewPanel::wishChanged, this, [this] {
+        pipe_.setWish(controls_->view().wish());
+        pipe_.recalculate(model_.shown());
+    });
+    connect(view, &ViewPanel::spectrumToggled, this, &ScopeWorkspace::showSpectrum);
+    connect(spectrum_, &SpectrumPanel::chosen, this, &ScopeWorkspace::showSpectrum);
+    connect(view, &ViewPanel::averageChanged, this, &ScopeWorkspace::average);
+    connect(table_, &MeasurementTable::resetClicked, this, [this] {
+        pipe_.setAverage(1);
+        average();
+    });
+    connect(mask, &MaskPanel::makeWanted, this, [this] { controls_->mask().make(model_.shown()); });
+    connect(mask, &MaskPanel::maskChanged, this, [this] {
+        pipe_.setMask(controls_->mask().mask());
+        screen_->setMask(controls_->mask().mask());
+    });
+    connect(mask, &MaskPanel::countsChanged, this, [this] {
+        screen_->setAlarm(controls_->mask().alarm());
+        showState();
+    });
+    connect(mask, &MaskPanel::firstOutsideWanted, this, [this] {
+        if (const auto& first = controls_->mask().firstOutside()) {
+            show(first->capture, tr("first capture outside the mask"));
+        }
+    });
+}
+
+void ScopeWorkspace::connectBench() {
+    connect(&controller_, &BenchController::changed, this, &ScopeWorkspace::benchChanged);
+    connect(&controller_, &BenchController::captured, this, [this](std::shared_ptr<const Capture> capture) {
+        if (running()) pipe_.take(std::move(capture));
+    });
+    connect(acquisition_.get(), &ScopeAcquisition::requested, this, [this] { pipe_.breakOff(); });
+    connect(acquisition_.get(), &ScopeAcquisition::stopped, this, [this](const QString& why) { tell({}, why); });
+    connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);
+    connect(&pipe_, &CapturePipe::recalculated, this, [this](const ShownPtr& shown) {
+        // A newer capture already has the new calculation.
+        if (model_.shown() && model_.shown()->capture == shown->capture) model_.replaceMath(shown);
+    });
+    connect(&pipe_, &CapturePipe::openingChanged, this, &ScopeWorkspace::showState);
+    connect(&pipe_, &CapturePipe::failed, this, [this](const QString& what) { tell(done_, what); });
+}
+
+/// Without the column at the right, which goes where there is no room for it: large text must not make the window
+/// larger than its screen.
+QSize ScopeWorkspace::minimumSizeHint() const {
+    return {screen_->minimumWidth() + fontMetrics().averageCharWidth() * 4, fontMetrics().height() * 16};
+}
+
+void ScopeWorkspace::fitControls() {
+    const int needed = screen_->minimumWidth() + controls_->sizeHint().width() + fontMetrics().averageCharWidth() * 4;
+    const bool room = width() >= needed;
+    if (room) controlsForced_ = false;
+    const bool on = controlsWanted_ && (room || controlsForced_);
+    tools_->showControls(on);
+    controls_->setVisible(on);
+}
+
+void ScopeWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fitControls();
+}
+
+void ScopeWorkspace::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (acquisition_ == nullptr) return;
+    if (event->type() == QEvent::PaletteChange) showSpectrum();
+    if (event->type() != QEvent::FontChange) return;
+    QMetaObject::invokeMethod(this, &ScopeWorkspace::fitControls, Qt::QueuedConnection);  // once all have the new font
+}
+
+void ScopeWorkspace::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    save();
+}
+
+void ScopeWorkspace::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    benchChanged();
+}
+
+void ScopeWorkspace::dragEnterEvent(QDragEnterEvent* event) {
+    const auto urls = event->mimeData()->urls();
+    if (!urls.isEmpty() && captureFormats()->knowsSuffix(urls.first().toLocalFile().toStdString())) {
+        event->acceptProposedAction();
+    }
+}
+
+void ScopeWorkspace::dropEvent(QDropEvent* event) { openCaptureFile(event->mimeData()->urls().first().toLocalFile()); }
+
+void ScopeWorkspace::save() const {
+    QSettings settings;
+    settings.beginGroup("scope");
+    settings.setValue("mode", kModes[static_cast<std::size_t>(mode())]);
+    controls_->save(settings);
+    readings_.save(settings);
+    spectrum_->save(settings);
+    saveView(settings, model_.chosenView());
+    settings.setValue("panels", plots_->saveState());
+    settings.setValue("controls", controlsWanted_);
+    settings.setValue("table", !table_->isHidden());
+}
+
+void ScopeWorkspace::restore() {
+    QSettings settings;
+    settings.beginGroup("scope");
+    controls_->restore(settings);
+    readings_.restore(settings);
+    spectrum_->restore(settings);
+    model_.setChosenView(restoredView(settings));
+    plots_->restoreState(settings.value("panels").toByteArray());  // says no to what it did not write
+    plots_->setOrientation(Qt::Vertical);
+    plots_->setChildrenCollapsible(false);
+    // At a first start the screen gets all the room; both panels are opened from the tools.
+    controlsWanted_ = rememberedFlag(settings, "controls").value_or(false);
+    table_->setVisible(rememberedFlag(settings, "table").value_or(false));
+    tools_->showTable(!table_->isHidden());
+    fitControls();
+    const auto known = std::find(kModes.begin(), kModes.end(), settings.value("mode").toString());
+    applyMode(known == kModes.end() ? mode() : static_cast<ScopeMode>(known - kModes.begin()));
 }
 
 void ScopeWorkspace::benchChanged() {
-    if (benchCanCapture()) {
-        acquisition_->setTraits(*desk_.open()->scope);
-        if (wanted_ && !running_ && (watched_ || isVisible())) run();
-    } else if (running_ || failed_) {
-        if (failed_) problem_.clear();
-        failed_ = running_ = false;
-        wanted_ = true;  // goes on with the next bench
+    // A bench that has just been opened is looked at, not the file that was.
+    const auto session = controller_.open() ? controller_.open()->session : std::filesystem::path();
+    if (acquisition_->possible() && std::exchange(session_, session) != session) {
+        framed_ = false;
+        pipe_.beginAnew();
+        table_->clear();
+        controls_->mask().resetCounts();
+        if (model_.shown() && !model_.shown()->source.isEmpty()) {
+            pipe_.cancelOpen();
+            model_.clear();
+            acquisition_->wantAgain();
+        }
     }
+    if (acquisition_->benchChanged(watched_ || isVisible())) problem_.clear();
     showState();
 }
 
-ScopeSettings ScopeWorkspace::settings() const { return acquisition_->settings(); }
+QWidget* ScopeWorkspace::tools() { return tools_; }
+
+ScopeSettings ScopeWorkspace::settings() const { return controls_->acquisition().settings(); }
 
 void ScopeWorkspace::setWatched(bool watched) {
     watched_ = watched;
-    // What runs goes on running. And a dock says that it is hidden while the window, and the desk with it, goes.
+    // What runs goes on running. And a dock says that it is hidden while the window, and the controller with it, goes.
     if (watched) benchChanged();
 }
 
@@ -67,117 +359,63 @@ void ScopeWorkspace::setMode(ScopeMode mode) {
 }
 
 void ScopeWorkspace::applyMode(ScopeMode mode) {
-    mode_ = mode;
-    if (auto* button = modes_->button(static_cast<int>(mode))) button->setChecked(true);
-    view_->setRoll(mode == ScopeMode::Roll);
-    acquisition_->setLevelHeld(mode == ScopeMode::Auto || mode == ScopeMode::Roll);
-    followAmplitude();
+    tools_->showMode(mode);
+    model_.setRoll(mode == ScopeMode::Roll);
+    average();
+    acquisition_->setMode(mode);
 }
 
 void ScopeWorkspace::run() {
-    wanted_ = true;
-    failed_ = false;
     problem_.clear();
-    if (benchCanCapture()) {
-        running_ = true;
-        taken_ = 0;
-        sinceCapture_.start();
-        request();
-    }
+    acquisition_->run();
     showState();
 }
 
 void ScopeWorkspace::hold() {
-    wanted_ = false;
-    if (running_) desk_.stopScope();
-    running_ = false;
+    acquisition_->hold();
     showState();
-}
-
-void ScopeWorkspace::request() {
-    requested_ = settings();
-    requestedWait_ = untriggeredAfter();
-    sinceRequest_.start();
-    desk_.runScope(requested_, mode_ == ScopeMode::Single, requestedWait_);
-}
-
-/// In Auto (and Roll) there is a picture even without a trigger. While trains are delivered it waits for the slowest
-/// of them first: a picture that jumps between triggered and not is worse than a late one.
-std::optional<Seconds> ScopeWorkspace::untriggeredAfter() const {
-    if (mode_ != ScopeMode::Auto && mode_ != ScopeMode::Roll) return {};
-    if (!desk_.open() || !desk_.open()->untriggered) return {};
-    if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
-    return kFreeRunIntervals * desk_.profile().encoding.intervalMax;
-}
-
-/// The oscilloscope failed. The bench goes on, and so does the output: it is only no longer seen.
-void ScopeWorkspace::stopped(const QString& why) {
-    running_ = false;
-    wanted_ = false;  // asking again is no use before the user has looked at it
-    failed_ = true;
-    done_.clear();
-    auto what = why;
-    while (what.endsWith('.')) what.chop(1);
-    const auto state = desk_.telemetry().state;
-    const bool on =
-        state == InterlockState::Armed || state == InterlockState::Delivering || state == InterlockState::Checking;
-    problem_ =
-        tr("⚠ The oscilloscope stopped: %1. %2 The last capture stays. When the oscilloscope is back, press Run.")
-            .arg(what, on ? tr("The output is not switched off by this and goes on unmeasured: STOP ends it.")
-                          : tr("Output is off."));
-    showState();
-}
-
-/// In Auto (and Roll) the level is a fifth of what is commanded: above the noise, below the pulse.
-void ScopeWorkspace::followAmplitude() {
-    if (mode_ != ScopeMode::Auto && mode_ != ScopeMode::Roll) return;
-    double level = kLevelShare * telemetry_.amplitude_v;
-    // On the current channel the commanded voltage says something only with the impedance.
-    if (acquisition_->triggersOnCurrent()) level /= telemetry_.impedance_ohm;
-    if (!std::isfinite(level) || !(level > 0)) return;
-    const double now = requested_.triggerLevel;
-    if (running_ && level < now * kFollowFrom && level > now / kFollowFrom) return;
-    if (running_ && sinceRequest_.isValid() && sinceRequest_.elapsed() < kFollowEvery_ms) return;
-    acquisition_->setLevel(level);
-    if (running_ && !sameSettings(settings(), requested_)) request();
 }
 
 void ScopeWorkspace::refresh(const Telemetry& telemetry) {
-    telemetry_ = telemetry;
-    followAmplitude();
-    if (running_ && untriggeredAfter() != requestedWait_) request();
+    acquisition_->refresh(telemetry);
     if (isVisible()) say();
 }
 
 void ScopeWorkspace::take(const ShownPtr& shown) {
     const bool ours = shown->source.isEmpty();
-    const bool untriggered = shown->capture->untriggered;
-    if (ours && !running_) return;  // one that was under way when the picture was held
-    if (!view_->shown() || view_->shown()->source != shown->source || !ours) table_->clear();
+    if (ours && !acquisition_->take(*shown)) return;
+    if (ours && outlives(*shown)) {
+        table_->passOverUntriggered();
+        model_.setHeld(true);
+        emit captureShown(shown);
+        return say();
+    }
+    if (!model_.shown() || model_.shown()->source != shown->source || !ours) table_->clear();
     problem_.clear();
     done_.clear();
-    if (!untriggered) {
-        ++taken_;
-        sinceCapture_.start();
-    }
-    view_->show(shown);
-    if (untriggered)
+    model_.show(shown);
+    // At first the record is seen whole; the first train that comes of it is what one wants to see.
+    if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
+    if (ours) controls_->mask().take(shown);
+    if (shown->capture->untriggered)
         table_->passOverUntriggered();
     else
-        table_->add(shown->measurement, shown->warnings);
+        table_->add(shown);
     emit captureShown(shown);
-    if (ours && mode_ == ScopeMode::Single && !untriggered) {
-        running_ = false;
-        wanted_ = false;
-    }
     showState();
+}
+
+/// The last train stays when the output is off: noise in its place would say nothing.
+bool ScopeWorkspace::outlives(const ShownCapture& next) const {
+    const auto& last = model_.shown();
+    return next.capture->untriggered && !model_.roll() && !acquisition_->delivering() && last &&
+           last->source.isEmpty() && !last->capture->untriggered;
 }
 
 bool ScopeWorkspace::openCaptureFile(const QString& path) {
     const QFileInfo file(path);
     if (!file.isFile() || !file.isReadable()) {
-        problem_ = tr("%1 cannot be read. What is shown stays.").arg(path);
-        showState();
+        tell(done_, tr("%1 cannot be read. What is shown stays.").arg(path));
         return false;
     }
     hold();
@@ -191,81 +429,38 @@ void ScopeWorkspace::show(std::shared_ptr<const Capture> capture, const QString&
     pipe_.take(std::move(capture), source);
 }
 
+void ScopeWorkspace::saveAs(const QString& path) { files_->saveAs(path); }
+
+void ScopeWorkspace::tell(const QString& done, const QString& problem) {
+    done_ = done;
+    problem_ = problem;
+    showState();
+}
+
 QString ScopeWorkspace::triggerLane() const {
-    const QString unit = acquisition_->triggersOnCurrent() ? "A" : "V";
-    for (const auto& lane : view_->lanes()) {
-        if (!lane.reference && lane.unit == unit && lane.key.startsWith("channel/")) return lane.key;
+    const QString unit = controls_->acquisition().triggersOnCurrent() ? "A" : "V";
+    for (const auto& lane : model_.lanes()) {
+        if (!lane.reference() && lane.unit == unit && lane.key.startsWith("channel/")) return lane.key;
     }
     return {};
-}
-
-QString ScopeWorkspace::outputText() const {
-    switch (telemetry_.state) {
-        case InterlockState::Disconnected:
-            return tr("No output is connected.");
-        case InterlockState::Disarmed:
-            return tr("Output is disarmed.");
-        case InterlockState::Checking:
-            return tr("Output is being checked.");
-        case InterlockState::Armed:
-            return tr("Output is armed.");
-        case InterlockState::Delivering:
-            return tr("Trains are being delivered.");
-        case InterlockState::Paused:
-            return tr("Output is paused.");
-        case InterlockState::Faulted:
-            break;
-    }
-    return tr("Output is off after a fault.");
-}
-
-QString ScopeWorkspace::waitingText(const QString& level) const {
-    const auto& shown = view_->shown();
-    if (shown && shown->source.isEmpty() && shown->capture->untriggered) {
-        return tr("No trigger at %1: shown untriggered, not measured. %2").arg(level, outputText());
-    }
-    return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
 }
 
 QString ScopeWorkspace::statusText() const {
     if (!problem_.isEmpty()) return problem_;
     if (pipe_.opening()) return tr("Reading the capture, %1 %…").arg(pipe_.percentRead());
     if (!done_.isEmpty()) return done_;
-    const auto& shown = view_->shown();
-    const bool file = shown && !shown->source.isEmpty();
-    if (running_) {
-        const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
-        if (sinceCapture_.elapsed() > kQuietAfter_ms || taken_ == 0) {
-            return waitingText(level);
-        }
-        auto text = taken_ == 1 ? tr("Trigger at %1 · 1 capture").arg(level)
-                                : tr("Trigger at %1 · %2 captures").arg(level).arg(taken_);
-        if (pipe_.skippedCaptures() > 0) {
-            text += tr(" · %1 came too fast to be shown").arg(pipe_.skippedCaptures());
-        }
-        return text;
-    }
-    if (file) {
-        return tr("%1 · %2 samples at %3")
-            .arg(shown->source)
-            .arg(shown->capture->samples())
-            .arg(settingText(shown->capture->rate_hz, "Hz"));
-    }
-    if (desk_.activity() == Activity::Running)
-        return tr("A protocol has the oscilloscope. Capturing goes on after it.");
-    if (desk_.activity() == Activity::Live && !benchCanCapture()) return tr("The open bench has no oscilloscope.");
-    if (desk_.activity() == Activity::Closed) return tr("No bench is open. The last capture stays.");
-    if (desk_.activity() != Activity::Live) return tr("The bench is opening or closing.");
-    if (mode_ == ScopeMode::Single && shown)
-        return tr("One capture taken. S takes another. The output is not touched.");
-    return tr("On hold: the picture stays. The output is not touched.");
+    auto text = acquisition_->statusText(model_.shown().get(), pipe_.skippedCaptures());
+    if (const auto mask = controls_->mask().said(); !mask.isEmpty()) text += " · " + mask;
+    return text;
 }
 
 void ScopeWorkspace::showState() {
-    const bool can = benchCanCapture();
-    run_->setText(running_ ? tr("Hold") : tr("Run"));
-    run_->setEnabled(can);
-    const bool empty = !view_->shown() && desk_.activity() == Activity::Closed && !pipe_.opening();
+    tools_->showRunning(running(), acquisition_->possible());
+    const auto& shown = model_.shown();
+    const bool triggered = shown && std::isfinite(shown->capture->trigger_s);
+    tools_->showMask(controls_->mask().mask() != nullptr, triggered);
+    controls_->mask().canMake(triggered);
+    const bool empty = !model_.shown() && controller_.activity() == Activity::Closed && !pipe_.opening();
     stack_->setCurrentIndex(empty ? 0 : 1);
     cancelOpen_->setVisible(pipe_.opening());
     say();
@@ -273,46 +468,47 @@ void ScopeWorkspace::showState() {
 
 void ScopeWorkspace::say() {
     status_->setText(statusText());
-    const auto lane = triggerLane();
-    const bool ours = !view_->shown() || view_->shown()->source.isEmpty();
-    const bool held = mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll;
-    view_->setTrigger(ours && !view_->roll() ? lane : QString(), settings().triggerLevel, held);
-    view_->setPreTrigger(ours && running_ && view_->shown() ? std::optional(requested_.preTrigger) : std::nullopt);
-    undo_->setEnabled(view_->canUndo());
+    const auto& shown = model_.shown();
+    const bool ours = !shown || shown->source.isEmpty();
+    model_.setTrigger(ours && !model_.roll() ? triggerLane() : QString(), settings().triggerLevel,
+                      acquisition_->levelFollows());
+    model_.setPreTrigger(ours && running() && shown ? std::optional(acquisition_->requestedSettings().preTrigger)
+                                                    : std::nullopt);
+    tools_->setCanUndo(model_.canUndo());
 }
 
 void ScopeWorkspace::sayCursors() {
-    auto r = view_->readout();
-    // An edge between two samples is known to a small part of their distance, and no better.
-    if (const auto& shown = view_->shown()) {
-        const double grain = std::pow(10, std::floor(std::log10(kTimeKnown / shown->capture->rate_hz)));
-        for (auto* t : {&r.x1_s, &r.x2_s}) *t = std::round(*t / grain) * grain;
-    }
-    QStringList parts;
-    if (std::isfinite(r.x1_s)) {
-        parts << tr("X1 %1").arg(quantityText(r.x1_s, "s")) << tr("X2 %1").arg(quantityText(r.x2_s, "s"))
-              << tr("Δ %1").arg(quantityText(r.dx_s(), "s"))
-              << tr("1/Δ %1").arg(r.dx_s() == 0 ? "–" : quantityText(1 / std::abs(r.dx_s()), "Hz"));
-        parts << tr("there %1 and %2").arg(quantityText(r.at1, r.unit), quantityText(r.at2, r.unit));
-    }
-    if (std::isfinite(r.y1)) {
-        parts << tr("Y1 %1").arg(quantityText(r.y1, r.unit)) << tr("Y2 %1").arg(quantityText(r.y2, r.unit))
-              << tr("Δ %1").arg(quantityText(r.dy(), r.unit));
-    }
-    readout_->setText(parts.join(QStringLiteral("   ")));
-    readout_->setVisible(!parts.isEmpty());
+    const auto& shown = model_.shown();
+    const auto text = readoutText(model_.readout(), shown ? shown->capture->rate_hz : 0);
+    screen_->setAccessibleDescription(text.isEmpty() ? screen_->whatsThis() : text);
+}
+
+/// In roll captures stand side by side: a mean of them has no place.
+void ScopeWorkspace::average() {
+    const int captures = model_.roll() ? 1 : controls_->view().average();
+    pipe_.setAverage(static_cast<std::size_t>(captures));
+    tools_->showAverage(captures > 1);
+    if (std::exchange(averages_, captures) != captures) table_->clear();
+}
+
+ScopeCaption ScopeWorkspace::caption() const {
+    const auto& shown = model_.shown();
+    const auto open = controller_.open();
+    QStringList more{readoutText(model_.readout(), shown ? shown->capture->rate_hz : 0)};
+    more << table_->asLines() << controls_->mask().said();
+    return captionOf(model_, open ? &open->about : nullptr, more);
 }
 
 void ScopeWorkspace::showSpectrum() {
-    spectrum_->setVisible(viewPanel_->wantsSpectrum());
-    if (!viewPanel_->wantsSpectrum()) return;
+    const bool wanted = controls_->view().wantsSpectrum();
+    spectrum_->setVisible(wanted);
+    tools_->showSpectrum(wanted);
+    if (!wanted) return;
     const auto key = spectrum_->lane();
-    QColor colour = colours().text;
-    for (const auto& lane : view_->lanes()) {
-        if (lane.key == key) colour = lane.colour;
-    }
-    const double zero = view_->zero_s();
-    spectrum_->show(view_->trace(key), view_->viewport().left_s + zero, view_->viewport().right_s() + zero, colour);
+    const auto* lane = model_.lane(key);
+    const double zero = model_.zero_s();
+    spectrum_->show(model_.trace(key), model_.viewport().left_s + zero, model_.viewport().right_s() + zero,
+                    lane == nullptr ? colours().text : laneColour(model_, *lane));
 }
 
 }  // namespace tacto::gui

@@ -1,51 +1,45 @@
-// ScopeWorkspace.h - the oscilloscope: screen, controls beside it, measurements below.
+// ScopeWorkspace.h - the oscilloscope: screen, controls beside it, spectrum and measurements below.
 //
 // Takes the captures of the open bench while it runs, opens captures from files, and shows what others hand it. "Hold"
 // keeps the picture and touches no output: only STOP does that.
 //
 // What the user chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
 //
-// Keys: A auto, N normal, S single; the screen's own are in ScopeView.h.
+// Keys, wherever the focus is in the window while this is visible: R run or hold, A auto, N normal, S single, T and L
+// cursors, B box, D drive, Ctrl+S saves the picture; the screen's own are in ScopeGestures.h.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QElapsedTimer>
 #include <QWidget>
+#include <filesystem>
 
-#include "app/gui/desk/BenchDesk.h"
 #include "app/gui/scope/CapturePipe.h"
+#include "app/gui/scope/ChosenReadings.h"
+#include "app/gui/scope/ScopeAcquisition.h"
+#include "app/gui/scope/ScopeModel.h"
 
 class QLabel;
-class QMenu;
-class QPushButton;
 class QSplitter;
 class QStackedWidget;
 class QToolButton;
-class QButtonGroup;
-class QBoxLayout;
 
 namespace tacto::gui {
 
-class AcquisitionPanel;
-class LanePanel;
 class MeasurementTable;
-class ScopeView;
+class ScopeControls;
+class ScopeFiles;
+class ScopeGestures;
+class ScopeScreen;
+class ScopeTools;
 class SpectrumPanel;
-class ViewPanel;
-
-enum class ScopeMode {
-    Auto,    ///< the level follows the commanded amplitude; untriggered when no trigger comes
-    Normal,  ///< the level is the user's
-    Single,  ///< one capture, then hold
-    Roll,    ///< captures one after the other on the session's time
-};
+struct ScopeCaption;
 
 class ScopeWorkspace final : public QWidget {
     Q_OBJECT
 public:
-    /// `desk` outlives this.
-    explicit ScopeWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
+    /// `controller` outlives this.
+    explicit ScopeWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~ScopeWorkspace() override;
 
     /// At 30 Hz while this is visible; also while it is not, where setWatched().
@@ -55,20 +49,24 @@ public:
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.
     bool openCaptureFile(const QString& path);
-    /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
-    [[nodiscard]] static QString captureGlobs();
     /// Shows a capture that is not the bench's; holds the bench's.
     void show(std::shared_ptr<const Capture> capture, const QString& source);
     void show(std::shared_ptr<const Capture> capture) { show(std::move(capture), tr("capture")); }
     using QWidget::show;
 
+    /// The row of tools above the screen; a page of tabs may take it into its own row.
+    [[nodiscard]] QWidget* tools();
+
     /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background).
     void saveAs(const QString& path);
 
-    [[nodiscard]] ScopeMode mode() const noexcept { return mode_; }
-    [[nodiscard]] bool running() const noexcept { return running_; }
-    [[nodiscard]] ScopeView& view() noexcept { return *view_; }
+    [[nodiscard]] ScopeMode mode() const noexcept { return acquisition_->mode(); }
+    [[nodiscard]] bool running() const noexcept { return acquisition_->running(); }
+    [[nodiscard]] ScopeModel& model() noexcept { return model_; }
+    [[nodiscard]] ScopeScreen& screen() noexcept { return *screen_; }
     [[nodiscard]] MeasurementTable& table() noexcept { return *table_; }
+    /// Which readings are shown, here and wherever else: a MeasurementSummary follows them.
+    [[nodiscard]] ChosenReadings& readings() noexcept { return readings_; }
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// What the next capture is asked with.
     [[nodiscard]] ScopeSettings settings() const;
@@ -83,6 +81,8 @@ signals:
     void captureShown(tacto::gui::ShownPtr shown);
     /// The empty workspace's next step: the window opens the simulated bench.
     void openBenchWanted();
+    /// The key for the drive was pressed: the window shows its dock.
+    void driveWanted();
 
 protected:
     void showEvent(QShowEvent* event) override;
@@ -93,20 +93,20 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    QWidget* buildTools();
-    QWidget* buildControls();
+    void layOut();
     QWidget* buildEmpty();
-    void buildMenu();
-    QToolButton* tool(const QString& text, const QString& tip, bool checkable);
-    void connectView();
+    void connectTools();
+    void connectModel();
+    void connectPanels();
+    void connectBench();
     void benchChanged();
     void take(const ShownPtr& shown);
-    void request();
-    void followAmplitude();
+    /// Whether what is shown stays, and `next` is not shown.
+    [[nodiscard]] bool outlives(const ShownCapture& next) const;
     void applyMode(ScopeMode mode);
-    void stopped(const QString& why);
-    [[nodiscard]] std::optional<Seconds> untriggeredAfter() const;
-    [[nodiscard]] QString waitingText(const QString& level) const;
+    void average();
+    [[nodiscard]] ScopeCaption caption() const;
+    void tell(const QString& done, const QString& problem);
     void fitControls();
     void save() const;
     void restore();
@@ -115,51 +115,34 @@ private:
     void showSpectrum();
     void showState();
     [[nodiscard]] QString statusText() const;
-    [[nodiscard]] QString outputText() const;
     [[nodiscard]] QString triggerLane() const;
-    [[nodiscard]] bool benchCanCapture() const;
-    void askOpen();
-    void askSave(const QString& filter, const QString& ending);
-    void copyPicture();
-    void copyData();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     CapturePipe pipe_;
-    ScopeMode mode_ = ScopeMode::Auto;
-    bool wanted_ = true;  ///< runs as soon as there is a bench
-    bool running_ = false;
+    ScopeModel model_;
+    ChosenReadings readings_;
+    std::unique_ptr<ScopeFiles> files_;
+    std::filesystem::path session_;  ///< of the bench that was open last
+    bool framed_ = false;            ///< the first train of it was
+    int averages_ = 1;
     bool watched_ = false;
-    bool failed_ = false;  ///< the oscilloscope stopped by itself; until the user lets it run again
-    Telemetry telemetry_;
-    ScopeSettings requested_;
-    std::optional<Seconds> requestedWait_;
-    QElapsedTimer sinceRequest_;
-    QElapsedTimer sinceCapture_;
     QString problem_;
     QString done_;  ///< what was saved
-    int taken_ = 0;
 
-    QStackedWidget* stack_ = nullptr;
-    QSplitter* plots_ = nullptr;
-    QWidget* controls_ = nullptr;
-    bool controlsWanted_ = true;
+    // Constructed in the order of the tab key.
+    ScopeTools* tools_;
+    QToolButton* cancelOpen_;
+    ScopeScreen* screen_;
+    std::unique_ptr<ScopeGestures> gestures_;
+    std::unique_ptr<ScopeAcquisition> acquisition_;
+    ScopeControls* controls_;
+    SpectrumPanel* spectrum_;
+    MeasurementTable* table_;
+    QLabel* status_;
+    QStackedWidget* stack_;
+    QSplitter* plots_;
+    bool controlsWanted_ = false;
     bool controlsForced_ = false;  ///< asked for where there is no room for them
-    ScopeView* view_ = nullptr;
-    SpectrumPanel* spectrum_ = nullptr;
-    MeasurementTable* table_ = nullptr;
-    AcquisitionPanel* acquisition_ = nullptr;
-    ViewPanel* viewPanel_ = nullptr;
-    QPushButton* run_ = nullptr;
-    QButtonGroup* modes_ = nullptr;
-    QToolButton* undo_ = nullptr;
-    QToolButton* box_ = nullptr;
-    QToolButton* timeCursors_ = nullptr;
-    QToolButton* levelCursors_ = nullptr;
-    QToolButton* cancelOpen_ = nullptr;
-    QToolButton* controlsShown_ = nullptr;
-    QLabel* status_ = nullptr;
-    QLabel* readout_ = nullptr;
-    QMenu* menu_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -1,8 +1,10 @@
 #include "app/gui/scope/SpectrumPanel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QSettings>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <bit>
@@ -10,8 +12,11 @@
 #include <numeric>
 #include <qcustomplot.h>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/Remembered.h"
+#include "app/gui/scope/ScopeLanes.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -19,63 +24,127 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kFewest = 16;
-/// A sine's power spreads over this many bins of a Hann window.
-constexpr double kHannBins = 1.5;
+constexpr double kPeakOverMedian = 10;  ///< 20 dB: noise alone comes to 10 or 12
+
+QString titleOf(SpectralWindow window) {
+    switch (window) {
+        case SpectralWindow::Rectangular:
+            return QObject::tr("Rectangular");
+        case SpectralWindow::Hann:
+            return QObject::tr("Hann");
+        case SpectralWindow::BlackmanHarris:
+            return QObject::tr("Blackman–Harris");
+        case SpectralWindow::FlatTop:
+            break;
+    }
+    return QObject::tr("Flat top");
+}
+
+QString useOf(SpectralWindow window) {
+    switch (window) {
+        case SpectralWindow::Rectangular:
+            return QObject::tr("The finest lines; levels are right only where whole periods are on the screen.");
+        case SpectralWindow::Hann:
+            return QObject::tr("For most things. Between two lines a level reads up to 1.4 dB low.");
+        case SpectralWindow::BlackmanHarris:
+            return QObject::tr("For small lines beside large ones: nothing leaks above −92 dB.");
+        case SpectralWindow::FlatTop:
+            break;
+    }
+    return QObject::tr("For levels: right within 0.01 dB wherever a sine lies, with wide lines.");
+}
 
 }  // namespace
 
 SpectrumPanel::SpectrumPanel(QWidget* parent)
     : QWidget(parent),
       channel_(new QComboBox(this)),
+      window_(new QComboBox(this)),
+      log_(new QCheckBox(tr("Log frequency"), this)),
       note_(new QLabel(this)),
       plot_(new QCustomPlot(this)),
-      graph_(plot_->addGraph()) {
+      graph_(plot_->addGraph()),
+      peaks_(plot_->addGraph()) {
     channel_->setAccessibleName(tr("Channel of the spectrum"));
     channel_->setToolTip(tr("The lane whose visible part is transformed."));
-    connect(channel_, &QComboBox::activated, this, &SpectrumPanel::laneChosen);
-    note_->setForegroundRole(QPalette::PlaceholderText);
+    window_->setAccessibleName(tr("Window of the spectrum"));
+    window_->setToolTip(tr("What the samples are weighted with before they are transformed."));
+    for (const auto window : kSpectralWindows) {
+        window_->addItem(titleOf(window), qtext(nameOf(window)));
+        window_->setItemData(window_->count() - 1, useOf(window), Qt::ToolTipRole);
+    }
+    log_->setToolTip(tr("Decades of frequency instead of equal steps."));
+    connect(channel_, &QComboBox::activated, this, &SpectrumPanel::chosen);
+    connect(window_, &QComboBox::activated, this, &SpectrumPanel::chosen);
+    connect(log_, &QCheckBox::toggled, this, [this] {
+        setFrequencyAxis();
+        draw();
+    });
+    setTone(*note_, Tone::Quiet);
+    setTextSize(*note_, TextSize::Small);
     auto* line = new QHBoxLayout;
+    line->setContentsMargins(8, 0, 8, 0);
     line->addWidget(new QLabel(tr("Spectrum of"), this));
-    line->addWidget(channel_);
+    for (QWidget* each : std::initializer_list<QWidget*>{channel_, window_, log_}) line->addWidget(each);
     line->addWidget(note_, 1);
+    note_->setMinimumWidth(1);  // a narrow window cuts the note, not the plot
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(2);
     layout->addLayout(line);
     layout->addWidget(plot_, 1);
     plot_->setAccessibleName(tr("Spectrum"));
-    plot_->setMinimumHeight(fontMetrics().height() * 6);
+    plot_->setMinimumHeight(fontMetrics().height() * 7);
     plot_->setNotAntialiasedElements(QCP::aeAll);
     plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     plot_->axisRect()->setRangeDrag(Qt::Horizontal);
     plot_->axisRect()->setRangeZoom(Qt::Horizontal);
     plot_->setToolTip(
         tr("The height of a line is the RMS of a sine of that frequency. The wheel zooms the frequency."));
+    addPlotMenu(*plot_, "spectrum");
     plot_->yAxis->setScaleType(QCPAxis::stLogarithmic);
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
     ticker->setSubTickCount(0);
     plot_->yAxis->setTicker(ticker);
     plot_->yAxis->setNumberFormat("gb");
     plot_->yAxis->setNumberPrecision(0);
-    stylePlot(*plot_);
+    peaks_->setLineStyle(QCPGraph::lsNone);
+    for (std::size_t i = 0; i < kMostPeaks; ++i) {
+        auto* name = new QCPItemText(plot_);
+        name->setClipToAxisRect(false);
+        name->setPositionAlignment(Qt::AlignHCenter | Qt::AlignBottom);
+        name->setPadding(QMargins(3, 0, 3, 6));
+        name->setVisible(false);
+        names_.push_back(name);
+    }
+    connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SpectrumPanel::namePeaks);
+    setFrequencyAxis();
+    restyle();
 }
 
 SpectrumPanel::~SpectrumPanel() = default;
 
-void SpectrumPanel::setLanes(const std::vector<LaneInfo>& lanes) {
-    const auto chosen = lane();
+void SpectrumPanel::setLanes(const std::vector<ScopeLane>& lanes) {
+    const auto now = lane();
     channel_->clear();
     for (const auto& l : lanes) channel_->addItem(l.title, l.key);
-    channel_->setCurrentIndex(std::max(0, channel_->findData(chosen)));
+    channel_->setCurrentIndex(std::max(0, channel_->findData(now)));
 }
 
 QString SpectrumPanel::lane() const { return channel_->currentData().toString(); }
 
+SpectralWindow SpectrumPanel::window() const {
+    return kSpectralWindows[static_cast<std::size_t>(std::max(0, window_->currentIndex()))];
+}
+
+bool SpectrumPanel::logarithmic() const { return log_->isChecked(); }
+
 void SpectrumPanel::show(const TracePtr& trace, double from_s, double to_s, const QColor& colour) {
     colour_ = colour;
+    unit_ = trace ? trace->unit : QString();
     spectrum_ = {};
     if (trace) calculate(*trace, from_s, to_s);
-    draw(trace ? trace->unit : QString());
+    draw();
 }
 
 void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
@@ -97,9 +166,13 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
         spectrum_.note = tr("Samples are missing on the screen: zoom into a part without gaps.");
         return;
     }
-    if (!transform_ || transform_->length() != length || transformRate_hz_ != trace.rate_hz) {
-        transform_ = std::make_unique<PowerSpectrum>(length, 1, trace.rate_hz);
+    if (!transform_ || transform_->length() != length || transformRate_hz_ != trace.rate_hz ||
+        transformWindow_ != window()) {
+        auto shape = samplesOf(window(), length);
+        bins_ = equivalentNoiseBandwidth(shape);
+        transform_ = std::make_unique<PowerSpectrum>(std::move(shape), 1, trace.rate_hz);
         transformRate_hz_ = trace.rate_hz;
+        transformWindow_ = window();
     }
     std::vector<double> samples(length);
     const auto begin = trace.samples->begin() + static_cast<std::ptrdiff_t>(first);
@@ -111,48 +184,157 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
     const double width = transform_->binWidth_hz();
     for (std::size_t k = 1; k <= length / 2; ++k) {
         spectrum_.hz.push_back(static_cast<double>(k) * width);
-        spectrum_.rms.push_back(std::sqrt(transform_->density(k) * width * kHannBins));
+        spectrum_.rms.push_back(std::sqrt(transform_->density(k) * width * bins_));
     }
     spectrum_.samples = length;
-    const auto top = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
-    spectrum_.note = tr("Highest %1 at %2 · %3 samples, %4 a line")
-                         .arg(quantityText(spectrum_.rms[static_cast<std::size_t>(top)], trace.unit),
-                              quantityText(spectrum_.hz[static_cast<std::size_t>(top)], "Hz"))
-                         .arg(length)
-                         .arg(quantityText(width, "Hz", 3));
+    spectrum_.bandwidth_hz = width * bins_;
+    findPeaks(trace.unit);
 }
 
-void SpectrumPanel::draw(const QString& unit) {
+void SpectrumPanel::findPeaks(const QString& unit) {
+    const double width = transform_->binWidth_hz();
+    for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMostPeaks)) {
+        spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
+    }
+    const auto top = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
+    spectrum_.note = tr("Highest %1 at %2 · %3 samples, a line every %4, %5 wide (%6 lines)")
+                         .arg(quantityText(spectrum_.rms[static_cast<std::size_t>(top)], unit),
+                              quantityText(spectrum_.hz[static_cast<std::size_t>(top)], "Hz"))
+                         .arg(spectrum_.samples)
+                         .arg(quantityText(width, "Hz", 3), quantityText(spectrum_.bandwidth_hz, "Hz", 3))
+                         .arg(bins_, 0, 'f', 2);
+}
+
+void SpectrumPanel::setFrequencyAxis() {
+    auto* axis = plot_->xAxis;
+    axis->setScaleType(logarithmic() ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+    if (logarithmic()) {
+        auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
+        ticker->setSubTickCount(8);
+        axis->setTicker(ticker);
+        axis->setNumberFormat("gb");
+        axis->setNumberPrecision(0);
+    } else {
+        axis->setTicker(QSharedPointer<QCPAxisTicker>::create());
+        axis->setNumberFormat("gb");
+        axis->setNumberPrecision(6);
+    }
+    shownTop_hz_ = 0;  // what was zoomed into is of the other axis
+}
+
+void SpectrumPanel::draw() {
     note_->setText(spectrum_.note);
-    // Of more lines than pixels the highest in each pixel: a peak must not fall between two.
-    const auto columns = static_cast<std::size_t>(std::max(200, plot_->width()));
-    const std::size_t group = std::max<std::size_t>(1, spectrum_.hz.size() / columns);
+    note_->setToolTip(spectrum_.note);
+    // Where there are more lines than pixels, the highest in each pixel: a peak must not fall between two.
+    const auto count = spectrum_.hz.size();
+    const double columns = std::max(200, plot_->width());
+    const auto next = [&](std::size_t at) {
+        const double step = static_cast<double>(count) / columns;
+        const double grown = logarithmic()
+                                 ? (static_cast<double>(at) + 1) * std::pow(static_cast<double>(count), 1 / columns)
+                                 : static_cast<double>(at) + step;
+        return std::clamp(static_cast<std::size_t>(grown), at + 1, count);
+    };
     QVector<double> hz, rms;
-    for (std::size_t at = 0; at < spectrum_.hz.size(); at += group) {
+    for (std::size_t at = 0; at < count;) {
+        const auto end = next(at);
         const auto from = spectrum_.rms.begin() + static_cast<std::ptrdiff_t>(at);
-        const auto to = spectrum_.rms.begin() + static_cast<std::ptrdiff_t>(std::min(at + group, spectrum_.rms.size()));
-        const auto top = std::max_element(from, to);
-        hz << spectrum_.hz[static_cast<std::size_t>(top - spectrum_.rms.begin())] * 1e-3;
+        const auto top = std::max_element(from, spectrum_.rms.begin() + static_cast<std::ptrdiff_t>(end));
+        hz << spectrum_.hz[static_cast<std::size_t>(top - spectrum_.rms.begin())];
         rms << *top;
+        at = end;
     }
-    const bool other = graph_->data()->isEmpty() || hz.isEmpty() ||
-                       std::abs((graph_->data()->constEnd() - 1)->key - hz.back()) > 0.01 * hz.back();
+    const double top_hz = count == 0 ? 0 : spectrum_.hz.back();
+    const bool other = count > 0 && std::abs(shownTop_hz_ - top_hz) > 0.01 * top_hz;
+    const auto unit = axisUnit(logarithmic() ? 1 : top_hz / 2, "Hz");
+    for (auto& f : hz) f *= unit.factor;
     graph_->setData(hz, rms, true);
-    graph_->setPen(QPen(colour_, 1));
-    plot_->xAxis->setLabel(tr("Frequency (kHz)"));
-    plot_->yAxis->setLabel(unit.isEmpty() ? tr("RMS") : tr("RMS (%1)").arg(unit));
+    plot_->xAxis->setLabel(tr("Frequency (%1)").arg(unit.unit));
+    plot_->yAxis->setLabel(unit_.isEmpty() ? tr("RMS") : tr("RMS (%1)").arg(unit_));
+    peaks_->data()->clear();
+    for (const auto& peak : spectrum_.peaks) peaks_->addData(peak.hz * unit.factor, peak.rms);
     if (!hz.isEmpty()) {
-        if (other) plot_->xAxis->setRange(0, hz.back());
+        if (other) {
+            shownTop_hz_ = top_hz;
+            plot_->xAxis->setRange(logarithmic() ? spectrum_.hz.front() * unit.factor : 0, top_hz * unit.factor);
+        }
         const double top = *std::max_element(rms.begin(), rms.end());
-        if (top > 0) plot_->yAxis->setRange(top * 1e-5, top * 2);
+        // Room for the peaks' names above the highest.
+        const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
+        const double height = std::max<double>(plot_->axisRect()->height(), 2 * name);
+        if (top > 0) plot_->yAxis->setRange(top * 1e-5, top * std::pow(10, 5 * name / (height - name)));
     }
+    restyle();
+    namePeaks();
     plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+/// The highest first; one that would lie on another is left out.
+void SpectrumPanel::namePeaks() {
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    const auto unit = axisUnit(logarithmic() ? 1 : shownTop_hz_ / 2, "Hz");
+    std::vector<std::pair<double, double>> taken;
+    const auto range = plot_->xAxis->range();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        auto* name = names_[i];
+        name->setVisible(false);
+        if (i >= spectrum_.peaks.size()) continue;
+        const auto& peak = spectrum_.peaks[i];
+        const double key = peak.hz * unit.factor;
+        if (!range.contains(key)) continue;
+        const auto text = tr("%1 · %2").arg(quantityText(peak.hz, "Hz"), quantityText(peak.rms, unit_, 3));
+        const double half = 0.5 * metrics.size(0, text).width() + 4;
+        const double at = plot_->xAxis->coordToPixel(key);
+        const bool free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+            return at + half > other.first && at - half < other.second;
+        });
+        if (!free) continue;
+        taken.emplace_back(at - half, at + half);
+        name->setText(text);
+        name->position->setCoords(key, peak.rms);
+        // Half of a name may not leave the plot at its sides.
+        const QRect area = plot_->axisRect()->rect();
+        name->setPositionAlignment(Qt::AlignBottom | (at - half < area.left()    ? Qt::AlignLeft
+                                                      : at + half > area.right() ? Qt::AlignRight
+                                                                                 : Qt::AlignHCenter));
+        name->setVisible(true);
+    }
+}
+
+QStringList SpectrumPanel::namedPeaks() const {
+    QStringList texts;
+    for (const auto* name : names_) {
+        if (name->visible()) texts << name->text();
+    }
+    return texts;
+}
+
+void SpectrumPanel::restyle() {
+    stylePlot(*plot_);
+    graph_->setPen(QPen(colour_, 1));
+    peaks_->setScatterStyle(
+        QCPScatterStyle(QCPScatterStyle::ssTriangleInverted, QPen(colours().text, 1), QBrush(colours().base), 7));
+    for (auto* name : names_) {
+        name->setFont(textFont(TextSize::Small));
+        name->setColor(colours().text);
+    }
+}
+
+void SpectrumPanel::save(QSettings& settings) const {
+    settings.setValue("fft/window", window_->currentData());
+    settings.setValue("fft/log", logarithmic());
+}
+
+void SpectrumPanel::restore(const QSettings& settings) {
+    const int known = window_->findData(settings.value("fft/window").toString());
+    if (known >= 0) window_->setCurrentIndex(known);
+    log_->setChecked(rememberedFlag(settings, "fft/log").value_or(false));
 }
 
 void SpectrumPanel::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() != QEvent::PaletteChange) return;
-    stylePlot(*plot_);
+    if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
+    restyle();
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

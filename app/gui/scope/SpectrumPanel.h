@@ -1,7 +1,8 @@
-// SpectrumPanel.h - the spectrum of what one lane shows on the screen: Hann window, one-sided, as the RMS that a sine
-// of that frequency would have.
+// SpectrumPanel.h - the spectrum of what one lane shows on the screen, through a window of choice: one-sided, as the
+// RMS that a sine of that frequency would have (the window's equivalent noise bandwidth is taken out), over linear or
+// logarithmic frequency, with its peaks named.
 //
-// Of more samples than fit into one transform the middle is taken, and the panel says which part that is.
+// Where more samples come than fit into one transform, the middle is taken, and the panel says which part that is.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -11,22 +12,31 @@
 
 #include "app/gui/scope/Trace.h"
 #include "core/dsp/PowerSpectrum.h"
+#include "core/dsp/SpectralWindow.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
+class QSettings;
 class QCustomPlot;
 class QCPGraph;
 class QCPItemText;
 
 namespace tacto::gui {
 
-struct LaneInfo;
+struct ScopeLane;
 
 /// RMS over frequency, from the first bin above 0 up to half the rate.
 struct Spectrum {
+    struct Peak {
+        double hz = 0;
+        double rms = 0;
+    };
     std::vector<double> hz;
     std::vector<double> rms;
+    std::vector<Peak> peaks;  ///< highest first
     std::size_t samples = 0;  ///< that were transformed
+    double bandwidth_hz = 0;  ///< equivalent noise bandwidth of a line
     QString note;             ///< why there is none, or of which part it is
 };
 
@@ -34,34 +44,55 @@ class SpectrumPanel final : public QWidget {
     Q_OBJECT
 public:
     static constexpr std::size_t kMaxSamples = std::size_t{1} << 17;
+    static constexpr std::size_t kMostPeaks = 6;
 
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;
 
-    void setLanes(const std::vector<LaneInfo>& lanes);
+    void setLanes(const std::vector<ScopeLane>& lanes);
     [[nodiscard]] QString lane() const;
+    [[nodiscard]] SpectralWindow window() const;
+    [[nodiscard]] bool logarithmic() const;
     /// from..to on the session's time base.
     void show(const TracePtr& trace, double from_s, double to_s, const QColor& colour);
     using QWidget::show;
     [[nodiscard]] const Spectrum& spectrum() const noexcept { return spectrum_; }
+    /// The peaks whose names have room, as they are written.
+    [[nodiscard]] QStringList namedPeaks() const;
+
+    void save(QSettings& settings) const;
+    void restore(const QSettings& settings);
 
 signals:
-    void laneChosen();
+    /// Another lane or window: what is shown is to be calculated anew.
+    void chosen();
 
 protected:
     void changeEvent(QEvent* event) override;
 
 private:
     void calculate(const Trace& trace, double from_s, double to_s);
-    void draw(const QString& unit);
+    void findPeaks(const QString& unit);
+    void draw();
+    void setFrequencyAxis();
+    void namePeaks();
+    void restyle();
 
     QComboBox* channel_;
+    QComboBox* window_;
+    QCheckBox* log_;
     QLabel* note_;
     QCustomPlot* plot_;
     QCPGraph* graph_;
+    QCPGraph* peaks_;
+    std::vector<QCPItemText*> names_;  // as many as there may be; owned by the plot
     Spectrum spectrum_;
-    std::unique_ptr<PowerSpectrum> transform_;  // kept while length and rate stay
+    QString unit_;
+    std::unique_ptr<PowerSpectrum> transform_;  // kept while length, window and rate stay
+    double bins_ = 1;                           // equivalent noise bandwidth
     double transformRate_hz_ = 0;
+    SpectralWindow transformWindow_ = SpectralWindow::Hann;
+    double shownTop_hz_ = 0;
     QColor colour_;
 };
 

@@ -27,7 +27,11 @@ int numberNotBelow(double value) {
 
 double stepNotBelow(double value) { return stepNumber(numberNotBelow(value)); }
 
-double stepAlong(double value, int steps) { return stepNumber(numberNotBelow(value) + steps); }
+double stepAlong(double value, int steps) {
+    const int upper = numberNotBelow(value);
+    const bool between = stepNumber(upper) > value * (1 + 1e-9);
+    return stepNumber(upper + steps - (between && steps > 0 ? 1 : 0));
+}
 
 std::vector<double> stepsBetween(double low, double high) {
     std::vector<double> steps;

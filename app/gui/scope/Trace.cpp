@@ -98,6 +98,9 @@ ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOpt
     for (std::size_t c = 0; c < capture->channels.size(); ++c) {
         shown->traces.push_back(channelTrace(capture, c, measured.channels[c], shown->zero_s));
     }
+    for (std::size_t c = 0; c < capture->channels.size(); ++c) {
+        shown->waveforms.push_back(measureWaveform(*capture, c, measured.channels[c]));
+    }
     shown->measurement = std::move(measured.channels);
     shown->warnings = std::move(measured.warnings);
     shown->capture = std::move(capture);

@@ -9,10 +9,13 @@
 
 #include <QString>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/measure/CaptureMask.h"
 #include "core/measure/MinMaxPyramid.h"
 #include "core/measure/PulseMeasurement.h"
+#include "core/measure/WaveformMeasurement.h"
 
 namespace tacto::gui {
 
@@ -52,6 +55,13 @@ struct Trace {
 };
 using TracePtr = std::shared_ptr<const Trace>;
 
+/// One record on a time axis.
+struct TraceSpan {
+    TracePtr trace;
+    double key_s = 0;  ///< of its sample 0 on the axis
+    [[nodiscard]] double length_s() const noexcept { return static_cast<double>(trace->size()) / trace->rate_hz; }
+};
+
 /// What to calculate beside the channels.
 struct MathOptions {
     bool power = false;   ///< first channel in V times first in A
@@ -63,10 +73,15 @@ struct MathOptions {
 
 struct ShownCapture {
     std::shared_ptr<const Capture> capture;
+    std::size_t averaged = 0;                     ///< captures that it is the mean of; 0: as it was taken
     QString source;                               ///< "" for the bench's own, else the file's name
     double zero_s = 0;                            ///< trigger, or the record's begin where there was none
     std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
     std::vector<ChannelMeasurement> measurement;  ///< of the channels
+    std::vector<WaveformMeasurement> waveforms;   ///< the same
+    std::optional<MaskCheck> mask;                ///< as it was taken, before any averaging; nothing: no mask
+    std::shared_ptr<const CaptureMask> judgedBy;  ///< of that check
+    bool follows = true;                          ///< no capture was left out between the one before it and this
     std::vector<std::string> warnings;            ///< of the measurement
 
     [[nodiscard]] TracePtr trace(const QString& key) const;

@@ -6,40 +6,55 @@
 #include <QSettings>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/Remembered.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/StepBox.h"
 #include "app/gui/scope/Steps.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
-ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
+namespace {
+
+constexpr std::array kAverages{4, 16, 64, 256};
+
+}  // namespace
+
+ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     : QWidget(parent),
-      view_(view),
+      model_(model),
       base_(new QComboBox(this)),
       centre_(new QuantitySpin("s", -1e7, 1e7, this)),
       persistence_(new QComboBox(this)),
+      average_(new QComboBox(this)),
       power_(new QCheckBox(tr("Power V·I"), this)),
       charge_(new QCheckBox(tr("Charge ∫I dt"), this)),
       difference_(new QComboBox(this)),
       spectrum_(new QCheckBox(tr("Spectrum"), this)) {
     base_->setAccessibleName(tr("Time base"));
     base_->setToolTip(tr("How much time one of the ten divisions is. The wheel over the screen does the same."));
-    for (const double s : stepsBetween(10e-9, 100)) base_->addItem(tr("%1/div").arg(settingText(s, "s")), s);
+    for (const double s : stepsBetween(10e-9, 100)) addStep(*base_, s, "s");
     centre_->setAccessibleName(tr("Time position"));
     centre_->setToolTip(tr("The time in the middle of the screen. Dragging the screen does the same."));
     persistence_->setAccessibleName(tr("Captures that stay"));
     persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: what jitters shows as a band."));
     persistence_->addItem(tr("newest only"), 0);
-    for (const int n : {4, 8, 16, ScopeView::kMaxBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
+    for (const int n : {4, 8, 16, ScopeModel::kMaxBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
+    average_->setAccessibleName(tr("Average"));
+    average_->setToolTip(
+        tr("The mean of so many captures, aligned at the trigger: noise goes, what repeats stays. It "
+           "begins anew when a setting or the commanded amplitude changes."));
+    average_->addItem(tr("none"), 1);
+    for (const int n : kAverages) average_->addItem(tr("%1 captures").arg(n), n);
     power_->setToolTip(tr("Voltage times current, sample by sample, in watts."));
     charge_->setToolTip(
         tr("The current added up from the record's begin, in coulombs: a balanced pulse returns to "
            "where it began. After missing samples it begins again at zero."));
-    for (auto* box : {base_, persistence_, difference_}) {
+    for (auto* box : {base_, persistence_, average_, difference_}) {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(10);
     }
@@ -54,14 +69,16 @@ ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
     form->addRow(tr("Time base"), base_);
     form->addRow(tr("Middle"), centre_);
     form->addRow(tr("Show"), persistence_);
+    form->addRow(tr("Average"), average_);
     form->addRow(power_);
     form->addRow(charge_);
     form->addRow(tr("Difference"), difference_);
     form->addRow(spectrum_);
-    connect(base_, &QComboBox::activated, this, [this] { view_.setTimePerDivision(base_->currentData().toDouble()); });
-    connect(centre_, &QDoubleSpinBox::valueChanged, this, [this](double t) { view_.setTimeCentre(t); });
+    connect(base_, &QComboBox::activated, this, [this] { model_.setTimePerDivision(base_->currentData().toDouble()); });
+    connect(centre_, &QDoubleSpinBox::valueChanged, this, [this](double t) { model_.setTimeCentre(t); });
     connect(persistence_, &QComboBox::activated, this,
-            [this] { view_.setPersistence(persistence_->currentData().toInt()); });
+            [this] { model_.setPersistence(persistence_->currentData().toInt()); });
+    connect(average_, &QComboBox::activated, this, [this] { setAverage(average_->currentData().toInt()); });
     connect(power_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
     connect(charge_, &QCheckBox::toggled, this, &ViewPanel::wishChanged);
     connect(difference_, &QComboBox::activated, this, [this] {
@@ -69,30 +86,37 @@ ViewPanel::ViewPanel(ScopeView& view, QWidget* parent)
         emit wishChanged();
     });
     connect(spectrum_, &QCheckBox::toggled, this, &ViewPanel::spectrumToggled);
-    connect(&view_, &ScopeView::viewChanged, this, &ViewPanel::follow);
-    connect(&view_, &ScopeView::lanesChanged, this, &ViewPanel::offerDifferences);
+    connect(&model_, &ScopeModel::viewChanged, this, &ViewPanel::follow);
+    connect(&model_, &ScopeModel::lanesChanged, this, &ViewPanel::offerDifferences);
     offerDifferences();
     follow();
 }
 
 void ViewPanel::follow() {
-    const auto& v = view_.viewport();
-    int at = 0;
-    for (int i = 0; i < base_->count(); ++i) {
-        const auto off = [&](int k) { return std::abs(base_->itemData(k).toDouble() - v.perDivision_s); };
-        if (off(i) < off(at)) at = i;
-    }
-    base_->setCurrentIndex(at);
+    const auto& v = model_.viewport();
+    showStep(*base_, v.perDivision_s, "s");
     const QSignalBlocker quiet(centre_);
     centre_->setValue(v.left_s + v.width_s() / 2);
 }
+
+void ViewPanel::setAverage(int captures) {
+    const int at = average_->findData(captures);
+    if (at < 0) return;
+    average_->setCurrentIndex(at);
+    if (captures > 1) lastAverage_ = captures;
+    emit averageChanged(captures);
+}
+
+int ViewPanel::average() const { return average_->currentData().toInt(); }
+
+void ViewPanel::setSpectrum(bool on) { spectrum_->setChecked(on); }
 
 void ViewPanel::offerDifferences() {
     const auto chosen = difference_->currentData();
     const QSignalBlocker quiet(difference_);
     difference_->clear();
     difference_->addItem(tr("none"), QStringList());
-    const auto lanes = view_.lanes();
+    const auto& lanes = model_.lanes();
     for (const auto& a : lanes) {
         if (!a.key.startsWith("channel/")) continue;
         for (const auto& b : lanes) {
@@ -116,7 +140,7 @@ MathOptions ViewPanel::wish() const {
     if (difference.size() == 2) {
         wish.minuend = difference[0];
         if (difference[1].startsWith("reference/")) {
-            wish.reference = view_.trace(difference[1]);
+            wish.reference = model_.trace(difference[1]);
         } else {
             wish.subtrahend = difference[1];
         }
@@ -126,6 +150,7 @@ MathOptions ViewPanel::wish() const {
 
 void ViewPanel::save(QSettings& settings) const {
     settings.setValue("persistence", persistence_->currentData());
+    settings.setValue("average", average());
     settings.setValue("math/power", power_->isChecked());
     settings.setValue("math/charge", charge_->isChecked());
     settings.setValue("spectrum", wantsSpectrum());
@@ -136,11 +161,14 @@ void ViewPanel::save(QSettings& settings) const {
 }
 
 void ViewPanel::restore(const QSettings& settings) {
-    if (const auto captures = rememberedNumber(settings, "persistence", 0, ScopeView::kMaxBehind)) {
+    if (const auto captures = rememberedNumber(settings, "persistence", 0, ScopeModel::kMaxBehind)) {
         if (const int at = persistence_->findData(static_cast<int>(*captures)); at >= 0) {
             persistence_->setCurrentIndex(at);
-            view_.setPersistence(persistence_->currentData().toInt());
+            model_.setPersistence(persistence_->currentData().toInt());
         }
+    }
+    if (const auto captures = rememberedNumber(settings, "average", 1, kAverages.back())) {
+        setAverage(static_cast<int>(*captures));
     }
     for (const auto& [box, key] :
          {std::pair{power_, "math/power"}, std::pair{charge_, "math/charge"}, std::pair{spectrum_, "spectrum"}}) {

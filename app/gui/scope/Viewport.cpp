@@ -34,6 +34,21 @@ Viewport zoomedInTime(Viewport view, int steps, double anchor_s) {
     return view;
 }
 
+Viewport spanningTime(Viewport view, double from_s, double to_s) {
+    view.perDivision_s = stepWithin((to_s - from_s) / kDivisionsAcross, kShortest_s, kLongest_s);
+    view.left_s = (from_s + to_s) / 2 - view.width_s() / 2;
+    return view;
+}
+
+Viewport framingPulse(Viewport view, double from_s, double to_s) {
+    constexpr double kShare = 1.0 / 3;
+    const double wanted = stepWithin((to_s - from_s) / kShare / kDivisionsAcross, kShortest_s, kLongest_s);
+    const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+    view.perDivision_s = std::round(wanted / digit) * digit;
+    view.left_s = onGrid((from_s + to_s) / 2 - view.width_s() / 2, view.perDivision_s);
+    return view;
+}
+
 Viewport showingTime(Viewport view, double from_s, double to_s) {
     view.perDivision_s =
         stepWithin(stepNotBelow(std::max(to_s - from_s, kShortest_s) / kDivisionsAcross), kShortest_s, kLongest_s);
@@ -49,9 +64,11 @@ LaneScale zoomedInLevel(const LaneScale& lane, int steps, double anchor) {
 }
 
 LaneScale showingHeights(const LaneScale& lane, double bottom, double top) {
-    const double low = (bottom - lane.position) * lane.perDivision;
-    const double high = (top - lane.position) * lane.perDivision;
-    return fittingLevels(low, high, 0, kDivisionsUp);
+    const double low = lane.levelAt(bottom), high = lane.levelAt(top);
+    LaneScale shown;
+    shown.perDivision = stepWithin((high - low) / kDivisionsUp, kFinest, kCoarsest);
+    shown.position = -(low + high) / 2 / shown.perDivision;
+    return shown;
 }
 
 LaneScale fittingLevels(double low, double high, double middle, double height) {

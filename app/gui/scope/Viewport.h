@@ -1,5 +1,6 @@
-// Viewport.h - which part of the record is on the screen, in divisions as on an oscilloscope: ten across, eight up,
-// every scale a step of the 1-2-5 ladder; and the way back when a zoom was a mistake.
+// Viewport.h - which part of the record is on the screen, in divisions as on an oscilloscope: ten across, eight up;
+// and the way back when a zoom was a mistake. Scales that are chosen are steps of the 1-2-5 ladder; a box and a fit to
+// the pulse show just what they are of, whatever that makes a division.
 //
 // Thread-safety: values; ViewHistory has one owner.
 #pragma once
@@ -14,10 +15,13 @@ namespace tacto::gui {
 
 inline constexpr int kDivisionsAcross = 10;
 inline constexpr int kDivisionsUp = 8;
+inline constexpr double kHalfUp = kDivisionsUp / 2.0;  ///< from the middle to the top
 
 struct LaneScale {
     double perDivision = 1;  ///< in the lane's unit
     double position = 0;     ///< of its zero: divisions above the middle
+    [[nodiscard]] double heightOf(double level) const noexcept { return level / perDivision + position; }
+    [[nodiscard]] double levelAt(double height) const noexcept { return (height - position) * perDivision; }
     bool operator==(const LaneScale&) const = default;
 };
 
@@ -26,6 +30,11 @@ struct Viewport {
     double perDivision_s = 1e-3;
     std::map<QString, LaneScale> lanes;
 
+    /// 1 a division, zero in the middle, for a lane that has none.
+    [[nodiscard]] LaneScale scale(const QString& lane) const {
+        const auto found = lanes.find(lane);
+        return found == lanes.end() ? LaneScale{} : found->second;
+    }
     [[nodiscard]] double width_s() const noexcept { return perDivision_s * kDivisionsAcross; }
     [[nodiscard]] double right_s() const noexcept { return left_s + width_s(); }
     bool operator==(const Viewport&) const = default;
@@ -36,11 +45,15 @@ struct Viewport {
 
 /// `steps` along the ladder, what stands at `anchor_s` stays there. Steps above 0 show more time.
 [[nodiscard]] Viewport zoomedInTime(Viewport view, int steps, double anchor_s);
-/// The smallest time base that shows from..to, in the middle.
+/// from..to and nothing else, from edge to edge.
+[[nodiscard]] Viewport spanningTime(Viewport view, double from_s, double to_s);
+/// A pulse in the middle third, the time base in two digits.
+[[nodiscard]] Viewport framingPulse(Viewport view, double from_s, double to_s);
+/// The smallest time base of the ladder that shows from..to, in the middle.
 [[nodiscard]] Viewport showingTime(Viewport view, double from_s, double to_s);
-/// Of one lane; the value at `anchor` divisions above the middle stays there.
+/// Zooms one lane; the value at `anchor` divisions above the middle stays there.
 [[nodiscard]] LaneScale zoomedInLevel(const LaneScale& lane, int steps, double anchor);
-/// Shows the values that lie between two heights (divisions above the middle) on the whole screen.
+/// The values between two heights (divisions above the middle) and nothing else, from edge to edge.
 [[nodiscard]] LaneScale showingHeights(const LaneScale& lane, double bottom, double top);
 /// The smallest scale with which low..high fits into `height` divisions around `middle`.
 [[nodiscard]] LaneScale fittingLevels(double low, double high, double middle, double height);

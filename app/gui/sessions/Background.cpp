@@ -1,41 +1,42 @@
 #include "app/gui/sessions/Background.h"
 
-#include <QMetaObject>
-#include <QPointer>
+#include <QPromise>
+#include <utility>
 
 namespace tacto::gui {
 
-Background::~Background() { join(); }
+Background::Background(QObject* parent) : QObject(parent) {
+    thread_.setMaxThreadCount(1);
+    connect(&newest_, &QFutureWatcherBase::progressValueChanged, this, [this](int done) {
+        if (newest_.progressMaximum() > 0) emit progressed(done, newest_.progressMaximum());
+    });
+    connect(&newest_, &QFutureWatcherBase::finished, this, [this] {
+        const auto then = std::exchange(then_, nullptr);
+        const auto result = newest_.result();  // before a slot may start other work
+        emit busyChanged(false);
+        then(result);
+    });
+}
 
-void Background::join() {
+Background::~Background() {
     cancel();
-    if (thread_.joinable()) thread_.join();
+    thread_.waitForDone();
 }
 
 void Background::start(Work work, std::function<void(Result<void>)> then) {
     cancel();
     cancelled_ = std::make_shared<std::atomic<bool>>(false);
-    const int number = ++number_;
-    busy_ = true;
+    then_ = std::move(then);
+    const auto promise = std::make_shared<QPromise<Result<void>>>();
+    promise->start();
+    newest_.setFuture(promise->future());  // and the one before it is forgotten
     emit busyChanged(true);
-    // The thread waits for the one before it, the window does not: two exports into one folder never meet.
-    thread_ = std::thread([this, number, work = std::move(work), then = std::move(then), cancelled = cancelled_,
-                           before = std::move(thread_)]() mutable {
-        if (before.joinable()) before.join();
-        WorkPort port{cancelled, [this](int done, int total) {
-                          QMetaObject::invokeMethod(
-                              this, [this, done, total] { emit progressed(done, total); }, Qt::QueuedConnection);
-                      }};
-        auto result = work(port);
-        QMetaObject::invokeMethod(
-            this,
-            [this, number, then, result = std::move(result)] {
-                if (number != number_) return;
-                busy_ = false;
-                emit busyChanged(false);
-                then(result);
-            },
-            Qt::QueuedConnection);
+    thread_.start([promise, work = std::move(work), cancelled = cancelled_] {
+        promise->addResult(work({cancelled, [&](int done, int total) {
+                                     promise->setProgressRange(0, total);
+                                     promise->setProgressValue(done);
+                                 }}));
+        promise->finish();
     });
 }
 

@@ -3,11 +3,12 @@
 // Thread-safety: the GUI thread; the work itself runs on a thread of its own and must not touch widgets.
 #pragma once
 
+#include <QFutureWatcher>
 #include <QObject>
+#include <QThreadPool>
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include "core/base/Result.h"
 
@@ -24,24 +25,23 @@ class Background final : public QObject {
     Q_OBJECT
 public:
     using Work = std::function<Result<void>(const WorkPort&)>;
-    explicit Background(QObject* parent = nullptr) : QObject(parent) {}
+    explicit Background(QObject* parent = nullptr);
     ~Background() override;  ///< cancels and waits
     /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result,
     /// unless other work was started meanwhile.
     void start(Work work, std::function<void(Result<void>)> then);
     void cancel();
-    [[nodiscard]] bool busy() const { return busy_; }
+    [[nodiscard]] bool busy() const { return then_ != nullptr; }
 
 signals:
     void progressed(int done, int total);
     void busyChanged(bool busy);
 
 private:
-    void join();
     std::shared_ptr<std::atomic<bool>> cancelled_;
-    std::thread thread_;
-    int number_ = 0;
-    bool busy_ = false;
+    std::function<void(Result<void>)> then_;
+    QFutureWatcher<Result<void>> newest_;
+    QThreadPool thread_;  // one: two exports into one folder never meet
 };
 
 }  // namespace tacto::gui

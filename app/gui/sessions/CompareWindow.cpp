@@ -1,14 +1,14 @@
 #include "app/gui/sessions/CompareWindow.h"
 
-#include <QHeaderView>
-#include <QSplitter>
+#include <QTextBrowser>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/sessions/Differences.h"
+#include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
-#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
@@ -17,70 +17,46 @@ namespace {
 
 constexpr std::size_t kDrawnPoints = 4000;
 
-void flatten(const nlohmann::json& value, const QString& at, QMap<QString, QString>& into) {
-    if (value.is_object()) {
-        for (const auto& [key, part] : value.items()) {
-            if (key == "trials" || key == "people") continue;  // one by one they say nothing here
-            flatten(part, at.isEmpty() ? qtext(key) : at + "." + qtext(key), into);
-        }
-    } else if (value.is_array()) {
-        int index = 0;
-        for (const auto& part : value) {
-            const auto named = part.is_object() && part.contains("name") && part["name"].is_string();
-            flatten(part, at + "." + (named ? qtext(part["name"].get<std::string>()) : QString::number(index)), into);
-            ++index;
-        }
-    } else {
-        into[at] = value.is_number_float() ? QString::number(value.get<double>(), 'g', 6) : qtext(value.dump());
-    }
-}
-
-QMap<QString, QString> facts(const ReadSession& session) {
-    QMap<QString, QString> all;
-    flatten(session.about.parameters, QObject::tr("parameter"), all);
-    if (const auto profile = parseJson(session.about.profileJson, "the profile")) {
-        flatten(*profile, QObject::tr("profile"), all);
-    }
-    for (const auto& device : session.about.devices)
-        all[QObject::tr("device %1").arg(qtext(device.role))] = qtext(device.uri);
-    all[QObject::tr("protocol")] = qtext(session.about.protocol);
-    all[QObject::tr("seed")] = QString::number(session.about.seed);
-    all[QObject::tr("program")] = qtext(session.about.programVersion);
-    for (const auto& verdict : session.verdicts) {
-        all[QObject::tr("verdict")] = qtext(verdict.verdict);
-        flatten(verdict.results, QObject::tr("result"), all);
-    }
-    return all;
-}
-
 double feature(const SessionTrial& trial, const char* key) {
     const auto at = trial.measured.find(key);
     return at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
 
-}  // namespace
-
-QList<QStringList> CompareWindow::differences(const ReadSession& first, const ReadSession& second) {
-    const auto a = facts(first), b = facts(second);
-    auto keys = a.keys() + b.keys();
-    keys.removeDuplicates();
-    std::sort(keys.begin(), keys.end());
-    QList<QStringList> rows;
-    for (const auto& key : keys) {
-        if (a.value(key) != b.value(key)) rows << QStringList{key, a.value(key, "–"), b.value(key, "–")};
+QString differencesHtml(const QList<Difference>& all) {
+    if (all.isEmpty()) return "<p>" + CompareWindow::tr("The two say the same.") + "</p>";
+    QString html;
+    std::optional<Difference::About> part;
+    for (const auto& [about, sentence] : all) {
+        if (part != about)
+            html += "<h3>" +
+                    (about == Difference::About::Found ? CompareWindow::tr("What was found")
+                                                       : CompareWindow::tr("What was used")) +
+                    "</h3>";
+        part = about;
+        html += "<p>" + sentence.toHtmlEscaped() + "</p>";
     }
-    return rows;
+    return html;
 }
+
+}  // namespace
 
 CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second,
                              QWidget* parent)
     : QDialog(parent), sessions_{std::move(first), std::move(second)} {
-    const QString names[] = {qtext(sessions_[0]->path.stem().string()), qtext(sessions_[1]->path.stem().string())};
+    const auto nameOf = [](const ReadSession& session) {
+        const auto began = QDateTime::fromString(qtext(session.about.wallStart), Qt::ISODate).toLocalTime();
+        const auto sample = qtext(session.labels.sample);
+        return QString("%1, %2%3")
+            .arg(procedureText(session.about.protocol), beganText(began),
+                 sample.isEmpty() ? sample : tr(", sample %1").arg(sample));
+    };
+    const QString names[] = {nameOf(*sessions_[0]), nameOf(*sessions_[1])};
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(explanation(
-        tr("Hollow marks and the first trace: %1. Filled marks and the second trace: %2.").arg(names[0], names[1]),
-        this));
+    layout->addWidget(
+        explanation(tr("First, hollow marks and the solid trace: %1. Second, filled marks and the dashed trace: %2.")
+                        .arg(names[0], names[1]),
+                    this));
     auto* tabs = new QTabWidget(this);
     plane_ = new QCustomPlot(tabs);
     plane_->setAccessibleName(tr("Trials of both"));
@@ -104,22 +80,18 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     addPlotMenu(*streams_, "streams");
     column->addWidget(streams_, 1);
     tabs->addTab(page, tr("&Streams"));
-    auto* table = new QTableWidget(tabs);
-    const auto rows = differences(*sessions_[0], *sessions_[1]);
-    table->setColumnCount(3);
-    table->setHorizontalHeaderLabels({tr("What differs"), names[0], names[1]});
-    table->setRowCount(int(rows.size()));
-    for (int r = 0; r < int(rows.size()); ++r) {
-        for (int c = 0; c < 3; ++c) table->setItem(r, c, new QTableWidgetItem(rows[r][c]));
-    }
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-    tabs->addTab(table, tr("&Differences (%1)").arg(rows.size()));
+    const auto found = differencesOf(*sessions_[0], *sessions_[1]);
+    auto* said = new QTextBrowser(tabs);
+    said->setObjectName("differences");
+    said->setAccessibleName(tr("Differences"));
+    said->setTabChangesFocus(true);
+    said->setHtml(differencesHtml(found));
+    tabs->insertTab(0, said, tr("&Differences (%1)").arg(found.size()));
+    tabs->setCurrentIndex(0);
     layout->addWidget(tabs, 1);
     connect(stream_, &QComboBox::currentIndexChanged, this, &CompareWindow::drawStream);
     drawTrials();
     drawStream();
-    if (plane_->graphCount() == 0) tabs->setCurrentIndex(1);
     resize(fontMetrics().averageCharWidth() * 120, fontMetrics().height() * 36);
 }
 
@@ -132,12 +104,12 @@ void CompareWindow::drawTrials() {
             if (!order.contains(name)) order[name] = int(order.size());
             auto*& graph = graphs[name];
             if (graph == nullptr) {
-                const auto look = conditionLook(name, order[name]);
+                const auto style = conditionInTheme(name, order[name]);
                 graph = plane_->addGraph();
                 graph->setName(QString("%1, %2").arg(name, s == 0 ? tr("first") : tr("second")));
                 graph->setLineStyle(QCPGraph::lsNone);
-                graph->setScatterStyle(QCPScatterStyle(look.marker, QPen(look.color, 1.5),
-                                                       s == 0 ? QBrush(Qt::NoBrush) : QBrush(look.color),
+                graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5),
+                                                       s == 0 ? QBrush(Qt::NoBrush) : QBrush(style.color),
                                                        s == 0 ? 10 : 6));
             }
             const double x = feature(trial, "interval_s"), y = feature(trial, "amplitude_v");
@@ -224,7 +196,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, std::siz
         t.push_back(a.t_s.front() + at);
         difference.push_back(va[i] - vb[j]);
     }
-    if (!t.empty()) shown(t, difference, tr("first less second"), QPen(colours().math));
+    if (!t.empty()) shown(t, difference, tr("first less second"), QPen(colours().third));
     stylePlot(*streams_);
     streams_->legend->setVisible(true);
     streams_->legend->setTextColor(colours().text);

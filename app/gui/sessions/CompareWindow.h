@@ -1,16 +1,15 @@
 // CompareWindow.h - two sessions over each other: trials in one plane, a stream of both with its difference, and what
-// differs in what was used and found.
+// differs in what was used and found, in sentences.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>
 #include <QDialog>
-#include <QTableWidget>
 #include <qcustomplot.h>
 
 #include "app/gui/sessions/Background.h"
-#include "app/gui/sessions/SessionDetails.h"
+#include "app/gui/sessions/ReadSession.h"
 
 namespace tacto::gui {
 
@@ -18,8 +17,6 @@ class CompareWindow final : public QDialog {
     Q_OBJECT
 public:
     CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second, QWidget* parent);
-    /// Rows of the table of differences: what, in the first, in the second.
-    [[nodiscard]] static QList<QStringList> differences(const ReadSession& first, const ReadSession& second);
 
 private:
     void drawTrials();

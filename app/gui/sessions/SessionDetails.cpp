@@ -3,12 +3,13 @@
 #include <QHeaderView>
 #include <QSplitter>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/PlotPicture.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/sessions/SessionOverview.h"
+#include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
-#include "core/session/Marks.h"
-#include "core/session/SessionReader.h"
+#include "core/base/JsonFields.h"
 
 namespace tacto::gui {
 
@@ -19,6 +20,7 @@ constexpr std::size_t kDetailPoints = 4000;
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
     table->setAccessibleName(name);
+    table->setTabKeyNavigation(false);  // Tab leaves the table
     table->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -30,35 +32,14 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
 
 }  // namespace
 
-Result<ReadSession> readSession(const std::filesystem::path& path) {
-    const auto reader = SessionReader::open(path);
-    if (!reader) return failure(reader);
-    ReadSession session;
-    session.path = path;
-    session.about = reader->about();
-    session.closed = reader->closed();
-    session.head = reader->chainHead();
-    const auto take = [](auto&& from, auto& into) -> Result<void> {
-        if (!from) return failure(from);
-        into = std::move(*from);
-        return {};
-    };
-    if (auto done = take(sessionMarks(*reader), session.marks); !done) return failure(done);
-    if (auto done = take(reader->verdicts(), session.verdicts); !done) return failure(done);
-    if (auto done = take(reader->trials(), session.trials); !done) return failure(done);
-    if (auto done = take(reader->events(), session.events); !done) return failure(done);
-    if (auto done = take(reader->log(), session.log); !done) return failure(done);
-    if (auto done = take(reader->streams(), session.streams); !done) return failure(done);
-    if (auto done = take(reader->captures(), session.captures); !done) return failure(done);
-    return session;
-}
-
-SessionDetails::SessionDetails(QWidget* parent) : QTabWidget(parent) {
+SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
     setDocumentMode(true);
+    overview_ = new SessionOverview(this);
+    connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);
+    connect(overview_, &SessionOverview::labelsRefused, this, &SessionDetails::labelsRefused);
     about_ = new QTextBrowser(this);
     about_->setAccessibleName(tr("About the session"));
     trials_ = makeTable(this, tr("Trials"));
-    events_ = makeTable(this, tr("Events and log"));
     auto* split = new QSplitter(Qt::Vertical, this);
     streams_ = makeTable(split, tr("Streams"));
     plot_ = new QCustomPlot(split);
@@ -73,11 +54,11 @@ SessionDetails::SessionDetails(QWidget* parent) : QTabWidget(parent) {
     split->addWidget(plot_);
     captures_ = makeTable(this, tr("Captures"));
     captures_->setToolTip(tr("Double click or Return opens a capture in the oscilloscope."));
-    addTab(about_, tr("About"));
+    addTab(overview_, tr("Overview"));
     addTab(trials_, tr("Trials"));
-    addTab(events_, tr("Events"));
     addTab(split, tr("Streams"));
     addTab(captures_, tr("Captures"));
+    addTab(about_, tr("About"));
     connect(captures_, &QTableWidget::cellActivated, this, [this] {
         if (const auto seq = chosenCapture()) emit captureActivated(*seq);
     });
@@ -90,8 +71,9 @@ SessionDetails::SessionDetails(QWidget* parent) : QTabWidget(parent) {
 
 void SessionDetails::say(const QString& why) {
     session_.reset();
+    overview_->say(why);
     about_->setHtml("<p>" + why.toHtmlEscaped() + "</p>");
-    for (auto* table : {trials_, events_, streams_, captures_}) table->setRowCount(0);
+    for (auto* table : {trials_, streams_, captures_}) table->setRowCount(0);
     plot_->clearGraphs();
     plot_->replot();
     setCurrentIndex(0);
@@ -114,10 +96,19 @@ QString SessionDetails::aboutHtml() const {
     const auto row = [&](const QString& name, const QString& value) {
         html += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(name, value.toHtmlEscaped());
     };
-    row(tr("Protocol"), about.protocol.empty() ? tr("live") : qtext(about.protocol));
+    row(tr("Procedure"), procedureText(about.protocol));
     row(tr("Began"), qtext(about.wallStart));
     row(tr("Ended"), session_->closed ? tr("in order") : tr("not in order: a crash, or still being recorded"));
-    if (!about.parameters.empty()) row(tr("Parameters"), qtext(about.parameters.dump()));
+    for (const auto& [key, value] : about.parameters.items()) {
+        const auto declared = session_->settings.find(key);
+        const bool known = declared != session_->settings.end();
+        const auto column = columnName(qtext(key));
+        const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
+        row(known ? qtext(textOr(declared->second, "label")) : column.title,
+            value.is_number()   ? settingText(value.get<double>(), unit)
+            : value.is_string() ? qtext(value.get<std::string>())
+                                : qtext(dumpJson(value)));
+    }
     row(tr("Seed"), QString::number(about.seed));
     row(tr("Output mode"), qtext(about.mode));
     for (const auto& device : about.devices) {
@@ -126,9 +117,13 @@ QString SessionDetails::aboutHtml() const {
                 .arg(qtext(device.name), qtext(device.uri),
                      device.serial.empty() ? QString() : tr(" · serial %1").arg(qtext(device.serial))));
     }
-    for (const auto& set : about.limitSets)
-        row(tr("Limit set"), qtext(set.id + " · " + set.sha256.substr(0, 16) + "…"));
-    row(tr("Profile"), qtext(about.profileSha256.substr(0, 16) + "…"));
+    for (const auto& set : about.limitSets) {
+        const auto known = std::ranges::find(limits_.sets, set.id, &LimitSet::id);
+        row(tr("Limits"),
+            tr("%1 · SHA-256 %2…")
+                .arg(qtext(known != limits_.sets.end() ? known->title : set.id), qtext(set.sha256.substr(0, 16))));
+    }
+    row(tr("Encoding profile"), tr("SHA-256 %1…").arg(qtext(about.profileSha256.substr(0, 16))));
     row(tr("Program"), qtext(about.programVersion));
     row(tr("Chain head"), qtext(session_->head));
     return html + "</table>";
@@ -152,6 +147,7 @@ void SessionDetails::fill(QTableWidget& table, const QStringList& header, const 
 
 void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     session_ = std::move(session);
+    overview_->show(session_);
     about_->setHtml(aboutHtml());
     QList<QStringList> rows;
     for (const auto& trial : session_->trials) {
@@ -160,20 +156,11 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
             return quantityText(at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan(""), unit,
                                 4);
         };
-        rows << QStringList{QString::number(trial.number), quantityText(toSeconds(trial.at), "s", 4),
-                            qtext(trial.condition),        number("amplitude_v", "V"),
-                            number("interval_s", "s"),     number("width_s", "s")};
+        rows << QStringList{QString::number(trial.number),  quantityText(toSeconds(trial.at), "s", 4),
+                            conditionText(trial.condition), number("amplitude_v", "V"),
+                            number("interval_s", "s"),      number("width_s", "s")};
     }
     fill(*trials_, {tr("Trial"), tr("At"), tr("Condition"), tr("Amplitude"), tr("Interval"), tr("Width")}, rows);
-    rows.clear();
-    for (const auto& event : session_->events)
-        rows << QStringList{QString::number(toSeconds(event.at), 'f', 3), qtext(event.name), qtext(event.body.dump())};
-    for (const auto& line : session_->log)
-        rows << QStringList{QString::number(toSeconds(line.at), 'f', 3), qtext(line.name),
-                            qtext(line.body.value("text", ""))};
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const auto& a, const auto& b) { return a[0].toDouble() < b[0].toDouble(); });
-    fill(*events_, {tr("At (s)"), tr("Event"), tr("Details")}, rows);
     rows.clear();
     for (const auto& stream : session_->streams) {
         rows << QStringList{qtext(stream.stream.name), qtext(stream.stream.unit),
@@ -185,11 +172,11 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     plot_->replot();
     rows.clear();
     for (const auto& capture : session_->captures) {
-        rows << QStringList{QString::number(capture.seq), capture.trial ? QString::number(*capture.trial) : "–",
+        rows << QStringList{QString::number(rows.size() + 1), capture.trial ? QString::number(*capture.trial) : "–",
                             quantityText(toSeconds(capture.at), "s", 4), QString::number(capture.samples),
                             quantityText(capture.rate_hz, "S/s", 3)};
     }
-    fill(*captures_, {tr("Row"), tr("Trial"), tr("At"), tr("Samples"), tr("Rate")}, rows);
+    fill(*captures_, {tr("Capture"), tr("Trial"), tr("At"), tr("Samples"), tr("Rate")}, rows);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
 }
 
@@ -217,7 +204,7 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         }
         auto* graph = plot_->addGraph();
         graph->setData(x, y, true);
-        const QColor of[] = {colours().voltage, colours().current, colours().math, colours().amber};
+        const QColor of[] = {colours().voltage, colours().current, colours().third, colours().amber};
         graph->setPen(QPen(of[c % 4]));
     }
     plot_->yAxis->setLabel(info.stream.unit.empty()

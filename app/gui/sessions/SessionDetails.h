@@ -1,4 +1,4 @@
-// SessionDetails.h - one session: about, verdict, trials, events, streams, captures.
+// SessionDetails.h - one session: its overview, trials, streams, captures, and about.
 //
 // Thread-safety: the GUI thread; what is shown was read beside it.
 #pragma once
@@ -9,36 +9,21 @@
 #include <memory>
 #include <qcustomplot.h>
 
-#include "core/base/Stream.h"
-#include "core/measure/Capture.h"
-#include "core/session/SessionTypes.h"
+#include "app/gui/sessions/ReadSession.h"
+#include "app/run/Shipped.h"
 
 namespace tacto::gui {
 
-/// A session read for looking at: everything but the samples.
-struct ReadSession {
-    std::filesystem::path path;
-    SessionAbout about;
-    bool closed = false;
-    std::string head;
-    std::vector<std::string> marks;  ///< of sessionMarks()
-    std::vector<SessionVerdict> verdicts;
-    std::vector<SessionTrial> trials;
-    std::vector<SessionRow> events;
-    std::vector<SessionRow> log;
-    std::vector<SessionStreamInfo> streams;
-    std::vector<SessionCaptureInfo> captures;
-};
-/// Errors: as SessionReader.
-[[nodiscard]] Result<ReadSession> readSession(const std::filesystem::path& path);
+class SessionOverview;
 
 class SessionDetails final : public QTabWidget {
     Q_OBJECT
 public:
-    explicit SessionDetails(QWidget* parent = nullptr);
+    /// `limits`, for the titles of limit sets, outlive it.
+    explicit SessionDetails(const ShippedLimits& limits, QWidget* parent = nullptr);
     void show(std::shared_ptr<const ReadSession> session);
     void say(const QString& why);
-    /// Of the chosen row; nothing when there is none.
+    /// The capture of the chosen row; nothing when there is none.
     [[nodiscard]] std::optional<std::int64_t> chosenCapture() const;
     /// 0 when there is none.
     [[nodiscard]] int chosenStream() const;
@@ -48,6 +33,8 @@ public:
 signals:
     void captureActivated(qint64 seq);
     void streamChosen(int stream);
+    void labelsSaved(const QString& session);
+    void labelsRefused(const QString& why);
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -56,9 +43,10 @@ private:
     [[nodiscard]] QString aboutHtml() const;
     void fill(QTableWidget& table, const QStringList& header, const QList<QStringList>& rows);
     std::shared_ptr<const ReadSession> session_;
+    const ShippedLimits& limits_;
+    SessionOverview* overview_;
     QTextBrowser* about_;
     QTableWidget* trials_;
-    QTableWidget* events_;
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QTableWidget* captures_;

@@ -1,58 +1,46 @@
 #include "app/gui/sessions/SessionEntry.h"
 
 #include <QFileInfo>
+#include <QStandardPaths>
 #include <QStringList>
 #include <algorithm>
 
-#include "core/session/SessionReader.h"
+#include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/Text.h"
 
 namespace tacto::gui {
 
 namespace fs = std::filesystem;
 
-QString SessionEntry::searched() const {
-    return QStringList{
-        QString::fromStdString(path.string()), protocol, devices, verdict, problem, began.toString(Qt::ISODate),
-        simulated ? "simulated" : ""}
-        .join(' ')
-        .toLower();
+SessionEntry::SessionEntry(ListedSession listed)
+    : path(std::move(listed.path)),
+      summary(std::move(listed.summary)),
+      began(QDateTime::fromString(qtext(summary.wallStart), Qt::ISODate).toLocalTime()),
+      bytes(qint64(listed.bytes)),
+      problem(qtext(listed.problem)) {
+    if (!began.isValid()) began = QFileInfo(qtext(path.string())).lastModified();
+    began_ms = began.toMSecsSinceEpoch();
+    const auto& labels = summary.labels;
+    QStringList all{qtext(path.string()),
+                    procedureText(summary.protocol),
+                    qtext(summary.protocol),
+                    qtext(summary.verdict),
+                    qtext(labels.operatorName),
+                    qtext(labels.sample),
+                    qtext(labels.note),
+                    problem,
+                    began.toString(Qt::ISODate),
+                    beganText(began),
+                    summary.simulated ? "simulated" : "",
+                    summary.faulted ? "fault" : ""};
+    for (const auto& tag : labels.tags) all << qtext(tag);
+    for (const auto& device : summary.devices) all << qtext(device);
+    searched = all.join('\n').toLower();
 }
 
-SessionEntry readEntry(const fs::path& path) {
-    SessionEntry entry;
-    entry.path = path;
-    const QFileInfo file(QString::fromStdString(path.string()));
-    entry.bytes = file.size();
-    entry.began = file.lastModified();
-    const auto reader = SessionReader::open(path);
-    if (!reader) {
-        entry.problem = QString::fromStdString(reader.error().message);
-        return entry;
-    }
-    const auto& about = reader->about();
-    if (const auto began = QDateTime::fromString(QString::fromStdString(about.wallStart), Qt::ISODate); began.isValid())
-        entry.began = began.toLocalTime();
-    entry.protocol = about.protocol.empty() ? QObject::tr("live") : QString::fromStdString(about.protocol);
-    QStringList names;
-    for (const auto& device : about.devices) names << QString::fromStdString(device.name);
-    entry.devices = names.join(", ");
-    entry.simulated = about.simulated;
-    entry.closed = reader->closed();
-    const auto verdicts = reader->verdicts();
-    const auto events = reader->events();
-    const auto streams = reader->streams();
-    if (!verdicts || !events || !streams) {
-        entry.problem = QString::fromStdString(!verdicts ? verdicts.error().message
-                                               : !events ? events.error().message
-                                                         : streams.error().message);
-        return entry;
-    }
-    if (!verdicts->empty()) entry.verdict = QString::fromStdString(verdicts->back().verdict);
-    for (const auto& event : *events) entry.duration_s = std::max(entry.duration_s, toSeconds(event.at));
-    for (const auto& stream : *streams) {
-        if (stream.samples > 0) entry.duration_s = std::max(entry.duration_s, stream.last_s);
-    }
-    return entry;
+SessionIndex userSessionIndex() {
+    const auto caches = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation);
+    return SessionIndex(fs::path(caches.toStdString()) / "tactoscope" / "sessions.index");
 }
 
 std::vector<fs::path> sessionFiles(const fs::path& folder) {

@@ -1,33 +1,37 @@
 // SessionEntry.h - a session file as a line of a list: what is known of it at a glance, or why it cannot be read.
 //
-// Thread-safety: values; reading is pure but for the file.
+// Thread-safety: values; sessionFiles() is pure but for the folders.
 #pragma once
 
 #include <QDateTime>
 #include <QString>
 #include <filesystem>
+#include <vector>
+
+#include "core/session/SessionIndex.h"
 
 namespace tacto::gui {
 
 struct SessionEntry {
-    std::filesystem::path path;
-    QDateTime began;
-    QString protocol;
-    QString devices;
-    QString verdict;  ///< "pass", ...; empty for none
-    double duration_s = 0;
-    qint64 bytes = 0;
-    bool simulated = false;
-    bool closed = true;
-    QString problem;  ///< why it cannot be read; empty when it can
-    /// Everything a search looks at, in one line.
-    [[nodiscard]] QString searched() const;
-};
+    explicit SessionEntry(ListedSession listed);
+    /// Whether both say the same of the same session.
+    [[nodiscard]] bool sameAs(const SessionEntry& other) const {
+        return path == other.path && bytes == other.bytes && summary == other.summary && problem == other.problem;
+    }
 
-/// Never fails: what cannot be read is an entry with a problem.
-[[nodiscard]] SessionEntry readEntry(const std::filesystem::path& path);
+    std::filesystem::path path;
+    SessionSummary summary;
+    QDateTime began;
+    qint64 began_ms = 0;  ///< the same since 1970, to sort by
+    qint64 bytes = 0;
+    QString problem;   ///< why it cannot be read; empty when it can
+    QString searched;  ///< everything a search looks at, in lower case
+};
 
 /// *.tacto of a folder, newest first by name of the file; folders inside are looked into once.
 [[nodiscard]] std::vector<std::filesystem::path> sessionFiles(const std::filesystem::path& folder);
+
+/// What was read of sessions before, for all windows of this user: in the folder of caches.
+[[nodiscard]] SessionIndex userSessionIndex();
 
 }  // namespace tacto::gui

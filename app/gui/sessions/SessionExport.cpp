@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/base/JsonText.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/CaptureOrigin.h"
 #include "core/session/Marks.h"
@@ -154,7 +155,7 @@ Result<void> writeRows(const Result<std::vector<SessionRow>>& rows, const char* 
     TextFile file(path);
     file.write("time_s,{},details\n", what);
     for (const auto& row : *rows)
-        file.write("{},{},{}\n", cell(toSeconds(row.at)), quoted(row.name), quoted(row.body.dump()));
+        file.write("{},{},{}\n", cell(toSeconds(row.at)), quoted(row.name), quoted(dumpJson(row.body)));
     return file.close();
 }
 
@@ -234,7 +235,7 @@ Result<void> exportRecording(const fs::path& session, const fs::path& folder, co
             recording["simulated"] = from == origin::kSimulated || from == origin::kReplayedSimulated;
     }
     TextFile file(draft.path() / "recording.json");
-    file.write("{}\n", recording.dump(2));
+    file.write("{}\n", dumpJson(recording, 2));
     if (auto closed = file.close(); !closed) return closed;
     return draft.keep();
 }

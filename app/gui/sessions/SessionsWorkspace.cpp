@@ -3,19 +3,19 @@
 #include <QDesktopServices>
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QHeaderView>
 #include <QMimeData>
-#include <QShortcut>
 #include <QSplitter>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <algorithm>
 
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
-#include "app/run/RunFiles.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 
@@ -23,56 +23,53 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kIndex = Qt::UserRole;
+constexpr int kListMargin = 16;
 
-/// Sorts by what stands behind the text.
-class SortedItem final : public QTableWidgetItem {
-public:
-    SortedItem(const QString& shown, const QVariant& key) : QTableWidgetItem(shown) { setData(Qt::UserRole + 1, key); }
-    bool operator<(const QTableWidgetItem& other) const override {
-        const auto a = data(Qt::UserRole + 1), b = other.data(Qt::UserRole + 1);
-        return QVariant::compare(a, b) == QPartialOrdering::Less;
-    }
-};
-
-QString durationText(double seconds) {
-    const int s = int(seconds);
-    return QString("%1:%2:%3").arg(s / 3600).arg(s / 60 % 60, 2, 10, QChar('0')).arg(s % 60, 2, 10, QChar('0'));
+bool holdsTouch(const ReadSession& session) {
+    return std::ranges::any_of(session.streams, [](const auto& info) {
+        const auto& kind = info.stream.kind;
+        return info.samples > 0 && (kind == "acceleration" || kind == "force" || kind == "taxels");
+    });
 }
 
 }  // namespace
 
-SessionsWorkspace::SessionsWorkspace(BenchDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk), reports_(this) {
+SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller), reports_(this) {
     setAcceptDrops(true);
     auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
     auto* split = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
-    split->addWidget(buildList());
-    details_ = new SessionDetails(split);
-    split->addWidget(details_);
+    list_ = new SessionList(split);
+    split->addWidget(withActions(list_, kListMargin, buildListActions()));
+    details_ = new SessionDetails(controller_.limits(), split);
+    split->addWidget(withActions(details_, 0, buildSessionActions()));
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
-    layout->addWidget(buildActions());
+    layout->addWidget(buildNews());
+    connect(details_, &SessionDetails::labelsRefused, this, &SessionsWorkspace::say);
+    connect(details_, &SessionDetails::labelsSaved, this,
+            [this](const QString& session) { list_->confirm(session.toStdString()); });
     connect(details_, &SessionDetails::captureActivated, this, &SessionsWorkspace::openCapture);
     connect(details_, &SessionDetails::streamChosen, this, &SessionsWorkspace::drawStream);
-    connect(&desk_, &BenchDesk::changed, this, [this] {
+    connect(&controller_, &BenchController::changed, this, [this] {
         if (isVisible()) rescan();
     });
-    connect(&scan_, &Background::progressed, progress_, [this](int done, int total) {
-        progress_->setRange(0, total);
-        progress_->setValue(done);
-    });
-    connect(&work_, &Background::progressed, progress_, [this](int done, int total) {
-        progress_->setRange(0, total);
-        progress_->setValue(done);
-    });
+    connect(list_, &SessionList::selectionChanged, this, &SessionsWorkspace::chosen);
     const auto showBusy = [this] {
-        progress_->setVisible(scan_.busy() || work_.busy());
+        progress_->setVisible(list_->scan().busy() || work_.busy());
         cancel_->setVisible(work_.busy());
     };
-    connect(&scan_, &Background::busyChanged, this, showBusy);
-    connect(&work_, &Background::busyChanged, this, showBusy);
+    for (const auto* task : {&list_->scan(), static_cast<const Background*>(&work_)}) {
+        connect(task, &Background::progressed, progress_, [this](int done, int total) {
+            progress_->setRange(0, total);
+            progress_->setValue(done);
+        });
+        connect(task, &Background::busyChanged, this, showBusy);
+    }
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
         say(tr("The report is written: %1").arg(out));
         QDesktopServices::openUrl(QUrl::fromLocalFile(out));
@@ -82,76 +79,75 @@ SessionsWorkspace::SessionsWorkspace(BenchDesk& desk, QWidget* parent) : QWidget
     chosen();
 }
 
-QWidget* SessionsWorkspace::buildList() {
-    auto* holder = new QWidget;
-    auto* column = new QVBoxLayout(holder);
+/// A pane of the page: what it shows, and below it what can be done with that.
+QWidget* SessionsWorkspace::withActions(QWidget* shown, int margin, QWidget* actions) {
+    auto* pane = new QWidget(this);
+    auto* column = new QVBoxLayout(pane);
     column->setContentsMargins(0, 0, 0, 0);
-    search_ = new QLineEdit(holder);
-    search_->setPlaceholderText(tr("Search: protocol, device, verdict, date, name"));
-    search_->setClearButtonEnabled(true);
-    search_->setAccessibleName(tr("Search"));
-    search_->setToolTip(tr("Shows only sessions that contain every word (Ctrl+F)."));
-    connect(search_, &QLineEdit::textChanged, this, &SessionsWorkspace::filter);
-    auto* find = new QShortcut(QKeySequence::Find, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
-    connect(find, &QShortcut::activated, search_, [this] { search_->setFocus(); });
-    column->addWidget(search_);
-    table_ = new QTableWidget(0, 7, holder);
-    table_->setObjectName("sessionsTable");
-    table_->setAccessibleName(tr("Sessions"));
-    table_->setHorizontalHeaderLabels(
-        {tr("Began"), tr("Protocol"), tr("Verdict"), tr("Duration"), tr("Size"), tr("Devices"), tr("File")});
-    table_->verticalHeader()->hide();
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    table_->setAlternatingRowColors(true);
-    table_->setSortingEnabled(true);
-    table_->sortByColumn(0, Qt::DescendingOrder);
-    table_->horizontalHeader()->setStretchLastSection(true);
-    table_->setToolTip(tr("Every session of the sessions folder, newest first. Drop other *.tacto files here."));
-    connect(table_, &QTableWidget::itemSelectionChanged, this, &SessionsWorkspace::chosen);
-    column->addWidget(table_, 1);
-    empty_ = new QLabel(tr("No session yet. Every open bench and every protocol run is recorded and appears here: open "
-                           "the simulated bench (Ctrl+B) or run Separability."),
-                        holder);
-    empty_->setWordWrap(true);
-    empty_->setAlignment(Qt::AlignCenter);
-    column->addWidget(empty_);
+    column->setSpacing(0);
+    auto* inner = new QWidget(pane);
+    auto* around = new QVBoxLayout(inner);
+    around->setContentsMargins(margin, margin, margin, 0);
+    around->addWidget(shown);
+    column->addWidget(inner, 1);
+    column->addWidget(actions);
+    return pane;
+}
+
+QPushButton* SessionsWorkspace::addAction(QBoxLayout& row, const char* iconName, const QString& text,
+                                          const QString& tip, std::function<void()> act) {
+    auto* button = new QPushButton(icon(iconName), text, row.parentWidget());
+    button->setToolTip(tip);
+    button->setAutoDefault(false);
+    connect(button, &QPushButton::clicked, this, std::move(act));
+    row.addWidget(button);
+    actions_.push_back({button, tip});
+    return button;
+}
+
+QWidget* SessionsWorkspace::buildListActions() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    compare_ = addAction(*row, "compare", tr("Co&mpare two"), tr("What differs between two sessions, over each other."),
+                         [this] { compare(); });
+    addAction(*row, "verify", tr("Verif&y"),
+              tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
+    addAction(*row, "export", tr("E&xport CSV…"),
+              tr("A file per stream, trials, events with their marks, commands and captures."),
+              [this] { askExport(); });
+    row->addStretch();
+    auto* hint = new ElidedLabel(tr("↑ ↓ choose · Ctrl+click a second · Ctrl+F searches"), holder);
+    hint->setToolTip(hint->text());
+    hint->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    setTone(*hint, Tone::Quiet);
+    setTextSize(*hint, TextSize::Small);
+    row->addWidget(hint, 1);
     return holder;
 }
 
-QWidget* SessionsWorkspace::buildActions() {
+QWidget* SessionsWorkspace::buildSessionActions() {
     auto* holder = new QWidget(this);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, 0, 0, 0);
-    auto* row = new QHBoxLayout;
-    const auto add = [&](const QString& text, const QString& tip, auto slot) {
-        auto* button = new QPushButton(text, holder);
-        button->setToolTip(tip);
-        button->setAutoDefault(false);
-        connect(button, &QPushButton::clicked, this, slot);
-        row->addWidget(button);
-        actions_.push_back(button);
-        return button;
-    };
-    add(tr("Open &capture"), tr("The capture chosen under Captures, in the oscilloscope."), [this] {
-        if (const auto seq = details_->chosenCapture())
-            openCapture(*seq);
-        else
-            say(tr("This session holds no capture."));
-    });
-    add(tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."), &SessionsWorkspace::replay);
-    add(tr("Re&port"), tr("The report as PDF, from the session alone."), &SessionsWorkspace::makeReport);
-    add(tr("E&xport CSV…"), tr("A file per stream, trials, events, commands and captures."),
-        &SessionsWorkspace::askExport);
-    add(tr("&Verify"), tr("Is it what was recorded? Checks every row and sample against the chain."),
-        &SessionsWorkspace::verify);
-    add(tr("Show in &folder"), tr("Opens the folder that holds it."), &SessionsWorkspace::showInFolder);
-    compare_ = add(tr("Co&mpare two"), tr("Choose two sessions (Ctrl+click): overlay and differences."),
-                   &SessionsWorkspace::compare);
+    auto* row = new QHBoxLayout(holder);
+    auto* report = addAction(*row, "report", tr("Re&port"), tr("The report as PDF, from the session alone."),
+                             [this] { makeReport(); });
+    report->setIcon(icon("report", Ink::Primary));
+    makePrimary(*report);
+    replay_ = addAction(*row, "run", tr("&Replay"), tr("Its fingertip, replayed into the simulated stimulator."),
+                        [this] { replay(); });
+    capture_ = addAction(*row, "open", tr("Open &capture"),
+                         tr("The capture chosen under Captures, in the oscilloscope."), [this] {
+                             if (const auto seq = details_->chosenCapture()) openCapture(*seq);
+                         });
     row->addStretch();
-    column->addLayout(row);
-    auto* below = new QHBoxLayout;
+    makeQuiet(*addAction(*row, "more", tr("Show in folder"), tr("Opens the folder that holds it."),
+                         [this] { showInFolder(); }));
+    return holder;
+}
+
+QWidget* SessionsWorkspace::buildNews() {
+    auto* holder = new QWidget(this);
+    auto* below = new QHBoxLayout(holder);
+    below->setContentsMargins(kListMargin, 0, kListMargin, kListMargin / 2);
     says_ = new QLabel(holder);
     says_->setObjectName("sessionsSay");
     says_->setWordWrap(true);
@@ -164,7 +160,6 @@ QWidget* SessionsWorkspace::buildActions() {
     below->addWidget(says_, 1);
     below->addWidget(progress_);
     below->addWidget(cancel_);
-    column->addLayout(below);
     return holder;
 }
 
@@ -174,106 +169,21 @@ void SessionsWorkspace::showEvent(QShowEvent* event) {
 }
 
 void SessionsWorkspace::rescan() {
-    const auto found = std::make_shared<std::vector<SessionEntry>>();
-    const auto known = entries_;
-    const auto others = others_;
-    scan_.start(
-        [found, known, others](const WorkPort& port) -> Result<void> {
-            auto files = sessionFiles(userSessionsFolder());
-            files.insert(files.end(), others.begin(), others.end());
-            int done = 0;
-            for (const auto& file : files) {
-                if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled");
-                std::error_code error;
-                const auto bytes = std::filesystem::file_size(file, error);
-                const auto before = std::find_if(known.begin(), known.end(), [&](const auto& entry) {
-                    return entry.path == file && entry.bytes == qint64(bytes) && entry.closed;
-                });
-                found->push_back(before != known.end() ? *before : readEntry(file));
-                port.progress(++done, int(files.size()));
-            }
-            return {};
-        },
-        [this, found](const Result<void>& done) {
-            if (!done) return;
-            entries_ = std::move(*found);
-            fillList();
-        });
-}
-
-bool SessionsWorkspace::isRecording(const SessionEntry& entry) const {
-    const auto open = desk_.open();
-    return open && open->session == entry.path;
-}
-
-void SessionsWorkspace::fillList() {
-    const auto* before = current();
-    const auto keep = !wanted_.empty() ? wanted_ : before != nullptr ? before->path : std::filesystem::path();
-    const QSignalBlocker quiet(table_);
-    table_->setSortingEnabled(false);
-    table_->setRowCount(int(entries_.size()));
-    for (int i = 0; i < int(entries_.size()); ++i) {
-        const auto& entry = entries_[std::size_t(i)];
-        const auto verdict = !entry.problem.isEmpty()   ? tr("⚠ cannot be read")
-                             : isRecording(entry)       ? tr("● recording")
-                             : !entry.verdict.isEmpty() ? entry.verdict
-                             : entry.closed             ? QString("–")
-                                                        : tr("not ended in order");
-        const auto cell = [&](int column, const QString& shown, const QVariant& key) {
-            auto* item = new SortedItem(shown, key);
-            item->setData(kIndex, i);
-            item->setToolTip(entry.problem.isEmpty() ? qtext(entry.path.string()) : entry.problem);
-            table_->setItem(i, column, item);
-        };
-        cell(0, entry.began.toString("yyyy-MM-dd HH:mm:ss"), entry.began);
-        cell(1, entry.protocol + (entry.simulated ? tr(" · simulated") : QString()), entry.protocol);
-        cell(2, verdict, verdict);
-        cell(3, durationText(entry.duration_s), entry.duration_s);
-        cell(4, tr("%1 MB").arg(double(entry.bytes) / 1e6, 0, 'f', 1), entry.bytes);
-        cell(5, entry.devices, entry.devices);
-        cell(6, qtext(entry.path.filename().string()), qtext(entry.path.string()));
-    }
-    table_->setSortingEnabled(true);
-    table_->resizeColumnsToContents();
-    table_->clearSelection();
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        if (entries_[std::size_t(table_->item(row, 0)->data(kIndex).toInt())].path == keep) table_->selectRow(row);
-    }
-    wanted_.clear();
-    empty_->setVisible(entries_.empty());
-    filter();
-    chosen();
-}
-
-void SessionsWorkspace::filter() {
-    const auto wanted = search_->text().toLower().split(' ', Qt::SkipEmptyParts);
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        const auto text = entries_[std::size_t(table_->item(row, 0)->data(kIndex).toInt())].searched();
-        const bool fits =
-            std::all_of(wanted.begin(), wanted.end(), [&](const auto& word) { return text.contains(word); });
-        table_->setRowHidden(row, !fits);
-    }
-}
-
-std::vector<std::size_t> SessionsWorkspace::selected() const {
-    std::vector<std::size_t> found;
-    for (const auto& index : table_->selectionModel()->selectedRows())
-        found.push_back(std::size_t(index.data(kIndex).toInt()));
-    return found;
-}
-
-const SessionEntry* SessionsWorkspace::current() const {
-    const auto rows = selected();
-    return rows.size() == 1 && rows[0] < entries_.size() ? &entries_[rows[0]] : nullptr;
+    const auto open = controller_.open();
+    list_->rescan(open ? open->session : std::filesystem::path());
 }
 
 void SessionsWorkspace::chosen() {
-    const auto rows = selected();
-    const auto* entry = current();
-    for (auto* button : actions_) button->setEnabled(entry != nullptr && entry->problem.isEmpty());
-    compare_->setEnabled(rows.size() == 2);
+    const auto rows = list_->selected();
+    const auto* entry = list_->current();
+    const QString none = rows.size() > 1    ? tr("Choose one session alone.")
+                         : entry == nullptr ? tr("Choose a session first.")
+                                            : entry->problem;
+    offerActions(none);
+    offer(compare_, rows.size() == 2 ? QString() : tr("Choose two sessions first (Ctrl+click)."));
     read_.reset();
-    if (rows.size() == 2) return details_->say(tr("Two sessions: compare them."));
+    if (rows.size() == 2)
+        return details_->say(tr("Two sessions are chosen: “Compare two” shows what differs between them."));
     if (entry == nullptr) return details_->say(tr("Choose a session at the left."));
     if (!entry->problem.isEmpty()) return details_->say(entry->problem);
     const auto session = std::make_shared<ReadSession>();
@@ -288,7 +198,20 @@ void SessionsWorkspace::chosen() {
             if (!done) return details_->say(qtext(done.error().message));
             read_ = session;
             details_->show(session);
+            offer(capture_, session->captures.empty() ? tr("This session holds no capture.") : QString());
+            offer(replay_, holdsTouch(*session) ? QString() : tr("This session holds no touch to replay."));
         });
+}
+
+void SessionsWorkspace::offerActions(const QString& refusal) {
+    for (const auto& [button, tip] : actions_) offer(button, refusal);
+}
+
+/// A button that cannot act says why.
+void SessionsWorkspace::offer(QPushButton* button, const QString& refusal) {
+    const auto action = std::ranges::find(actions_, button, &Action::button);
+    button->setEnabled(refusal.isEmpty());
+    button->setToolTip(refusal.isEmpty() ? action->tip : refusal);
 }
 
 void SessionsWorkspace::say(const QString& what) { says_->setText(what); }
@@ -300,9 +223,7 @@ bool SessionsWorkspace::openSession(const QString& path) {
         say(tr("%1 is not there.").arg(path));
         return false;
     }
-    const auto listed = std::any_of(entries_.begin(), entries_.end(), [&](const auto& e) { return e.path == file; });
-    if (!listed && file.parent_path() != userSessionsFolder()) others_.insert(file);
-    wanted_ = file;
+    list_->add(file);
     rescan();
     return true;
 }
@@ -347,7 +268,7 @@ void SessionsWorkspace::drawStream(int stream) {
 }
 
 void SessionsWorkspace::verify() {
-    const auto* entry = current();
+    const auto* entry = list_->current();
     if (entry == nullptr) return;
     const auto report = std::make_shared<VerifyReport>();
     say(tr("Verifying…"));
@@ -375,7 +296,7 @@ void SessionsWorkspace::verify() {
 }
 
 void SessionsWorkspace::makeReport() {
-    const auto* entry = current();
+    const auto* entry = list_->current();
     if (entry == nullptr) return;
     auto out = entry->path;
     out.replace_extension(".pdf");
@@ -384,7 +305,7 @@ void SessionsWorkspace::makeReport() {
 }
 
 void SessionsWorkspace::askExport() {
-    const auto* entry = current();
+    const auto* entry = list_->current();
     if (entry == nullptr) return;
     FileQuestion question;
     question.title = tr("Export %1 into a new folder").arg(qtext(entry->path.filename().string()));
@@ -397,7 +318,7 @@ void SessionsWorkspace::askExport() {
 }
 
 void SessionsWorkspace::exportTo(const QString& folder) {
-    if (const auto* entry = current()) exportSession(entry->path, folder);
+    if (const auto* entry = list_->current()) exportSession(entry->path, folder);
 }
 
 void SessionsWorkspace::exportSession(const std::filesystem::path& session, const QString& folder) {
@@ -410,7 +331,7 @@ void SessionsWorkspace::exportSession(const std::filesystem::path& session, cons
 }
 
 void SessionsWorkspace::replay() {
-    const auto* entry = current();
+    const auto* entry = list_->current();
     if (entry == nullptr) return;
     auto folder = std::make_unique<QTemporaryDir>();
     const auto target = folder->path() + "/" + qtext(entry->path.stem().string());
@@ -426,10 +347,10 @@ void SessionsWorkspace::replay() {
 }
 
 void SessionsWorkspace::compare() {
-    const auto rows = selected();
+    const auto rows = list_->selected();
     if (rows.size() != 2) return;
     const auto both = std::make_shared<std::array<std::shared_ptr<ReadSession>, 2>>();
-    const std::array<std::filesystem::path, 2> paths{entries_[rows[0]].path, entries_[rows[1]].path};
+    const std::array<std::filesystem::path, 2> paths{rows[0]->path, rows[1]->path};
     work_.start(
         [paths, both](const WorkPort&) -> Result<void> {
             for (std::size_t i = 0; i < 2; ++i) {
@@ -446,7 +367,7 @@ void SessionsWorkspace::compare() {
 }
 
 void SessionsWorkspace::showInFolder() {
-    if (const auto* entry = current())
+    if (const auto* entry = list_->current())
         QDesktopServices::openUrl(QUrl::fromLocalFile(qtext(entry->path.parent_path().string())));
 }
 

@@ -1,30 +1,30 @@
-// SessionsWorkspace.h - everything that was recorded: find, look into, replay, compare, report, export, verify.
+// SessionsWorkspace.h - everything that was recorded: find, look into, say what it is, replay, compare, report, export,
+// verify.
 //
-// Reading and writing happen beside the window; a session that cannot be read is listed with the reason.
+// Reading and writing happen beside the window.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QTableWidget>
 #include <QTemporaryDir>
-#include <set>
+#include <functional>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 #include "app/gui/runner/ReportMaker.h"
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/SessionDetails.h"
-#include "app/gui/sessions/SessionEntry.h"
+#include "app/gui/sessions/SessionList.h"
 
 namespace tacto::gui {
 
 class SessionsWorkspace final : public QWidget {
     Q_OBJECT
 public:
-    explicit SessionsWorkspace(BenchDesk& desk, QWidget* parent = nullptr);
+    explicit SessionsWorkspace(BenchController& controller, QWidget* parent = nullptr);
     /// Lists a session of another place too, and chooses it. False when there is no such file.
     bool openSession(const QString& path);
     void rescan();
@@ -41,10 +41,18 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    [[nodiscard]] QWidget* buildList();
-    [[nodiscard]] QWidget* buildActions();
-    void fillList();
-    void filter();
+    struct Action {
+        QPushButton* button;
+        QString tip;
+    };
+    [[nodiscard]] QWidget* withActions(QWidget* shown, int margin, QWidget* actions);
+    [[nodiscard]] QWidget* buildListActions();
+    [[nodiscard]] QWidget* buildSessionActions();
+    [[nodiscard]] QWidget* buildNews();
+    QPushButton* addAction(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,
+                           std::function<void()> act);
+    void offerActions(const QString& refusal);
+    void offer(QPushButton* button, const QString& refusal);
     void chosen();
     void say(const QString& what);
     void openCapture(qint64 seq);
@@ -56,28 +64,22 @@ private:
     void replay();
     void compare();
     void showInFolder();
-    [[nodiscard]] std::vector<std::size_t> selected() const;  ///< indices into entries_
-    [[nodiscard]] const SessionEntry* current() const;
-    [[nodiscard]] bool isRecording(const SessionEntry& entry) const;
 
-    BenchDesk& desk_;
-    std::vector<SessionEntry> entries_;
-    std::set<std::filesystem::path> others_;
-    std::filesystem::path wanted_;  ///< to choose once it is listed
+    BenchController& controller_;
     std::shared_ptr<const ReadSession> read_;
-    Background scan_, reading_, work_;
+    Background reading_, work_;
     ReportMaker reports_;
     std::unique_ptr<QTemporaryDir> replayed_;
 
-    QLineEdit* search_;
-    QTableWidget* table_;
-    QLabel* empty_;
+    SessionList* list_;
     SessionDetails* details_;
     QLabel* says_;
     QProgressBar* progress_;
     QPushButton* cancel_;
-    std::vector<QPushButton*> actions_;
+    std::vector<Action> actions_;
     QPushButton* compare_ = nullptr;
+    QPushButton* replay_ = nullptr;
+    QPushButton* capture_ = nullptr;
 };
 
 }  // namespace tacto::gui

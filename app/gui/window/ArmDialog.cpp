@@ -6,9 +6,10 @@
 #include <QVBoxLayout>
 #include <chrono>
 
-#include "app/gui/look/ConfirmButton.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
+#include "core/encoding/Encoder.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto::gui {
@@ -21,11 +22,11 @@ constexpr std::chrono::seconds kAnswerWithin =
 
 }  // namespace
 
-ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWidget* parent)
-    : QDialog(parent), desk_(desk), purpose_(purpose), asked_(desk.mark()) {
+ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent)
+    : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()) {
     const bool check = purpose == Purpose::CheckImpedance;
     setWindowTitle(check ? tr("Check the impedance") : tr("Arm the output"));
-    const auto open = desk.open();
+    const auto open = controller.open();
     readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
 
     auto* layout = new QVBoxLayout(this);
@@ -53,15 +54,21 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     confirmed_ = new QLabel(this);
     confirmed_->setObjectName("armingText");
     confirmed_->setWordWrap(true);
-    auto bold = confirmed_->font();
-    bold.setBold(true);
-    confirmed_->setFont(bold);
+    setTextSize(*confirmed_, TextSize::Body, true);
     layout->addWidget(confirmed_);
+    QStringList sets;
+    for (const auto& set : controller.limits().sets) sets << QString::fromStdString(set.title);
+    layout->addWidget(explanation(
+        tr("Encoding profile: %1. Limits: %2.").arg(QString::fromStdString(controller.profile().name), sets.join("; ")),
+        this));
+    first_ = new QLabel(this);
+    first_->setObjectName("firstOutput");
+    first_->setWordWrap(true);
+    first_->setVisible(!check);
+    layout->addWidget(first_);
     trouble_ = new QLabel(this);
     trouble_->setWordWrap(true);
-    auto red = trouble_->palette();
-    red.setColor(QPalette::WindowText, colours().fault);
-    trouble_->setPalette(red);
+    setTone(*trouble_, Tone::Warning);
     layout->addWidget(trouble_);
     connected_ = new QCheckBox(tr("I checked that this load is connected"), this);
     connected_->setToolTip(tr("This stimulator cannot measure its load: your word stands in for the reading."));
@@ -81,7 +88,8 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     // A stop between the two steps voids the first, and so does waiting.
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, [this] {
-        if (desk_.stoppedSince(asked_)) reject();
+        if (controller_.stoppedSince(asked_)) return reject();
+        sayFirst();
     });
     look->start(kLook_ms);
     QTimer::singleShot(kAnswerWithin, this, &QDialog::reject);
@@ -94,6 +102,7 @@ ArmDialog::ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWid
     else
         cancel->setFocus();
     judge();
+    sayFirst();
 }
 
 void ArmDialog::judge() {
@@ -102,9 +111,27 @@ void ArmDialog::judge() {
                       : load_->text().isEmpty() ? tr("Which load is connected?")
                                                 : QString::fromStdString(parsed.error().message));
     trouble_->setVisible(!parsed);
-    text_ = parsed ? desk_.confirmationOf(*parsed) : std::string();
+    text_ = parsed ? controller_.confirmationOf(*parsed) : std::string();
     confirmed_->setText(QString::fromStdString(text_));
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
+}
+
+/// The first train surprises no one.
+void ArmDialog::sayFirst() {
+    const auto source = controller_.telemetry().driving;
+    QString text = tr("Drive is off: no train follows until you choose one.");
+    if (source == DriveSource::Sensor)
+        text = tr("The fingertip drives: the first train follows as soon as it feels something.");
+    if (source == DriveSource::Manual) {
+        const auto& wanted = controller_.lastDrive();
+        const auto first = Encoder(controller_.profile().encoding).encode(wanted.roughness, wanted.pressure);
+        text = first ? tr("Drive is by hand: the first train follows at once, %1 every %2.")
+                           .arg(quantityText(first->amplitude.value(), "V", 3),
+                                quantityText(first->interval.count(), "s", 3))
+                     : tr("Drive is by hand, and asks for nothing that can be delivered.");
+    }
+    setTone(*first_, source == DriveSource::Off ? Tone::Quiet : Tone::Warning);
+    if (first_->text() != text) first_->setText(text);
 }
 
 void ArmDialog::confirm() {
@@ -114,9 +141,9 @@ void ArmDialog::confirm() {
     request.declaredLoadConfirmed = connected_->isChecked();
     request.confirmed = text_;
     if (purpose_ == Purpose::CheckImpedance)
-        desk_.checkImpedance(request, asked_);
+        controller_.checkImpedance(request, asked_);
     else
-        desk_.arm(request, asked_);
+        controller_.arm(request, asked_);
     accept();
 }
 

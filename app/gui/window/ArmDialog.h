@@ -11,7 +11,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
@@ -19,20 +19,22 @@ class ArmDialog final : public QDialog {
     Q_OBJECT
 public:
     enum class Purpose { Arm, CheckImpedance };
-    ArmDialog(BenchDesk& desk, Purpose purpose, const QString& load, QWidget* parent);
+    ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent);
     /// The declared load, as written.
     [[nodiscard]] QString load() const { return load_->text(); }
 
 private:
     void judge();
     void confirm();
+    void sayFirst();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     const Purpose purpose_;
     const StopMark asked_;  // when the operator took the first step
     std::string text_;      // as it stands in confirmed_
     QLineEdit* load_;
     QLabel* confirmed_;
+    QLabel* first_;  ///< what follows as soon as the output is armed
     QLabel* trouble_;
     QCheckBox* connected_;
     QPushButton* arm_;

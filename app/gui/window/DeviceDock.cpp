@@ -5,8 +5,8 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/DeviceText.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/ScopeStatement.h"
@@ -14,11 +14,6 @@
 namespace tacto::gui {
 
 namespace {
-
-QString sentence(QString words) {
-    if (!words.isEmpty()) words[0] = words[0].toUpper();
-    return words + ".";
-}
 
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
@@ -32,14 +27,16 @@ bool opensByItself(const DeviceIdentity& device) { return device.obstacle.empty(
 
 }  // namespace
 
-DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent)
-    : QDockWidget(tr("Devices"), parent), desk_(desk), calibrations_(calibrations) {
-    setObjectName("deviceDock");
+DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent)
+    : FoldingDock(tr("Devices"), "devices", "deviceDock", parent),
+      controller_(controller),
+      calibrations_(calibrations) {
     auto* area = new QScrollArea(this);
     area->setFrameShape(QFrame::NoFrame);
     area->setWidgetResizable(true);
     auto* body = new QWidget(area);
     auto* layout = new QVBoxLayout(body);
+    layout->setContentsMargins(0, 0, scaledPx(12), 0);
     tree_ = new QTreeWidget(body);
     tree_->setAccessibleName(tr("Devices"));
     tree_->setHeaderLabels({tr("Device")});
@@ -61,7 +58,7 @@ DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWi
     open_ = new QPushButton(body);
     open_->setObjectName("openBench");
     nameOpen();
-    auto* flaws = new QPushButton(tr("&Faults…"), body);
+    auto* flaws = new QPushButton(tr("Faults…"), body);
     flaws->setToolTip(tr("A simulated bench with a source, a load and a fault of your choice."));
     auto* recording = new QPushButton(tr("Re&cording…"), body);
     recording->setToolTip(tr("Replays a recorded fingertip into the simulated stimulator."));
@@ -79,8 +76,9 @@ DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWi
     layout->addLayout(buttons);
     layout->addStretch(1);
     area->setWidget(body);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     area->setMinimumWidth(body->minimumSizeHint().width());
-    setWidget(area);
+    setContent(area);
 
     connect(open_, &QPushButton::clicked, this, &DeviceDock::openChosen);
     // Space stops the output everywhere: Return ticks.
@@ -92,22 +90,22 @@ DeviceDock::DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWi
     connect(flaws, &QPushButton::clicked, this, &DeviceDock::simulatedBenchRequested);
     connect(recording, &QPushButton::clicked, this, &DeviceDock::recordingRequested);
     connect(check_, &QPushButton::clicked, this, &DeviceDock::checkRequested);
-    connect(close_, &QPushButton::clicked, &desk_, &BenchDesk::close);
+    connect(close_, &QPushButton::clicked, &controller_, &BenchController::close);
     connect(tree_, &QTreeWidget::currentItemChanged, this, &DeviceDock::describe);
-    connect(&desk_, &BenchDesk::changed, this, [this] {
+    connect(&controller_, &BenchController::changed, this, [this] {
         lookForCertificate();
         listed_.clear();
         list();
     });
-    connect(&desk_.watch(), &DeviceWatch::changed, this, &DeviceDock::list);
+    connect(&controller_.watch(), &DeviceWatch::changed, this, &DeviceDock::list);
     connect(&calibrations_, &CalibrationBook::changed, this, &DeviceDock::describe);
     list();
     refresh(Telemetry{});
 }
 
 void DeviceDock::list() {
-    const auto& present = desk_.watch().devices();
-    const auto open = desk_.open();
+    const auto& present = controller_.watch().devices();
+    const auto open = controller_.open();
     if (!open) seen_.clear();
     std::vector<std::string> keys;
     for (const auto& device : present) keys.push_back(device.uri + device.obstacle);
@@ -174,7 +172,7 @@ void DeviceDock::describe() {
     const auto obstacle = item->data(0, kObstacleRole).toString();
     QStringList lines{QString("<b>%1</b>").arg(item->text(0).toHtmlEscaped()), uri.toHtmlEscaped()};
     if (!obstacle.isEmpty()) lines << obstacle.toHtmlEscaped();
-    if (const auto open = desk_.open(); open && item->data(0, kOpenRole).toBool()) {
+    if (const auto open = controller_.open(); open && item->data(0, kOpenRole).toBool()) {
         for (const auto& device : open->about.devices) {
             if (QString::fromStdString(device.uri) != uri) continue;
             lines << factsOf(device, *open);
@@ -182,7 +180,7 @@ void DeviceDock::describe() {
                 lines << sentence(standingText(calibrations_.standing(*stimulator)));
             if (device.role == nameOf(Role::Oscilloscope) && !certificate_.isEmpty()) lines << certificate_;
             if (const auto role = roleNamed(device.role)) {
-                if (const auto report = desk_.deviceReport(*role)) lines << rowsOf(*report);
+                if (const auto report = controller_.deviceReport(*role)) lines << rowsOf(*report);
             }
         }
     } else {
@@ -195,7 +193,7 @@ void DeviceDock::describe() {
 }
 
 void DeviceDock::lookForCertificate() {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open || open->session == certificateOf_) return;
     certificateOf_ = open->session;
     certificate_.clear();
@@ -241,7 +239,7 @@ void DeviceDock::nameOpen() {
 
 void DeviceDock::openChosen() {
     LiveOrder order;
-    order.profile = desk_.profile();
+    order.profile = controller_.profile();
     if (const auto ticked = chosen(); ticked.empty()) {
         order.uris.push_back(*DeviceUri::parse("sim:"));
     } else {
@@ -251,15 +249,15 @@ void DeviceDock::openChosen() {
             order.uris.push_back(uri);
         }
     }
-    desk_.openLive(order);
+    controller_.openLive(order);
 }
 
 void DeviceDock::refresh(const Telemetry& telemetry) {
-    const bool live = desk_.activity() == Activity::Live;
-    open_->setEnabled(desk_.activity() == Activity::Closed || live);
+    const bool live = controller_.activity() == Activity::Live;
+    open_->setEnabled(controller_.activity() == Activity::Closed || live);
     close_->setEnabled(live);
     check_->setEnabled(live && telemetry.state == InterlockState::Disarmed);
-    if (desk_.open() && isVisible() && described_.hasExpired(kDescribeEvery_ms)) describe();
+    if (controller_.open() && isVisible() && described_.hasExpired(kDescribeEvery_ms)) describe();
 }
 
 }  // namespace tacto::gui

@@ -4,7 +4,6 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
@@ -13,14 +12,15 @@
 #include <set>
 
 #include "app/gui/calibrate/CalibrationBook.h"
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/window/FoldingDock.h"
 
 namespace tacto::gui {
 
-class DeviceDock final : public QDockWidget {
+class DeviceDock final : public FoldingDock {
     Q_OBJECT
 public:
-    DeviceDock(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent);
+    DeviceDock(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent);
     void refresh(const Telemetry& telemetry);
 
 signals:
@@ -39,7 +39,7 @@ private:
     /// What the bench was opened with stays, whatever is entered since.
     void lookForCertificate();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     const CalibrationBook& calibrations_;
     QTreeWidget* tree_;
     QLabel* facts_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 

@@ -1,24 +1,36 @@
-// ExposureDock.h - every row of the exposure table against its limit.
+// ExposureDock.h - every limit that holds for what the bench delivers, nearest first, and what was not evaluated.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QDockWidget>
+#include <QVBoxLayout>
+#include <vector>
 
-#include "app/gui/look/ExposureTable.h"
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/window/FoldingDock.h"
+#include "app/gui/window/LimitBar.h"
 #include "core/bench/Telemetry.h"
 
 namespace tacto::gui {
 
-class ExposureDock final : public QDockWidget {
+class ExposureDock final : public FoldingDock {
     Q_OBJECT
 public:
-    explicit ExposureDock(QWidget* parent);
+    ExposureDock(const BenchController& controller, QWidget* parent);
     void refresh(const Telemetry& telemetry);
+    /// The limit that is nearest: "39.1 of 40 V".
+    [[nodiscard]] QString keyFigure() const override { return nearest_; }
 
 private:
-    ExposureTable* table_;
+    void build(const std::vector<ExposureRow>& rows);
+
+    const BenchController& controller_;
+    QLabel* empty_;
+    QVBoxLayout* column_;
+    std::vector<LimitBar*> bars_;
+    QStringList titles_;  ///< of the bars
     Instant shownAt_{-1};
+    QString nearest_;
 };
 
 }  // namespace tacto::gui

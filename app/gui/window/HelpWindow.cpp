@@ -11,9 +11,9 @@
 #include <QVBoxLayout>
 #include <QWhatsThis>
 
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/gui/theme/LimitSetView.h"
+#include "app/gui/theme/Theme.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
@@ -25,32 +25,6 @@ QString definitions() {
     QFile file(QString::fromStdString((*resources / "help" / "definitions.md").string()));
     if (!file.open(QIODevice::ReadOnly)) return QObject::tr("%1 cannot be read.").arg(file.fileName());
     return QString::fromUtf8(file.readAll());
-}
-
-QString limitsAsHtml(const ShippedLimits& limits) {
-    QString html;
-    for (const auto& set : limits.sets) {
-        html += QString("<h3>%1 (%2)</h3><table cellspacing=\"0\" cellpadding=\"4\">")
-                    .arg(qtext(set.title).toHtmlEscaped(), qtext(set.id).toHtmlEscaped());
-        html += QString(
-                    "<tr><th align=\"left\">%1</th><th align=\"left\">%2</th><th align=\"left\">%3</th>"
-                    "<th align=\"left\">%4</th></tr>")
-                    .arg(QObject::tr("Quantity"), QObject::tr("Limit"), QObject::tr("Judged"), QObject::tr("Source"));
-        for (const auto& row : set.rows) {
-            const auto limit =
-                QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, qtext(unitOf(row.quantity))));
-            const auto judged = row.judged == JudgedAt::Ohm500 ? QObject::tr("into 500 Ω")
-                                                               : QObject::tr("worst case over the load range");
-            auto action = row.action == LimitAction::Refuse ? QString()
-                          : row.action == LimitAction::Warn ? QObject::tr(" (a warning)")
-                                                            : QObject::tr(" (to be stated)");
-            html += QString("<tr><td>%1</td><td>%2%3</td><td>%4</td><td>%5</td></tr>")
-                        .arg(qtext(titleOf(row.quantity)), limit.toHtmlEscaped(), action, judged,
-                             qtext(row.source).toHtmlEscaped());
-        }
-        html += "</table>";
-    }
-    return html;
 }
 
 QTextBrowser* page(QWidget* parent) {
@@ -75,20 +49,29 @@ const std::vector<std::pair<const char*, std::vector<Key>>>& allKeys() {
           {"Ctrl+1 … Ctrl+7", QT_TRANSLATE_NOOP("Keys", "the seven workspaces")},
           {"F1", QT_TRANSLATE_NOOP("Keys", "explains what has the focus")},
           {"?", QT_TRANSLATE_NOOP("Keys", "this sheet")},
-          {"F11", QT_TRANSLATE_NOOP("Keys", "full screen")},
+          {"Ctrl+D", QT_TRANSLATE_NOOP("Keys", "opens the docks, or collapses them to a strip")},
+          {"F11", QT_TRANSLATE_NOOP("Keys", "safety bar and plot alone")},
+          {"Shift+F11", QT_TRANSLATE_NOOP("Keys", "full screen")},
           {"Ctrl+Q", QT_TRANSLATE_NOOP("Keys", "output off and quit")}}},
         {kBench,
          {{"Ctrl+B", QT_TRANSLATE_NOOP("Keys", "opens the simulated bench")},
           {"Ctrl+O", QT_TRANSLATE_NOOP("Keys", "opens a recording, session or capture")},
+          {"Ctrl+M", QT_TRANSLATE_NOOP("Keys", "marks this moment with a word, in plots, session and report")},
           {"Ctrl+Shift+A", QT_TRANSLATE_NOOP("Keys", "arms: the first of two steps")},
           {"F5", QT_TRANSLATE_NOOP("Keys", "runs the protocol")},
           {"Shift+F5", QT_TRANSLATE_NOOP("Keys", "stops the protocol")}}},
         {kScopeKeys,
-         {{"S, N, A", QT_TRANSLATE_NOOP("Keys", "single, normal, auto")},
+         {{"R", QT_TRANSLATE_NOOP("Keys", "runs the oscilloscope, or holds the picture")},
+          {"S, N, A", QT_TRANSLATE_NOOP("Keys", "single, normal, auto")},
+          {"T, L", QT_TRANSLATE_NOOP("Keys", "cursors across time, across level")},
+          {"1, 2, 3, 4", QT_TRANSLATE_NOOP("Keys", "takes hold of a cursor")},
+          {"B", QT_TRANSLATE_NOOP("Keys", "draws a box to zoom into")},
+          {"D", QT_TRANSLATE_NOOP("Keys", "goes to the drive")},
+          {"Ctrl+S", QT_TRANSLATE_NOOP("Keys", "saves the picture")},
           {"Wheel, Ctrl+Wheel", QT_TRANSLATE_NOOP("Keys", "zooms time, level")},
           {"Drag", QT_TRANSLATE_NOOP("Keys", "pans")},
           {"Shift+Drag", QT_TRANSLATE_NOOP("Keys", "zooms into a box")},
-          {"Double click", QT_TRANSLATE_NOOP("Keys", "fits all")},
+          {"Double click, Home", QT_TRANSLATE_NOOP("Keys", "fits to the pulse, once more to the whole record")},
           {"Ctrl+Z", QT_TRANSLATE_NOOP("Keys", "undoes a zoom")},
           {"Arrows", QT_TRANSLATE_NOOP("Keys", "move the focused cursor")}}}};
     return all;
@@ -110,13 +93,11 @@ QDialog* makeHelpWindow(const ShippedLimits& limits, QWidget* parent) {
     auto* first = page(tabs);
     first->setMarkdown(definitions());
     tabs->addTab(first, QObject::tr("&Definitions"));
-    auto* second = page(tabs);
-    second->setHtml(limitsAsHtml(limits));
-    tabs->addTab(second, QObject::tr("&Limits"));
+    tabs->addTab(new LimitSetView(limits.sets, tabs), QObject::tr("&Limits"));
     layout->addWidget(tabs);
     addClose(*dialog, *layout);
     const auto metrics = dialog->fontMetrics();
-    dialog->resize(metrics.averageCharWidth() * 105, metrics.height() * 34);
+    dialog->resize(metrics.averageCharWidth() * 130, metrics.height() * 34);
     return dialog;
 }
 

@@ -3,13 +3,17 @@
 #include <QPainter>
 #include <span>
 
-#include "app/gui/look/ExposureTable.h"
-#include "app/gui/look/Look.h"
-#include "app/gui/look/Text.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
+
+constexpr int kBarWidth = 104;
+constexpr int kBarHeight = 8;
+constexpr int kBarLineGap = 2;
 
 QString whereJudged(const ExposureRow& row) {
     if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
@@ -33,14 +37,14 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, std::init
     return found;
 }
 
-LimitBar::LimitBar(const QString& title, QWidget* parent)
-    : QWidget(parent), title_(title), text_("–"), share_(std::nan("")) {
+LimitBar::LimitBar(const QString& title, QWidget* parent, Shape shape)
+    : QWidget(parent), title_(title), shape_(shape), text_("–"), share_(std::nan("")) {
     setAccessibleName(title);
     setToolTip(tr("%1: no output has been set up yet.").arg(title_));
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 }
 
-void LimitBar::show(const std::optional<ExposureRow>& row) {
+void LimitBar::show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets) {
     const auto before = text_;
     const auto shareBefore = share_;
     known_ = row.has_value();
@@ -62,7 +66,7 @@ void LimitBar::show(const std::optional<ExposureRow>& row) {
     if (row) {
         const auto name = qtext(titleOf(row->quantity));
         auto tip = tr("%1, %2: %3.").arg(name, whereJudged(*row), text_);
-        if (limited_) tip += tr(" Limit of %1.").arg(QString::fromUtf8(row->set.c_str()));
+        if (limited_) tip += tr(" Limit of %1.").arg(qtext(titleOf(sets, row->set.view())));
         if (!evaluated_ && !row->reason.empty()) tip += " " + QString::fromUtf8(row->reason.c_str());
         setToolTip(tip);
         setAccessibleDescription(tip);
@@ -71,41 +75,46 @@ void LimitBar::show(const std::optional<ExposureRow>& row) {
 }
 
 QSize LimitBar::sizeHint() const {
-    const auto metrics = fontMetrics();
-    return {metrics.horizontalAdvance("88.88 of 188 mA/cm²"), metrics.height() * 5 / 2 + 4};
+    const QFontMetrics metrics(textFont(TextSize::Small));
+    return {std::max(scaledPx(kBarWidth), metrics.horizontalAdvance("0.82 of 250 mW/cm²")),
+            (shape_ == Shape::Line ? 1 : 2) * metrics.height() + scaledPx(kBarHeight) + 2 * kBarLineGap};
 }
 
-QSize LimitBar::minimumSizeHint() const { return {fontMetrics().horizontalAdvance("5 s RMS "), sizeHint().height()}; }
+QSize LimitBar::minimumSizeHint() const {
+    return {QFontMetrics(textFont(TextSize::Small)).horizontalAdvance("RMS over 5 s "), sizeHint().height()};
+}
 
 void LimitBar::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     const auto& c = colours();
-    auto small = font();
-    small.setPointSizeF(small.pointSizeF() * 0.85);
-    painter.setFont(small);
+    painter.setFont(textFont(TextSize::Small));
     const auto metrics = painter.fontMetrics();
     const int line = metrics.height();
+    const bool oneLine = shape_ == Shape::Line;
     const QRect top(0, 0, width(), line);
-    painter.setPen(c.quiet);
-    painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(title_, Qt::ElideRight, width()));
     const QRect bottom(0, height() - line, width(), line);
-    painter.setPen(broken_ ? c.fault : palette().color(QPalette::WindowText));
-    painter.drawText(bottom, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(text_, Qt::ElideRight, width()));
+    const int numbers = oneLine ? metrics.horizontalAdvance(text_) + kBarWidth / 8 : 0;
+    painter.setPen(oneLine ? c.text : c.quiet);
+    painter.drawText(top, Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(title_, Qt::ElideRight, width() - numbers));
+    painter.setPen(share_ >= 0.8 && oneLine ? c.amberText : c.text);
+    painter.drawText(oneLine ? top : bottom, (oneLine ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter,
+                     metrics.elidedText(text_, Qt::ElideRight, width()));
     if (known_ && !limited_ && evaluated_) return;
-    const int room = height() - 2 * line;
-    const QRectF frame(0.5, line + 0.5, width() - 1.0, std::max(4, room) - 1.0);
-    painter.setPen(QPen(palette().color(QPalette::Mid), 1));
-    painter.setBrush(palette().color(QPalette::Midlight));
+    const int room = height() - (oneLine ? 1 : 2) * line - 2 * kBarLineGap;
+    const QRectF frame(0.5, line + kBarLineGap + 0.5, width() - 1.0, std::max(4, room) - 1.0);
+    painter.setPen(QPen(c.line, 1));
+    painter.setBrush(c.sunken);
     painter.drawRect(frame);
     if (known_ && !evaluated_) {
-        painter.setBrush(QBrush(c.quiet, Qt::BDiagPattern));
+        painter.setBrush(QBrush(c.hatch, Qt::BDiagPattern));
         painter.drawRect(frame);
         return;
     }
     if (std::isnan(share_)) return;
     const double filled = std::clamp(share_, 0.0, 1.0);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(broken_ ? c.fault : share_ >= 0.8 ? c.amber : c.accent);
+    painter.setBrush(broken_ ? c.fail : share_ >= 0.8 ? c.amber : c.bar);
     painter.drawRect(QRectF(frame.left(), frame.top(), frame.width() * filled, frame.height()));
 }
 

@@ -8,6 +8,7 @@
 
 #include <QWidget>
 #include <optional>
+#include <span>
 
 #include "core/safety/Exposure.h"
 
@@ -16,10 +17,13 @@ namespace tacto::gui {
 class LimitBar final : public QWidget {
     Q_OBJECT
 public:
-    /// `title` is short: "5 s RMS". `compact` leaves no room for the limit beside the value: it is in the tool tip.
-    LimitBar(const QString& title, QWidget* parent = nullptr);
+    /// Stacked: title, bar, numbers. Line: title and numbers in a line, the bar below, as docks have it.
+    enum class Shape { Stacked, Line };
+    /// `title` is short: "RMS over 5 s".
+    LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
     /// Nothing: no row of this quantity yet (no output is configured).
-    void show(const std::optional<ExposureRow>& row);
+    /// `sets` names the limit by its title.
+    void show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {});
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "2.3 of 10 mA", "not evaluated", "–": what is painted, for tests and screen readers.
@@ -32,6 +36,7 @@ protected:
 
 private:
     QString title_;
+    Shape shape_;
     QString text_;
     double share_;
     bool known_ = false;

@@ -13,7 +13,9 @@ namespace tacto::gui {
 class LimitBarRow final : public QWidget {
 public:
     LimitBarRow(const QStringList& titles, QWidget* parent);
-    void show(std::size_t index, const std::optional<ExposureRow>& row) { bars_[index]->show(row); }
+    void show(std::size_t index, const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {}) {
+        bars_[index]->show(row, sets);
+    }
     /// After the last show(): chooses which bars are seen.
     void arrange();
     [[nodiscard]] QSize sizeHint() const override;

@@ -4,13 +4,13 @@
 #include <QCloseEvent>
 #include <QFileInfo>
 #include <QLabel>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
-#include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -19,19 +19,30 @@
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
-#include "app/gui/look/Dialogs.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
+#include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/CloseQuestion.h"
 #include "app/gui/window/ComingWorkspace.h"
+#include "app/gui/window/DayDialog.h"
 #include "app/gui/window/DeviceDock.h"
+#include "app/gui/window/DockColumn.h"
+#include "app/gui/window/DriveDock.h"
 #include "app/gui/window/ExposureDock.h"
+#include "app/gui/window/MarkLine.h"
+#include "app/gui/window/Menus.h"
+#include "app/gui/window/NoticeBanner.h"
+#include "app/gui/window/RailButton.h"
+#include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StopKeys.h"
-#include "app/gui/window/Tour.h"
+#include "app/gui/window/WelcomeTour.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/devices/Driver.h"
 
@@ -40,12 +51,12 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFrame_ms = 33;
-constexpr int kRecentFiles = 8;
-constexpr int kStackedLines = 50;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
+
+bool opensDocks(int page) { return page == kLive || page == kPilot; }
 
 /// What a simulated stimulator drives. What is connected to a real one only the operator can say.
 QString knownLoad(const SessionAbout& about) {
@@ -66,19 +77,20 @@ QScrollArea* scrolling(QWidget* page, QWidget* parent) {
     area->setFocusPolicy(Qt::NoFocus);
     area->setMinimumSize(1, 1);
     area->setWidget(page);
+    for (auto* ground : {page, area->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
     return area;
 }
 
 }  // namespace
 
-MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(makeRegistry)) {
+MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_(std::move(makeRegistry)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
-    new StopKeys([this](const char* by) { desk_.stop(by); }, this);
+    new StopKeys([this](const char* by) { controller_.stop(by); }, this);
 
-    safety_ = new SafetyBar(desk_, calibrations_, this);
+    safety_ = new SafetyBar(controller_, calibrations_, this);
     auto* top = new QToolBar(tr("Safety"), this);
     top->setObjectName("safetyToolBar");
     top->setMovable(false);
@@ -90,29 +102,20 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     setContextMenuPolicy(Qt::NoContextMenu);
 
     auto* centre = new QWidget(this);
+    centre->setObjectName("centre");
+    centre->setAttribute(Qt::WA_StyledBackground);
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    banner_ = new QFrame(centre);
-    banner_->setObjectName("banner");
-    banner_->setFrameShape(QFrame::StyledPanel);
-    auto* bannerRow = new QHBoxLayout(banner_);
-    bannerText_ = new QLabel(banner_);
-    bannerText_->setObjectName("bannerText");
-    bannerText_->setWordWrap(true);
-    bannerText_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    bannerRow->addWidget(bannerText_, 1);
-    auto* dismiss = new QPushButton(tr("Dismiss"), banner_);
-    dismiss->setAutoDefault(false);
-    connect(dismiss, &QPushButton::clicked, banner_, &QWidget::hide);
-    bannerRow->addWidget(dismiss);
-    banner_->hide();
+    line_ = new RecordingLine(controller_, *statusBar());
+    banner_ = new NoticeBanner(controller_, *line_, centre);
     layout->addWidget(banner_);
     pages_ = new QStackedWidget(centre);
     layout->addWidget(pages_, 1);
     setCentralWidget(centre);
-    line_ = new RecordingLine(desk_, *statusBar());
-    if (const auto added = addedLimitsText(desk_.limits()); !added.empty()) {
+    mark_ = new MarkLine(controller_, *line_, *centre);
+    connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
+    if (const auto added = addedLimitsText(controller_.limits()); !added.empty()) {
         auto* limits = new QLabel(QString::fromStdString(added), this);
         limits->setObjectName("added-limits");
         statusBar()->addPermanentWidget(limits);
@@ -121,19 +124,16 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
     buildPages();
     buildNavigation();
     buildDocks();
-    buildMenus();
-    buildTour();
+    new Menus(*this, *navigation_, *docks_, *line_);
+    auto* day = new DayButton(controller_.day(), menuBar());
+    connect(day, &QToolButton::clicked, this, [this] { askForDay(false); });
+    menuBar()->setCornerWidget(day, Qt::TopRightCorner);
+    tour_ = new WelcomeTour(*this);
+    const auto all = runners();
+    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()});
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
-    connect(&desk_, &BenchDesk::changed, this, &MainWindow::noteChange);
-    connect(&desk_, &BenchDesk::failed, this, &MainWindow::complain);
-    connect(&desk_, &BenchDesk::armed, this, [this] {
-        saidArmed_ = true;
-        line_->say(tr("Armed."));
-    });
-    connect(&desk_, &BenchDesk::checked, this, [this](double ohms) {
-        line_->say(std::isnan(ohms) ? tr("This stimulator does not measure the impedance. Disarmed.")
-                                    : tr("Impedance %1. Disarmed.").arg(quantityText(ohms, "ohm", 4)));
-    });
+    connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
+    connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
@@ -141,24 +141,24 @@ MainWindow::MainWindow(BenchDesk::MakeRegistry makeRegistry) : desk_(std::move(m
 }
 
 MainWindow::~MainWindow() {
-    // Hiding is told to the workspaces, and they ask the desk: it is a member, and gone when Qt would hide the window.
+    // Hiding is told to the workspaces, and they ask the controller: it is a member, and gone when Qt would hide the
+    // window.
     hide();
 }
 
 void MainWindow::buildPages() {
-    livePage_ = new QTabWidget(pages_);
+    livePage_ = new TabbedPage(pages_);
     livePage_->setObjectName("livePage");
-    livePage_->setDocumentMode(true);
-    live_ = new LiveWorkspace(desk_, livePage_);
-    scope_ = new ScopeWorkspace(desk_, livePage_);
-    livePage_->addTab(scrolling(live_, livePage_), tr("&Touch"));
-    livePage_->addTab(scrolling(scope_, livePage_), tr("&Oscilloscope"));
+    live_ = new LiveWorkspace(controller_, livePage_);
+    scope_ = new ScopeWorkspace(controller_, livePage_);
+    livePage_->addTab(scrolling(live_, livePage_), tr("&Touch"), live_->tools());
+    livePage_->addTab(scrolling(scope_, livePage_), tr("&Oscilloscope"), scope_->tools());
     pages_->addWidget(livePage_);
-    calibrate_ = new CalibrateWorkspace(desk_, calibrations_, pages_);
+    calibrate_ = new CalibrateWorkspace(controller_, calibrations_, pages_);
     pages_->addWidget(scrolling(calibrate_, pages_));
-    safetyCheck_ = new ProtocolWorkspace(desk_, "load-safety", pages_);
+    safetyCheck_ = new ProtocolWorkspace(controller_, "load-safety", pages_);
     pages_->addWidget(scrolling(safetyCheck_, pages_));
-    separability_ = new ProtocolWorkspace(desk_, "separability", pages_);
+    separability_ = new ProtocolWorkspace(controller_, "separability", pages_);
     pages_->addWidget(scrolling(separability_, pages_));
     pages_->addWidget(new ComingWorkspace(
         tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
@@ -166,16 +166,22 @@ void MainWindow::buildPages() {
          tr("Threshold and identification protocols with breaks and stopping rules"),
          tr("Participants by pseudonym, trials as data")},
         tr("Nothing in this version can be armed for a person."), pages_));
-    sessions_ = new SessionsWorkspace(desk_, pages_);
+    sessions_ = new SessionsWorkspace(controller_, pages_);
     pages_->addWidget(scrolling(sessions_, pages_));
-    protocols_ = new ProtocolWorkspace(desk_, QString(), pages_);
+    protocols_ = new ProtocolWorkspace(controller_, QString(), pages_);
     pages_->addWidget(scrolling(protocols_, pages_));
     for (auto* runner : calibrate_->runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
     connect(separability_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSeparability); });
     connect(protocols_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kProtocols); });
-    connect(live_, &LiveWorkspace::refusedRecording, this, &MainWindow::complain);
+    for (auto* runner : runners()) {
+        connect(runner, &ProtocolWorkspace::profileChangeWanted, live_, &LiveWorkspace::editProfile);
+        connect(runner, &ProtocolWorkspace::sessionWanted, this, &MainWindow::openFile);
+        connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showWorkspace(kSafetyCheck); });
+        connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showWorkspace(kLive); });
+    }
+    connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
     connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
         scope_->show(std::move(capture));
@@ -195,45 +201,52 @@ void MainWindow::buildNavigation() {
     bar->setFloatable(false);
     bar->toggleViewAction()->setEnabled(false);
     bar->setContextMenuPolicy(Qt::PreventContextMenu);
-    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
     navigation_ = new QActionGroup(this);
-    const std::pair<QString, QString> names[] = {
-        {tr("Live"), tr("Touch, drive by hand, replay, and the oscilloscope")},
-        {tr("Calibrate"), tr("What the stimulator really delivers, and until when that holds")},
-        {tr("Safety check"), tr("Limits on resistor loads")},
-        {tr("Separability"), tr("Can an oscilloscope tell the four conditions apart?")},
-        {tr("Pilot"), tr("Sessions with volunteers")},
-        {tr("Sessions"), tr("Everything that was recorded")},
-        {tr("Protocols"), tr("Every protocol script, shipped and the lab's own")},
+    struct Entry {
+        QString name, icon, tip;
+    };
+    const Entry entries[] = {
+        {tr("Live"), "live", tr("Touch, drive by hand, replay, and the oscilloscope")},
+        {tr("Calibrate"), "calibrate", tr("What the stimulator really delivers, and until when that holds")},
+        {tr("Safety check"), "safety-check", tr("Limits on resistor loads")},
+        {tr("Separability"), "separability", tr("Can an oscilloscope tell the four conditions apart?")},
+        {tr("Pilot"), "pilot", tr("Sessions with volunteers")},
+        {tr("Sessions"), "sessions", tr("Everything that was recorded")},
+        {tr("Protocols"), "protocols", tr("Every protocol script, shipped and the lab's own")},
     };
     int index = 0;
-    for (const auto& [name, tip] : names) {
-        auto* action = bar->addAction(name);
+    for (const auto& [name, iconName, tip] : entries) {
+        auto* action = new QAction(name, this);
         action->setCheckable(true);
         action->setShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + index)));
         action->setToolTip(tr("%1 (%2)").arg(tip, action->shortcut().toString(QKeySequence::NativeText)));
         navigation_->addAction(action);
-        connect(action, &QAction::triggered, this, [this, index] { showWorkspace(index); });
-        auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
-        button->setObjectName("workspaceButton");
-        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        button->setFocusPolicy(Qt::TabFocus);
-        button->setAccessibleName(name);
+        connect(action, &QAction::triggered, this, [this, index] {
+            showWorkspace(index);
+            focusWorkspace();
+        });
+        bar->addWidget(new RailButton(action, iconName, bar));
+        addAction(action);  // its key
         ++index;
     }
     addToolBar(Qt::LeftToolBarArea, bar);
+    rail_ = bar;
 }
 
 void MainWindow::buildDocks() {
-    devices_ = new DeviceDock(desk_, calibrations_, this);
-    exposure_ = new ExposureDock(this);
-    measurements_ = new QDockWidget(tr("Measurements"), this);
-    measurements_->setObjectName("measurementDock");
+    drive_ = new DriveDock(controller_, this);
+    measurements_ = new FoldingDock(tr("Measurements"), "measurements", "measurementDock", this);
     summary_ = new MeasurementSummary(measurements_);
-    measurements_->setWidget(summary_);
-    for (auto* dock : {static_cast<QDockWidget*>(devices_), measurements_, static_cast<QDockWidget*>(exposure_)})
-        addDockWidget(Qt::RightDockWidgetArea, dock);
+    summary_->follow(scope_->readings());
+    measurements_->setContent(summary_);
+    exposure_ = new ExposureDock(controller_, this);
+    devices_ = new DeviceDock(controller_, calibrations_, this);
+    docks_ = new DockColumn(*this, {drive_, exposure_, measurements_, devices_});
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
+    connect(scope_, &ScopeWorkspace::driveWanted, this, [this] {
+        docks_->show(*drive_);
+        drive_->takeFocus();
+    });
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
     for (auto* protocol : runners())
         connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
@@ -248,12 +261,13 @@ std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
 }
 
 void MainWindow::tick() {
-    const auto telemetry = desk_.telemetry();
+    const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
-    sayState(telemetry);
-    sayFault(telemetry);
+    banner_->refresh(telemetry);
     devices_->refresh(telemetry);
-    if (exposure_->isVisible()) exposure_->refresh(telemetry);
+    drive_->refresh(telemetry);
+    exposure_->refresh(telemetry);
+    docks_->refresh();
     line_->refresh();
     const bool live = workspace() == kLive;
     live_->refresh(telemetry, live && livePage_->currentIndex() == kTouch);
@@ -268,6 +282,30 @@ void MainWindow::showWorkspace(int index) {
     if (index < 0 || index >= pages_->count()) return;
     pages_->setCurrentIndex(index);
     navigation_->actions().at(index)->setChecked(true);
+    docks_->enter(index, opensDocks(index));
+}
+
+/// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
+void MainWindow::focusWorkspace() {
+    const auto* page = pages_->currentWidget();
+    for (auto* next = page->nextInFocusChain(); next != page; next = next->nextInFocusChain()) {
+        const bool takesText = next->inherits("QLineEdit") || next->inherits("QAbstractSpinBox") ||
+                               next->inherits("QPlainTextEdit") || next->inherits("QTextEdit");
+        if (!page->isAncestorOf(next) || takesText || !next->isVisible() || !next->isEnabled()) continue;
+        if ((next->focusPolicy() & Qt::TabFocus) != 0) return next->setFocus(Qt::ShortcutFocusReason);
+    }
+}
+
+void MainWindow::showPlotOnly(bool only) {
+    rail_->setVisible(!only);
+    statusBar()->setVisible(!only);
+    docks_->setHidden(only);
+}
+
+void MainWindow::resetLayout() {
+    docks_->reset();
+    docks_->enter(workspace(), opensDocks(workspace()));
+    line_->say(tr("Docks and columns are where they were at first."));
 }
 
 void MainWindow::showScope() {
@@ -276,81 +314,42 @@ void MainWindow::showScope() {
 }
 
 void MainWindow::noteChange() {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     setWindowTitle(open && open->simulated() ? tr("Tactoscope – simulated") : tr("Tactoscope"));
-    if (desk_.activity() == Activity::Live && open) {
-        line_->say(tr("Open. Recording to %1").arg(QString::fromStdString(open->session.filename().string())));
-        banner_->hide();
+    if (controller_.activity() == Activity::Live && open) {
         if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
     }
 }
 
-/// The last message must not say "Armed." when that is over.
-void MainWindow::sayState(const Telemetry& telemetry) {
-    const auto state = telemetry.state;
-    const bool live = state == InterlockState::Checking || state == InterlockState::Armed ||
-                      state == InterlockState::Delivering || state == InterlockState::Paused;
-    if (live || !std::exchange(saidArmed_, false)) return;
-    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
-    if (state == InterlockState::Disconnected)
-        line_->say(tr("No stimulator is open. Output is off."));
-    else if (state == InterlockState::Disarmed)
-        line_->say(reason.isEmpty() ? tr("Disarmed. Output is off.") : tr("Disarmed: %1. Output is off.").arg(reason));
-}
-
-/// In the second frame: the state is there at once, its reason with the control loop's next step.
-void MainWindow::sayFault(const Telemetry& telemetry) {
-    if (telemetry.state != InterlockState::Faulted) {
-        if (std::exchange(faultedFrames_, 0) > 0 && bannerText_->text() == faultText_) banner_->hide();
-        return;
-    }
-    if (++faultedFrames_ != 2) return;
-    complain(tr("Fault: %1").arg(QString::fromUtf8(telemetry.reason.c_str())));
-    faultText_ = bannerText_->text();
-}
-
-void MainWindow::complain(const QString& what) {
-    const auto state = desk_.telemetry().state;
-    const bool off =
-        state == InterlockState::Disconnected || state == InterlockState::Disarmed || state == InterlockState::Faulted;
-    auto text = what;
-    if (!text.isEmpty()) text[0] = text[0].toUpper();
-    if (!text.endsWith('.')) text += '.';
-    if (off && !text.contains(tr("Output is off"))) text += tr(" Output is off.");
-    bannerText_->setText("⚠  " + text);
-    banner_->show();
-    line_->say(text, true);
-}
-
 void MainWindow::askToArm() {
-    if (desk_.activity() != Activity::Live) {
-        return complain(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
+    if (controller_.activity() != Activity::Live) {
+        return banner_->complain(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
     }
     askToConfirm(ArmDialog::Purpose::Arm);
 }
 
 void MainWindow::checkImpedance() {
-    const auto open = desk_.open();
-    if (desk_.activity() != Activity::Live || !open || !open->source)
-        return complain(tr("No impedance to check: no stimulator is open. Open the simulated bench (Ctrl+B)"));
+    const auto open = controller_.open();
+    if (controller_.activity() != Activity::Live || !open || !open->source)
+        return banner_->complain(tr("No impedance to check: no stimulator is open. Open the simulated bench (Ctrl+B)"));
     askToConfirm(ArmDialog::Purpose::CheckImpedance);
 }
 
 void MainWindow::askToConfirm(ArmDialog::Purpose purpose) {
-    auto* dialog = new ArmDialog(desk_, purpose, load_, this);
+    auto* dialog = new ArmDialog(controller_, purpose, load_, this);
     connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
     // What it asks about is the bench that is open now: with another bench or profile the question is void.
-    connect(&desk_, &BenchDesk::changed, dialog, &QDialog::reject);
+    connect(&controller_, &BenchController::changed, dialog, &QDialog::reject);
     openDialog(dialog);
 }
 
-void MainWindow::askForSimulatedBench() { openDialog(new SimulatedBenchDialog(desk_, this)); }
+void MainWindow::askForSimulatedBench() { openDialog(new SimulatedBenchDialog(controller_, this)); }
 
 void MainWindow::openSimulatedBench() {
     LiveOrder order;
     order.uris.push_back(*DeviceUri::parse("sim:"));
-    order.profile = desk_.profile();
-    desk_.openLive(order);
+    order.profile = controller_.profile();
+    controller_.openLive(order);
 }
 
 void MainWindow::openFile(const QString& path) {
@@ -369,16 +368,16 @@ void MainWindow::openFile(const QString& path) {
         opened = scope_->openCaptureFile(path);
         if (opened) showScope();
     } else {
-        complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (%2)")
-                     .arg(path, ScopeWorkspace::captureGlobs()));
+        banner_->complain(tr("%1 is no recording (a folder or recording.json), session (*.tacto) or capture (%2)")
+                              .arg(path, ScopeFiles::captureGlobs()));
     }
-    if (opened) remember(path);
+    if (opened) rememberRecentFile(path);
 }
 
 void MainWindow::chooseFile() {
     FileQuestion question;
     question.title = tr("Open");
-    question.filters << tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeWorkspace::captureGlobs())
+    question.filters << tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeFiles::captureGlobs())
                      << tr("All files (*)");
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
@@ -390,14 +389,27 @@ void MainWindow::chooseRecording() {
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
-void MainWindow::remember(const QString& path) {
-    QSettings settings;
-    auto files = settings.value("recent").toStringList();
-    const auto absolute = QFileInfo(path).absoluteFilePath();
-    files.removeAll(absolute);
-    files.prepend(absolute);
-    while (files.size() > kRecentFiles) files.removeLast();
-    settings.setValue("recent", files);
+void MainWindow::closeUnasked() { closing_->closeUnasked(); }
+
+void MainWindow::beginTour() { tour_->begin(); }
+
+void MainWindow::markMoment() { mark_->begin(); }
+
+void MainWindow::askForDay(bool once) {
+    if (!once || !controller_.day().asked()) openDialog(new DayDialog(controller_.day(), this));
+}
+
+void MainWindow::showDock(const QString& name) {
+    for (auto* dock : docks_->docks()) {
+        if (dock->objectName() != name) continue;
+        docks_->show(*dock);
+        resizeDocks({dock}, {std::max(dock->height(), dock->sizeHint().height())}, Qt::Vertical);
+    }
+}
+
+void MainWindow::setTheme(Theme theme) {
+    applyTheme(theme);
+    QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
 }
 
 void MainWindow::restore() {
@@ -406,14 +418,7 @@ void MainWindow::restore() {
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(kWanted);
     stayOnScreen();
     if (!restoreState(settings.value("state").toByteArray())) {
-        // Once the window is laid out: room for the exposure table's four columns.
-        QTimer::singleShot(0, this, [this] {
-            resizeDocks({devices_, measurements_, exposure_}, {width() / 4, width() / 4, width() / 4}, Qt::Horizontal);
-            // The devices with their buttons first, then the limits.
-            resizeDocks({devices_, measurements_, exposure_}, {height() / 2, height() / 6, height() / 4}, Qt::Vertical);
-            // Three above each other where there is room, else as tabs.
-            if (height() < fontMetrics().height() * kStackedLines) tabifyDockWidget(measurements_, exposure_);
-        });
+        QTimer::singleShot(0, this, [this] { docks_->reset(); });  // once the window is laid out
     }
     // A state that was damaged must not hide STOP.
     if (auto* top = findChild<QToolBar*>("safetyToolBar")) {
@@ -444,17 +449,24 @@ void MainWindow::showEvent(QShowEvent* event) {
     QTimer::singleShot(0, this, &MainWindow::stayOnScreen);  // once the window system has put its frame around it
 }
 
+void MainWindow::resizeEvent(QResizeEvent* event) {
+    QMainWindow::resizeEvent(event);
+    for (auto* button : rail_->findChildren<RailButton*>()) button->updateGeometry();  // narrow in a low window
+}
+
 void MainWindow::changeEvent(QEvent* event) {
     QMainWindow::changeEvent(event);
     if (event->type() != QEvent::WindowStateChange || !isMinimized()) return;
     // A STOP that is off the screen is out of reach. A simulated output may go on.
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     const bool virtualOutput = open && (!open->output || open->output->simulated);
-    if (desk_.activity() != Activity::Closed && !virtualOutput) desk_.stop("the window was minimised");
+    if (controller_.activity() != Activity::Closed && !virtualOutput) controller_.stop("the window was minimised");
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-    desk_.stop("the window closes");
+    const bool ran = closing_->runs();
+    controller_.stop("the window closes");  // before anything is asked
+    if (!closing_->mayClose(ran)) return event->ignore();
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("state", saveState());

@@ -6,9 +6,7 @@
 #pragma once
 
 #include <QActionGroup>
-#include <QLabel>
 #include <QMainWindow>
-#include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
 #include <array>
@@ -17,45 +15,72 @@
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
-#include "app/gui/desk/BenchDesk.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/ArmDialog.h"
 
-class QTabWidget;
+class QToolBar;
 
 namespace tacto::gui {
 
 class CalibrateWorkspace;
+class CloseQuestion;
 class DeviceDock;
+class DockColumn;
+class DriveDock;
 class ExposureDock;
+class FoldingDock;
 class LiveWorkspace;
+class MarkLine;
 class MeasurementSummary;
+class NoticeBanner;
 class ProtocolWorkspace;
 class RecordingLine;
 class SafetyBar;
 class ScopeWorkspace;
 class SessionsWorkspace;
-class Tour;
+class TabbedPage;
+class WelcomeTour;
 
 class MainWindow final : public QMainWindow {
     Q_OBJECT
 public:
-    explicit MainWindow(BenchDesk::MakeRegistry makeRegistry);
+    explicit MainWindow(BenchController::MakeRegistry makeRegistry);
     ~MainWindow() override;
 
-    [[nodiscard]] BenchDesk& desk() noexcept { return desk_; }
+    [[nodiscard]] BenchController& controller() noexcept { return controller_; }
     /// 0 to 6, in the order at the left.
     void showWorkspace(int index);
     [[nodiscard]] int workspace() const { return pages_->currentIndex(); }
     /// A recording (a folder or its JSON), a session or a capture. Says so when it is none of them.
     void openFile(const QString& path);
+
+    /// Closes at once, without a question about unsaved scripts or a run: for signals.
+    void closeUnasked();
+
+    // What menus, docks and the tour order:
+    void chooseFile();
+    void chooseRecording();
+    void openSimulatedBench();
+    void askForSimulatedBench();
     /// The first of the two steps of arming.
     void askToArm();
-    /// Not on the first run of a test.
+    void checkImpedance();
     void beginTour();
+    /// Marks this moment of the session that is being recorded, and asks for a word.
+    void markMoment();
+    /// Operator and sample of today. `once`: unless the question was answered or put off today.
+    void askForDay(bool once);
+    /// Opens the docks with this one ("deviceDock") unfolded.
+    void showDock(const QString& name);
+    void setTheme(Theme theme);
+    /// Safety bar and workspace alone; STOP stays where it is.
+    void showPlotOnly(bool only);
+    void resetLayout();
 
 protected:
     void showEvent(QShowEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void changeEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
@@ -65,39 +90,22 @@ private:
     void buildPages();
     void buildDocks();
     void buildNavigation();
-    void buildMenus();  // Menus.cpp
-    void buildBenchMenu();
-    void buildViewMenu();
-    void buildHelpMenu();
-    void buildTour();
     void restore();
     void stayOnScreen();
     void tick();
     /// All that run protocols.
     [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
-    void sayState(const Telemetry& telemetry);
-    void sayFault(const Telemetry& telemetry);
-    void complain(const QString& what);
-    void remember(const QString& path);
-    void fillRecent();
-    void chooseFile();
-    void chooseRecording();
-    void checkImpedance();
     void askToConfirm(ArmDialog::Purpose purpose);
-    void openSimulatedBench();
-    void askForSimulatedBench();
-    void setTheme(Theme theme);
     void showScope();
-    [[nodiscard]] QString declaredLoad() const;
+    void focusWorkspace();
 
-    BenchDesk desk_;
-    CalibrationBook calibrations_{desk_};
+    BenchController controller_;
+    CalibrationBook calibrations_{controller_};
     SafetyBar* safety_ = nullptr;
-    QFrame* banner_ = nullptr;
-    QLabel* bannerText_ = nullptr;
+    NoticeBanner* banner_ = nullptr;
     QStackedWidget* pages_ = nullptr;
-    QTabWidget* livePage_ = nullptr;
+    TabbedPage* livePage_ = nullptr;
     LiveWorkspace* live_ = nullptr;
     ScopeWorkspace* scope_ = nullptr;
     CalibrateWorkspace* calibrate_ = nullptr;
@@ -107,18 +115,19 @@ private:
     SessionsWorkspace* sessions_ = nullptr;
     DeviceDock* devices_ = nullptr;
     ExposureDock* exposure_ = nullptr;
-    QDockWidget* measurements_ = nullptr;
+    DriveDock* drive_ = nullptr;
+    FoldingDock* measurements_ = nullptr;
+    DockColumn* docks_ = nullptr;
     MeasurementSummary* summary_ = nullptr;
     RecordingLine* line_ = nullptr;
-    Tour* tour_ = nullptr;
+    MarkLine* mark_ = nullptr;
+    WelcomeTour* tour_ = nullptr;
+    CloseQuestion* closing_ = nullptr;
     QActionGroup* navigation_ = nullptr;
-    QMenu* recent_ = nullptr;
+    QToolBar* rail_ = nullptr;
     QTimer frame_;
     QString load_;                  // declared last
     std::filesystem::path loadOf_;  // the session of its bench
-    bool saidArmed_ = false;        // and nothing since that it is over
-    int faultedFrames_ = 0;         // since the bench faulted
-    QString faultText_;             // as the banner says it
 };
 
 }  // namespace tacto::gui

@@ -1,144 +1,122 @@
-// The menus of MainWindow, and what only they do.
-#include <QApplication>
+#include "app/gui/window/Menus.h"
+
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSettings>
 
 #include "app/gui/calibrate/CertificateDialog.h"
-#include "app/gui/live/LiveWorkspace.h"
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/window/DeviceDock.h"
-#include "app/gui/window/ExposureDock.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/window/DockColumn.h"
 #include "app/gui/window/HelpWindow.h"
 #include "app/gui/window/MainWindow.h"
+#include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
-#include "app/gui/window/Tour.h"
-#include "app/scripting/ProtocolLibrary.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
-void MainWindow::buildMenus() {
-    auto* file = menuBar()->addMenu(tr("&File"));
-    file->addAction(tr("&Open…"), QKeySequence::Open, this, &MainWindow::chooseFile);
-    file->addAction(tr("Open &recording folder…"), this, &MainWindow::chooseRecording);
-    file->addAction(tr("Open the &example recording"), this, [this] {
-        if (const auto resources = resourcesFolder())
-            openFile(QString::fromStdString((*resources / "examples" / "linen-slide").string()));
-    });
-    recent_ = file->addMenu(tr("Re&cent"));
-    connect(recent_, &QMenu::aboutToShow, this, &MainWindow::fillRecent);
-    file->addSeparator();
-    file->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &QWidget::close);
-    buildBenchMenu();
-    buildViewMenu();
-    buildHelpMenu();
+Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& docks, RecordingLine& line)
+    : QObject(&window), window_(window), line_(line) {
+    addFiles();
+    addBench();
+    addView(workspaces, docks);
+    addHelp();
 }
 
-void MainWindow::fillRecent() {
+void Menus::addFiles() {
+    auto* file = window_.menuBar()->addMenu(tr("&File"));
+    file->addAction(tr("&Open…"), QKeySequence::Open, &window_, &MainWindow::chooseFile);
+    file->addAction(tr("Open &recording folder…"), &window_, &MainWindow::chooseRecording);
+    file->addAction(tr("Open the &example recording"), &window_, [this] {
+        if (const auto resources = resourcesFolder())
+            window_.openFile(QString::fromStdString((*resources / "examples" / "linen-slide").string()));
+    });
+    recent_ = file->addMenu(tr("Re&cent"));
+    connect(recent_, &QMenu::aboutToShow, this, &Menus::fillRecent);
+    file->addSeparator();
+    file->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), &window_, &QWidget::close);
+}
+
+void Menus::fillRecent() {
     recent_->clear();
-    const auto files = QSettings().value("recent").toStringList();
-    for (const auto& path : files) recent_->addAction(path, this, [this, path] { openFile(path); });
+    const auto files = recentFiles();
+    for (const auto& path : files) recent_->addAction(path, &window_, [this, path] { window_.openFile(path); });
     if (files.isEmpty()) recent_->addAction(tr("nothing yet"))->setEnabled(false);
 }
 
-void MainWindow::buildBenchMenu() {
-    auto* bench = menuBar()->addMenu(tr("&Bench"));
-    bench->addAction(tr("Open &simulated bench"), QKeySequence(Qt::CTRL | Qt::Key_B), this,
+void Menus::addBench() {
+    auto* bench = window_.menuBar()->addMenu(tr("&Bench"));
+    auto* controller = &window_.controller();
+    bench->addAction(tr("Open &simulated bench"), QKeySequence(Qt::CTRL | Qt::Key_B), &window_,
                      &MainWindow::openSimulatedBench);
-    bench->addAction(tr("Simulated bench with &faults…"), this, &MainWindow::askForSimulatedBench);
-    bench->addAction(tr("&Close"), &desk_, &BenchDesk::close);
-    bench->addAction(tr("Oscilloscope cer&tificates…"), this,
-                     [this] { openDialog(new CertificateDialog(desk_, this)); });
+    bench->addAction(tr("Simulated bench with &faults…"), &window_, &MainWindow::askForSimulatedBench);
+    bench->addAction(tr("&Close"), controller, &BenchController::close);
+    bench->addAction(tr("Oscilloscope cer&tificates…"), &window_,
+                     [this] { openDialog(new CertificateDialog(window_.controller(), &window_)); });
     bench->addSeparator();
-    bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), this, &MainWindow::askToArm);
-    bench->addAction(tr("&Disarm"), &desk_, &BenchDesk::disarm);
-    bench->addAction(tr("&Pause"), &desk_, &BenchDesk::pause);
-    bench->addAction(tr("Res&ume"), &desk_, &BenchDesk::resume);
-    bench->addAction(tr("&Reset fault"), &desk_, &BenchDesk::resetFault);
-    bench->addAction(tr("Check &impedance"), this, &MainWindow::checkImpedance);
+    bench->addAction(tr("&Arm…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A), &window_, &MainWindow::askToArm);
+    bench->addAction(tr("&Disarm"), controller, &BenchController::disarm);
+    bench->addAction(tr("&Pause"), controller, &BenchController::pause);
+    bench->addAction(tr("Res&ume"), controller, &BenchController::resume);
+    bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
+    bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->addSeparator();
-    bench->addAction(tr("STOP (Esc)"), this, [this] { desk_.stop("operator (menu)"); });
+    auto* mark = bench->addAction(tr("&Mark this moment…"), QKeySequence(Qt::CTRL | Qt::Key_M), &window_,
+                                  &MainWindow::markMoment);
+    mark->setAutoRepeat(false);
+    mark->setShortcutContext(Qt::ApplicationShortcut);  // the moment passes, whatever window has the focus
+    bench->addAction(tr("&Operator and sample…"), &window_, [this] { window_.askForDay(false); });
+    bench->addSeparator();
+    bench->addAction(tr("STOP (Esc)"), &window_, [controller] { controller->stop("operator (menu)"); });
 }
 
-void MainWindow::setTheme(Theme theme) {
-    applyTheme(theme);
-    QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
-}
-
-void MainWindow::buildViewMenu() {
-    auto* view = menuBar()->addMenu(tr("&View"));
-    for (auto* action : navigation_->actions()) view->addAction(action);
+void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
+    auto* view = window_.menuBar()->addMenu(tr("&View"));
+    for (auto* action : workspaces.actions()) view->addAction(action);
     view->addSeparator();
-    view->addAction(devices_->toggleViewAction());
-    view->addAction(measurements_->toggleViewAction());
-    view->addAction(exposure_->toggleViewAction());
-    view->addAction(tr("&Messages"), line_, &RecordingLine::showLog);
+    view->addAction(docks.toggle());
+    for (auto* dock : docks.docks())
+        view->addAction(dock->windowTitle(), &docks, [&docks, dock] { docks.show(*dock); });
+    view->addAction(tr("&Messages"), &line_, &RecordingLine::showLog);
     view->addSeparator();
-    view->addAction(tr("&Light"), this, [this] { setTheme(Theme::Light); });
-    view->addAction(tr("&Dark"), this, [this] { setTheme(Theme::Dark); });
+    view->addAction(tr("&Light"), &window_, [this] { window_.setTheme(Theme::Light); });
+    view->addAction(tr("&Dark"), &window_, [this] { window_.setTheme(Theme::Dark); });
     auto* size = view->addMenu(tr("&Text size"));
     for (const int percent : {100, 125, 150, 200})
-        size->addAction(tr("%1 %").arg(percent), this, [this, percent] {
+        size->addAction(tr("%1 %").arg(percent), &window_, [this, percent] {
             QSettings().setValue("textSize", percent);
             applyTextSize(percent);
-            line_->say(tr("Text at %1 %. Everything has its best place when the window is opened again.").arg(percent));
+            line_.say(tr("Text at %1 %.").arg(percent));
         });
-    view->addAction(tr("&Full screen"), QKeySequence(Qt::Key_F11), this,
-                    [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    auto* plotOnly = view->addAction(tr("Plot &only"), QKeySequence(Qt::Key_F11), &window_, &MainWindow::showPlotOnly);
+    plotOnly->setCheckable(true);
+    view->addAction(tr("&Full screen"), QKeySequence(Qt::SHIFT | Qt::Key_F11), &window_,
+                    [this] { window_.setWindowState(window_.windowState() ^ Qt::WindowFullScreen); });
+    view->addAction(tr("Reset la&yout"), &window_, &MainWindow::resetLayout);
 }
 
-void MainWindow::buildHelpMenu() {
-    auto* help = menuBar()->addMenu(tr("&Help"));
-    help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::Key_F1), this, [this] { explainFocus(this); });
-    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), this, [this] { openDialog(makeShortcutSheet(this)); });
-    help->addAction(tr("&Definitions and limits"), this, [this] { openDialog(makeHelpWindow(desk_.limits(), this)); });
-    help->addAction(tr("&Tour"), this, &MainWindow::beginTour);
+void Menus::addHelp() {
+    auto* help = window_.menuBar()->addMenu(tr("&Help"));
+    help->addAction(tr("&Explain what has the focus"), QKeySequence(Qt::Key_F1), &window_,
+                    [this] { explainFocus(&window_); });
+    help->addAction(tr("&Keys"), QKeySequence(Qt::Key_Question), &window_,
+                    [this] { openDialog(makeShortcutSheet(&window_)); });
+    help->addAction(tr("&Definitions and limits"), &window_,
+                    [this] { openDialog(makeHelpWindow(window_.controller().limits(), &window_)); });
+    help->addAction(tr("&Tour"), &window_, &MainWindow::beginTour);
     help->addSeparator();
-    help->addAction(tr("&About Tactoscope"), this, [this] {
-        auto* about = new QMessageBox(
-            QMessageBox::NoIcon, tr("About Tactoscope"),
-            tr("<h3>Tactoscope %1</h3><p>A desktop bench for tactile-feedback stimulation.</p><p><b>Not a medical "
-               "device.</b> A research bench, not certified. Its drivers for hardware "
-               "have been tried on emulated devices only.</p>"
-               "<p>GPL-3.0-or-later</p>")
-                .arg(TACTOSCOPE_VERSION),
-            QMessageBox::Close, this);
-        openDialog(about);
-    });
+    help->addAction(tr("&About Tactoscope"), this, &Menus::showAbout);
 }
 
-void MainWindow::buildTour() {
-    std::vector<TourStep> steps{
-        {tr("Welcome"),
-         tr("This bench turns what a fingertip feels into pulse trains: texture into amplitude, pressure into the "
-            "interval. The tour runs on simulated devices and cannot touch anybody. Esc switches the output off at any "
-            "time, here too."),
-         "",
-         {}},
-        {tr("Open the simulated bench"),
-         tr("A fingertip, a stimulator on 1 kΩ and an oscilloscope. What is present and what is open stands in the "
-            "Devices dock at the right."),
-         tr("&Open it"), [this] { openSimulatedBench(); }},
-        {tr("Slide over a surface"),
-         tr("Acceleration, force and taxels become roughness R and pressure P: the point in the tactile plane."),
-         tr("&Slide over P120"),
-         [this] {
-             showWorkspace(0);
-             desk_.present("P120", 50, 1);
-         }},
-        {tr("Arm, in two steps"),
-         tr("The first opens a question, the second measures the load with one small pulse. Then let the fingertip "
-            "drive. The bars at the top show how far each limit is."),
-         tr("&Arm…"), [this] { askToArm(); }},
-        {tr("Run a protocol"),
-         tr("Separability asks whether an oscilloscope can tell the four conditions apart, and writes a report. Every "
-            "run is in Sessions."),
-         tr("&Show it"), [this] { showWorkspace(3); }},
-    };
-    tour_ = new Tour(std::move(steps), this);
-    connect(tour_, &Tour::ended, this, [] { QSettings().setValue("tourDone", true); });
+void Menus::showAbout() {
+    openDialog(new QMessageBox(
+        QMessageBox::NoIcon, tr("About Tactoscope"),
+        tr("<h3>Tactoscope %1</h3><p>A desktop bench for tactile-feedback stimulation.</p><p><b>Not a medical "
+           "device.</b> A research bench, not certified. Its drivers for hardware "
+           "have been tried on emulated devices only.</p>"
+           "<p>GPL-3.0-or-later</p>")
+            .arg(TACTOSCOPE_VERSION),
+        QMessageBox::Close, &window_));
 }
-
-void MainWindow::beginTour() { tour_->begin(); }
 
 }  // namespace tacto::gui

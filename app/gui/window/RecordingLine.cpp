@@ -7,8 +7,8 @@
 #include <QPlainTextEdit>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Dialogs.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -16,7 +16,8 @@ namespace {
 constexpr int kLogLines = 2000;
 }
 
-RecordingLine::RecordingLine(BenchDesk& desk, QStatusBar& bar) : QObject(&bar), desk_(desk), bar_(bar) {
+RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
+    : QObject(&bar), controller_(controller), bar_(bar) {
     recording_ = new QLabel(&bar);
     recording_->setToolTip(
         tr("Every open bench records to a session file. Samples are on disk within a second, events "
@@ -32,7 +33,7 @@ RecordingLine::RecordingLine(BenchDesk& desk, QStatusBar& bar) : QObject(&bar), 
 }
 
 void RecordingLine::refresh() {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open) {
         session_.clear();
         recording_->setText(tr("Nothing is being recorded"));
@@ -65,7 +66,7 @@ void RecordingLine::say(const QString& text, bool isError) {
     message_->setText(message_->fontMetrics().elidedText(text, Qt::ElideRight, bar_.width() / 2));
     message_->setToolTip(text + tr("\nClick for the log."));
     auto colour = message_->palette();
-    colour.setColor(QPalette::ButtonText, isError ? colours().fault : bar_.palette().color(QPalette::WindowText));
+    colour.setColor(QPalette::ButtonText, isError ? colours().amberText : bar_.palette().color(QPalette::WindowText));
     message_->setPalette(colour);
 }
 
@@ -75,6 +76,7 @@ void RecordingLine::showLog() {
     auto* layout = new QVBoxLayout(dialog);
     auto* text = new QPlainTextEdit(log_.isEmpty() ? tr("No messages yet.") : log_.join("\n"), dialog);
     text->setReadOnly(true);
+    text->setTabChangesFocus(true);
     layout->addWidget(text);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
     connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);

@@ -9,14 +9,14 @@
 #include <QStringList>
 #include <QToolButton>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
 class RecordingLine final : public QObject {
     Q_OBJECT
 public:
-    RecordingLine(BenchDesk& desk, QStatusBar& bar);
+    RecordingLine(BenchController& controller, QStatusBar& bar);
     void refresh();
     /// Shows a message and keeps it in the log.
     void say(const QString& text, bool isError = false);
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const QStringList& log() const { return log_; }
 
 private:
-    BenchDesk& desk_;
+    BenchController& controller_;
     QStatusBar& bar_;
     QLabel* recording_;
     QToolButton* message_;

@@ -3,9 +3,10 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
-#include "app/gui/look/ConfirmButton.h"
-#include "app/gui/look/ElidedLabel.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/LimitBarRow.h"
 #include "app/gui/window/StateBlock.h"
 #include "app/gui/window/StopButton.h"
@@ -18,8 +19,9 @@ namespace {
 constexpr int kFlashFrames = 4;
 constexpr int kBarGap = 16;
 constexpr const char* kFactsWidth = "calibrated 12 d ago, until";
+constexpr const char* kUnmeasured = QT_TRANSLATE_NOOP("SafetyBar", "impedance not measured");
 constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), QT_TRANSLATE_NOOP("SafetyBar", "Dis&arm"),
-                                    QT_TRANSLATE_NOOP("SafetyBar", "&Reset fault")};
+                                    QT_TRANSLATE_NOOP("SafetyBar", "&Reset")};
 
 struct Bar {
     const char* title;
@@ -29,12 +31,12 @@ using Q = Quantity;
 const std::vector<Bar>& allBars() {
     static const std::vector<Bar> bars{
         {QT_TRANSLATE_NOOP("SafetyBar", "Peak"), {Q::CommandVoltage, Q::PeakVoltage, Q::PeakCurrent}},
-        {QT_TRANSLATE_NOOP("SafetyBar", "5 s RMS"), {Q::RmsCurrent5s, Q::RmsVoltage5s}},
-        {QT_TRANSLATE_NOOP("SafetyBar", "Energy"), {Q::PulseEnergy}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "RMS over 5 s"), {Q::RmsCurrent5s, Q::RmsVoltage5s}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "Energy a pulse"), {Q::PulseEnergy}},
         {QT_TRANSLATE_NOOP("SafetyBar", "Density"), {Q::PowerDensity, Q::CurrentDensity}},
         {QT_TRANSLATE_NOOP("SafetyBar", "Net charge"), {}},  // measured, not predicted: see netCharge()
         {QT_TRANSLATE_NOOP("SafetyBar", "In train"), {Q::RmsCurrentTrain}},
-        {QT_TRANSLATE_NOOP("SafetyBar", "1 s RMS"), {Q::RmsCurrent1s}},
+        {QT_TRANSLATE_NOOP("SafetyBar", "RMS over 1 s"), {Q::RmsCurrent1s}},
     };
     return bars;
 }
@@ -65,7 +67,18 @@ QString reasonOf(const Telemetry& telemetry) {
         case InterlockState::Disconnected:
             return SafetyBar::tr("No stimulator is open.");
         case InterlockState::Faulted:
-            return SafetyBar::tr("%1. Output is off.").arg(reason);
+            return SafetyBar::tr("Output is off.");
+        case InterlockState::Disarmed:
+            return reason.isEmpty() ? SafetyBar::tr("Output is off. “Arm…” asks before anything flows.")
+                                    : SafetyBar::tr("Output is off: %1.").arg(reason);
+        case InterlockState::Checking:
+            return SafetyBar::tr("One small pulse measures the impedance.");
+        case InterlockState::Delivering:
+            return telemetry.driving == DriveSource::Sensor
+                       ? SafetyBar::tr("From the fingertip. Space stops.")
+                       : SafetyBar::tr("Set by hand or by a protocol. Space stops.");
+        case InterlockState::Paused:
+            return SafetyBar::tr("No train is delivered until you resume.");
         case InterlockState::Armed:
             return telemetry.driving == DriveSource::Off ? SafetyBar::tr("Choose a drive to deliver.") : reason;
         default:
@@ -75,26 +88,29 @@ QString reasonOf(const Telemetry& telemetry) {
 
 }  // namespace
 
-SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent)
-    : QFrame(parent), desk_(desk), calibrations_(calibrations), block_(new StateBlock(this)) {
+SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent)
+    : QFrame(parent), controller_(controller), calibrations_(calibrations), block_(new StateBlock(this)) {
     setObjectName("safetyBar");
     setAccessibleName(tr("Safety bar"));
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(kBarGap);
+    row->setSpacing(0);
     row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() says how narrow it may be
     facts_ = buildFacts();
     QStringList titles;
     for (const auto& bar : allBars()) titles << tr(bar.title);
     bars_ = new LimitBarRow(titles, this);
     buttons_ = buildButtons();
-    stop_ = new StopButton([this] { desk_.stop("operator (STOP)"); }, this);
+    stop_ = new StopButton([this] { controller_.stop("operator (STOP)"); }, this);
     stop_->setToolTip(tr("Output off, now. Esc and Pause do the same from anywhere, Space outside text fields."));
+    fault_ = new FaultBanner(this);
+    fault_->hide();
     row->addWidget(block_);
     row->addWidget(facts_);
     row->addWidget(bars_, 1);
+    row->addWidget(fault_, 1);
     row->addWidget(buttons_);
     row->addWidget(stop_);
     refresh(Telemetry{});
@@ -103,18 +119,16 @@ SafetyBar::SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidg
 QWidget* SafetyBar::buildFacts() {
     auto* holder = new QWidget(this);
     auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, 0, 0, 0);
+    column->setContentsMargins(kBarGap, 0, kBarGap, 0);
     column->setSpacing(0);
     load_ = new ElidedLabel(holder);
-    auto bold = load_->font();
-    bold.setBold(true);
-    load_->setFont(bold);
     load_->setToolTip(
         tr("Impedance of the electrodes as last measured, and how long ago. Older than 5 s, it is "
            "measured again before the next train."));
     device_ = new ElidedLabel(holder);
     calibration_ = new ElidedLabel(holder);
     calibration_->setObjectName("calibrationAge");
+    for (auto* label : {load_, device_, calibration_}) setTextSize(*label, TextSize::Small, label == load_);
     column->addStretch();
     for (auto* label : {load_, device_, calibration_}) column->addWidget(label);
     column->addStretch();
@@ -124,7 +138,7 @@ QWidget* SafetyBar::buildFacts() {
 QWidget* SafetyBar::buildButtons() {
     auto* holder = new QWidget(this);
     auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, 4, 0, 4);
+    column->setContentsMargins(kBarGap / 2, 0, kBarGap / 2, 0);
     column->setSpacing(4);
     action_ = new ConfirmButton({}, holder);
     action_->setObjectName("armButton");
@@ -134,25 +148,37 @@ QWidget* SafetyBar::buildButtons() {
         "Holds the output back and keeps the run. A train that is under way ends by itself, within 2 s; no other one "
         "is delivered until you resume. STOP ends it at once."));
     connect(pause_, &QPushButton::clicked, this, &SafetyBar::pressPause);
-    for (auto* button : {action_, pause_}) column->addWidget(button);
+    details_ = new QPushButton(tr("Details…"), holder);
+    details_->setAutoDefault(false);
+    details_->setToolTip(tr("All messages since the program began."));
+    connect(details_, &QPushButton::clicked, this, &SafetyBar::detailsRequested);
+    details_->hide();
+    column->addStretch();
+    for (auto* button : {static_cast<QPushButton*>(action_), static_cast<QPushButton*>(pause_), details_})
+        column->addWidget(button);
+    column->addStretch();
     return holder;
 }
 
-/// The buttons' words change with the state: the widest of them sets the width, so that nothing moves.
+/// The buttons' words change with the state: the widest of them sets the width, so that nothing moves. Where there is
+/// little room bars go first, then facts, and the state's word gets smaller last.
 void SafetyBar::giveRoom() {
     const auto metrics = fontMetrics();
     int widest = 0;
     for (const auto* words : kActions) widest = std::max(widest, metrics.horizontalAdvance(tr(words).remove('&')));
+    widest = std::max(widest, metrics.horizontalAdvance(details_->text()));
     buttons_->setFixedWidth(widest + 3 * kBarGap);
-    const int always = buttons_->width() + stop_->sizeHint().width() + 4 * kBarGap;
-    const int facts = metrics.horizontalAdvance(tr(kFactsWidth));
-    const int aBar = metrics.horizontalAdvance("88.8 of 188 mA/cm²");
-    block_->fit(width() - always - facts - aBar);
-    facts_->setFixedWidth(std::clamp(width() - always - block_->width() - aBar, 0, facts));
+    const int always = buttons_->width() + stop_->sizeHint().width();
+    const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
+    const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
+    const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
+    block_->fit(width() - always);
+    const int left = width() - always - block_->width();
+    facts_->setFixedWidth(std::clamp(left, 0, facts));
 }
 
 QSize SafetyBar::minimumSizeHint() const {
-    return {block_->smallestWidth() + buttons_->minimumWidth() + stop_->sizeHint().width() + 4 * kBarGap,
+    return {block_->smallestWidth() + buttons_->minimumWidth() + stop_->sizeHint().width(),
             QFrame::minimumSizeHint().height()};
 }
 
@@ -168,6 +194,11 @@ void SafetyBar::resizeEvent(QResizeEvent* event) {
 
 void SafetyBar::refresh(const Telemetry& telemetry) {
     showState(telemetry);
+    const bool faulted = telemetry.state == InterlockState::Faulted;
+    facts_->setVisible(!faulted);
+    bars_->setVisible(!faulted);
+    if (faulted) fault_->show(telemetry);
+    fault_->setVisible(faulted);
     showDevice(telemetry);
     showExposure(telemetry);
     showButtons(telemetry.state);
@@ -182,9 +213,9 @@ void SafetyBar::showState(const Telemetry& telemetry) {
 }
 
 void SafetyBar::showDevice(const Telemetry& telemetry) {
-    const auto open = desk_.open();
+    const auto open = controller_.open();
     if (!open) {
-        device_->setText(desk_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
+        device_->setText(controller_.activity() == Activity::Opening ? tr("opening…") : tr("no bench is open"));
         load_->setText("–");
         showCalibration();
         return;
@@ -194,13 +225,13 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
         if (device.role == "stimulator" || (device.role == "massager" && !open->source))
             name = QString::fromStdString(device.name);
     }
-    const auto text = open->simulated() ? tr("%1 · simulated").arg(name) : name;
+    const auto text = open->simulated() && !name.contains(tr("simulated")) ? tr("%1 · simulated").arg(name) : name;
     device_->setText(text);
     device_->setToolTip(text);
     load_->setText(
         std::isfinite(telemetry.impedance_ohm)
             ? QString("%1 · %2").arg(quantityText(telemetry.impedance_ohm, "ohm", 3), ageText(telemetry.impedanceAge_s))
-            : tr("impedance not measured"));
+            : tr(kUnmeasured));
     showCalibration();
 }
 
@@ -217,9 +248,7 @@ void SafetyBar::showCalibration() {
             standing ? text + ". " + standingTip(*standing)
                      : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
     }
-    // As a sheet: a label's own palette is lost when the theme's sheet changes.
-    const auto sheet = QString("QLabel { color: %1; }").arg((counts ? colours().text : colours().amberText).name());
-    if (calibration_->styleSheet() != sheet) calibration_->setStyleSheet(sheet);
+    setTone(*calibration_, counts ? Tone::Text : Tone::Warning);
 }
 
 void SafetyBar::showExposure(const Telemetry& telemetry) {
@@ -234,13 +263,13 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
             };
             if (!row || share(*candidate) > share(*row)) row = candidate;
         }
-        bars_->show(i, row);
+        bars_->show(i, row, controller_.limits().sets);
     }
     bars_->arrange();
 }
 
 void SafetyBar::showButtons(InterlockState state) {
-    const bool live = desk_.activity() == Activity::Live;
+    const bool live = controller_.activity() == Activity::Live;
     const bool on = state == InterlockState::Armed || state == InterlockState::Delivering ||
                     state == InterlockState::Paused || state == InterlockState::Checking;
     if (state == InterlockState::Faulted) {
@@ -259,24 +288,27 @@ void SafetyBar::showButtons(InterlockState state) {
     const bool paused = state == InterlockState::Paused;
     pause_->setMeaning(paused ? tr("Res&ume") : tr("&Pause"), paused);
     pause_->setEnabled(state == InterlockState::Delivering || state == InterlockState::Paused);
+    pause_->setVisible(state != InterlockState::Faulted);
+    details_->setVisible(state == InterlockState::Faulted);
+    makePrimary(*action_, state == InterlockState::Faulted);
 }
 
 void SafetyBar::pressAction() {
     if (!action_->listens()) return;
     if (state_ == InterlockState::Faulted)
-        desk_.resetFault();
+        controller_.resetFault();
     else if (state_ == InterlockState::Disarmed)
         emit armRequested();
     else
-        desk_.disarm();
+        controller_.disarm();
 }
 
 void SafetyBar::pressPause() {
     if (!pause_->listens()) return;
     if (state_ == InterlockState::Paused)
-        desk_.resume();
+        controller_.resume();
     else
-        desk_.pause();
+        controller_.pause();
 }
 
 }  // namespace tacto::gui

@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
 class ConfirmButton;
 class ElidedLabel;
+class FaultBanner;
 class LimitBarRow;
 class StateBlock;
 class StopButton;
@@ -25,13 +26,14 @@ class StopButton;
 class SafetyBar final : public QFrame {
     Q_OBJECT
 public:
-    SafetyBar(BenchDesk& desk, const CalibrationBook& calibrations, QWidget* parent = nullptr);
+    SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent = nullptr);
     /// Thirty times a second.
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
     void armRequested();
+    void detailsRequested();  ///< of a fault
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -49,7 +51,7 @@ private:
     void pressAction();
     void pressPause();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     const CalibrationBook& calibrations_;
     StateBlock* block_;
     QWidget* facts_ = nullptr;
@@ -57,9 +59,11 @@ private:
     ElidedLabel* load_ = nullptr;
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
+    FaultBanner* fault_ = nullptr;  ///< in place of facts and bars
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;
+    QPushButton* details_ = nullptr;  ///< in its place while faulted
     StopButton* stop_ = nullptr;
     std::uint64_t trainsSeen_ = 0;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train

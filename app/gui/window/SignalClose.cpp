@@ -13,9 +13,9 @@ constexpr int kStopped = 4;  // as tactoscope-cli ends when it is stopped
 
 SignalClose::SignalClose(SignalStop& stops, MainWindow& window) : stops_(stops) {
     const auto close = [&window] {
-        window.desk().stop("operator (signal)");
+        window.controller().stop("operator (signal)");
         const auto inTurn = [&window] {
-            window.close();
+            window.closeUnasked();
             QCoreApplication::exit();  // also where a dialog is open
         };
         QMetaObject::invokeMethod(&window, inTurn, Qt::QueuedConnection);

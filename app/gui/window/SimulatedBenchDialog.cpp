@@ -5,7 +5,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "core/electrode/Load.h"
 
 namespace tacto::gui {
@@ -34,7 +34,8 @@ constexpr Fault kFaults[] = {
 
 }  // namespace
 
-SimulatedBenchDialog::SimulatedBenchDialog(BenchDesk& desk, QWidget* parent) : QDialog(parent), desk_(desk) {
+SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget* parent)
+    : QDialog(parent), controller_(controller) {
     setWindowTitle(tr("Simulated bench"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("A simulated bench"), this));
@@ -125,9 +126,9 @@ void SimulatedBenchDialog::openBench() {
         if (!uri) return says_->setText(QString::fromStdString(uri.error().message));
         order.uris.push_back(std::move(*uri));
     }
-    order.profile = desk_.profile();
+    order.profile = controller_.profile();
     order.seed = static_cast<std::uint64_t>(seed_->value());
-    desk_.openLive(order);
+    controller_.openLive(order);
     accept();
 }
 

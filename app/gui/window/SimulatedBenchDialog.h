@@ -11,21 +11,21 @@
 #include <QLineEdit>
 #include <QSpinBox>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::gui {
 
 class SimulatedBenchDialog final : public QDialog {
     Q_OBJECT
 public:
-    explicit SimulatedBenchDialog(BenchDesk& desk, QWidget* parent);
+    explicit SimulatedBenchDialog(BenchController& controller, QWidget* parent);
 
 private:
     [[nodiscard]] std::vector<std::string> uris() const;
     void judge();
     void openBench();
 
-    BenchDesk& desk_;
+    BenchController& controller_;
     QComboBox* mode_;
     QLineEdit* load_;
     QDoubleSpinBox* gain_;

@@ -4,7 +4,8 @@
 #include <QEvent>
 #include <QGridLayout>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -12,12 +13,14 @@ namespace {
 
 constexpr double kSmallest = 1.5;
 constexpr double kStep = 0.1;
-constexpr int kPadding = 16;
+constexpr int kBeforeWord = 56;  // the shape in it
+constexpr int kBehindWord = 24;
+constexpr int kStateShape = 28;
 
 QString longestWord(const QFontMetrics& metrics) {
     QString longest;
     for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
-        const auto word = stateLook(InterlockState(state)).word;
+        const auto word = stateStyle(InterlockState(state)).word;
         if (metrics.horizontalAdvance(word) > metrics.horizontalAdvance(longest)) longest = word;
     }
     return longest;
@@ -31,9 +34,10 @@ StateBlock::StateBlock(QWidget* parent)
     setAccessibleName(QObject::tr("State of the output"));
     word_->setObjectName("interlockState");
     shape_->setAlignment(Qt::AlignCenter);
+    setTextSize(*reason_, TextSize::Small);
     auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(kPadding / 2, 4, kPadding / 2, 4);
-    grid->setHorizontalSpacing(kPadding / 2);
+    grid->setContentsMargins(0, 0, scaledPx(8), 4);
+    grid->setHorizontalSpacing(0);
     grid->setVerticalSpacing(0);
     grid->addWidget(shape_, 0, 0, 2, 1);
     grid->addWidget(word_, 0, 1);
@@ -53,8 +57,10 @@ QFont StateBlock::wordFont(double scale) const {
 
 int StateBlock::widthAt(double scale) const {
     const QFontMetrics metrics(wordFont(scale));
-    return metrics.horizontalAdvance(longestWord(metrics)) + metrics.horizontalAdvance("●") + kPadding * 2;
+    return metrics.horizontalAdvance(longestWord(metrics)) + scaledPx(kBeforeWord + kBehindWord);
 }
+
+int StateBlock::wantedWidth() const { return widthAt(kDisplayText); }
 
 int StateBlock::smallestWidth() const { return widthAt(kSmallest); }
 
@@ -65,29 +71,39 @@ void StateBlock::fit(int width) {
     const auto font = wordFont(scale);
     if (word_->font() == font && this->width() == widthAt(scale)) return;
     word_->setFont(font);
-    shape_->setFont(font);
-    shape_->setFixedWidth(QFontMetrics(font).horizontalAdvance("●") + kPadding / 2);
+    shape_->setFixedWidth(scaledPx(kBeforeWord));
     setFixedWidth(widthAt(scale));
 }
 
 void StateBlock::show(InterlockState state, const QString& reason, bool pulse) {
-    const auto look = stateLook(state);
-    shape_->setText(state == InterlockState::Delivering && !pulse ? "○" : look.shape);
-    word_->setText(look.word);
+    const auto style = stateStyle(state);
+    word_->setText(style.word);
     reason_->setText(reason);
     reason_->setToolTip(reason);
-    setAccessibleDescription(reason.isEmpty() ? look.word : look.word + ": " + reason);
+    setAccessibleDescription(reason.isEmpty() ? style.word : style.word + ": " + reason);
     if (std::exchange(state_, state) != state) colour();
+    showShape(pulse);
+}
+
+/// The dot of a delivering output grows with each train.
+void StateBlock::showShape(bool pulse) {
+    const auto style = stateStyle(state_);
+    const int size = scaledPx(state_ == InterlockState::Delivering && !pulse ? kStateShape * 2 / 3 : kStateShape);
+    const auto key = QString("%1 %2 %3").arg(style.icon, style.ink.name()).arg(size);
+    if (std::exchange(shown_, key) == key) return;
+    shape_->setPixmap(iconPixmap(style.icon, style.ink, size, devicePixelRatioF()));
 }
 
 /// As a sheet: under the program's own sheet a label's palette does not hold.
 void StateBlock::colour() {
-    const auto look = stateLook(state_);
+    const auto style = stateStyle(state_);
     const auto sheet = QString(
-                           "QFrame#stateBlock { background: %1; border: none; }"
+                           "QFrame#stateBlock { background: %1; border: none; border-right: 1px solid %3; }"
                            "QFrame#stateBlock QLabel { background: transparent; color: %2; }")
-                           .arg(look.ground.name(), look.ink.name());
+                           .arg(style.ground.name(), style.ink.name(),
+                                (style.ground == colours().base ? colours().line : style.ground).name());
     if (styleSheet() != sheet) setStyleSheet(sheet);  // which changes the palette, too
+    showShape(false);
 }
 
 void StateBlock::changeEvent(QEvent* event) {

@@ -6,7 +6,7 @@
 #include <QFrame>
 #include <QLabel>
 
-#include "app/gui/look/ElidedLabel.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto::gui {
@@ -18,7 +18,8 @@ public:
     void show(InterlockState state, const QString& reason, bool pulse);
     /// Takes the largest text at which the longest word needs at most `width` pixels; never below smallestWidth().
     void fit(int width);
-    /// In pixels: room for the longest word at 1.5 times the text's size.
+    /// In pixels, for the longest word: at 28 pt where text has 10.5 pt, and at 1.5 times the text's size.
+    [[nodiscard]] int wantedWidth() const;
     [[nodiscard]] int smallestWidth() const;
 
 protected:
@@ -28,10 +29,12 @@ private:
     [[nodiscard]] QFont wordFont(double scale) const;
     [[nodiscard]] int widthAt(double scale) const;
     void colour();
+    void showShape(bool pulse);
 
     QLabel* shape_;
     QLabel* word_;
     ElidedLabel* reason_;
+    QString shown_;  // the shape, its colour and size
     InterlockState state_ = InterlockState::Disconnected;
 };
 

@@ -5,26 +5,19 @@
 #include <QPainter>
 #include <QWindow>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kStopPadding = 24;
+constexpr int kStopPadding = 16;
+constexpr int kStopWidth = 160;
+constexpr int kStopHeight = 72;
 
-QFont wordFont() {
-    auto font = QApplication::font();
-    font.setPointSizeF(font.pointSizeF() * kDisplayText);
-    font.setBold(true);
-    return font;
-}
+QFont wordFont() { return textFont(TextSize::Display, QFont::Bold); }
 
-QFont keysFont() {
-    auto font = QApplication::font();
-    font.setPointSizeF(font.pointSizeF() * 0.86);
-    return font;
-}
+QFont keysFont() { return textFont(TextSize::Small); }
 
 QString keys() { return StopButton::tr("Space · Esc · Pause"); }
 
@@ -55,8 +48,8 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
 
 QSize StopButton::sizeHint() const {
     const QFontMetrics word(wordFont()), small(keysFont());
-    return {std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kStopPadding,
-            word.height() + small.height() + kStopPadding / 3};
+    const int words = std::max(word.horizontalAdvance(text()), small.horizontalAdvance(keys())) + 2 * kStopPadding;
+    return {std::max(scaledPx(kStopWidth), words), std::max(scaledPx(kStopHeight), word.height() + small.height())};
 }
 
 void StopButton::changeEvent(QEvent* event) {
@@ -65,18 +58,18 @@ void StopButton::changeEvent(QEvent* event) {
 }
 
 void StopButton::paintEvent(QPaintEvent*) {
-    const auto look = stateLook(InterlockState::Faulted);  // the one red of the window
+    const auto style = stateStyle(InterlockState::Faulted);  // the one red of the window
     QPainter painter(this);
-    painter.fillRect(rect(), isDown() ? look.ground.darker(130) : look.ground);
-    painter.setPen(look.ink);
+    painter.fillRect(rect(), isDown() ? style.ground.darker(130) : style.ground);
+    painter.setPen(style.ink);
     const QFontMetrics word(wordFont()), small(keysFont());
     const int top = (height() - word.height() - small.height()) / 2;
     painter.setFont(wordFont());
     painter.drawText(QRect(0, top, width(), word.height()), Qt::AlignCenter, text());
     painter.setFont(keysFont());
     painter.drawText(QRect(0, top + word.height(), width(), small.height()), Qt::AlignCenter, keys());
-    if (!hasFocus()) return;
-    painter.setPen(QPen(look.ink, 2));
+    if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+    painter.setPen(QPen(style.ink, 2));
     painter.drawRect(rect().adjusted(4, 4, -5, -5));
 }
 

@@ -11,7 +11,7 @@
 #include <QWindow>
 #include <utility>
 
-#include "app/gui/look/ConfirmButton.h"
+#include "app/gui/theme/ConfirmButton.h"
 
 namespace tacto::gui {
 

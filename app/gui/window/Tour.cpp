@@ -2,11 +2,23 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QScrollArea>
 #include <QVBoxLayout>
+#include <limits>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
+
+namespace {
+
+constexpr int kLook_ms = 60;
+constexpr int kWidthChars = 46;
+constexpr int kTallest = 10'000;  // px, of a text that has all the room
+constexpr int kMargin = 24;       // from the window's edges
+constexpr int kAboveStatus = 48;  // from its lower edge
+
+}  // namespace
 
 Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps_(std::move(steps)) {
     setObjectName("tour");
@@ -16,68 +28,131 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     setAutoFillBackground(true);
     auto* layout = new QVBoxLayout(this);
     title_ = new QLabel(this);
-    auto font = title_->font();
-    font.setBold(true);
-    font.setPointSizeF(font.pointSizeF() * 1.15);
-    title_->setFont(font);
+    title_->setObjectName("tourTitle");
+    setTextSize(*title_, TextSize::Large);
     layout->addWidget(title_);
     text_ = new QLabel(this);
+    text_->setObjectName("tourText");
     text_->setWordWrap(true);
-    text_->setMinimumWidth(fontMetrics().averageCharWidth() * 46);
     layout->addWidget(text_);
     auto* row = new QHBoxLayout;
     place_ = new QLabel(this);
-    place_->setForegroundRole(QPalette::PlaceholderText);
+    place_->setObjectName("tourPlace");
+    setTone(*place_, Tone::Quiet);
     row->addWidget(place_);
     row->addStretch();
-    auto* skip = new QPushButton(tr("End &tour"), this);
-    act_ = new QPushButton(this);
-    next_ = new QPushButton(tr("&Next"), this);
-    for (auto* button : {skip, act_, next_}) {
+    leave_ = new QPushButton(tr("Leave"), this);
+    leave_->setToolTip(tr("Help > Tour goes on from here."));
+    back_ = new QPushButton(tr("Back"), this);
+    next_ = new QPushButton(tr("Next"), this);
+    next_->setToolTip(tr("Passes this step over. It goes on by itself when the step is done."));
+    for (auto* button : {leave_, back_, next_}) {
         button->setAutoDefault(false);
         row->addWidget(button);
     }
     layout->addLayout(row);
-    connect(skip, &QPushButton::clicked, this, [this] {
-        hide();
-        emit ended();
-    });
-    connect(act_, &QPushButton::clicked, this, [this] {
-        if (steps_[step_].act) steps_[step_].act();
-    });
-    connect(next_, &QPushButton::clicked, this, [this] {
-        if (++step_ < steps_.size()) return showStep();
-        hide();
-        emit ended();
-    });
+    connect(leave_, &QPushButton::clicked, this, [this] { end(false); });
+    connect(back_, &QPushButton::clicked, this, [this] { go(step_ - 1, true); });
+    connect(next_, &QPushButton::clicked, this, &Tour::goOn);
+    look_.setInterval(kLook_ms);
+    connect(&look_, &QTimer::timeout, this, &Tour::look);
     window->installEventFilter(this);
     hide();
 }
 
-void Tour::begin() {
-    step_ = 0;
-    showStep();
+void Tour::begin(int step) {
     show();
     raise();
+    look_.start();
+    const bool known = step >= 0 && std::size_t(step) < steps_.size();
+    go(known ? std::size_t(step) : 0, false);
     next_->setFocus();
 }
 
-void Tour::showStep() {
-    const auto& step = steps_[step_];
-    title_->setText(step.title);
-    text_->setText(step.text);
+void Tour::go(std::size_t step, bool back) {
+    step_ = step;
+    const auto& now = steps_[step_];
+    done_.invalidate();
+    shown_ = nullptr;
+    title_->setText(now.title);
+    text_->setText(now.text);
     place_->setText(tr("%1 of %2").arg(step_ + 1).arg(steps_.size()));
-    act_->setText(step.button);
-    act_->setVisible(!step.button.isEmpty());
-    next_->setText(step_ + 1 < steps_.size() ? tr("&Next") : tr("&Done"));
-    place();
+    back_->setEnabled(step_ > 0);
+    next_->setText(step_ + 1 < steps_.size() ? tr("Next") : tr("Done"));
+    if (now.enter) now.enter();
+    waits_ = back && now.done && now.done();
+    emit stepped(int(step_));
+    look();
 }
 
+void Tour::goOn() {
+    if (step_ + 1 < steps_.size()) return go(step_ + 1, false);
+    end(true);
+}
+
+void Tour::end(bool finished) {
+    look_.stop();
+    if (frame_) frame_->hide();
+    hide();
+    emit ended(finished);
+}
+
+void Tour::look() {
+    const auto& now = steps_[step_];
+    const auto target = now.target ? now.target() : TourTarget{};
+    bringIntoView(target.widget);
+    if (!frame_) frame_ = new TourFrame(window());  // it went with a dialog
+    frame_->follow(target);
+    const bool isDone = now.done && now.done();
+    if (!isDone) waits_ = false;
+    if (isDone && !waits_ && !done_.isValid()) {
+        done_.start();
+        place_->setText(tr("%1 of %2 ✔ done").arg(step_ + 1).arg(steps_.size()));
+    }
+    place();
+    if (done_.isValid() && done_.elapsed() >= now.linger_ms) goOn();
+}
+
+/// Once, when it becomes the one that is talked about: what the user scrolls afterwards stays.
+void Tour::bringIntoView(QWidget* control) {
+    if (control == shown_ || control == nullptr || !control->isVisible()) return;
+    shown_ = control;
+    for (auto* above = control->parentWidget(); above != nullptr; above = above->parentWidget()) {
+        if (auto* area = qobject_cast<QScrollArea*>(above)) area->ensureWidgetVisible(control);
+    }
+}
+
+/// In the corner where it hides least of the control, the lower right one first, and below the safety bar: STOP is
+/// never covered.
 void Tour::place() {
+    const int wide = std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() - 4 * kMargin);
+    // Measured here: the label's own answer is that of the size of text before, when that has just changed.
+    const auto lines = text_->fontMetrics().boundingRect(QRect(0, 0, wide, kTallest), Qt::TextWordWrap, text_->text());
+    text_->setFixedSize(wide, lines.height() + 2);
     layout()->activate();
-    adjustSize();
+    const auto size = sizeHint();
     const auto room = parentWidget()->rect();
-    move(room.right() - width() - 24, room.bottom() - height() - 48);
+    int top = kMargin;
+    if (const auto* bar = parentWidget()->findChild<QWidget*>("safetyBar"))
+        top += bar->mapTo(parentWidget(), QPoint(0, bar->height())).y();
+    const int right = room.width() - size.width() - kMargin;
+    const int bottom = std::max(top, room.height() - size.height() - kAboveStatus);
+    QRect control;
+    if (frame_ && frame_->isVisible() && frame_->parentWidget() == parentWidget()) control = frame_->geometry();
+    QRect best;
+    int least = std::numeric_limits<int>::max();
+    for (const auto corner :
+         {QPoint(right, bottom), QPoint(kMargin, bottom), QPoint(right, top), QPoint(kMargin, top)}) {
+        const QRect here(corner, size);
+        const auto hidden = here & control;
+        const int hides = hidden.isEmpty() ? 0 : hidden.width() * hidden.height();
+        if (hides >= least) continue;
+        least = hides;
+        best = here;
+    }
+    if (geometry() != best) setGeometry(best);
+    raise();
+    if (frame_) frame_->raise();
 }
 
 bool Tour::eventFilter(QObject* watched, QEvent* event) {

@@ -1,47 +1,72 @@
-// Tour.h - the first run's tour, on the simulated bench: five steps that are done, not read.
+// Tour.h - the first run's tour, on the simulated bench: steps that are done, not read.
 //
-// A panel over the window's lower right corner; never modal, so STOP and all else stay within reach.
+// A panel over a corner of the window, where it covers neither the safety bar nor the control that it talks about, and
+// a frame around that control. A step is over when what it asks for was done at the window's own controls; Next passes
+// it over, Back returns. Never modal: STOP, its keys and all else stay within reach. What is left can be resumed.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFrame>
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
+#include <QTimer>
 #include <functional>
 #include <vector>
+
+#include "app/gui/window/TourFrame.h"
 
 namespace tacto::gui {
 
 struct TourStep {
     QString title;
     QString text;
-    QString button;             ///< what "doing it" is called; empty: only Next
-    std::function<void()> act;  ///< may be empty
+    std::function<void()> enter;         ///< brings the control into view and notes how things stand; may be empty
+    std::function<TourTarget()> target;  ///< as things stand now; may be empty
+    std::function<bool()> done;          ///< since enter()
+    int linger_ms = 1200;                ///< how long it stays when it is done, to be seen
 };
 
 class Tour final : public QFrame {
     Q_OBJECT
 public:
     Tour(std::vector<TourStep> steps, QWidget* window);
-    void begin();
+    /// From this step on, from 0; beyond the last: from the first.
+    void begin(int step);
+    [[nodiscard]] int step() const { return int(step_); }
 
 signals:
-    void ended();
+    /// Another step is shown.
+    void stepped(int step);
+    /// `finished`: to the last step; otherwise it was left at step().
+    void ended(bool finished);
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    void showStep();
+    void go(std::size_t step, bool back);
+    void goOn();
+    void look();
+    void end(bool finished);
+    void bringIntoView(QWidget* control);
     void place();
+
     std::vector<TourStep> steps_;
     std::size_t step_ = 0;
+    bool waits_ = false;  ///< it was done already when Back led here: it goes on only when it is done again
+    QElapsedTimer done_;  ///< since it was seen to be done; invalid before
+    QTimer look_;
+    QPointer<TourFrame> frame_;
+    QPointer<QWidget> shown_;  ///< the control in the frame
     QLabel* title_;
     QLabel* text_;
     QLabel* place_;
-    QPushButton* act_;
-    QPushButton* next_;
+    QPushButton* leave_ = nullptr;
+    QPushButton* back_ = nullptr;
+    QPushButton* next_ = nullptr;
 };
 
 }  // namespace tacto::gui

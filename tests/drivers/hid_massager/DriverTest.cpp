@@ -23,7 +23,7 @@ protected:
         return hidraw->plugged.back();
     }
     std::unique_ptr<Driver> driver() const {
-        return hid::makeHidDriver({{hidraw, libusb}, sourceDir() / "resources" / "massagers", {}});
+        return hid::makeHidDriver({hidraw, sourceDir() / "resources" / "massagers", {}});
     }
     Result<void> open(const std::string& uri) {
         devices = {};
@@ -39,8 +39,7 @@ protected:
     }
 
     const SteadyClock clock;
-    const std::shared_ptr<FakeHidBackend> hidraw = std::make_shared<FakeHidBackend>("hidraw");
-    const std::shared_ptr<FakeHidBackend> libusb = std::make_shared<FakeHidBackend>("libusb");
+    const std::shared_ptr<FakeHidBackend> hidraw = std::make_shared<FakeHidBackend>();
     DeviceSet devices;
 };
 
@@ -165,16 +164,6 @@ TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
     EXPECT_EQ(pad->openNow(), 1);
     const auto file = (sourceDir() / "resources" / "massagers" / "dualshock4.json").string();
     ASSERT_TRUE(open("hid:1111:2222?template=" + file));
-}
-
-TEST_F(HidDriverTest, TheBackendIsChosenByName) {
-    libusb->plugged.push_back(std::make_shared<FakeHidDevice>(
-        clock, hid::HidDeviceInfo{0x054C, 0x0CE6, "U", "Pad", "1-1:1.0", 0, true}, outputDescriptor(2, 48)));
-    EXPECT_THAT(refusal("hid:", ErrorCode::NotFound), HasSubstr("plugged in"));
-    ASSERT_TRUE(open("hid:?backend=libusb"));
-    EXPECT_EQ(devices.massager->identity().uri, "hid:054c:0ce6?serial=U&backend=libusb");
-    EXPECT_THAT(refusal("hid:?backend=serial", ErrorCode::InvalidArgument),
-                AllOf(HasSubstr("hidraw"), HasSubstr("libusb")));
 }
 
 TEST_F(HidDriverTest, WhatIsNoUriOfOursIsRefusedByName) {

@@ -81,21 +81,16 @@ private:
 
 class FakeHidBackend final : public hid::HidBackend {
 public:
-    explicit FakeHidBackend(std::string_view name = "hidraw") : name_(name) {}
     std::vector<std::shared_ptr<FakeHidDevice>> plugged;
 
-    std::string_view name() const noexcept override { return name_; }
     std::vector<hid::HidDeviceInfo> devices() const override;
     Result<std::vector<std::uint8_t>> descriptor(const hid::HidDeviceInfo& info) const override;
     Result<std::unique_ptr<hid::HidPort>> open(const hid::HidDeviceInfo& info) const override;
-
-private:
-    const std::string_view name_;
 };
 
 /// A report descriptor with one output report of `length` bytes (its number's byte included), on a game pad.
 [[nodiscard]] Bytes outputDescriptor(std::uint8_t number, std::size_t length);
-/// A haptic controller as in ../shared/wire/hid-vibration.md: output report 1 with u16 intensity, u8 ordinal, u8
+/// A haptic controller as in resources/design/wire/hid-vibration.md: output report 1 with u16 intensity, u8 ordinal, u8
 /// repeat, then `moreControls`; feature report 2 with the waveforms of ordinals 3 and 4, then their durations.
 [[nodiscard]] Bytes hapticDescriptor(const Bytes& moreControls = {});
 /// The two-motor reports of a made-up device: number 5, 8 bytes, weak at byte 4, strong at byte 5.

@@ -8,6 +8,7 @@
 #include "drivers/hid_massager/HidMassager.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -73,7 +74,7 @@ TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::Device);
     EXPECT_THAT(refused.error().message, HasSubstr("watchdog"));
-    ASSERT_TRUE(device.waitForWrites(before + 1));
+    ASSERT_IN_TIME(device.waitForWrites(before + 1));
     EXPECT_EQ(device.last(), kOff);
     device.refuseWatch(false);
     EXPECT_TRUE(vibrate());  // with another one
@@ -85,10 +86,10 @@ TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop
     EXPECT_EQ(device.beats(), 0);
     ASSERT_TRUE(vibrate(Seconds(0.3)));
     EXPECT_FALSE(device.watchRests());
-    ASSERT_TRUE(device.waitForWrites(3));
+    ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_GE(device.beats(), 4);  // every 50 ms
     massager->forceOff();
-    ASSERT_TRUE(device.waitForWrites(4));
+    ASSERT_IN_TIME(device.waitForWrites(4));
     massager.reset();
     EXPECT_TRUE(device.watchRests());
 }
@@ -99,7 +100,7 @@ TEST_F(HidMassagerTest, AWatchdogThatEndsInABurstEndsTheBurst) {
     ASSERT_TRUE(vibrate(Seconds(1)));
     device.refuseWatch(true);
     const Instant ended = clock.now();
-    ASSERT_TRUE(device.waitForWrites(3));
+    ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_LE(toSeconds(clock.now() - ended), 0.5);
     EXPECT_EQ(device.last(), kOff);
     const auto told = vibrate();
@@ -111,7 +112,7 @@ TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
     open();
     ASSERT_TRUE(vibrate(Seconds(0.1)));
     EXPECT_EQ(device.last(), kOn);
-    ASSERT_TRUE(device.waitForWrites(3));
+    ASSERT_IN_TIME(device.waitForWrites(3));
     const auto writes = device.writes();
     EXPECT_EQ(writes[2].bytes, kOff);
     const double lasted = toSeconds(writes[2].at - writes[1].at);
@@ -122,7 +123,7 @@ TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
 TEST_F(HidMassagerTest, KeepAliveRepeatsTheBurst) {
     open(padReports(Seconds(0.02)));
     ASSERT_TRUE(vibrate(Seconds(0.1)));
-    ASSERT_TRUE(device.waitForLast(kOff));
+    ASSERT_IN_TIME(device.waitForLast(kOff));
     const auto writes = device.writes();
     EXPECT_GE(writes.size(), 4u);
     for (std::size_t i = 1; i + 1 < writes.size(); ++i) EXPECT_EQ(writes[i].bytes, kOn);
@@ -134,7 +135,7 @@ TEST_F(HidMassagerTest, ForceOffSendsTheStopFromAnyThreadAtOnce) {
     ASSERT_TRUE(vibrate());
     const Instant before = clock.now();
     std::async(std::launch::async, [&] { massager->forceOff(); }).get();
-    ASSERT_TRUE(device.waitForWrites(3));
+    ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.last(), kOff);
     EXPECT_LE(toSeconds(device.writes()[2].at - before), 0.1);
     EXPECT_FALSE(massager->vibrating());
@@ -151,7 +152,7 @@ TEST_F(HidMassagerTest, AStopIsWithTheDeviceInLessThanTenMilliseconds) {
         const auto before = device.writes().size();
         const Instant called = clock.now();
         massager->forceOff();
-        ASSERT_TRUE(device.waitForWrites(before + 1));
+        ASSERT_IN_TIME(device.waitForWrites(before + 1));
         ASSERT_EQ(device.last(), kOff);
         stops.push_back(toSeconds(device.writes().back().at - called));
     }
@@ -177,7 +178,7 @@ TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay)
     EXPECT_EQ(device.writes().size(), 1u);  // it did not wait for the write
     device.hold(false);
     static_cast<void>(late.get());
-    EXPECT_TRUE(device.waitForLast(kOff));
+    EXPECT_IN_TIME(device.waitForLast(kOff));
 }
 
 TEST_F(HidMassagerTest, APortThatCanStopAtOnceIsAskedTo) {
@@ -192,7 +193,7 @@ TEST_F(HidMassagerTest, APortThatCanStopAtOnceIsAskedTo) {
     EXPECT_EQ(device.last(), urgent);  // though the write before is held
     device.hold(false);
     static_cast<void>(late.get());
-    EXPECT_TRUE(device.waitForLast(kOff));
+    EXPECT_IN_TIME(device.waitForLast(kOff));
 }
 
 TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
@@ -208,7 +209,7 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     EXPECT_EQ(again.error().code, ErrorCode::Timeout);
     EXPECT_THAT(again.error().message, HasSubstr("before"));
     device.hold(false);
-    ASSERT_TRUE(device.waitForWrites(3));
+    ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.writes()[1].bytes, kOn);  // the one that was held
     EXPECT_EQ(device.writes()[2].bytes, kOff);
     EXPECT_TRUE(vibrate());  // slow is not broken
@@ -223,7 +224,7 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::Device);
     EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("8 were expected")));
-    ASSERT_TRUE(device.waitForWrites(2));
+    ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
     EXPECT_TRUE(vibrate());
     EXPECT_EQ(device.openings(), 2);  // after a fault it is opened anew
@@ -238,7 +239,7 @@ TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
     EXPECT_EQ(refused.error().code, ErrorCode::Device);
     EXPECT_THAT(refused.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("refused")));
     device.refuse(false);
-    ASSERT_TRUE(device.waitForWrites(2));
+    ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
 }
 
@@ -255,7 +256,7 @@ TEST_F(HidMassagerTest, AStopThatFailsWhileNobodyAsksIsToldOnceAndSentWhenItCan)
     ASSERT_FALSE(told);
     EXPECT_EQ(told.error().code, ErrorCode::Device);
     device.refuse(false);
-    ASSERT_TRUE(device.waitForLast(kOff));
+    ASSERT_IN_TIME(device.waitForLast(kOff));
     EXPECT_TRUE(vibrate());
 }
 
@@ -272,7 +273,7 @@ TEST_F(HidMassagerTest, ABurstThatWaitsBehindAStopThatFailsIsToldWhy) {
     ASSERT_FALSE(told);
     EXPECT_EQ(told.error().code, ErrorCode::Device);
     device.refuse(false);
-    EXPECT_TRUE(device.waitForLast(kOff));
+    EXPECT_IN_TIME(device.waitForLast(kOff));
 }
 
 TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgain) {
@@ -335,7 +336,7 @@ TEST_F(HidMassagerTest, AStopBetweenApprovalAndWriteLeavesNothingVibrating) {
     done = true;
     stopper.join();
     massager->forceOff();
-    EXPECT_TRUE(device.waitForLast(kOff));
+    EXPECT_IN_TIME(device.waitForLast(kOff));
     EXPECT_FALSE(massager->vibrating());
 }
 

@@ -1,5 +1,4 @@
-// The HID driver on the real hidapi, both backends in this one program, and the Trance Vibrator on the real libusb,
-// over emulated devices.
+// The HID driver on the real hidapi, and the Trance Vibrator on the real libusb, over emulated devices.
 #include <cerrno>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "drivers/system/KernelNodes.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Support.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
@@ -38,17 +38,15 @@ std::unique_ptr<Driver> systemDriver(UsbProvider usb = {}) {
     return hid::makeHidDriver(hid::systemHid(sourceDir() / "resources" / "massagers", std::move(usb)));
 }
 
-class HidSystem : public testing::TestWithParam<const char*> {
+class HidSystem : public testing::Test {
 protected:
     Result<void> open() {
-        return systemDriver()->open(DeviceUri::parse(fmt::format("hid:054c:0ce6?backend={}", GetParam())).value(), {},
-                                    OpenContext{clock}, devices);
+        return systemDriver()->open(DeviceUri::parse("hid:054c:0ce6").value(), {}, OpenContext{clock}, devices);
     }
     Result<void> vibrate(double intensity, Seconds duration) {
         auto burst = gate.approve(VibrationBurst{intensity, duration});
         return devices.massager->vibrate(std::move(*burst));
     }
-    bool isHidraw() const { return std::string_view(GetParam()) == "hidraw"; }
 
     UsbTestbed bed;
     const SteadyClock clock;
@@ -56,7 +54,7 @@ protected:
     DeviceSet devices;
 };
 
-TEST_P(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
+TEST_F(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
     RecordProperty("hazard", "H2");
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     const auto opened = open();
@@ -71,14 +69,11 @@ TEST_P(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
     EXPECT_THAT(pad.waitForReports(5), testing::ElementsAre(kOff, kOn, kOff, kOn, kOff));
 }
 
-TEST_P(HidSystem, AShortWriteAndARefusalAreFaults) {
+TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     ASSERT_TRUE(open());
-    if (isHidraw())
-        pad.takeOnly(10);
-    else
-        pad.usb().takeOnly(0x01, 10);
+    pad.takeOnly(10);
     const auto cut = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ErrorCode::Device);
@@ -88,32 +83,27 @@ TEST_P(HidSystem, AShortWriteAndARefusalAreFaults) {
     if (!again && again.error().message.find("approval has expired") != std::string::npos)
         again = vibrate(1, Seconds(0.1));
     ASSERT_TRUE(again) << again.error().message;
-    if (isHidraw())
-        pad.refuseWrites(EIO);
-    else
-        pad.usb().stall(0x01);
+    pad.refuseWrites(EIO);
     const auto refused = vibrate(1, Seconds(0.1));
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::Device);
 }
 
-TEST_P(HidSystem, ASlowDeviceIsATimeoutAndIsStopped) {
+TEST_F(HidSystem, ASlowDeviceIsATimeoutAndIsStopped) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     ASSERT_TRUE(open());
     pad.hold(true);
-    pad.usb().hold(0x01, true);
     const auto slow = vibrate(1, Seconds(1));
     ASSERT_FALSE(slow);
     EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
     pad.hold(false);
-    pad.usb().hold(0x01, false);
     const auto all = pad.waitForReports(3);
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all.back(), kOff);
 }
 
-TEST_P(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
+TEST_F(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     RecordProperty("hazard", "H2");
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
     ASSERT_TRUE(open());
@@ -124,7 +114,7 @@ TEST_P(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     ASSERT_FALSE(gone);
     EXPECT_EQ(gone.error().code, ErrorCode::Device);
     pad.plug();
-    // The libusb backend hears of it from its own monitor, a moment later.
+    // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; a later one finds it open.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     Result<void> again;
     do {
@@ -133,11 +123,10 @@ TEST_P(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     EXPECT_TRUE(again) << again.error().message;
 }
 
-TEST_P(HidSystem, WhoMayNotOpenItIsTold) {
+TEST_F(HidSystem, WhoMayNotOpenItIsTold) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
-    const auto backend = isHidraw() ? hid::hidrawBackend() : hid::libusbHidBackend();
-    ASSERT_EQ(backend->devices().size(), 1u);  // and libusb has started, which needs the testbed's own sockets
-    pad.usb().permit(false);
+    const auto backend = hid::hidapiBackend();
+    ASSERT_EQ(backend->devices().size(), 1u);
     std::filesystem::permissions(bed.root() / "dev" / "hidraw0", std::filesystem::perms::owner_read);
     const UnprivilegedUser user(bed);
     const auto list = backend->devices();
@@ -146,37 +135,18 @@ TEST_P(HidSystem, WhoMayNotOpenItIsTold) {
     EXPECT_THAT(list[0].obstacle(), HasSubstr("./dev install-rules --device 054c:0ce6"));
 }
 
-TEST_P(HidSystem, LibusbTakesNoDeviceFromAProgramThatUsesItThroughTheKernelAndThatProgramIsNamed) {
-    RecordProperty("hazard", "H2");
+TEST_F(HidSystem, AProgramThatUsesItThroughTheKernelLosesNothing) {
     EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {});
-    const auto backend = isHidraw() ? hid::hidrawBackend() : hid::libusbHidBackend();
-    ASSERT_EQ(backend->devices().size(), 1u);  // and libusb has started, which needs the testbed's own sockets
-    {
-        // The emulated HID node is a pipe, whose holders are not looked for; a terminal beside it is a true node.
-        const OtherProgram other(pad.usb().addTerminal("ttyACM0", 1));
-        const auto opened = open();
-        if (isHidraw()) {
-            EXPECT_TRUE(opened) << "hidraw shares: the other program loses nothing";
-        } else {
-            ASSERT_FALSE(opened);
-            EXPECT_EQ(opened.error().code, ErrorCode::Io);
-            EXPECT_THAT(opened.error().message,
-                        AllOf(HasSubstr(other.text()), HasSubstr("/dev/ttyACM0"), HasSubstr("close that program")));
-            EXPECT_TRUE(pad.waitForReports(0).empty()) << "it was not spoken to either";
-        }
-    }
-    devices = {};
-    EXPECT_TRUE(open());
+    const OtherProgram other(pad.usb().addTerminal("ttyACM0", 1));
+    EXPECT_TRUE(open()) << "hidraw shares";
+    EXPECT_TRUE(pad.usb().kernelDriverBound());
 }
 
-TEST_P(HidSystem, TheNodesByWhichAnotherProgramMayUseItAreKnown) {
+TEST_F(HidSystem, TheNodesByWhichAnotherProgramMayUseItAreKnown) {
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kLength), {}, 3);
     EXPECT_THAT(kernelNodesOf("1-3"), testing::ElementsAre("/dev/hidraw2"));
     EXPECT_TRUE(kernelNodesOf("1-1").empty());
 }
-
-INSTANTIATE_TEST_SUITE_P(Backends, HidSystem, testing::Values("hidraw", "libusb"),
-                         [](const testing::TestParamInfo<const char*>& name) { return std::string(name.param); });
 
 class TranceTest : public testing::Test {
 protected:
@@ -256,7 +226,7 @@ TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
     EXPECT_EQ(slow.error().code, ErrorCode::Timeout);
     const auto before = std::chrono::steady_clock::now();
     devices.massager->forceOff();
-    EXPECT_LE(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(50));
+    EXPECT_IN_TIME(std::chrono::steady_clock::now() - before <= std::chrono::milliseconds(50));
     device.hold(0, false);
     devices = {};
     EXPECT_EQ(speeds(device).back(), 0);
@@ -265,9 +235,8 @@ TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
 /// The conformance suite on the real hidapi.
 class SystemRig final : public MassagerRig {
 public:
-    explicit SystemRig(const char* backend) {
-        const auto opened = systemDriver()->open(DeviceUri::parse(fmt::format("hid:?backend={}", backend)).value(), {},
-                                                 OpenContext{clock_}, devices_);
+    SystemRig() {
+        const auto opened = systemDriver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock_}, devices_);
         if (!opened) throw std::runtime_error(opened.error().message);
     }
     Massager& device() override { return *devices_.massager; }
@@ -290,8 +259,7 @@ private:
 };
 
 INSTANTIATE_TEST_SUITE_P(HidSystem, MassagerConformance,
-                         testing::Values(MassagerKind{"Hidraw", [] { return std::make_unique<SystemRig>("hidraw"); }},
-                                         MassagerKind{"Libusb", [] { return std::make_unique<SystemRig>("libusb"); }}),
+                         testing::Values(MassagerKind{"Hidraw", [] { return std::make_unique<SystemRig>(); }}),
                          [](const testing::TestParamInfo<MassagerKind>& kind) { return kind.param.name; });
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(MassagerTemplate, WhatIsWrongIsRefusedWithItsPlaceAndWhatIsAccepted) {
     EXPECT_THAT(refusal("{"), HasSubstr("not JSON"));
     EXPECT_THAT(refusal("[]"), HasSubstr("object is expected"));
     EXPECT_THAT(refusal(std::string(70'000, ' ')), HasSubstr("at most 65536"));
-    EXPECT_THAT(refusal(with("\"title\": \"Pad\", ", "")), HasSubstr("\"title\" must be a text"));
+    EXPECT_THAT(refusal(with("\"title\": \"Pad\", ", "")), HasSubstr("\"title\" is missing; a text"));
     EXPECT_THAT(refusal(with("\"source\"", "\"sauce\"")), AllOf(HasSubstr("sauce"), HasSubstr("source")));
     EXPECT_THAT(refusal(with("\"1234\"", "\"12345\"")), AllOf(HasSubstr("devices[0]"), HasSubstr("four hexadecimal")));
     EXPECT_THAT(refusal(with("\"abCD\"", "\"abCg\"")), HasSubstr("abCg"));
@@ -124,16 +124,16 @@ TEST(MassagerTemplate, WhatIsWrongIsRefusedWithItsPlaceAndWhatIsAccepted) {
     EXPECT_THAT(refusal(with("\"byte\": 1", "\"byte\": 0")), HasSubstr("constants[0]"));
     EXPECT_THAT(refusal(with("\"byte\": 1", "\"byte\": 7")), HasSubstr("constant at byte 7"));
     EXPECT_THAT(refusal(with("\"intensity\"", "\"loud\"")), AllOf(HasSubstr("fields[0]"), HasSubstr("weak")));
-    EXPECT_THAT(refusal(with("\"big\"", "\"middle\"")), HasSubstr("little and big"));
+    EXPECT_THAT(refusal(with("\"big\"", "\"middle\"")), HasSubstr("little or big"));
     EXPECT_THAT(refusal(with("\"max\": 1000", "\"max\": 65536")), HasSubstr("65535"));
-    EXPECT_THAT(refusal(with(", \"max\": 1000", "")), HasSubstr("\"max\" must be a whole number"));
+    EXPECT_THAT(refusal(with(", \"max\": 1000", "")), HasSubstr("\"max\" is missing; a whole number"));
     EXPECT_THAT(refusal(with("\"max\": 1000", "\"max\": 18446744073709551615")), HasSubstr("18446744073709551615"));
     EXPECT_THAT(refusal(with("\"05 FF\"", "\"06 FF\"")), HasSubstr("equal numbers"));
     EXPECT_THAT(refusal(with("{\"hex\": \"05 FF\"}", "{}")), HasSubstr("stop"));
     EXPECT_THAT(refusal(with("{\"hex\": \"05 FF\"}", "{\"fields\": 1}")), HasSubstr("0 to 0"));
     EXPECT_THAT(refusal(with("0.5", "-0.5")), HasSubstr("keep_alive_s"));
     EXPECT_THAT(refusal(with("0.01", "0.2")), HasSubstr("0.04"));
-    EXPECT_THAT(refusal(with("0.01", "\"fast\"")), HasSubstr("number of seconds"));
+    EXPECT_THAT(refusal(with("0.01", "\"fast\"")), HasSubstr("a number of 0 s or more"));
 }
 
 TEST(MassagerTemplate, AFileThatIsNotThereAndTwoForOneDeviceAreNamed) {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "core/base/NaN.h"
-#include "drivers/pulsepal/EmulatedPulsePal.h"
 #include "drivers/pulsepal/TrainProgram.h"
+#include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 
 namespace tacto::test {
 namespace {
@@ -21,6 +21,7 @@ Bytes bytesOf(const CommandBytes& command) { return {command.view().begin(), com
 Channel channel(int number) { return Channel::of(number).value(); }
 VoltageCode volts(double v) { return VoltageCode::of(Volts(v)).value(); }
 
+// The commands in resources/design/wire/pulsepal2.md.
 TEST(PulsePalCommands, GoldenBytes) {
     EXPECT_EQ(bytesOf(handshake()), (Bytes{0xD5, 0x48}));
     EXPECT_EQ(bytesOf(trigger(0b0101)), (Bytes{0xD5, 0x4D, 0x05}));

@@ -77,8 +77,8 @@ TEST_F(PulsePalDriverTest, WhatCannotBeOpenedIsRefusedByName) {
     EXPECT_THAT(refusal("pulsepal:A2", ErrorCode::Io), HasSubstr("./dev install-rules"));
     EXPECT_THAT(makePulsePalDriver(ports)->list().at(1).obstacle, HasSubstr("./dev install-rules"));
     EXPECT_THAT(refusal("pulsepal:A3", ErrorCode::NotFound), HasSubstr("A3"));
-    EXPECT_THAT(refusal("pulsepal:A1?channel=5", ErrorCode::InvalidArgument), HasSubstr("1, 2, 3 or 4"));
-    EXPECT_THAT(refusal("pulsepal:A1?channel=1.5", ErrorCode::InvalidArgument), HasSubstr("1, 2, 3 or 4"));
+    EXPECT_THAT(refusal("pulsepal:A1?channel=5", ErrorCode::InvalidArgument), HasSubstr("1 to 4"));
+    EXPECT_THAT(refusal("pulsepal:A1?channel=1.5", ErrorCode::InvalidArgument), HasSubstr("1 to 4"));
     EXPECT_THAT(refusal("pulsepal:A1?output=1", ErrorCode::InvalidArgument),
                 AllOf(HasSubstr("output"), HasSubstr("channel")));
     ASSERT_TRUE(open("pulsepal:A1"));

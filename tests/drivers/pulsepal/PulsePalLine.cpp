@@ -79,7 +79,7 @@ Result<std::unique_ptr<Transport>> PulsePalLine::connect() {
     return std::make_unique<PulsePalTransport>(shared_from_this());
 }
 
-pulsepal::Connect PulsePalLine::connector() {
+Connect PulsePalLine::connector() {
     return [line = shared_from_this()] { return line->connect(); };
 }
 

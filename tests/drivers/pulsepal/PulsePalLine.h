@@ -14,8 +14,8 @@
 
 #include "core/base/Clock.h"
 #include "core/devices/TransportPorts.h"
-#include "drivers/pulsepal/EmulatedPulsePal.h"
 #include "drivers/pulsepal/PulsePalStimulator.h"
+#include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 
 namespace tacto::test {
 
@@ -26,7 +26,7 @@ public:
 
     /// Errors: NotFound while unplugged.
     [[nodiscard]] Result<std::unique_ptr<Transport>> connect();
-    [[nodiscard]] pulsepal::Connect connector();
+    [[nodiscard]] Connect connector();
 
     void unplug();
     void plug();

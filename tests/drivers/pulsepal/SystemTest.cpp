@@ -5,6 +5,7 @@
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -29,7 +30,7 @@ protected:
                     return UsbBytes{};
                 }};
     }
-    pulsepal::Connect connector(bool ready) {
+    Connect connector(bool ready) {
         return [this, ready]() -> Result<std::unique_ptr<Transport>> {
             const auto info = context->find({kPulsePalVendor, kPulsePalProduct});
             if (!info) return failure(info);
@@ -48,7 +49,7 @@ protected:
 TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
     RecordProperty("hazard", "H2");
     const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
     ASSERT_TRUE(opened) << opened.error().message;
     SafetyGate gate(clock);
@@ -83,7 +84,7 @@ TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
 
 TEST_F(PulsePalUsb, WithoutDtrItIsNotHeard) {
     const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto opened = pulsepal::PulsePalStimulator::open(connector(false), "pulsepal:PP1", "PP1", 1, clock);
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
@@ -92,7 +93,7 @@ TEST_F(PulsePalUsb, WithoutDtrItIsNotHeard) {
 TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
     ASSERT_TRUE(opened) << opened.error().message;
     usb.unplug();
@@ -100,7 +101,7 @@ TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {
     ASSERT_FALSE(gone);
     EXPECT_EQ(gone.error().code, ErrorCode::Device);
     usb.plug();
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto back = (*opened)->status();
     EXPECT_TRUE(back) << back.error().message;
 }

@@ -70,23 +70,6 @@ TEST(ScienceModeAck, AnOldReadBackDoesNotSurviveInAReusedAck) {
     EXPECT_EQ(read.measurement, Measurement::None);
 }
 
-TEST(ScienceModeAck, CurrentDataHasANibblePerChannel) {
-    CurrentDataAck ack;
-    ack.running = 0xA5;
-    for (std::size_t i = 0; i < kMidChannels; ++i) ack.channels[i] = static_cast<ChannelState>(i % 4);
-    const auto payload = payloadOf(ack);
-    EXPECT_THAT(std::vector<std::uint8_t>(payload.view().begin(), payload.view().end()),
-                testing::ElementsAreArray(bytesOf("00 04 A5 10 32 10 32")));
-    const auto read = readCurrentDataAck(payload.view());
-    ASSERT_TRUE(read.has_value());
-    EXPECT_EQ(read->running, 0xA5);
-    EXPECT_EQ(read->channels, ack.channels);
-    for (const auto* wrong : {"", "00", "00 04 00 00 00 00", "00 04 00 00 00 00 00 00", "00 03 00 00 00 00 00",
-                              "00 04 00 04 00 00 00", "00 04 00 00 00 00 F0"}) {
-        EXPECT_FALSE(readCurrentDataAck(bytesOf(wrong)).has_value()) << wrong;
-    }
-}
-
 TEST(ScienceModeAck, StatusIdentityAndVersionComeBack) {
     RecordProperty("hazard", "H4");
     const auto status =
@@ -126,7 +109,6 @@ TEST(ScienceModeAck, NoPayloadAtAllBreaksAParser) {
         ChannelConfigAck ack;
         if (readChannelConfigAck(payload, ack) && ack.measured) RC_ASSERT(payload.size() == 261U);
         if (const auto id = readDeviceIdAck(payload)) RC_ASSERT(id->id.size() <= 10U);
-        static_cast<void>(readCurrentDataAck(payload));
         static_cast<void>(readStimStatusAck(payload));
         static_cast<void>(readExtendedVersionAck(payload));
         static_cast<void>(readPlainAck(Command::Reset, payload));

@@ -66,28 +66,6 @@ TEST(ScienceModePoint, RefusesWhatWouldWrap) {
     }
 }
 
-TEST(ScienceModePeriod, IsInHalfMillisecondsOrQuartersWhereOnlyThoseFit) {
-    EXPECT_EQ(*encodePeriod(Seconds(0.5)), 0x07D0);
-    EXPECT_EQ(*encodePeriod(Seconds(2)), 0x1F40);
-    EXPECT_EQ(*encodePeriod(Seconds(16.3835)), 0xFFFE);
-    EXPECT_EQ(*encodePeriod(Seconds(0.00025)), 0x0003);
-    EXPECT_EQ(*encodePeriod(Seconds(8.19175)), 0xFFFF);
-    for (unsigned bits = 2; bits <= 0xFFFF; ++bits) {
-        const auto word = static_cast<std::uint16_t>(bits);
-        const auto again = encodePeriod(decodePeriod(word));
-        ASSERT_TRUE(again.has_value()) << bits;
-        ASSERT_DOUBLE_EQ(decodePeriod(*again).count(), decodePeriod(word).count());
-    }
-}
-
-TEST(ScienceModePeriod, RefusesWhatDoesNotFit) {
-    RecordProperty("hazard", "H1");
-    for (const double s :
-         {16.384, 16.3840001, 20.0, 32.768, 8.19225, 0.0, -0.5, 0.0001, 0.5001, 1e9, kNaN, kInfinite}) {
-        EXPECT_FALSE(encodePeriod(Seconds(s)).has_value()) << s;
-    }
-}
-
 TEST(ScienceModeRequest, LowLevelInitPutsVoltageAndMeasurementInTheirBits) {
     RecordProperty("hazard", "H4");
     for (unsigned voltage = 0; voltage <= 6; ++voltage) {
@@ -141,65 +119,6 @@ TEST(ScienceModeRequest, ChannelConfigRefusesWhatDoesNotFit) {
     for (const auto* wrong : {"", "80", "82 0C 84 D8 00", "80 0C 84 D8 00 00", "80 00 04 D8 00", "80 0C 80 00 00"}) {
         EXPECT_FALSE(readChannelConfig(bytesOf(wrong)).has_value()) << wrong;
     }
-}
-
-TEST(ScienceModeRequest, MidLevelUpdateOfAnyChannelsComesBack) {
-    RecordProperty("hazard", "H4");
-    const bool held = rc::check("ML_UPDATE round trip", [] {
-        MidLevelUpdate update;
-        const auto mask = *rc::gen::inRange(0, 256);
-        for (std::size_t i = 0; i < kMidChannels; ++i) {
-            if ((mask >> i & 1) == 0) continue;
-            MidLevelChannel channel;
-            channel.channel = static_cast<int>(i);
-            channel.ramp = *rc::gen::inRange(0, 16);
-            channel.period = Seconds(0.0005 * *rc::gen::inRange(140, 0x8000));
-            const int count = *rc::gen::inRange(1, 17);
-            for (int p = 0; p < count; ++p) {
-                RC_ASSERT(channel.points.add(
-                    {Micros(*rc::gen::inRange(10, 4096)), Milliamps(*rc::gen::inRange(-260, 261) * 0.5)}));
-            }
-            update.channels[i] = channel;
-        }
-        const auto payload = payloadOf(update);
-        RC_ASSERT(payload.has_value());
-        RC_ASSERT(payload->bytes[0] == mask);
-        const auto read = readMidLevelUpdate(payload->view());
-        RC_ASSERT(read.has_value());
-        for (std::size_t i = 0; i < kMidChannels; ++i) {
-            RC_ASSERT(read->channels[i].has_value() == update.channels[i].has_value());
-            if (!read->channels[i]) continue;
-            RC_ASSERT(read->channels[i]->ramp == update.channels[i]->ramp);
-            RC_ASSERT(std::abs((read->channels[i]->period - update.channels[i]->period).count()) < 1e-9);
-            RC_ASSERT(std::ranges::equal(read->channels[i]->points.span(), update.channels[i]->points.span()));
-        }
-    });
-    EXPECT_TRUE(held);
-}
-
-TEST(ScienceModeRequest, MidLevelUpdateRefusesWhatDoesNotFit) {
-    RecordProperty("hazard", "H1");
-    const auto refused = [](const MidLevelChannel& channel) {
-        MidLevelUpdate update;
-        update.channels[0] = channel;
-        return !payloadOf(update).has_value();
-    };
-    EXPECT_FALSE(refused({0, 0, Seconds(0.5), onePoint()}));
-    EXPECT_TRUE(refused({1, 0, Seconds(0.5), onePoint()})) << "a channel in another's place";
-    EXPECT_TRUE(refused({0, 16, Seconds(0.5), onePoint()}));
-    EXPECT_TRUE(refused({0, -1, Seconds(0.5), onePoint()}));
-    EXPECT_TRUE(refused({0, 0, Seconds(16.384), onePoint()}));
-    EXPECT_TRUE(refused({0, 0, Seconds(0.5), {}}));
-    EXPECT_TRUE(refused({0, 0, Seconds(0.004), onePoint(4000)})) << "a pulse as long as its period";
-    for (const auto* wrong : {"", "01", "01 20 07 D0 0C 84 D8 00", "01 00 07 D0 0C 84 D8 00 00", "00 00"}) {
-        EXPECT_FALSE(readMidLevelUpdate(bytesOf(wrong)).has_value()) << wrong;
-    }
-}
-
-TEST(ScienceModeRequest, MidLevelInitIsOneByte) {
-    for (const bool stop : {false, true}) EXPECT_EQ(readMidLevelInit(midLevelInitPayload(stop).view()), stop);
-    EXPECT_FALSE(readMidLevelInit(bytesOf("02")).has_value());
-    EXPECT_FALSE(readMidLevelInit({}).has_value());
 }
 
 }  // namespace

@@ -40,7 +40,6 @@ INSTANTIATE_TEST_SUITE_P(ScienceMode, StimulatorConformance,
                                                             sciencemode::StimulatorSettings settings;
                                                             settings.channel = 3;
                                                             settings.connector = 1;
-                                                            settings.midLevel = true;
                                                             return std::make_unique<ScienceModeRig>(settings);
                                                         }}),
                          [](const testing::TestParamInfo<StimulatorKind>& kind) { return kind.param.name; });

@@ -4,7 +4,7 @@
 //   sciencemode_device ["200 ohm + 10 kohm || 50 nF"]
 #include <cstdio>
 
-#include "drivers/sciencemode/EmulatedPty.h"
+#include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 int main(int argumentCount, char** arguments) {
     using namespace tacto;

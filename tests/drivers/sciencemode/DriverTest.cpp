@@ -4,11 +4,11 @@
 #include <map>
 #include <thread>
 
-#include "drivers/sciencemode/EmulatedPty.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 #include "tests/support/OtherProgram.h"
+#include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 namespace tacto::test {
 namespace {
@@ -59,13 +59,6 @@ protected:
         const auto gate = wideGate(clock_, devices_.stimulator->traits());
         const auto delivered = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(milliamps), Seconds(2)));
         ASSERT_TRUE(delivered.has_value()) << delivered.error().message;
-    }
-
-    /// In the mode of the device that repeats by itself, which no URI opens.
-    [[nodiscard]] std::unique_ptr<ScienceModeStimulator> openForRepetition(Connect connect) const {
-        StimulatorSettings settings;
-        settings.midLevel = true;
-        return ScienceModeStimulator::open(std::move(connect), "sciencemode:", {}, settings, clock_).value();
     }
 
     SteadyClock clock_;
@@ -138,9 +131,7 @@ TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
 TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
     ports_->add({"A1", "1-1", "1-1 may not be opened"}, named("P24-000001"));
     const auto line = ports_->add({"A2", "1-2", ""}, named("P24-000002"));
-    const auto repeating = openForRepetition([&] { return ports_->open({"A2", "1-2", ""}); });
-    const auto gate = wideGate(clock_, repeating->traits());
-    ASSERT_TRUE(repeating->repeat(approve(*gate, clock_, biphasic(5), Seconds(2)), Seconds(2)).has_value());
+    line->inspect(startRepeating);
     const auto stops = [&] {
         return line->inspect([](auto& device, Instant) {
             return device.requests(Command::LowLevelStop) + device.requests(Command::MidLevelStop) +
@@ -212,18 +203,6 @@ TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
     EXPECT_EQ(second.error().code, ErrorCode::InvalidArgument) << "a bench has one stimulator";
 }
 
-TEST_F(ScienceModeUri, WhatAUriOpensNeverRepeatsByItself) {
-    RecordProperty("hazard", "H2");
-    const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
-    ASSERT_TRUE(open("sciencemode:").has_value());
-    auto& repeating = dynamic_cast<RepeatingStimulator&>(*devices_.stimulator);
-    const auto gate = wideGate(clock_, devices_.stimulator->traits());
-    const auto refused = repeating.repeat(approve(*gate, clock_, biphasic(5), Seconds(0.5)), Seconds(0.5));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
-    EXPECT_FALSE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));
-}
-
 TEST_F(ScienceModeUri, AReplugIntoAnotherSocketIsFoundByItsSerialNumber) {
     const auto line = ports_->add({"A1", "1-1", ""}, named("P24-000001"));
     ASSERT_TRUE(open("sciencemode:").has_value());
@@ -266,12 +245,12 @@ TEST_F(ScienceModePty, DeliversAndReadsBack) {
 
 TEST_F(ScienceModePty, StopReachesTheDevice) {
     RecordProperty("hazard", "H2");
-    const auto repeating = openForRepetition([&] { return TtyTransport::open(pty_->path()); });
-    const auto gate = wideGate(clock_, repeating->traits());
-    ASSERT_TRUE(repeating->repeat(approve(*gate, clock_, biphasic(5), Seconds(0.05)), Seconds(0.05)).has_value());
+    ASSERT_TRUE(open("sciencemode:?tty=" + pty_->path()).has_value());
+    pty_->inspect(startRepeating);
     ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
-    repeating->forceOff();
-    const auto status = repeating->status();  // its ack comes behind the stops
+    ASSERT_TRUE(devices_.stimulator->status()->delivering);
+    devices_.stimulator->forceOff();
+    const auto status = devices_.stimulator->status();  // its ack comes behind the stops
     ASSERT_TRUE(status.has_value()) << status.error().message;
     EXPECT_FALSE(status->delivering);
     EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));

@@ -73,7 +73,7 @@ Result<std::unique_ptr<Transport>> EmulatedLine::connect() {
     return std::make_unique<LineTransport>(shared_from_this());
 }
 
-sciencemode::Connect EmulatedLine::connector() {
+Connect EmulatedLine::connector() {
     return [line = shared_from_this()] { return line->connect(); };
 }
 

@@ -13,8 +13,8 @@
 
 #include "core/base/Clock.h"
 #include "core/devices/Transport.h"
-#include "drivers/sciencemode/EmulatedStimulator.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
+#include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
 
 namespace tacto::test {
 
@@ -27,7 +27,7 @@ public:
 
     /// A transport to the device. Errors: NotFound while unplugged.
     [[nodiscard]] Result<std::unique_ptr<Transport>> connect();
-    [[nodiscard]] sciencemode::Connect connector();
+    [[nodiscard]] Connect connector();
 
     void unplug();
     /// A device that lost its power while unplugged comes back.

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/base/Clock.h"
-#include "drivers/sciencemode/EmulatedStimulator.h"
+#include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
 #include "tests/support/usb_emulation/EmulatedUsbDevice.h"
 
 namespace tacto::test {

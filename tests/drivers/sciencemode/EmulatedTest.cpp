@@ -1,7 +1,7 @@
 // The emulated device against physics and against the protocol's rules, without the driver.
 #include <gtest/gtest.h>
 
-#include "drivers/sciencemode/EmulatedStimulator.h"
+#include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
 
 namespace tacto::test {
 namespace {
@@ -48,12 +48,6 @@ protected:
             ask(Command::ChannelConfig, *payloadOf(ChannelConfig{1, 1, true, biphasicPoints(mA)})), ack);
         EXPECT_TRUE(read.has_value());
         return ack;
-    }
-    void repeatEvery(Seconds period) {
-        EXPECT_EQ(plain(Command::MidLevelInit, midLevelInitPayload(true)), ResultCode::Ok);
-        MidLevelUpdate update;
-        update.channels[0] = MidLevelChannel{0, 0, period, biphasicPoints()};
-        EXPECT_EQ(plain(Command::MidLevelUpdate, *payloadOf(update)), ResultCode::Ok);
     }
     std::size_t pulses() { return device_.pulses(now_).size(); }
     void setLoad(const char* text) { device_.fit(*parseLoad(text), now_); }
@@ -144,50 +138,16 @@ TEST_F(EmulatedScienceMode, ABusyOutputRefusesAndALowLevelStopCutsIt) {
     EXPECT_EQ(cut.end - cut.onset, microseconds(100));
 }
 
-TEST_F(EmulatedScienceMode, MidLevelPausesTwoSecondsAfterTheLastKeepAlive) {
-    RecordProperty("hazard", "H2");
-    repeatEvery(Seconds(0.1));
-    const Instant begun = now_;
-    now_ += std::chrono::seconds(30);
-    EXPECT_FALSE(device_.repeating(now_));
-    const auto last = device_.pulses(now_).back().onset;
-    EXPECT_LE(last - begun, std::chrono::seconds(2));
-    EXPECT_GT(last - begun, milliseconds(1850));
-    // A keep-alive that comes late revives nothing.
-    const auto ack = readCurrentDataAck(ask(Command::CurrentData, currentDataPayload()));
-    ASSERT_TRUE(ack.has_value());
-    EXPECT_EQ(ack->running, 0);
-    const auto before = pulses();
-    now_ += std::chrono::seconds(1);
-    EXPECT_EQ(pulses(), before);
-}
-
-TEST_F(EmulatedScienceMode, MidLevelGoesOnWhileItIsAsked) {
-    repeatEvery(Seconds(0.5));
-    for (int i = 0; i < 20; ++i) {
-        now_ += milliseconds(500);
-        const auto ack = readCurrentDataAck(ask(Command::CurrentData, currentDataPayload()));
-        ASSERT_TRUE(ack.has_value());
-        EXPECT_EQ(ack->running, 1);
-    }
+TEST_F(EmulatedScienceMode, ARepetitionGoesOnUntilItIsStopped) {
+    device_.startRepeating(biphasicPoints(), Seconds(0.5), now_);
+    now_ += std::chrono::seconds(10);
+    EXPECT_TRUE(device_.repeating(now_));
+    EXPECT_EQ(device_.state(now_), Stimulation::MidLevelRunning);
     EXPECT_EQ(pulses(), 21U);
     EXPECT_EQ(plain(Command::MidLevelStop), ResultCode::Ok);
     now_ += std::chrono::seconds(1);
     EXPECT_EQ(pulses(), 21U);
-}
-
-TEST_F(EmulatedScienceMode, MidLevelTellsALiftedElectrodeAndStopsAll) {
-    RecordProperty("hazard", "H3");
-    repeatEvery(Seconds(0.1));
-    now_ += milliseconds(250);
-    setLoad("open");
-    now_ += milliseconds(250);
-    const auto ack = readCurrentDataAck(ask(Command::CurrentData, currentDataPayload()));
-    ASSERT_TRUE(ack.has_value());
-    EXPECT_EQ(ack->channels[0], ChannelState::ElectrodeOff);
-    const auto before = pulses();
-    now_ += std::chrono::seconds(1);
-    EXPECT_EQ(pulses(), before);
+    EXPECT_EQ(device_.state(now_), Stimulation::None);
 }
 
 TEST_F(EmulatedScienceMode, ResidualVoltageCarriesFromPulseToPulse) {

@@ -13,6 +13,10 @@ PulseTrain biphasic(double milliamps, int pulses, double rate_hz) {
     return train;
 }
 
+void startRepeating(sciencemode::EmulatedStimulator& device, Instant now) {
+    device.startRepeating(sciencemode::planPulse(biphasic(5))->points, Seconds(0.05), now);
+}
+
 std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits) {
     LimitRow row;
     row.quantity = Quantity::PeakVoltage;

@@ -31,6 +31,8 @@ private:
 
 /// A train as approved() makes it.
 [[nodiscard]] PulseTrain biphasic(double milliamps, int pulses = 1, double rate_hz = 100);
+/// What another program may have left behind: a pulse every 50 ms in mid level. For inspect().
+void startRepeating(sciencemode::EmulatedStimulator& device, Instant now);
 /// A gate for any train of `traits`' source on any load.
 [[nodiscard]] std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits);
 [[nodiscard]] ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train, Seconds interval);

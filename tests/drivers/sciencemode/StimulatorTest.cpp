@@ -84,15 +84,7 @@ TEST(ScienceModeOpen, EndsWhateverTheDeviceWasDoing) {
     RecordProperty("hazard", "H2");
     VirtualClock clock;
     const auto line = std::make_shared<EmulatedLine>(clock, &clock);
-    {
-        StimulatorSettings settings;
-        settings.midLevel = true;
-        auto first = ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock);
-        ASSERT_TRUE(first.has_value());
-        const auto gate = wideGate(clock, (*first)->traits());
-        ASSERT_TRUE((*first)->repeat(approve(*gate, clock, biphasic(5), Seconds(0.1)), Seconds(0.1)).has_value());
-        line->plug();  // the first host is cut off without a word
-    }
+    line->inspect(startRepeating);
     ASSERT_TRUE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));
     ASSERT_TRUE(opens(line, clock).has_value());
     EXPECT_FALSE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));

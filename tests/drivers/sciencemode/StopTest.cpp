@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
+#include "core/bench/StimulatorSession.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 #include "tests/support/Allocations.h"
 
@@ -99,6 +100,38 @@ TEST(ScienceModeStop, DuringInitialisationPreventsTheFirstPulse) {
     bench.wait(Seconds(1));
     EXPECT_EQ(bench.line->pulses(), 0U);
     EXPECT_EQ(bench.status().trainsDelivered, 0U);
+}
+
+TEST(ScienceModeStop, EndsALongTrainWithin2100MillisecondsOfAControlLoopThatHangs) {
+    RecordProperty("hazard", "H2");
+    ScienceModeBench bench;
+    SafetyGate gate(bench.clock);
+    Heartbeat heartbeat;
+    StimulatorSession session(*bench.stimulator, gate, heartbeat, bench.clock, {});
+    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 1000, 50)).has_value());  // 20 s
+    const auto runFor = [&](Seconds duration, bool loopAlive) {
+        const Instant until = bench.clock.now() + toInstant(duration);
+        while (bench.clock.now() < until) {
+            if (loopAlive) heartbeat.beat(bench.clock.now());
+            static_cast<void>(session.serve(bench.clock.now()));
+            bench.wait(Seconds(0.01));
+        }
+    };
+    runFor(Seconds(10), true);
+    EXPECT_TRUE(bench.status().delivering) << "the control run goes on";
+    EXPECT_GE(bench.line->pulses(), 500U);
+    const Instant hung = bench.clock.now();
+    runFor(Seconds(5), false);
+    EXPECT_FALSE(bench.status().delivering);
+    EXPECT_LE(bench.line->pulseList().back().end - hung, milliseconds(2100));
+}
+
+TEST(ScienceModeStop, KeepAliveAsksTheDeviceNothing) {
+    ScienceModeBench bench;
+    ASSERT_TRUE(bench.deliver(biphasic(5)).has_value());
+    const auto before = bench.line->written().size();
+    for (int i = 0; i < 10; ++i) ASSERT_TRUE(bench.stimulator->keepAlive().has_value());
+    EXPECT_EQ(bench.line->written().size(), before);
 }
 
 TEST(ScienceModeStop, NeverAllocates) {

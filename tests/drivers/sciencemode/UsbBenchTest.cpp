@@ -9,6 +9,7 @@
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/usb/UsbPorts.h"
 #include "tests/drivers/sciencemode/EmulatedOnUsb.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -34,7 +35,7 @@ protected:
         return true;
     }
     void open() {
-        ASSERT_TRUE(comes([&] { return registry().list().size() == 1; }));
+        ASSERT_IN_TIME(comes([&] { return registry().list().size() == 1; }));
         auto drivers = registry();
         auto devices = drivers.open(std::vector{*DeviceUri::parse("sciencemode:")}, {Role::Stimulator},
                                     OpenContext{*clock_, 1, "1 kohm"});
@@ -110,15 +111,15 @@ TEST_F(ScienceModeOnUsb, UnpluggedInMidDeliveryFaultsKeepsTheSessionAndComesBack
     ASSERT_FALSE(waited);
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted) << waited.error().message;
     EXPECT_FALSE(bench_->resetFault()) << "the cause is still there";
-    EXPECT_TRUE(comes([&] { return registry().list().empty(); }));
+    EXPECT_IN_TIME(comes([&] { return registry().list().empty(); }));
 
     device_.plug();
-    ASSERT_TRUE(comes([&] { return registry().list().size() == 1; }));
+    ASSERT_IN_TIME(comes([&] { return registry().list().size() == 1; }));
     const auto before = device_.pulses();
     std::this_thread::sleep_for(700ms);
     EXPECT_EQ(device_.pulses(), before) << "nothing goes on by itself";
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
-    ASSERT_TRUE(comes([&] { return bench_->resetFault().has_value(); })) << "explicitly, found by its identity";
+    ASSERT_IN_TIME(comes([&] { return bench_->resetFault().has_value(); })) << "explicitly, found by its identity";
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
     const auto armed = arm();
     ASSERT_TRUE(armed) << armed.error().message;

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "core/base/Clock.h"
-#include "drivers/sensor_board/EmulatedBoard.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoard.h"
 
 namespace tacto::test {
 

@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "core/acquisition/StreamHealth.h"
-#include "drivers/sensor_board/EmulatedBoardLine.h"
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/sensor_board/EmulatedBoardLine.h"
 #include "drivers/sensor_board/SensorBoard.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "core/formats/ByteFile.h"
-#include "drivers/sigrok/SigrokFormat.h"
+#include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/drivers/sigrok/ZipWriter.h"
 #include "tests/support/Support.h"
 
@@ -232,6 +232,10 @@ TEST_F(SrFile, WhatMakesNoSenseIsRefused) {
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);
     put("damaged.sr", bytes);
     expectRefused("damaged.sr", "damaged");
+    bytes = zipOf({version, {"metadata", analog}, {"analog-1-1-1", floats(10)}});
+    bytes.replace(bytes.rfind("PK\1\2") + 24, 4, "\xF0\xFF\xFF\x7F");
+    put("forged.sr", bytes);
+    expectRefused("forged.sr", "cannot be unpacked to 2147483632 bytes");
     EXPECT_EQ(read("absent.sr").error().code, ErrorCode::NotFound);
 }
 

@@ -6,7 +6,7 @@
 #include "app/run/OpenDevices.h"
 #include "core/devices/ReplayedDevice.h"
 #include "core/measure/PulseMeasurement.h"
-#include "drivers/sigrok/SigrokDriver.h"
+#include "drivers/sigrok/driver/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/sigrok/ScopeOnLan.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "drivers/sigrok/RawRecord.h"
+#include "drivers/sigrok/protocol/RawRecord.h"
 
 namespace tacto::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "drivers/sigrok/RecordPlan.h"
+#include "drivers/sigrok/protocol/RecordPlan.h"
 
 namespace tacto::test {
 namespace {

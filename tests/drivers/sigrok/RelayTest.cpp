@@ -7,7 +7,8 @@
 #include <thread>
 #include <unistd.h>
 
-#include "drivers/sigrok/TcpRelay.h"
+#include "drivers/sigrok/transport/TcpRelay.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -168,7 +169,7 @@ TEST(Relay, AHostThatDoesNotAnswerIsATimeoutOrUnreachableButSoon) {
     // 192.0.2.0/24 is reserved for documentation: nobody is there. Without a network it is refused at once.
     const auto since = std::chrono::steady_clock::now();
     EXPECT_FALSE(TcpRelay::start("192.0.2.1", "5555", Seconds(0.3)).has_value());
-    EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(3));
+    EXPECT_IN_TIME(std::chrono::steady_clock::now() - since < std::chrono::seconds(3));
 }
 
 }  // namespace

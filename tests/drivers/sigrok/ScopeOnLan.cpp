@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "drivers/sigrok/SigrokDriver.h"
+#include "drivers/sigrok/driver/SigrokDriver.h"
 
 namespace tacto::test {
 

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "core/devices/Oscilloscope.h"
-#include "drivers/sigrok/CircuitInput.h"
-#include "drivers/sigrok/EmulatedScopeServer.h"
 #include "tests/drivers/SimBench.h"
+#include "tests/support/emulated/sigrok/CircuitInput.h"
+#include "tests/support/emulated/sigrok/EmulatedScopeServer.h"
 
 namespace tacto::test {
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "drivers/sigrok/ScopeUri.h"
+#include "drivers/sigrok/protocol/ScopeUri.h"
 
 namespace tacto::test {
 namespace {
@@ -58,7 +58,7 @@ TEST(ScopeUri, RefusesWhatItDoesNotKnowByName) {
     expectRefused("sigrok:demo?currentprobe=10", {"currentprobe", "without current"});
     expectRefused("sigrok:demo?slope=up", {"slope=up", "rise or fall"});
     for (const char* shunt : {"0", "-5", "nan", "1e9", "x", ""}) {
-        expectRefused(fmt::format("sigrok:demo?current=A1&shunt={}", shunt), {"shunt=", "0.001 to 1000000 ohm"});
+        expectRefused(fmt::format("sigrok:demo?current=A1&shunt={}", shunt), {"shunt=", "1 mΩ to 1 MΩ"});
     }
     for (const char* probe : {"0", "1.5", "nan", "1e9", "ten"}) {
         expectRefused(fmt::format("sigrok:demo?probe={}", probe), {"probe=", "1 to 10000"});

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "drivers/sigrok/StreamTrigger.h"
+#include "drivers/sigrok/protocol/StreamTrigger.h"
 
 namespace tacto::test {
 namespace {

@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "core/base/Random.h"
-#include "drivers/sciencemode/EmulatedPty.h"
-#include "tests/support/Campaign.h"
+#include "tests/support/Trials.h"
+#include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 namespace tacto::test {
 namespace {
@@ -113,7 +113,7 @@ struct Tried {
 /// CLOCK_MONOTONIC.
 template <class OutputSince>
 void tryManyTimes(Host& host, OutputSince outputSince) {
-    const int wanted = campaignTrials();
+    const int wanted = raceTrials();
     const std::uint64_t seed = std::random_device{}();
     testing::Test::RecordProperty("seed", std::to_string(seed));
     Random random(seed, "suspended process");

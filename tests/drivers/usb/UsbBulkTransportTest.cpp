@@ -4,6 +4,7 @@
 
 #include "drivers/usb/UsbBulkTransport.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -94,14 +95,14 @@ TEST_F(UsbBulk, TheKernelsDriverStepsAsideAndComesBack) {
 TEST_F(UsbBulk, TheKernelsDriverComesBackAfterARefusalToo) {
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"),
                                    {.onRequest = [](const UsbSetup&, auto) { return std::nullopt; }});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     EXPECT_FALSE(UsbBulkTransport::open(context, context->devices().front(), {}));
     EXPECT_TRUE(device.kernelDriverBound());
 }
 
 TEST_F(UsbBulk, ADeviceThatAnotherProgramUsesIsRefused) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     device.claimElsewhere(1);
     const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
     ASSERT_FALSE(opened);
@@ -114,7 +115,7 @@ TEST_F(UsbBulk, ADeviceThatAnotherProgramUsesIsRefused) {
 TEST_F(UsbBulk, ADeviceIsNotTakenFromAProgramThatUsesItsTerminalAndThatProgramIsNamed) {
     RecordProperty("hazard", "H2");
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {.onBytes = echo});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     {
         const OtherProgram other(device.addTerminal("ttyACM0"));
         const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
@@ -130,7 +131,7 @@ TEST_F(UsbBulk, ADeviceIsNotTakenFromAProgramThatUsesItsTerminalAndThatProgramIs
 
 TEST_F(UsbBulk, AProgramThatHasClaimedTheDeviceIsNamed) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     device.claimElsewhere(0);
     const OtherProgram other(device.nodeFile());
     const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});

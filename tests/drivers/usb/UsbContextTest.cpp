@@ -2,6 +2,7 @@
 
 #include "drivers/usb/UsbContext.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -12,7 +13,7 @@ class UsbContext_ : public UsbTest {};
 
 TEST_F(UsbContext_, ListsADeviceWithItsIdentityAndSocket) {
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {}, 3);
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto info = context->devices().front();
     EXPECT_EQ(info.vendor, 0x0483);
     EXPECT_EQ(info.product, 0x5740);
@@ -35,7 +36,7 @@ TEST_F(UsbContext_, FindsDevicesThatWereThereBeforeIt) {
 
 TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "P24-17"), {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     device.permit(false);
     {
         const UnprivilegedUser user(bed);
@@ -86,14 +87,14 @@ TEST_F(UsbContext_, AWaitWithoutAChangeEndsWithItsTime) {
 TEST_F(UsbContext_, FindsADeviceAgainBySerialInAnotherSocket) {
     auto first = std::make_unique<EmulatedUsbDevice>(bed, vendorDevice(0x1209, 1, "B1"), UsbBehaviour{}, 1);
     const EmulatedUsbDevice other(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
-    ASSERT_TRUE(waitForDevices(2));
+    ASSERT_IN_TIME(waitForDevices(2));
     const auto before = context->find({0x1209, 1, "B1"});
     ASSERT_TRUE(before);
     first.reset();
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     EXPECT_EQ(context->find({0x1209, 1, "B1"}).error().code, ErrorCode::NotFound);
     const EmulatedUsbDevice again(bed, vendorDevice(0x1209, 1, "B1"), {}, 4);
-    ASSERT_TRUE(waitForDevices(2));
+    ASSERT_IN_TIME(waitForDevices(2));
     const auto after = context->find(before->identity());
     ASSERT_TRUE(after);
     EXPECT_EQ(after->path, "1-4");
@@ -103,7 +104,7 @@ TEST_F(UsbContext_, FindsADeviceAgainBySerialInAnotherSocket) {
 TEST_F(UsbContext_, ANameThatFitsTwoDevicesIsRefusedWithTheirSerialNumbers) {
     const EmulatedUsbDevice first(bed, vendorDevice(0x1209, 1, "B1"), {}, 1);
     const EmulatedUsbDevice second(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
-    ASSERT_TRUE(waitForDevices(2));
+    ASSERT_IN_TIME(waitForDevices(2));
     const auto found = context->find({0x1209, 1});
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, ErrorCode::InvalidArgument);
@@ -113,12 +114,12 @@ TEST_F(UsbContext_, ANameThatFitsTwoDevicesIsRefusedWithTheirSerialNumbers) {
 
 TEST_F(UsbContext_, ADeviceThatWasReplacedSinceTheListWasMadeIsNotOpened) {
     EmulatedUsbDevice device(bed, vendorDevice(0x1209, 1, "B1"), {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto old = context->devices().front();
     device.unplug();
-    ASSERT_TRUE(waitForDevices(0));
+    ASSERT_IN_TIME(waitForDevices(0));
     device.plug();
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto opened = UsbBulkTransport::open(context, old, {.function = UsbFunction::Vendor});
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
@@ -127,7 +128,7 @@ TEST_F(UsbContext_, ADeviceThatWasReplacedSinceTheListWasMadeIsNotOpened) {
 TEST_F(UsbContext_, WhatADeviceCallsItselfIsMadePrintable) {
     auto rogue = vendorDevice(0x1209, 1, "B\x1b[31m1");
     const EmulatedUsbDevice device(bed, rogue, {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     EXPECT_EQ(context->devices().front().serial, "B?[31m1");
 }
 

@@ -3,6 +3,7 @@
 
 #include "drivers/usb/UsbControl.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -48,10 +49,10 @@ TEST_F(UsbControlTest, AnUrgentValueIsBehindTheOneInFlightAndAheadOfTheNext) {
     ASSERT_TRUE(control);
     device.hold(0, true);
     auto sending = std::async(std::launch::async, [&] { return control->send(200, kLong); });
-    ASSERT_TRUE(device.waitForWaiting(0, 1));
+    ASSERT_IN_TIME(device.waitForWaiting(0, 1));
     control->sendUrgent(0);
     control->sendUrgent(0);
-    ASSERT_TRUE(device.waitForWaiting(0, 2));
+    ASSERT_IN_TIME(device.waitForWaiting(0, 2));
     device.hold(0, false);
     ASSERT_TRUE(sending.get());
     ASSERT_TRUE(control->send(7, kLong));
@@ -73,7 +74,7 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
     device.hold(0, true);
     EXPECT_EQ(control->send(2, kShort).error().code, ErrorCode::Timeout);
     auto sending = std::async(std::launch::async, [&] { return control->send(3, kLong); });
-    ASSERT_TRUE(device.waitForWaiting(0, 1));
+    ASSERT_IN_TIME(device.waitForWaiting(0, 1));
     device.unplug();
     const auto sent = sending.get();
     ASSERT_FALSE(sent);
@@ -82,7 +83,7 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
 
 TEST_F(UsbControlTest, ARequestForInputIsRefused) {
     const EmulatedUsbDevice device(bed, vibrator(), {});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto opened = UsbControl::open(context, context->devices().front(), {.type = 0xC3, .request = 1});
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
@@ -92,7 +93,7 @@ TEST_F(UsbControlTest, AnAnswerGivesTheBytesThatCameAndBabbleIsAFault) {
     std::atomic<std::size_t> length = 6;
     const EmulatedUsbDevice device(
         bed, vibrator(), {.onRequest = [&](const UsbSetup&, auto) { return std::optional(UsbBytes(length, 1)); }});
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto opened = UsbDevice::open(context, context->devices().front());
     ASSERT_TRUE(opened);
     std::array<std::uint8_t, 16> into{};

@@ -1,4 +1,5 @@
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -23,7 +24,7 @@ TEST_F(UsbUnplug, AWaitingReadReturnsAtOnce) {
         returned = std::chrono::steady_clock::now();
         return read;
     });
-    ASSERT_TRUE(device.waitForWaiting(kIn, 8));
+    ASSERT_IN_TIME(device.waitForWaiting(kIn, 8));
     const auto pulled = std::chrono::steady_clock::now();
     device.unplug();
     const auto read = reading.get();
@@ -41,7 +42,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     device.hold(kOut, true);
     auto writing = std::async(std::launch::async,
                               [&] { return timed([&] { return transport->write(bytesOf("train"), kLong); }); });
-    ASSERT_TRUE(device.waitForWaiting(kOut, 1));
+    ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
     device.unplug();
     const auto [written, took] = writing.get();
     ASSERT_FALSE(written);
@@ -72,9 +73,9 @@ TEST_F(UsbUnplug, TheSameDeviceIsFoundAgainAndWorks) {
     ASSERT_TRUE(transport);
     const auto who = transport->info().identity();
     device.unplug();
-    ASSERT_TRUE(waitForDevices(0));
+    ASSERT_IN_TIME(waitForDevices(0));
     device.plug();
-    ASSERT_TRUE(waitForDevices(1));
+    ASSERT_IN_TIME(waitForDevices(1));
     const auto found = context->find(who);
     ASSERT_TRUE(found);
     // The old transport may still be there while the new one works.
@@ -92,8 +93,8 @@ TEST_F(UsbUnplug, ATransportIsDestroyedWithTransfersInFlight) {
         ASSERT_TRUE(transport);
         device.hold(kOut, true);
         transport->writeUrgent(bytesOf("stop"));
-        ASSERT_TRUE(device.waitForWaiting(kIn, 8));
-        ASSERT_TRUE(device.waitForWaiting(kOut, 1));
+        ASSERT_IN_TIME(device.waitForWaiting(kIn, 8));
+        ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
         transport.reset();
         device.hold(kOut, false);
     }
@@ -122,7 +123,7 @@ TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
         transport->writeUrgent(bytesOf("stop"));
         EXPECT_EQ(working.get(), ErrorCode::Device);
         transport.reset();
-        ASSERT_TRUE(waitForDevices(0));
+        ASSERT_IN_TIME(waitForDevices(0));
         device.plug();
     }
 }

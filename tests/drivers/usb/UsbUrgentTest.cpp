@@ -4,6 +4,7 @@
 
 #include "tests/drivers/usb/UsbFixture.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -22,9 +23,9 @@ TEST_F(UsbUrgent, GoesOutBehindTheWriteInFlightAndAheadOfTheNext) {
     ASSERT_TRUE(transport);
     device.hold(kOut, true);
     auto writing = std::async(std::launch::async, [&] { return transport->write(bytesOf("train"), kLong); });
-    ASSERT_TRUE(device.waitForWaiting(kOut, 1));
+    ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
     transport->writeUrgent(bytesOf("stop"));
-    ASSERT_TRUE(device.waitForWaiting(kOut, 2));  // in the queue before the call returned
+    ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // in the queue before the call returned
     device.hold(kOut, false);
     ASSERT_TRUE(writing.get());
     ASSERT_TRUE(transport->write(bytesOf("next"), kLong));

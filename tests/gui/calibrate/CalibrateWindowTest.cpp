@@ -2,9 +2,11 @@
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -47,14 +49,14 @@ TEST_F(CalibrateWindow, AnExpiredOneWarns) {
     RecordProperty("hazard", "H1");
     store(calibration(400, 365));
     open();
-    ASSERT_TRUE(comesTrue([this] { return says() == "⚠ calibration expired 35 d ago"; })) << says();
+    ASSERT_IN_TIME(comesTrue([this] { return says() == "⚠ calibration expired 35 d ago"; })) << says();
     EXPECT_TRUE(warns());
     window.resize(1024, 640);
     window.showWorkspace(1);
     QTest::qWait(100);
     shot(window, "calibrate_window_small");
     gui::applyTheme(gui::Theme::Dark);
-    ASSERT_TRUE(comesTrue([this] { return warns(); }));
+    ASSERT_IN_TIME(comesTrue([this] { return warns(); }));
     shot(window, "calibrate_window_small_dark");
 }
 
@@ -62,7 +64,7 @@ TEST_F(CalibrateWindow, TheDeviceDockSaysTheSameAsTheSafetyBar) {
     RecordProperty("hazard", "H9");
     store(calibration(0, 365));
     open();
-    ASSERT_TRUE(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
+    ASSERT_IN_TIME(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
     auto* devices = window.findChild<QTreeWidget*>();
     const auto facts = [this] { return window.findChild<QLabel*>("deviceFacts")->text(); };
     bool said = false;
@@ -79,18 +81,42 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     open();
     ASSERT_EQ(says(), "⚠ not calibrated");
     window.showWorkspace(1);
-    auto* calibrate = find<QPushButton>(window, "calibrateButton");
+    auto* calibrate = find<QPushButton>(window, "runButton");
     ASSERT_NE(calibrate, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return calibrate->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return calibrate->isEnabled(); }));
     window.findChild<QLineEdit*>("warm_up_s")->setText("0");
     bool over = false;
-    QObject::connect(&window.desk(), &gui::BenchDesk::finished, &window, [&] { over = true; });
+    QObject::connect(&window.controller(), &gui::BenchController::finished, &window, [&] { over = true; });
     click(*calibrate);
-    ASSERT_TRUE(comesTrue([&] { return over; }, 90'000));
+    ASSERT_IN_TIME(comesTrue([&] { return over; }, 90'000));
     QTest::qWait(100);
     shot(window, "calibrate_window_done");
+    window.resize(1280, 720);
+    auto* errors = find<gui::CalibrationPlot>(window, "calibrationErrors");
+    ASSERT_NE(errors, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return window.size() == QSize(1280, 720); }))
+        << window.width() << " x " << window.height();
+    EXPECT_IN_TIME(comesTrue([&] { return errors->height() >= 300; })) << errors->height();
+    EXPECT_GE(errors->width(), 800);
+    QTest::qWait(100);
+    shot(window, "calibrate_window_1280");
+    gui::applyTheme(gui::Theme::Dark);
+    QTest::qWait(100);
+    shot(window, "calibrate_window_1280_dark");
+    gui::applyTheme(gui::Theme::Light);
+    window.resize(1920, 1080);
+    QTest::qWait(200);
+    shot(window, "calibrate_window_1920");
+    click(*find<QPushButton>(window, "Open session"));
+    EXPECT_EQ(window.workspace(), 5);
+    window.showWorkspace(1);
+    click(*find<QPushButton>(window, "Go to safety check"));
+    EXPECT_EQ(window.workspace(), 2);
+    window.resize(1280, 720);
+    QTest::qWait(200);
+    shot(window, "safety_window_1280");
     open();
-    ASSERT_TRUE(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
+    ASSERT_IN_TIME(comesTrue([this] { return says().rfind("calibrated today, until ", 0) == 0; })) << says();
     EXPECT_FALSE(warns());
 }
 

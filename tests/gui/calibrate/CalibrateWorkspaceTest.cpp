@@ -7,10 +7,13 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/CalibrationView.h"
-#include "app/gui/look/Look.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
+#include "app/gui/runner/StepButton.h"
+#include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -20,10 +23,10 @@ using testing::HasSubstr;
 class Calibrate : public testing::Test {
 protected:
     Calibrate() {
-        QObject::connect(&desk, &gui::BenchDesk::finished,
+        QObject::connect(&controller, &gui::BenchController::finished,
                          [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
         QObject::connect(&frame, &QTimer::timeout, [this] {
-            for (auto* runner : workspace.runners()) runner->refresh(desk.telemetry());
+            for (auto* runner : workspace.runners()) runner->refresh(controller.telemetry());
             drawnWhileRunning = std::max(drawnWhileRunning, drawn());
         });
         frame.start(33);
@@ -32,14 +35,23 @@ protected:
     void show(QSize size) {
         workspace.resize(size);
         workspace.show();
-        ASSERT_TRUE(comesTrue([this] { return button("calibrateButton")->isEnabled(); }));
+        ASSERT_IN_TIME(comesTrue([this] { return workspace.runner().ready(); }));
+    }
+    /// The one way to start.
+    [[nodiscard]] QPushButton& run() { return *workspace.runner().findChild<QPushButton*>("runButton"); }
+    template <class T>
+    [[nodiscard]] T& the(const char* name) {
+        T* found = nullptr;
+        static_cast<void>(comesTrue([&] { return (found = find<T>(workspace, name)) != nullptr; }));
+        if (found == nullptr) throw std::runtime_error(std::string("nothing visible is called ") + name);
+        return *found;
     }
     [[nodiscard]] QPushButton* button(const char* name) { return workspace.findChild<QPushButton*>(name); }
     [[nodiscard]] std::string says(const char* label) {
         return workspace.findChild<QLabel*>(label)->text().toStdString();
     }
     [[nodiscard]] std::size_t drawn() {
-        if (desk.activity() != gui::Activity::Running) return 0;
+        if (controller.activity() != gui::Activity::Running) return 0;
         return workspace.runner().findChild<gui::CalibrationView*>()->readings();
     }
     void type(const char* field, const QString& text) {
@@ -50,9 +62,9 @@ protected:
         return comesTrue([this] { return ended != nullptr; }, 90'000) && ended->result.outcome.error == std::nullopt;
     }
     OwnDataHome home;
-    gui::BenchDesk desk{simulatedRegistry};
-    gui::CalibrationBook book{desk};
-    gui::CalibrateWorkspace workspace{desk, book};
+    gui::BenchController controller{simulatedRegistry};
+    gui::CalibrationBook book{controller};
+    gui::CalibrateWorkspace workspace{controller, book};
     std::shared_ptr<const gui::FinishedRun> ended;
     std::size_t drawnWhileRunning = 0;
     QTimer frame;
@@ -65,9 +77,9 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_FALSE(button("checkButton")->isEnabled());
     shot(workspace, "calibrate_first");
     withoutWarmUp();
-    click(*button("calibrateButton"));
+    click(run());
     EXPECT_FALSE(button("calibrateButton")->isEnabled());
-    ASSERT_TRUE(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
+    ASSERT_IN_TIME(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_GT(drawnWhileRunning, 0U);
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today, until "));
@@ -81,6 +93,8 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     ASSERT_NE(budget, nullptr);
     EXPECT_EQ(budget->item(0, 0)->text(), "repeatability");
     EXPECT_EQ(workspace.runner().findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
+    EXPECT_THAT(workspace.runner().findChild<QLabel*>("verdictWhy")->text().toStdString(),
+                HasSubstr("of its tolerance at"));
     QTest::qWait(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
     gui::applyTheme(gui::Theme::Dark);
@@ -89,9 +103,9 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
 
     // Then the short run, which stores nothing.
     ended = nullptr;
-    ASSERT_TRUE(comesTrue([this] { return button("checkButton")->isEnabled(); }));
-    click(*button("checkButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(comesTrue([this] { return button("checkButton")->isEnabled(); }));
+    click(the<QPushButton>("Run check"));
+    ASSERT_IN_TIME(ends());
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
     EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
@@ -100,13 +114,15 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
 }
 
 TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
+    RecordProperty("hazard", "H1");
     show({1300, 820});
     auto* tabs = workspace.findChild<QTabWidget*>("calibratePages");
     tabs->setCurrentWidget(workspace.runners()[1]);
-    ASSERT_TRUE(comesTrue([this] { return workspace.runners()[1]->ready(); }));
+    ASSERT_IN_TIME(comesTrue([this] { return workspace.runners()[1]->ready(); }));
+    QTest::qWait(50);
     shot(workspace, "calibrate_sensor");
     workspace.runners()[1]->runAsked();
-    ASSERT_TRUE(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
+    ASSERT_IN_TIME(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
     EXPECT_EQ(ended->order.script.name, "sensor-calibration");
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(tabs->currentWidget(), workspace.runners()[1]);
@@ -117,19 +133,37 @@ TEST_F(Calibrate, TheFingertipSensorHasARunOfItsOwn) {
     EXPECT_GT(plane->yAxis->range().upper, 0);
     EXPECT_FALSE(workspace.runners()[1]->findChild<gui::CaptureStrip*>()->isVisible()) << "there is no oscilloscope";
     shot(workspace, "calibrate_sensor_done");
+    ASSERT_FALSE(controller.profile().roughness.calibrated);
+    click(the<QPushButton>("Use this profile"));
+    EXPECT_IN_TIME(comesTrue([this] { return controller.profile().roughness.calibrated; }));
+    EXPECT_THAT(controller.profile().name, HasSubstr("SIM-1"));
+    EXPECT_EQ(controller.telemetry().state, InterlockState::Disconnected) << "a profile arms nothing";
+}
+
+TEST_F(Calibrate, TheCardLeadsToTheSettingsAndStartsNothing) {
+    RecordProperty("hazard", "H2");
+    show({1300, 820});
+    workspace.findChild<QTabWidget*>("calibratePages")->setCurrentIndex(2);
+    click(the<QPushButton>("calibrateButton"));
+    EXPECT_TRUE(the<gui::StepButton>("Settings").isChecked());
+    EXPECT_FALSE(workspace.runner().running());
+    EXPECT_TRUE(run().isVisible());
 }
 
 TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     RecordProperty("hazard", "H1");
     store(calibration(400, 365));
     show({760, 500});
+    auto* pages = workspace.findChild<QTabWidget*>("calibratePages");
+    pages->setCurrentIndex(2);
     EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ calibration expired 35 d ago"));
     EXPECT_FALSE(button("checkButton")->isEnabled());
     EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_expired_small");
+    pages->setCurrentIndex(0);
     withoutWarmUp();
-    click(*button("calibrateButton"));
-    ASSERT_TRUE(ends());
+    click(run());
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 2);
     QTest::qWait(20);  // drawn with the next event
@@ -143,8 +177,8 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     withoutWarmUp();
     type("load", "1000");
     workspace.runner().findChild<QLineEdit*>("devices")->setText("sim:stimulator?load=2kohm sim:");
-    click(*button("calibrateButton"));
-    ASSERT_TRUE(comesTrue([this] { return ended != nullptr; }, 60'000));
+    click(run());
+    ASSERT_IN_TIME(comesTrue([this] { return ended != nullptr; }, 60'000));
     EXPECT_NE(ended->result.verdict(), "pass");
     EXPECT_FALSE(std::filesystem::exists(calibrationFile()));
     EXPECT_THAT(says("calibrationState"), HasSubstr("⚠ not calibrated"));
@@ -169,9 +203,7 @@ TEST_F(CalibrateInLargeText, FitsALargeWindow) {
 
 TEST_F(Calibrate, TheWiringIsDrawnBeforeTheRun) {
     show({1024, 640});
-    auto* wiring = find<QPushButton>(workspace, "Wiring");
-    ASSERT_NE(wiring, nullptr);
-    click(*wiring);
+    click(the<gui::StepButton>("Wiring"));
     const auto* drawing = workspace.runner().findChild<QLabel*>("wiringDrawing");
     ASSERT_NE(drawing, nullptr);
     EXPECT_TRUE(drawing->isVisible());

@@ -5,6 +5,9 @@
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/calibrate/CalibrationCard.h"
 #include "app/gui/calibrate/CalibrationHistory.h"
+#include "app/gui/calibrate/CalibrationTrendView.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 
 namespace tacto::test {
@@ -21,8 +24,8 @@ protected:
     }
     static std::string says(const gui::CalibrationStanding& of) { return gui::standingText(of).toStdString(); }
     OwnDataHome home;
-    gui::BenchDesk desk{simulatedRegistry};
-    gui::CalibrationBook book{desk};
+    gui::BenchController controller{simulatedRegistry};
+    gui::CalibrationBook book{controller};
 };
 
 TEST_F(Book, NeverCalibratedSaysSoAndWhatToDo) {
@@ -101,6 +104,66 @@ TEST_F(Book, TheListKeepsWhatWasSuperseded) {
     history.list(book, gui::StimulatorId{"other", "", "V", true});
     EXPECT_TRUE(table->isHidden());
     EXPECT_THAT(history.findChild<QLabel*>("historyEmpty")->text().toStdString(), HasSubstr("never calibrated"));
+}
+
+class Trend : public Book {
+protected:
+    ~Trend() override { gui::applyTheme(gui::Theme::Light); }
+    void keep(int daysAgo, double gain, double offset, double u_pct, int validFor = 365) {
+        auto one = calibration(daysAgo, validFor);
+        one.amplitude = {{gain, offset, 10, 40}, u_pct};
+        store(one);
+    }
+    void list() {
+        book.read();
+        history.resize(1000, 560);
+        history.list(book, gui::StimulatorId{"SIM-1", "", "V", true});
+        history.show();
+        QCoreApplication::processEvents();
+    }
+    [[nodiscard]] std::string words(const char* label) {
+        return history.findChild<QLabel*>(label)->text().replace(QChar(0x202f), ' ').toStdString();
+    }
+    gui::CalibrationHistory history;
+};
+
+TEST_F(Trend, SaysWhatMovedAndWhenTheNextIsDue) {
+    RecordProperty("hazard", "H1");
+    keep(700, 1.0010, -0.02, 0.8);
+    keep(360, 1.0030, -0.03, 0.7);
+    list();
+    EXPECT_THAT(words("trendWarns"), HasSubstr("No change from one to the next is larger"));
+    EXPECT_THAT(words("trendSays"), HasSubstr("due on " + dateText(daysFromNow(5)) + ", in 5 day"));
+    keep(12, 1.0420, -0.05, 0.8);
+    list();
+    EXPECT_THAT(words("trendWarns"), HasSubstr("the gain moved by +3.9 %; both U together explain 1.1 %"));
+    EXPECT_THAT(words("trendWarns"), HasSubstr(dateText(daysFromNow(-12))));
+    EXPECT_THAT(words("trendWarns"), HasSubstr("Find the cause"));
+    auto* trend = history.findChild<gui::CalibrationTrendView*>();
+    EXPECT_EQ(trend->points().size(), 3U);
+    auto* quantity = history.findChild<QComboBox*>("trendQuantity");
+    EXPECT_EQ(quantity->count(), 4);
+    quantity->setCurrentIndex(2);
+    EXPECT_THAT(words("trendWarns"), HasSubstr("No change")) << "the widths did not move";
+    quantity->setCurrentIndex(0);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        QCoreApplication::processEvents();
+        shot(history, theme == gui::Theme::Dark ? "trend-dark" : "trend-light");
+        EXPECT_EQ(cutTexts(history).join(", ").toStdString(), "");
+    }
+    history.resize(1600, 800);
+    QCoreApplication::processEvents();
+    shot(history, "trend-wide");
+}
+
+TEST_F(Trend, OneIsNoTrendAndWhatIsOverdueSaysSo) {
+    RecordProperty("hazard", "H1");
+    keep(40, 1.001, -0.02, 0.8, 37);
+    list();
+    EXPECT_THAT(words("trendSays"), HasSubstr("was due on " + dateText(daysFromNow(-3)) + ", 3 day"));
+    EXPECT_THAT(words("trendWarns"), HasSubstr("One calibration so far"));
+    shot(history, "trend-overdue");
 }
 
 TEST_F(Book, TheCardTellsWhatItRestsOn) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
+#include "app/gui/calibrate/CalibrationReadings.h"
 #include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/calibrate/ToleranceCard.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
@@ -86,7 +88,10 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
     view.add(reading("width up", 40, 40));
     view.draw();
     EXPECT_EQ(view.quantityShown(), "Phase width");
-    view.findChild<QTabBar*>("quantities")->setCurrentIndex(0);
+    QTest::qWait(20);  // laid out
+    auto* amplitude = find<gui::ToleranceCard>(view, "Amplitude");
+    ASSERT_NE(amplitude, nullptr);
+    click(*amplitude);
     EXPECT_EQ(errors().drawnUp(), 15);
     view.add(reading("gap up", 40, 40));
     view.draw();
@@ -94,22 +99,28 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
 }
 
 TEST_F(View, OtherTrialsAreNone) {
-    EXPECT_FALSE(gui::CalibrationView::isReading({{"condition", "rough-high"}, {"amplitude_v", 30}}));
-    EXPECT_FALSE(gui::CalibrationView::isReading({{"condition", "amplitude up"}, {"commanded", 30}}));
-    EXPECT_TRUE(gui::CalibrationView::isReading(reading("gap down", 1, 1)));
+    EXPECT_EQ(gui::calibratedQuantity({{"condition", "rough-high"}, {"amplitude_v", 30}}), "");
+    EXPECT_EQ(gui::calibratedQuantity({{"condition", "amplitude up"}, {"commanded", 30}}), "");
+    EXPECT_EQ(gui::calibratedQuantity(reading("gap down", 1, 1)), "gap");
 }
 
 TEST_F(View, TheResultHasTheLastWord) {
     sweep();
     Json levels = Json::array();
     for (const double volts : {10.0, 25.0, 40.0})
-        levels.push_back({{"commanded", volts}, {"mean", 1.003 * volts}, {"expanded_uncertainty", 0.1}});
+        levels.push_back({{"commanded", volts},
+                          {"mean", 1.003 * volts},
+                          {"expanded_uncertainty", 0.1},
+                          {"worst_error", 0.003 * volts},
+                          {"worst_expanded_uncertainty", 0.07},
+                          {"tolerance", 0.02 * volts}});
     view.end(
         {{"amplitude",
           {{"unit", "V"},
            {"gain", 1.003},
            {"offset", 0.0},
            {"tolerance_pct", 2.0},
+           {"verdict", "pass"},
            {"levels", levels},
            {"readings",
             Json::array({{{"commanded", 10.0}, {"measured", 10.03}, {"direction", "up"}, {"outlier", true}},
@@ -117,6 +128,16 @@ TEST_F(View, TheResultHasTheLastWord) {
     EXPECT_EQ(errors().drawnMeans(), 3);
     EXPECT_EQ(errors().drawnUp(), 1);
     EXPECT_EQ(errors().drawnMarked(), 1);
+    // (0.03 + 0.07) of 0.2 V at 10 V; less of it at the others.
+    EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("50\u202f% used"));
+    EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("10\u202fV:"));
+    QTest::qWait(20);  // laid out
+    auto* card = find<gui::ToleranceCard>(view, "Amplitude");
+    ASSERT_NE(card, nullptr);
+    EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("50\u202f% of the tolerance used"));
+    EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("pass"));
+    QTest::qWait(20);
+    shot(view, "calibrate_view_result");
 }
 
 }  // namespace

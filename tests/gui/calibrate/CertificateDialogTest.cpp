@@ -5,7 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/calibrate/CertificateDialog.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 
 namespace tacto::test {
@@ -16,7 +17,7 @@ using testing::HasSubstr;
 class CertificateWindow : public testing::Test {
 protected:
     void showDialog() {
-        dialog = std::make_unique<gui::CertificateDialog>(desk, nullptr);
+        dialog = std::make_unique<gui::CertificateDialog>(controller, nullptr);
         dialog->show();
         ASSERT_TRUE(QTest::qWaitForWindowExposed(dialog.get()));
     }
@@ -40,7 +41,7 @@ protected:
     [[nodiscard]] static CertificateStore kept() { return CertificateStore::open(certificateFile()).value(); }
 
     OwnDataHome home;
-    gui::BenchDesk desk{simulatedRegistry};
+    gui::BenchController controller{simulatedRegistry};
     std::unique_ptr<gui::CertificateDialog> dialog;
 };
 
@@ -141,6 +142,7 @@ TEST_F(CertificateWindow, LooksRightInBothThemes) {
         writeAll("K-2026-19", -1, 364);
         shot(*dialog, theme == gui::Theme::Dark ? "certificates-dark" : "certificates-light");
         EXPECT_LE(dialog->width(), 1024);
+        EXPECT_EQ(faultsOf(*dialog), "");
     }
     gui::applyTheme(gui::Theme::Light);
 }

@@ -5,7 +5,7 @@
 
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TaxelMap.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/Person.h"
 
 namespace tacto::test {
@@ -84,12 +84,15 @@ protected:
     double t_s = 0;
 };
 
-TEST_F(Plots, FillFromTheLeftThenFollowTheNewest) {
+TEST_F(Plots, HaveTheNewestAtTheRight) {
     plots.setWindow(5);
     feel(2);
     draw();
-    EXPECT_NEAR(plots.shownTime().lower, 0, 0.05) << "no time before the bench began";
-    EXPECT_NEAR(plots.shownTime().upper, 5, 0.05);
+    EXPECT_NEAR(plots.shownTime().lower, -3, 0.05);
+    EXPECT_NEAR(plots.shownTime().upper, 2, 0.05);
+    const auto* axis = plots.axisRects().last()->axis(QCPAxis::atBottom);
+    EXPECT_EQ(axis->tickVectorLabels().last(), "0") << "ticks count back from now";
+    EXPECT_EQ(axis->tickVectorLabels().first().front(), QChar(0x2212));
     feel(8);
     draw();
     EXPECT_NEAR(plots.shownTime().upper, 8, 0.05);
@@ -176,6 +179,59 @@ TEST_F(Plots, AFrozenPictureStandsStillWhileTheHistoryGoesOn) {
     EXPECT_NEAR(plots.shownTime().upper, 80, 0.05);
 }
 
+TEST_F(Plots, AFaultIsALineInEveryLaneWithItsCauseInTheTrains) {
+    RecordProperty("hazard", "H2");
+    feel(5);
+    draw();
+    EXPECT_EQ(plots.faultSaid(), "");
+    Telemetry telemetry;
+    telemetry.state = InterlockState::Faulted;
+    telemetry.reason = "the stimulator is unplugged";
+    telemetry.at = toInstant(5.02);
+    history.take(tap, telemetry);
+    t_s = 5.02;
+    telemetry.at = toInstant(6);
+    history.take(tap, telemetry);
+    draw();
+    EXPECT_EQ(plots.faultSaid(), "the stimulator is unplugged");
+    const auto image = plots.grab().toImage();
+    shot(plots, "strips-fault");
+    for (auto* axes : plots.axisRects()) {
+        if (!axes->visible()) continue;
+        const int x = int(std::lround(axes->axis(QCPAxis::atBottom)->coordToPixel(5.02)));
+        int red = 0;
+        for (int y = axes->top(); y < axes->bottom(); ++y) {
+            for (int beside = x - 1; beside <= x + 1; ++beside) {
+                if (image.pixelColor(beside, y) != gui::colours().fault) continue;
+                ++red;
+                break;
+            }
+        }
+        EXPECT_GT(red, axes->height() / 2) << "at the instant it came, not later";
+    }
+    history.begin(kPlotted);
+    EXPECT_FALSE(history.fault()) << "another bench";
+}
+
+TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {
+    feel(2);
+    for (const int height : {1000, 700, 420, 330}) {
+        plots.resize(900, height);
+        draw();
+        draw();
+        for (auto* axes : plots.axisRects()) {
+            const auto* axis = axes->axis(QCPAxis::atLeft);
+            if (!axis->tickLabels()) continue;  // not even one has room
+            const auto ticks = axis->tickVector();
+            const int line = QFontMetrics(axis->tickLabelFont()).height();
+            for (int i = 1; i < ticks.size(); ++i) {
+                EXPECT_GE(axis->coordToPixel(ticks[i - 1]) - axis->coordToPixel(ticks[i]), line) << height;
+            }
+        }
+    }
+    shot(plots, "strips-low");
+}
+
 TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
     history.begin({kPlotted[2]});
     plots.begin(false, true, "mA");
@@ -184,7 +240,7 @@ TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
     EXPECT_TRUE(plots.has(StreamKind::Taxels));
     draw();
     EXPECT_LE(plots.axisRects().first()->outerRect().height(), 8);
-    EXPECT_GT(plots.axisRects().at(2)->height(), 150) << "the others have its place";
+    EXPECT_GT(plots.axisRects().at(2)->height(), 100) << "the others have its place";
 }
 
 TEST(TaxelMap, ChoosesASensibleGrid) {

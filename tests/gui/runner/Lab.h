@@ -1,5 +1,5 @@
-// Lab.h - a laboratory for tests: a folder for protocols of its own, a desk on the simulated bench, a workspace that
-// is refreshed as the window does it.
+// Lab.h - a laboratory for tests: a folder for protocols of its own, a controller on the simulated bench, a workspace
+// that is refreshed as the window does it.
 #pragma once
 
 #include <QTest>
@@ -10,7 +10,9 @@
 
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/runner/ScriptEditor.h"
+#include "app/gui/runner/StepButton.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 
@@ -18,10 +20,10 @@ class Lab : public testing::Test {
 protected:
     Lab() {
         std::filesystem::remove_all(userProtocolsFolder());
-        QObject::connect(&desk, &gui::BenchDesk::finished,
+        QObject::connect(&controller, &gui::BenchController::finished,
                          [this](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
         QObject::connect(&frame, &QTimer::timeout, [this] {
-            if (workspace) workspace->refresh(desk.telemetry());
+            if (workspace) workspace->refresh(controller.telemetry());
         });
         frame.start(33);
     }
@@ -34,10 +36,10 @@ protected:
 
     /// Shows the workspace; waits until it can run.
     void open(const QString& protocol, QSize size = {1300, 820}) {
-        workspace = std::make_unique<gui::ProtocolWorkspace>(desk, protocol);
+        workspace = std::make_unique<gui::ProtocolWorkspace>(controller, protocol);
         workspace->resize(size);
         workspace->show();
-        ASSERT_TRUE(comesTrue([this] { return find<QPushButton>(*workspace, "runButton") != nullptr; }));
+        ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "runButton") != nullptr; }));
     }
     template <class T>
     T& the(const QString& name) {
@@ -56,7 +58,14 @@ protected:
         ASSERT_GE(index, 0) << protocol.toStdString();
         chooser.setCurrentIndex(index);
     }
+    /// Into a field, on the page of whichever step has it.
     void type(const QString& field, const QString& text) {
+        const auto seen = [&] { return find<QLineEdit>(*workspace, field) != nullptr; };
+        constexpr int kLaidOut_ms = 100;
+        for (const auto step : {gui::kSettings, gui::kReference, gui::kWiring, gui::kSign}) {
+            if (comesTrue(seen, kLaidOut_ms)) break;
+            workspace->goTo(step);
+        }
         auto& line = the<QLineEdit>(field);
         line.setFocus();
         line.selectAll();
@@ -67,12 +76,23 @@ protected:
                comesTrue([this] { return !says("verdict").isEmpty(); });
     }
     gui::ScriptEditor* editor() { return find<gui::ScriptEditor>(*workspace, "scriptEditor"); }
+    /// A step of the path, as it stands there.
+    gui::StepButton& step(const QString& name) { return the<gui::StepButton>(name); }
+    /// Filled buttons that are in sight.
+    std::vector<QString> primaries() {
+        std::vector<QString> found;
+        for (const auto* button : workspace->findChildren<QPushButton*>()) {
+            if (button->isVisible() && button->property("role") == "primary")
+                found.push_back(QString(button->text()).remove('&'));
+        }
+        return found;
+    }
     QString says(const QString& name) {
         const auto* label = find<QLabel>(*workspace, name);
         return label != nullptr ? label->text() : QString();
     }
 
-    gui::BenchDesk desk{simulatedRegistry};
+    gui::BenchController controller{simulatedRegistry};
     std::unique_ptr<gui::ProtocolWorkspace> workspace;
     std::shared_ptr<const gui::FinishedRun> ended;
     QTimer frame;

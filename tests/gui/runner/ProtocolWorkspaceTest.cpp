@@ -1,12 +1,17 @@
 // The workspace of a protocol, used as a person does: from a click to a report.
+#include <QCalendarWidget>
+#include <QFileDialog>
+#include <QMenu>
 #include <QPdfDocument>
 #include <QPdfView>
-#include <QTabWidget>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Look.h"
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/runner/Lab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -40,24 +45,37 @@ function run(p) {
 TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     open("separability");
     ASSERT_TRUE(ready());
-    type("repeats", "2");
     type("operator", "A. Lind");
-    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("into 1"); }));
+    type("repeats", "2");
+    ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("into 1"); }));
     shot(*workspace, "before");
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("INDETERMINATE"));
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("fewer than 73 trials"));
     EXPECT_EQ(the<gui::TrialPlane>("Trials").drawn(), 8);
+    shot(*workspace, "result");
+    click(the<QPushButton>("Tables"));
     EXPECT_EQ(the<QTableWidget>("Conditions").rowCount(), 4);
     EXPECT_EQ(the<QTableWidget>("Pairs").rowCount(), 6);
-    auto& toReport = the<QPushButton>("Open the report");
-    ASSERT_TRUE(comesTrue([&] { return toReport.isEnabled(); }, 60'000));
-    shot(*workspace, "result");
-    click(toReport);
+    shot(*workspace, "tables");
+    click(the<QPushButton>("Sign report…"));
+    EXPECT_TRUE(step("Sign").isChecked());
+    ASSERT_IN_TIME(comesTrue([this] { return find<QPdfView>(*workspace, "reportView") != nullptr; }, 60'000));
+    EXPECT_TRUE(the<QPushButton>("printReport").isEnabled());
     EXPECT_GT(std::filesystem::file_size(ended->pdf), 10'000U);
-    EXPECT_GE(the<QPdfView>("reportView").document()->pageCount(), 1);
-    ASSERT_TRUE(comesTrue([this] { return std::filesystem::exists(ended->html); }, 60'000));
+    auto& view = the<QPdfView>("reportView");
+    EXPECT_GE(view.document()->pageCount(), 1);
+    EXPECT_EQ(view.zoomMode(), QPdfView::ZoomMode::FitToWidth);
+    click(the<QPushButton>("reportLarger"));
+    const double larger = view.zoomFactor();
+    EXPECT_EQ(view.zoomMode(), QPdfView::ZoomMode::Custom);
+    click(the<QPushButton>("reportSmaller"));
+    EXPECT_NEAR(view.zoomFactor(), larger / 1.25, 1e-9);
+    EXPECT_LE(view.horizontalScrollBar()->maximum(), 2) << "what filled the width still does";
+    click(the<QPushButton>("reportWidth"));
+    EXPECT_EQ(view.zoomMode(), QPdfView::ZoomMode::FitToWidth);
+    ASSERT_IN_TIME(comesTrue([this] { return std::filesystem::exists(ended->html); }, 60'000));
     QFile written(QString::fromStdString(ended->html.string()));
     ASSERT_TRUE(written.open(QIODevice::ReadOnly));
     EXPECT_TRUE(written.readAll().contains("A. Lind"));
@@ -69,7 +87,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
         }
         return dark > 100;
     };
-    EXPECT_TRUE(comesTrue(inkOnPaper, 30'000)) << "the page is drawn, not only opened";
+    EXPECT_IN_TIME(comesTrue(inkOnPaper, 30'000)) << "the page is drawn, not only opened";
     shot(*workspace, "report");
 }
 
@@ -82,21 +100,25 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
     EXPECT_FALSE(workspace->running());
     auto& run = the<QPushButton>("runButton");
-    EXPECT_TRUE(comesTrue([&] { return !run.isEnabled(); }));
-    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("allows"));
+    EXPECT_IN_TIME(comesTrue([&] { return !run.isEnabled(); }));
+    EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("less than 10\u202fmA is allowed"));
     EXPECT_THAT(says("runObstacle").toStdString(), HasSubstr("Nothing is put out."));
     EXPECT_EQ(run.toolTip().toStdString(), says("runObstacle").mid(2).toStdString());
     EXPECT_FALSE(workspace->ready());
+    int wanted = 0;
+    QObject::connect(workspace.get(), &gui::ProtocolWorkspace::profileChangeWanted, [&] { ++wanted; });
+    click(the<QPushButton>("changeProfile"));
+    EXPECT_EQ(wanted, 1);
     shot(*workspace, "cannot_run");
     type("load", "1000");
     EXPECT_TRUE(ready());
     EXPECT_EQ(says("runObstacle"), "");
+    EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr);
 }
 
 TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {
     open("");
-    for (const char* name :
-         {"encoding-comparison", "live", "load-safety", "separability", "stimulator-calibration", "transitions"}) {
+    for (const char* name : {"encoding-comparison", "live", "separability", "stimulator-calibration", "transitions"}) {
         choose(name);
         EXPECT_TRUE(ready()) << name;
         QTest::qWait(200);  // judged a moment after it is shown
@@ -111,35 +133,30 @@ TEST_F(Workspace, LooksRightDarkAndSmall) {
     ASSERT_TRUE(ready());
     type("repeats", "2");
     type("load", "0");
-    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("accepted"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("accepted"); }));
     shot(*workspace, "small_dark_before");
     type("load", "470");
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
+    EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
     shot(*workspace, "small_dark_result");
-    for (const auto* widget : workspace->findChildren<QWidget*>()) {
-        if (!widget->isVisible() || widget->window() != workspace.get()) continue;
-        if (const auto* button = qobject_cast<const QPushButton*>(widget)) {
-            EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text().remove('&')))
-                << "cut: " << button->text().toStdString();
-        }
-    }
+    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Workspace, RefusesAWrongSettingInPlaceAndRunsNothing) {
     open("separability");
     ASSERT_TRUE(ready());
     type("repeats", "1");
-    ASSERT_TRUE(comesTrue([this] { return !says("trouble-repeats").isEmpty(); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !says("trouble-repeats").isEmpty(); }));
     EXPECT_THAT(says("trouble-repeats").toStdString(), HasSubstr("2"));
     click(the<QPushButton>("runButton"));
     EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("a whole number from 2 to 500"));
     EXPECT_FALSE(workspace->running());
-    EXPECT_EQ(desk.activity(), gui::Activity::Closed);
+    EXPECT_EQ(controller.activity(), gui::Activity::Closed);
     type("repeats", "2");
-    EXPECT_TRUE(comesTrue([this] { return find<QLabel>(*workspace, "trouble-repeats") == nullptr; }));
+    EXPECT_IN_TIME(comesTrue([this] { return find<QLabel>(*workspace, "trouble-repeats") == nullptr; }));
     type("devices", "nonsense");
-    EXPECT_TRUE(comesTrue([this] { return !says("devicesTrouble").isEmpty(); }));
+    EXPECT_IN_TIME(comesTrue([this] { return !says("devicesTrouble").isEmpty(); }));
     click(the<QPushButton>("runButton"));
     EXPECT_FALSE(workspace->running());
 }
@@ -151,10 +168,10 @@ TEST_F(Workspace, ShowsTheWorstCaseOfTheDeclaredLoad) {
         comesTrue([this] { return says("worstCase").contains("1 kΩ") || says("worstCase").contains("1\u202fkΩ"); }));
     EXPECT_THAT(says("worstCase").toStdString(), HasSubstr("Every limit that can be evaluated is kept"));
     type("load", "10");
-    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("will be refused"); }))
+    ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("will be refused"); }))
         << says("worstCase").toStdString();
     type("load", "lots");
-    ASSERT_TRUE(comesTrue([this] { return says("worstCase").contains("when every setting is accepted"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("worstCase").contains("when every setting is accepted"); }));
 }
 
 TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
@@ -162,15 +179,15 @@ TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
     open("");
     choose("ask");
     ASSERT_TRUE(ready());
-    gui::ProtocolWorkspace other(desk, "separability");
+    gui::ProtocolWorkspace other(controller, "separability");
     other.show();
     QTest::keyClick(workspace.get(), Qt::Key_F5);
-    ASSERT_TRUE(comesTrue([this] { return says("question") == "Is the room quiet?"; }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("question") == "Is the room quiet?"; }));
     EXPECT_EQ(find<QLabel>(other, "question"), nullptr) << "only where the run was started";
     EXPECT_FALSE(the<QLabel>("drawing").pixmap().isNull());
     shot(*workspace, "drawing");
     click(the<QPushButton>("Done"));
-    ASSERT_TRUE(comesTrue([this] { return says("question") == "Room temperature"; }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("question") == "Room temperature"; }));
     type("answer", "99");
     shot(*workspace, "question");
     QTest::keyClick(&the<QLineEdit>("answer"), Qt::Key_Return);
@@ -178,7 +195,7 @@ TEST_F(Workspace, PutsQuestionsInPlaceAndRefusesAnAnswerThatDoesNotFit) {
     EXPECT_FALSE(ended);
     type("answer", "21.5");
     click(the<QPushButton>("Enter"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_FALSE(ended->result.outcome.error);
     EXPECT_THAT(ended->result.outcome.log, testing::Contains("got 21.5"));
     EXPECT_EQ(find<QLabel>(*workspace, "question"), nullptr);
@@ -191,7 +208,7 @@ TEST_F(Workspace, ARefusedQuestionEndsTheRun) {
     ASSERT_TRUE(ready());
     click(the<QPushButton>("runButton"));
     click(the<QPushButton>("Refuse and end the run"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_TRUE(ended->result.outcome.error);
     EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
 }
@@ -203,13 +220,14 @@ TEST_F(Workspace, StopsAScriptThatLoopsForEver) {
     choose("loop");
     ASSERT_TRUE(ready());
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; }));
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
-    desk.stop("operator");
-    EXPECT_NE(desk.telemetry().state, InterlockState::Armed) << "before it returned";
-    ASSERT_TRUE(ends());
+    controller.stop("operator");
+    EXPECT_NE(controller.telemetry().state, InterlockState::Armed) << "before it returned";
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("STOPPED"));
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("Output is off"));
+    EXPECT_EQ((says("verdictWhy") + says("verdictMore")).count("loop.js"), 1) << "said once";
     EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
 }
 
@@ -219,10 +237,10 @@ TEST_F(Workspace, AScriptErrorNamesItsLineAndTheEditorMarksIt) {
     choose("broken");
     ASSERT_TRUE(ready());
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("broken.js:4:"));
     click(the<QPushButton>("toScript"));
-    ASSERT_TRUE(comesTrue([this] { return editor() != nullptr; }));
+    ASSERT_IN_TIME(comesTrue([this] { return editor() != nullptr; }));
     EXPECT_EQ(editor()->code().marked(), 4);
     shot(*editor(), "editor_error");
 }
@@ -231,11 +249,11 @@ TEST_F(Workspace, AScriptThatCannotBeReadSaysWhereAndLeadsThere) {
     write("unreadable", "protocol({ title: 'U', purpose: 'u', needs: [], parameters: {} });\n\nfunction run(,) {}\n");
     open("");
     choose("unreadable");
-    ASSERT_TRUE(comesTrue([this] { return says("runTrouble").contains("unreadable.js:3"); }))
+    ASSERT_IN_TIME(comesTrue([this] { return says("runTrouble").contains("unreadable.js:3"); }))
         << says("runTrouble").toStdString();
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
     click(the<QPushButton>("toLine"));
-    ASSERT_TRUE(comesTrue([this] { return editor() != nullptr; }));
+    ASSERT_IN_TIME(comesTrue([this] { return editor() != nullptr; }));
     EXPECT_EQ(editor()->code().marked(), 3);
     editor()->showError(99, "an error behind the end, as engines report a missing brace");
     EXPECT_EQ(editor()->code().marked(), 4) << "the last line there is";
@@ -247,15 +265,17 @@ TEST_F(Workspace, AFolderThatCannotBeWrittenGivesASentenceAndLeavesTheWindowAliv
     type("repeats", "2");
     type("out", "/proc/nothing/here");
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("/proc/nothing/here"));
     EXPECT_THAT(says("runTrouble").toStdString(), HasSubstr("Output is off"));
     EXPECT_TRUE(the<QPushButton>("runButton").isEnabled());
     ended.reset();
+    workspace->goTo(gui::kWiring);
     auto& out = the<QLineEdit>("out");
     out.clear();
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(comesTrue([this] { return says("verdict").contains("INDETERMINATE"); }, 60'000)) << "the next run runs";
+    ASSERT_IN_TIME(comesTrue([this] { return says("verdict").contains("INDETERMINATE"); }, 60'000))
+        << "the next run runs";
 }
 
 TEST_F(Workspace, InRealTimeItPausesAndResumes) {
@@ -269,21 +289,93 @@ function run(p) {
     open("");
     choose("steps");
     ASSERT_TRUE(ready());
+    workspace->goTo(gui::kWiring);
     auto& realtime = the<QCheckBox>("realtime");
     QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, not its row
     ASSERT_TRUE(realtime.isChecked());
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().trainsDelivered > 0 || ended; }));
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0 || ended; }));
     ASSERT_FALSE(ended) << says("verdictWhy").toStdString();
-    ASSERT_TRUE(comesTrue([this] {
+    ASSERT_IN_TIME(comesTrue([this] {
         return says("timeLeft").contains("left") && !says("timeLeft").contains("not known");
     })) << says("timeLeft").toStdString();
     click(the<QPushButton>("pauseButton"));
-    ASSERT_TRUE(comesTrue([this] { return says("timeLeft") == "paused"; }));
-    ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Paused; }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("timeLeft") == "paused"; }));
+    ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Paused; }));
     click(the<QPushButton>("pauseButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
+}
+
+TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
+    open("separability");
+    ASSERT_TRUE(ready());
+    EXPECT_FALSE(step("Result").isEnabled());
+    EXPECT_THAT(step("Result").toolTip().toStdString(), HasSubstr("press Run"));
+    EXPECT_EQ(step("Settings").state(), gui::StepList::State::UnderWay);
+    EXPECT_EQ(find<gui::StepButton>(*workspace, "Known reference"), nullptr) << "it reads none";
+    EXPECT_THAT(primaries(), testing::ElementsAre("Run"));
+    type("repeats", "2");
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    EXPECT_TRUE(step("Result").isChecked());
+    EXPECT_EQ(step("Run").state(), gui::StepList::State::Done);
+    click(step("Settings"));
+    EXPECT_EQ(the<QLineEdit>("repeats").text(), "2");
+    EXPECT_EQ(find<QLabel>(*workspace, "verdict"), nullptr);
+    click(step("Run"));
+    EXPECT_TRUE(the<gui::TrialPlane>("Trials").isVisible());
+    click(step("Wiring"));
+    EXPECT_EQ(the<QLineEdit>("devices").text(), "sim:");
+    click(step("Result"));
+    EXPECT_THAT(says("verdict").toStdString(), HasSubstr("INDETERMINATE"));
+    EXPECT_THAT(primaries(), testing::ElementsAre("Change settings"));
+}
+
+TEST_F(Workspace, WhatComesNextIsAButtonThatDoesIt) {
+    open("separability");
+    ASSERT_TRUE(ready());
+    type("repeats", "2");
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    QString session;
+    QObject::connect(workspace.get(), &gui::ProtocolWorkspace::sessionWanted,
+                     [&](const QString& path) { session = path; });
+    click(the<QPushButton>("Open session"));
+    EXPECT_EQ(session.toStdString(), ended->result.session.string());
+    click(the<QPushButton>("Change settings"));
+    EXPECT_TRUE(step("Settings").isChecked());
+}
+
+TEST_F(Workspace, DaysComeFromACalendarAndFilesFromADialog) {
+    write("kinds", R"js(protocol({ title: "K", purpose: "Takes a day and a file.", needs: [], parameters: {
+  due: { label: "Due", type: "date", value: "" },
+  table: { label: "Table", type: "file", value: "" },
+} });
+function run(p) { log(p.due + " " + p.table); }
+)js");
+    open("");
+    choose("kinds");
+    ASSERT_TRUE(ready());
+    auto& due = the<QLineEdit>("due");
+    type("due", "2027-02-30");
+    ASSERT_IN_TIME(comesTrue([this] { return says("trouble-due").contains("a day such as 2027-03-01"); }));
+    type("due", "2027-03-01");
+    EXPECT_EQ(says("trouble-due"), "");
+    auto* menu = the<QToolButton>("calendar-due").menu();
+    emit menu->aboutToShow();
+    auto* calendar = menu->findChild<QCalendarWidget*>();
+    ASSERT_NE(calendar, nullptr);
+    EXPECT_EQ(calendar->selectedDate(), QDate(2027, 3, 1));
+    emit calendar->clicked(QDate(2027, 5, 6));
+    EXPECT_EQ(due.text(), "2027-05-06");
+    click(the<QToolButton>("choose-table"));
+    auto* dialog = workspace->findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    EXPECT_FALSE(dialog->isModal());
+    emit dialog->fileSelected("/lab/table.csv");
+    EXPECT_EQ(the<QLineEdit>("table").text(), "/lab/table.csv");
+    dialog->close();
 }
 
 TEST_F(Workspace, ResultsOfAnyShapeAreNoReasonToEnd) {
@@ -298,7 +390,7 @@ function run(p) {
     choose("shapes");
     ASSERT_TRUE(ready());
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));
 }
 

@@ -1,14 +1,16 @@
-// Parts of the runner by themselves: time left, devices as text, values as cells, reports by a child process.
+// Parts of the runner by themselves: time left, devices as text, columns of tables, reports by a child process.
 #include <QElapsedTimer>
 #include <QTemporaryDir>
 #include <gmock/gmock.h>
 
+#include "app/gui/runner/ParameterForm.h"
 #include "app/gui/runner/ReportMaker.h"
-#include "app/gui/runner/ResultTables.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstCase.h"
+#include "app/gui/theme/RecordTable.h"
 #include "tests/gui/runner/Lab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -53,13 +55,70 @@ TEST(DevicesOf, AllowsBlanksInAFolder) {
     EXPECT_FALSE(gui::devicesOf("nonsense"));
 }
 
-TEST(ShownValue, KnowsStatisticsSharesAndUnits) {
-    EXPECT_EQ(gui::shownValue(nlohmann::json(), "x"), "–");
-    EXPECT_EQ(gui::shownValue(true, "x"), "yes");
-    EXPECT_THAT(gui::shownValue({{"value", 0.99}, {"low", 0.946}, {"high", 0.998}}, "accuracy").toStdString(),
-                HasSubstr("94.6"));
-    EXPECT_THAT(gui::shownValue({{"mean", 40.12}, {"sd", 0.46}, {"n", 25}}, "amplitude_v").toStdString(),
-                HasSubstr("40.12 ± 0.46"));
+using gui::columnText;
+using gui::RecordColumn;
+using As = RecordColumn::As;
+using Json = nlohmann::json;
+
+/// The form shows less of it than the script wrote, and what it shows reads as another value.
+TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) {
+    RecordProperty("hazard", "H9");
+    ProtocolDeclaration declaration;
+    ProtocolParameter area;
+    area.name = area.label = "area";
+    area.value = 4.00000000001;
+    ProtocolParameter file;
+    file.name = file.label = "file";
+    file.type = ParameterType::File;
+    file.value = "/some/path ";
+    declaration.parameters = {area, file};
+    gui::ParameterForm form;
+    form.show(declaration);
+    const auto untouched = form.read().value();
+    EXPECT_TRUE(untouched.given.empty());
+    EXPECT_EQ(untouched.parameters.at("area"), area.value);
+    EXPECT_EQ(untouched.parameters.at("file"), file.value);
+    form.set("area", "5");
+    form.set("file", "/another");
+    const auto chosen = form.read().value();
+    EXPECT_EQ(chosen.given, (std::set<std::string>{"area", "file"}));
+    EXPECT_EQ(chosen.parameters.at("area"), 5);
+}
+
+TEST(RecordTable, PutsTheUnitIntoTheHeaderWithAPrefixThatSuitsAllRows) {
+    const Json rows = {{{"width_s", 100.2e-6}, {"u", 0.4e-6}}, {{"width_s", 400e-6}, {"u", 0.4e-6}}};
+    const auto text = columnText({"Width", "width_s", As::Number, "s", "u"}, rows);
+    EXPECT_EQ(text.header, "Width\n(µs)");
+    EXPECT_EQ(text.cells, (QStringList{"100.20 ± 0.40", "400.00 ± 0.40"}));
+    EXPECT_TRUE(text.right);
+}
+
+TEST(RecordTable, GivesNumbersThatAreFarApartAPrefixEach) {
+    const Json rows = {{{"ohm", 100}}, {{"ohm", 1e6}}};
+    const auto text = columnText({"Load", "ohm", As::Number, "ohm"}, rows);
+    EXPECT_EQ(text.header, "Load");
+    EXPECT_THAT(text.cells[0].toStdString(), HasSubstr("Ω"));
+    EXPECT_THAT(text.cells[1].toStdString(), HasSubstr("MΩ"));
+}
+
+TEST(RecordTable, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
+    RecordProperty("hazard", "H9");
+    const Json rows = {{{"v", {{"mean", 40.12}, {"sd", 0.46}}},
+                        {"share", {{"value", 0.99}, {"low", 0.946}, {"high", 0.998}}},
+                        {"verdict", "not evaluated"},
+                        {"load", "200 ohm + 10 kohm || 50 nF"},
+                        {"set", "fda-pms"},
+                        {"flag", true}}};
+    const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
+    EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
+    EXPECT_THAT(cell({"S", "share", As::Share}), HasSubstr("94.6"));
+    EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
+    EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
+    EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
+    EXPECT_EQ(cell({"F", "flag", As::YesNo}), "yes");
+    for (const auto as : {As::Number, As::Share, As::Verdict, As::Text}) EXPECT_EQ(cell({"M", "a.b", as}), "–");
+    const auto unknown = columnText({"V", "value", As::Number, "V", "u"}, Json{{{"value", 1.5}, {"u", nullptr}}});
+    EXPECT_THAT(unknown.cells.first().toStdString(), HasSubstr("U unknown"));
 }
 
 TEST(WorstCase, NamesTheLimitThatIsBrokenAndIsQuickEnoughForTheWindow) {
@@ -82,7 +141,7 @@ TEST(ReportMaker, TellsWhyThereIsNoReport) {
     QObject::connect(&maker, &gui::ReportMaker::failed, [&](const QString& said) { why = said; });
     maker.make("/nowhere/at/all.tacto", "/tmp/never.pdf");
     EXPECT_TRUE(maker.busy());
-    ASSERT_TRUE(comesTrue([&] { return !why.isEmpty(); }, 30'000));
+    ASSERT_IN_TIME(comesTrue([&] { return !why.isEmpty(); }, 30'000));
     EXPECT_THAT(why.toStdString(), HasSubstr("/nowhere/at/all.tacto"));
     EXPECT_FALSE(maker.busy());
 }

@@ -1,9 +1,12 @@
-// The safety check in its workspace: loads as rows that turn to verdicts, from a click to a report.
+// The safety check in its workspace: the electrode's area first, loads as rows that turn to verdicts, limits x loads.
+#include <QHeaderView>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/runner/Lab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -16,35 +19,80 @@ protected:
     std::string verdictOf(const char* load) { return the<gui::LoadRows>("loadRows").verdictOf(load).toStdString(); }
 };
 
-TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdicts) {
-    open("load-safety");
-    ASSERT_TRUE(ready());
-    EXPECT_EQ(the<gui::LoadRows>("loadRows").rowCount(), 9);
-    EXPECT_THAT(verdictOf("500 ohm"), HasSubstr("to do"));
+TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
+    open("load-safety", {1150, 600});
     type("area", "3");
     type("steps", "2");
+    ASSERT_TRUE(ready());
     shot(*workspace, "safety_before");
     click(the<QPushButton>("runButton"));
-    ASSERT_TRUE(ends());
+    EXPECT_EQ(the<gui::LoadRows>("loadRows").rowCount(), 9);
+    ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));
+    click(step("Run"));
     for (const char* load : {"100 ohm", "500 ohm", "100 kohm", "open", "short", "200 ohm + 10 kohm || 50 nF"})
         EXPECT_THAT(verdictOf(load), HasSubstr("pass")) << load;
+    click(step("Result"));
+    auto& matrix = the<gui::LimitMatrixView>("limitMatrix");
+    EXPECT_EQ(find<gui::LoadRows>(*workspace, "loadRows"), nullptr);
+    EXPECT_GE(matrix.rowCount(), 10);
+    EXPECT_GE(matrix.columnCount(), 9);
+    EXPECT_GE(matrix.height(), 300);
+    EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
+    int judged = 0;
+    for (int row = 0; row < matrix.rowCount(); ++row) {
+        for (int column = 1; column < matrix.columnCount(); ++column) {
+            const auto* cell = matrix.item(row, column);
+            ASSERT_NE(cell, nullptr);
+            EXPECT_FALSE(cell->text().isEmpty());
+            EXPECT_FALSE(cell->toolTip().contains('_')) << cell->toolTip().toStdString();
+            judged += cell->text().startsWith("✔") ? 1 : 0;
+        }
+    }
+    EXPECT_GT(judged, 50);
+    EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
+    gui::applyTheme(gui::Theme::Dark);
+    QTest::qWait(50);
+    shot(*workspace, "safety_result_dark");
+    int live = 0;
+    QObject::connect(workspace.get(), &gui::ProtocolWorkspace::liveWanted, [&] { ++live; });
+    click(the<QPushButton>("Go to Live"));
+    EXPECT_EQ(live, 1);
 }
 
-TEST_F(SafetyCheck, WithoutAnElectrodeAreaNoLoadReadsPassed) {
+TEST_F(SafetyCheck, AsksForTheElectrodeAreaFirst) {
     RecordProperty("hazard", "H9");
     gui::applyTheme(gui::Theme::Dark);
     open("load-safety", {760, 500});
+    ASSERT_IN_TIME(comesTrue([this] { return !says("trouble-area").isEmpty(); }));
+    EXPECT_THAT(says("trouble-area").toStdString(), HasSubstr("the check ends indeterminate"));
+    auto& area = the<QLineEdit>("area");
+    for (const auto* other : workspace->findChildren<QLineEdit*>()) {
+        if (!other->isVisible() || other == &area) continue;
+        EXPECT_LT(area.mapTo(workspace.get(), QPoint()).y(), other->mapTo(workspace.get(), QPoint()).y());
+    }
+    EXPECT_EQ(step("Settings").state(), gui::StepList::State::Troubled);
+    ASSERT_IN_TIME(comesTrue([this] { return says("runObstacle").contains("Smallest electrode"); }));
+    EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr) << "the profile is not in the way";
+    EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
+    shot(*workspace, "safety_area_dark");
+    click(step("Wiring"));
+    QTest::keyClick(workspace.get(), Qt::Key_F5);
+    EXPECT_FALSE(workspace->running());
+    EXPECT_TRUE(step("Settings").isChecked()) << "there it is asked";
+    type("area", "4");
     ASSERT_TRUE(ready());
-    type("steps", "2");
-    QTest::keyClick(&the<QLineEdit>("steps"), Qt::Key_F5);
-    ASSERT_TRUE(ends());
-    EXPECT_THAT(says("verdict").toStdString(), HasSubstr("INDETERMINATE"));
-    EXPECT_THAT(says("verdictWhy").toStdString(), HasSubstr("the electrode's area is not known"));
-    EXPECT_EQ(verdictOf("500 ohm"), "○ not evaluated");
-    EXPECT_THAT(verdictOf("open"), HasSubstr("pass"));
-    shot(*workspace, "safety_small_dark");
+    EXPECT_EQ(says("runObstacle"), "");
+}
+
+TEST_F(SafetyCheck, TheProfilesAreaIsAnAnswer) {
+    RecordProperty("hazard", "H9");
+    auto profile = controller.profile();
+    profile.electrodeArea = SquareCentimetres(4);
+    controller.setProfile(profile);
+    open("load-safety");
+    EXPECT_TRUE(ready());
 }
 
 TEST_F(SafetyCheck, AStoppedRunLeavesNoRowUndecided) {
@@ -53,8 +101,7 @@ TEST_F(SafetyCheck, AStoppedRunLeavesNoRowUndecided) {
     rows.add({{"load", "500 ohm"}, {"impedance_ohm", 499.5}, {"peak_ma", 80.0}});
     EXPECT_THAT(rows.verdictOf("500 ohm").toStdString(), HasSubstr("being measured"));
     rows.end(nullptr);
-    for (int row = 0; row < rows.rowCount(); ++row)
-        EXPECT_EQ(rows.verdictOf(rows.item(row, 0)->text()), "○ not evaluated");
+    for (int row = 0; row < rows.rowCount(); ++row) EXPECT_EQ(rows.item(row, 1)->text(), "○ not evaluated");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/gui/runner/Lab.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -21,6 +22,7 @@ protected:
         if (found == nullptr) throw std::runtime_error("the editor shows no " + name.toStdString());
         return *found;
     }
+    QString says(const char* label) { return in<QLabel>(label).text(); }
     QString message() { return in<QLabel>("scriptMessage").text(); }
     static void replaceText(gui::ScriptEditor& editor, const QString& text) {
         editor.code().setFocus();
@@ -38,7 +40,7 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     click(the<QPushButton>("New…"));
     shot(opened(), "editor");
     click(in<QPushButton>("Check"));
-    ASSERT_TRUE(comesTrue([this] { return message().contains("reads well"); })) << message().toStdString();
+    ASSERT_IN_TIME(comesTrue([this] { return message().contains("reads well"); })) << message().toStdString();
     click(in<QPushButton>("Run…"));
     auto& name = in<QLineEdit>("protocolName");
     name.selectAll();
@@ -51,10 +53,10 @@ TEST_F(Editor, WritesANewProtocolFromTheTemplateAndOffersItToRun) {
     EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "bend.js"));
     EXPECT_EQ(the<QComboBox>("chooser").currentData().toString(), "bend");
     ASSERT_TRUE(ready());
-    ASSERT_TRUE(comesTrue(
+    ASSERT_IN_TIME(comesTrue(
         [this] { return workspace->isActiveWindow() && workspace->isAncestorOf(QApplication::focusWidget()); }));
     QTest::keyClick(workspace.get(), Qt::Key_F5);
-    ASSERT_TRUE(ends());
+    ASSERT_IN_TIME(ends());
     EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
 }
 
@@ -63,10 +65,10 @@ TEST_F(Editor, MarksTheLineOfAnErrorWhileSomebodyTypes) {
     ASSERT_TRUE(ready());
     click(the<QPushButton>("New…"));
     replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) { (\n");
-    ASSERT_TRUE(comesTrue([this] { return opened().code().marked() > 1; }));
+    ASSERT_IN_TIME(comesTrue([this] { return opened().code().marked() > 1; }));
     EXPECT_THAT(message().toStdString(), HasSubstr("SyntaxError"));
     replaceText(opened(), "protocol({ title: 'T', purpose: 'P', needs: [], parameters: {} });\nfunction run(p) {}\n");
-    ASSERT_TRUE(comesTrue([this] { return opened().code().marked() == 0; }));
+    ASSERT_IN_TIME(comesTrue([this] { return opened().code().marked() == 0; }));
 }
 
 TEST_F(Editor, AShippedProtocolIsReadOnlyAndSavesAsACopy) {
@@ -95,7 +97,39 @@ TEST_F(Editor, AsksBeforeItLosesAnything) {
     EXPECT_THAT(opened().code().toPlainText().toStdString(), HasSubstr("// mine"));
     click(in<QPushButton>("Close"));
     click(in<QPushButton>("Discard the changes"));
-    EXPECT_TRUE(comesTrue([this] { return editor() == nullptr; }));
+    EXPECT_IN_TIME(comesTrue([this] { return editor() == nullptr; }));
+}
+
+TEST_F(Editor, FindsWordsRoundTheText) {
+    open("");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("New…"));
+    ASSERT_IN_TIME(comesTrue([this] { return opened().isActiveWindow(); }));
+    auto& code = opened().code();
+    const auto count = code.toPlainText().count("bench", Qt::CaseInsensitive);
+    ASSERT_GT(count, 2);
+    code.moveCursor(QTextCursor::Start);
+    QTest::keyClick(&code, Qt::Key_F, Qt::ControlModifier);
+    auto& words = in<QLineEdit>("findWords");
+    EXPECT_TRUE(words.hasFocus());
+    QTest::keyClicks(&words, "BENCH");
+    EXPECT_EQ(says("findCount").toStdString(), QString("1 of %1").arg(count).toStdString()) << "case does not count";
+    EXPECT_EQ(code.textCursor().selectedText(), "bench");
+    QTest::keyClick(&words, Qt::Key_Return);
+    EXPECT_TRUE(says("findCount").startsWith("2 of "));
+    QTest::keyClick(&words, Qt::Key_Return, Qt::ShiftModifier);
+    QTest::keyClick(&words, Qt::Key_Return, Qt::ShiftModifier);
+    EXPECT_EQ(says("findCount").toStdString(), QString("%1 of %1, from the end").arg(count).toStdString());
+    click(in<QPushButton>("findNext"));
+    EXPECT_EQ(says("findCount").toStdString(), QString("1 of %1, from the top").arg(count).toStdString());
+    shot(opened(), "editor-find");
+    QTest::keyClicks(&words, "xyz");
+    EXPECT_EQ(says("findCount").toStdString(), "no match");
+    EXPECT_FALSE(in<QPushButton>("findNext").isEnabled());
+    QTest::keyClick(&words, Qt::Key_Escape);
+    EXPECT_FALSE(words.isVisible());
+    EXPECT_TRUE(opened().isVisible()) << "the first Esc closes the search, not the editor";
+    EXPECT_TRUE(code.hasFocus());
 }
 
 TEST_F(Editor, SaysWhyItCouldNotSave) {
@@ -104,7 +138,7 @@ TEST_F(Editor, SaysWhyItCouldNotSave) {
     std::filesystem::create_directories(userProtocolsFolder().parent_path());
     std::ofstream(userProtocolsFolder()) << "a file where the folder belongs";
     click(the<QPushButton>("New…"));
-    ASSERT_TRUE(comesTrue([this] { return opened().isActiveWindow(); }));
+    ASSERT_IN_TIME(comesTrue([this] { return opened().isActiveWindow(); }));
     QTest::keyClick(&opened().code(), Qt::Key_S, Qt::ControlModifier);
     QTest::keyClick(&in<QLineEdit>("protocolName"), Qt::Key_Return);
     EXPECT_THAT(message().toStdString(), HasSubstr("Not saved"));

@@ -3,7 +3,7 @@
 
 #include <QTest>
 
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeGestures.h"
 #include "tests/measure/SyntheticPulses.h"
 
 namespace tacto::test {
@@ -38,16 +38,17 @@ inline gui::ShownPtr prepared(Capture capture, const gui::MathOptions& wish = {}
 }
 
 /// Places on the screen, in divisions from the left and above the middle.
-inline QPoint at(const gui::ScopeView& view, double across, double up) {
-    const auto* rect = const_cast<gui::ScopeView&>(view).axisRect();
-    return {static_cast<int>(std::lround(rect->left() + across / 10 * rect->width())),
-            static_cast<int>(std::lround(rect->top() + (0.5 - up / 8) * rect->height()))};
+inline QPoint at(const gui::ScopeScreen& screen, double across, double up) {
+    const auto area = screen.area();
+    return {static_cast<int>(std::lround(area.left() + across / 10 * area.width())),
+            static_cast<int>(std::lround(area.top() + (0.5 - up / 8) * area.height()))};
 }
 
 /// The place of a time (on the axis) and a height.
-inline QPoint atTime(const gui::ScopeView& view, double time_s, double up) {
-    const auto& v = view.viewport();
-    return at(view, (time_s - v.left_s) / v.perDivision_s, up);
+inline QPoint atTime(const gui::ScopeScreen& screen, double time_s, double up) {
+    return at(screen,
+              (time_s - screen.timeAt(screen.area().left())) / (screen.area().width() * screen.secondsPerPixel()) * 10,
+              up);
 }
 
 inline void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers modifiers = {}) {

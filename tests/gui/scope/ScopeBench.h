@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/scope/MeasurementTable.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 
@@ -22,42 +23,52 @@ protected:
     Scope() {
         scope.resize(1280, 760);
         scope.QWidget::show();
-        QObject::connect(&desk, &gui::BenchDesk::failed, [this](const QString& what) { complaints << what; });
+        QObject::connect(&controller, &gui::BenchController::failed,
+                         [this](const QString& what) { complaints << what; });
     }
     void openBench(const char* oscilloscope = nullptr, double speed = 1) {
         gui::LiveOrder order;
         if (oscilloscope != nullptr) order.uris.push_back(*DeviceUri::parse(oscilloscope));
         order.uris.push_back(*DeviceUri::parse("sim:"));
-        order.profile = desk.profile();
+        order.profile = controller.profile();
         order.speed = speed;
-        desk.openLive(order);
-        ASSERT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Live; }));
+        controller.openLive(order);
+        ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
     }
     void deliver() {
         ArmRequest request;
         request.load = "1 kohm";
         request.operatorConfirmed = true;
-        desk.arm(request);
-        ASSERT_TRUE(comesTrue([this] { return desk.telemetry().state == InterlockState::Armed; }));
-        desk.drive(DriveSource::Manual, 0.5, 0.8);
+        controller.arm(request);
+        ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
+        controller.drive(DriveSource::Manual, 0.5, 0.8);
     }
     /// As the window does at 30 Hz.
     bool comes(const std::function<bool()>& isSo) {
         return comesTrue([&] {
-            scope.refresh(desk.telemetry());
+            scope.refresh(controller.telemetry());
             return isSo();
         });
     }
     bool triggered() {
-        const auto& shown = scope.view().shown();
+        const auto& shown = scope.model().shown();
         return shown && !shown->capture->untriggered;
     }
     std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
-    void draw() { scope.view().replot(QCustomPlot::rpImmediateRefresh); }
+    void draw() { scope.screen().replot(QCustomPlot::rpImmediateRefresh); }
+
+    /// At a first start the screen has the room: here everything else is switched on, too.
+    struct EverythingShown {
+        EverythingShown() {
+            QSettings().setValue("scope/controls", true);
+            QSettings().setValue("scope/table", true);
+        }
+    };
 
     FreshSettings fresh;
-    gui::BenchDesk desk{simulatedRegistry};
-    gui::ScopeWorkspace scope{desk};
+    EverythingShown everything;
+    gui::BenchController controller{simulatedRegistry};
+    gui::ScopeWorkspace scope{controller};
     QStringList complaints;
 };
 

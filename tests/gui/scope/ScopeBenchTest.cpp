@@ -1,12 +1,16 @@
 // The oscilloscope when things do not go as wished: no trigger, no oscilloscope; and figures for other workspaces.
+#include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QToolButton>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Look.h"
 #include "app/gui/scope/MeasurementSummary.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/scope/Captures.h"
 #include "tests/gui/scope/ScopeBench.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -18,38 +22,44 @@ using testing::StartsWith;
 
 TEST_F(Scope, AutoShowsTheSignalUntriggeredAndSaysSo) {
     openBench();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     ASSERT_FALSE(triggered());
-    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).startsWith("No trigger at"); }));
+    ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("No trigger at"); }));
     EXPECT_THAT(status(), AllOf(HasSubstr("shown untriggered, not measured"), HasSubstr("Output is disarmed.")));
-    EXPECT_EQ(scope.view().overlay().note, "not triggered");
-    EXPECT_THAT(scope.view().xAxis->label().toStdString(), HasSubstr("record's begin"));
+    EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("not triggered"));
+    EXPECT_THAT(scope.screen().xAxis->label().toStdString(), HasSubstr("record's begin"));
     EXPECT_EQ(scope.table().statistics().captures(), 0U);
     EXPECT_NE(find<QLabel>(scope, "Untriggered: nothing is measured. Measurements appear with the first trigger."),
               nullptr);
-    const auto first = scope.view().shown();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != first; })) << "and goes on";
+    const auto first = scope.model().shown();
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != first; })) << "and goes on";
     shot(scope, "free-run");
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    EXPECT_EQ(scope.view().overlay().note, "");
-    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 4; }));
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    EXPECT_THAT(scope.screen().overlay().notes, testing::IsEmpty());
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 4; }));
     EXPECT_TRUE(triggered()) << "between slow trains the picture does not jump";
-    desk.stop("test");
-    ASSERT_TRUE(comes([&] { return !triggered(); }));
+    controller.stop("test");
+    ASSERT_IN_TIME(comes([&] { return scope.model().held(); }));
+    EXPECT_TRUE(triggered()) << "a stop keeps the last train on the screen";
+    EXPECT_THAT(scope.screen().overlay().notes, testing::ElementsAre("the last train, held"));
     const auto counted = scope.table().statistics().captures();
-    const auto quiet = scope.view().shown();
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != quiet; }));
+    const auto last = scope.model().shown();
+    const auto at = controller.telemetry().at;
+    ASSERT_IN_TIME(comes([&] { return controller.telemetry().at > at + std::chrono::seconds(2); }));
+    EXPECT_EQ(scope.model().shown(), last);
     EXPECT_EQ(scope.table().statistics().captures(), counted) << "what is not triggered is not counted";
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return !scope.model().held() && scope.model().shown() != last; }));
     EXPECT_THAT(complaints, testing::IsEmpty());
 }
 
 TEST_F(Scope, NormalWaitsForItsTrigger) {
     scope.setMode(ScopeMode::Normal);
     openBench(nullptr, 4);
-    const auto at = desk.telemetry().at;
-    ASSERT_TRUE(comes([&] { return desk.telemetry().at > at + std::chrono::seconds(4); }));
-    EXPECT_EQ(scope.view().shown(), nullptr);
+    const auto at = controller.telemetry().at;
+    ASSERT_IN_TIME(comes([&] { return controller.telemetry().at > at + std::chrono::seconds(4); }));
+    EXPECT_EQ(scope.model().shown(), nullptr);
     EXPECT_THAT(status(), StartsWith("Waiting for a trigger at"));
 }
 
@@ -57,8 +67,8 @@ TEST_F(Scope, AnOscilloscopeThatIsUnpluggedWhileItWaitsSaysWhatHappenedAndGoesOn
     RecordProperty("hazard", "H9");
     scope.setMode(ScopeMode::Normal);
     openBench("sim:oscilloscope?fault=unplug@2s..6s", 2);
-    ASSERT_TRUE(comes([&] { return scope.running(); }));
-    ASSERT_TRUE(comes([&] { return !scope.running(); })) << status();
+    ASSERT_IN_TIME(comes([&] { return scope.running(); }));
+    ASSERT_IN_TIME(comes([&] { return !scope.running(); })) << status();
     EXPECT_THAT(status(), AllOf(HasSubstr("The oscilloscope stopped: the simulated oscilloscope is unplugged."),
                                 HasSubstr("Output is off."), HasSubstr("press Run")));
     EXPECT_FALSE(complaints.isEmpty()) << "who looks elsewhere hears of it too";
@@ -67,13 +77,13 @@ TEST_F(Scope, AnOscilloscopeThatIsUnpluggedWhileItWaitsSaysWhatHappenedAndGoesOn
     ASSERT_NE(run, nullptr);
     ASSERT_TRUE(run->isEnabled());
     click(*run);
-    ASSERT_TRUE(comes([&] { return scope.running(); }));
-    ASSERT_TRUE(comes([&] { return !scope.running(); })) << "it is not back yet";
+    ASSERT_IN_TIME(comes([&] { return scope.running(); }));
+    ASSERT_IN_TIME(comes([&] { return !scope.running(); })) << "it is not back yet";
     EXPECT_THAT(status(), HasSubstr("is unplugged"));
-    ASSERT_TRUE(comes([&] { return desk.telemetry().at > std::chrono::seconds(6); }));
+    ASSERT_IN_TIME(comes([&] { return controller.telemetry().at > std::chrono::seconds(6); }));
     EXPECT_FALSE(scope.running()) << "not by itself";
-    QTest::keyClick(&scope.view(), Qt::Key_A);
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    QTest::keyClick(&scope.screen(), Qt::Key_A);
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     EXPECT_TRUE(scope.running());
     EXPECT_THAT(status(), HasSubstr("trigger"));
 }
@@ -82,16 +92,16 @@ TEST_F(Scope, AnOscilloscopeThatFailsDuringDeliveryTellsThatTheOutputGoesOn) {
     RecordProperty("hazard", "H9");
     openBench("sim:oscilloscope?fault=garbage@9s", 2);
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    ASSERT_TRUE(comes([&] { return !scope.running(); }));
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    ASSERT_IN_TIME(comes([&] { return !scope.running(); }));
     EXPECT_THAT(status(), AllOf(HasSubstr("answered with garbage"), HasSubstr("goes on unmeasured: STOP ends it")));
-    EXPECT_NE(desk.telemetry().state, InterlockState::Disarmed);
+    EXPECT_NE(controller.telemetry().state, InterlockState::Disarmed);
     EXPECT_TRUE(triggered()) << "the last capture stays";
-    desk.close();
-    ASSERT_TRUE(comes([&] { return desk.activity() == gui::Activity::Closed; }));
+    controller.close();
+    ASSERT_IN_TIME(comes([&] { return controller.activity() == gui::Activity::Closed; }));
     EXPECT_THAT(status(), HasSubstr("No bench is open."));
     openBench();
-    EXPECT_TRUE(comes([&] { return scope.running(); })) << "another bench, another oscilloscope";
+    EXPECT_IN_TIME(comes([&] { return scope.running(); })) << "another bench, another oscilloscope";
 }
 
 QString figure(const QWidget& summary, const QString& name) {
@@ -102,7 +112,7 @@ QString figure(const QWidget& summary, const QString& name) {
 class Summary : public testing::Test {
 protected:
     Summary() {
-        summary.resize(300, 240);
+        summary.resize(300, 360);
         summary.show();
     }
     std::string head() { return summary.findChild<QLabel*>("summaryHead")->text().toStdString(); }
@@ -126,8 +136,55 @@ TEST_F(Summary, ShowsTheLatestCapturesFiguresByChannel) {
     shot(summary, "summary");
     gui::applyTheme(gui::Theme::Dark);
     QCoreApplication::processEvents();
+    QCoreApplication::processEvents();
     shot(summary, "summary-dark");
     gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(Summary, ShowsWhatIsChosenAndUnfoldsItsStatistics) {
+    gui::ChosenReadings chosen;
+    summary.follow(chosen);
+    summary.take(prepared(twoPulses()));
+    summary.take(prepared(twoPulses(100.2, 30)));
+    EXPECT_EQ(find<QLabel>(summary, "RMS of Voltage"), nullptr);
+    chosen.choose(gui::Reading::Rms, true);
+    EXPECT_EQ(figure(summary, "RMS of Voltage").right(1), "V");
+    chosen.choose(gui::Reading::Gap, false);
+    EXPECT_EQ(find<QLabel>(summary, "Gap of Voltage"), nullptr);
+    EXPECT_THAT(head(), HasSubstr("last of 2"));
+    EXPECT_EQ(find<QLabel>(summary, "Amplitude of Voltage, mean"), nullptr);
+    click(*find<QToolButton>(summary, "Amplitude"));
+    ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(summary, "Amplitude of Voltage, mean") != nullptr; }));
+    EXPECT_THAT(figure(summary, "Amplitude of Voltage, mean").toStdString(), StartsWith("35.0"));
+    EXPECT_THAT(figure(summary, "Amplitude of Voltage, min").toStdString(), StartsWith("30.0"));
+    EXPECT_EQ(figure(summary, "Amplitude of Voltage, n"), "4");
+    QCoreApplication::processEvents();
+    QCoreApplication::processEvents();
+    shot(summary, "summary-unfolded");
+    click(*find<QPushButton>(summary, "Reset"));
+    EXPECT_EQ(figure(summary, "Amplitude of Voltage, n"), "2") << "the newest is the first";
+    click(*find<QToolButton>(summary, "Amplitude"));
+    ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(summary, "Amplitude of Voltage, mean") == nullptr; }));
+}
+
+TEST_F(Summary, ThreeChannelsAndMoreAreNotCutInADocksWidth) {
+    for (const int channels : {1, 2, 3, 4}) {
+        auto capture = twoPulses();
+        while (int(capture.channels.size()) < channels) {
+            capture.channels.push_back(capture.channels[capture.channels.size() % 2]);
+            capture.channels.back().name += std::to_string(capture.channels.size());
+        }
+        capture.channels.resize(std::size_t(channels));
+        summary.clear();
+        summary.take(prepared(std::move(capture)));
+        QCoreApplication::processEvents();
+        const int room = 224 - 2 * 12 - QScrollBar(Qt::Vertical).sizeHint().width();
+        EXPECT_LE(summary.minimumSizeHint().width(), room) << channels;
+        summary.resize(room, 500);
+        for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+        EXPECT_EQ(faultsOf(summary), "") << channels;
+        shot(summary, QString("summary-%1").arg(channels));
+    }
 }
 
 TEST_F(Summary, WhatIsMissingIsADashWithItsReason) {
@@ -163,7 +220,7 @@ TEST_F(Summary, AnUntriggeredRecordChangesNoNumber) {
     EXPECT_EQ(figure(summary, "Amplitude of Voltage"), before);
     EXPECT_THAT(head(), HasSubstr("no trigger since"));
     summary.measure(std::make_shared<const Capture>(twoPulses(300, 20)));
-    EXPECT_TRUE(comesTrue([&] { return figure(summary, "Amplitude of Voltage") != before; }));
+    EXPECT_IN_TIME(comesTrue([&] { return figure(summary, "Amplitude of Voltage") != before; }));
     EXPECT_THAT(head(), testing::Not(HasSubstr("no trigger since")));
 }
 
@@ -177,7 +234,7 @@ TEST_F(Scope, OthersAreFedThoughTheOscilloscopeIsNotVisible) {
     deliver();
     EXPECT_FALSE(scope.running()) << "nobody looks";
     scope.setWatched(true);
-    ASSERT_TRUE(comes([&] { return find<QLabel>(summary, "Amplitude of Voltage") != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return find<QLabel>(summary, "Amplitude of Voltage") != nullptr; }));
     EXPECT_NE(figure(summary, "Amplitude of Voltage"), "–");
     EXPECT_THAT(figure(summary, "Impedance").toStdString(), testing::AnyOf(HasSubstr("kΩ"), HasSubstr("Ω")));
     shot(summary, "summary-live");

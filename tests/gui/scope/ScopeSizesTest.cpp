@@ -4,9 +4,10 @@
 #include <QToolButton>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/scope/Captures.h"
 #include "tests/gui/scope/ScopeBench.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
@@ -38,7 +39,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     const auto [size, percent] = GetParam();
     scope.resize(size);
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // layouts settle
     EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
     draw();
@@ -47,18 +48,21 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
         if (!button->isVisible() || button->text().isEmpty()) continue;
         EXPECT_GE(button->width(), button->minimumSizeHint().width()) << button->text().toStdString();
     }
-    for (const auto* name : {"Run", "Auto", "Fit", "Time cursors", "Save", "Controls"}) {
+    for (const auto* name : {"Run", "Single", "Auto", "Fit", "Time cursors", "Mask", "Save", "Controls"}) {
         auto* button = find<QAbstractButton>(scope, name);
         ASSERT_NE(button, nullptr) << name;
         EXPECT_TRUE(all.contains(QRect(button->mapTo(&scope, QPoint()), button->size()))) << name;
     }
     const auto* cells = scope.findChild<QTableWidget*>("measurements");
-    for (int row = 0; row < 2; ++row) {
-        const auto* item = cells->item(row, 1);
-        EXPECT_GE(cells->columnWidth(1), QFontMetrics(item->font()).horizontalAdvance(item->text()));
+    for (int row = 0; row < cells->rowCount(); ++row) {
+        for (int c = 0; c < cells->columnCount(); ++c) {
+            const auto* item = cells->item(row, c);
+            EXPECT_GE(cells->columnWidth(c) - 4, QFontMetrics(item->font()).horizontalAdvance(item->text()))
+                << item->text().toStdString();
+        }
     }
-    EXPECT_GT(scope.view().axisRect()->width(), 100);
-    EXPECT_GT(scope.view().axisRect()->height(), 60);
+    EXPECT_GT(scope.screen().axisRect()->width(), 100);
+    EXPECT_GT(scope.screen().axisRect()->height(), 60);
     // The column of controls scrolls; what is in it has its full width.
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
     ASSERT_NE(controls, nullptr);
@@ -71,11 +75,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
             EXPECT_LE(cells->columnViewportPosition(c) + cells->columnWidth(c), cells->viewport()->width())
                 << cells->horizontalHeaderItem(c)->text().toStdString();
         }
-        EXPECT_EQ(cells->horizontalHeaderItem(7)->text(), "Charge");
-        for (int c = 2; c < cells->columnCount(); ++c) {
-            EXPECT_LE(QFontMetrics(cells->item(0, c)->font()).horizontalAdvance(cells->item(0, c)->text()),
-                      cells->columnWidth(c) - 4);
-        }
+        EXPECT_EQ(cells->horizontalHeaderItem(7)->text(), "Current");
     }
     const auto name = QString("size-%1x%2-%3").arg(size.width()).arg(size.height()).arg(percent);
     shot(scope, name);
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Window, ScopeSizes,
 
 TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     auto* button = find<QToolButton>(scope, "Controls");
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
     EXPECT_TRUE(controls->isVisible());
@@ -116,7 +116,7 @@ TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
 
 TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     gui::applyTheme(gui::Theme::Dark);
     for (const auto& [name, size] : {std::pair{"small", QSize(680, 480)}, std::pair{"large", QSize(1800, 1000)}}) {
         scope.resize(size);
@@ -124,7 +124,7 @@ TEST_F(Scope, StaysLegibleSmallLargeAndDark) {
         draw();
         shot(scope, QString("workspace-dark-%1").arg(name));
         EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
-        EXPECT_GT(scope.view().axisRect()->height(), 100);
+        EXPECT_GT(scope.screen().axisRect()->height(), 100);
     }
     gui::applyTheme(gui::Theme::Light);
 }

@@ -11,21 +11,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/Look.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/ScopeWorkspace.h"
-#include "core/formats/CsvFormat.h"
+#include "app/gui/theme/Theme.h"
+#include "core/formats/csv/CsvFormat.h"
 #include "core/measure/CaptureFile.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/scope/Captures.h"
 #include "tests/gui/scope/ScopeBench.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
 
 using gui::Activity;
-using gui::BenchDesk;
+using gui::BenchController;
 using gui::ScopeMode;
 using gui::ScopeWorkspace;
 using testing::HasSubstr;
@@ -42,17 +43,17 @@ TEST_F(Scope, AnEmptyOneSaysWhatItIsForAndOffersTheNextStep) {
 
 TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
     openBench();
-    ASSERT_TRUE(comes([&] { return scope.running(); }));
-    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).startsWith("Waiting for a trigger at"); }));
+    ASSERT_IN_TIME(comes([&] { return scope.running(); }));
+    ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("Waiting for a trigger at"); }));
     EXPECT_THAT(status(), HasSubstr("Output is disarmed."));
     shot(scope, "workspace-waiting");
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    EXPECT_TRUE(scope.view().shown()->capture->simulated);
-    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 3; }));
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    EXPECT_TRUE(scope.model().shown()->capture->simulated);
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 3; }));
     // Auto: a fifth of what is commanded.
-    const double commanded = desk.telemetry().amplitude_v;
-    EXPECT_TRUE(comes([&] {
+    const double commanded = controller.telemetry().amplitude_v;
+    EXPECT_IN_TIME(comes([&] {
         const double level = scope.settings().triggerLevel;
         return level > 0.2 * commanded / 1.4 && level < 0.2 * commanded * 1.4;
     })) << scope.settings().triggerLevel
@@ -64,22 +65,22 @@ TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
 TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    QTest::keyClick(&scope.view(), Qt::Key_S);
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    QTest::keyClick(&scope.screen(), Qt::Key_S);
     EXPECT_EQ(scope.mode(), ScopeMode::Single);
-    ASSERT_TRUE(comes([&] { return !scope.running(); }));
-    const auto kept = scope.view().shown();
+    ASSERT_IN_TIME(comes([&] { return !scope.running(); }));
+    const auto kept = scope.model().shown();
     EXPECT_THAT(status(), HasSubstr("One capture taken"));
-    const auto at = desk.telemetry().at;
-    ASSERT_TRUE(comes([&] { return desk.telemetry().at > at + std::chrono::milliseconds(700); }));
-    EXPECT_EQ(scope.view().shown(), kept) << "nothing came after it";
-    QTest::keyClick(&scope.view(), Qt::Key_N);
+    const auto at = controller.telemetry().at;
+    ASSERT_IN_TIME(comes([&] { return controller.telemetry().at > at + std::chrono::milliseconds(700); }));
+    EXPECT_EQ(scope.model().shown(), kept) << "nothing came after it";
+    QTest::keyClick(&scope.screen(), Qt::Key_N);
     EXPECT_EQ(scope.mode(), ScopeMode::Normal);
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != kept; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != kept; }));
     click(*find<QPushButton>(scope, "Hold"));
     EXPECT_FALSE(scope.running());
-    EXPECT_NE(desk.telemetry().state, InterlockState::Disarmed) << "the output is not touched";
-    QTest::keyClick(&scope.view(), Qt::Key_A);
+    EXPECT_NE(controller.telemetry().state, InterlockState::Disarmed) << "the output is not touched";
+    QTest::keyClick(&scope.screen(), Qt::Key_A);
     EXPECT_EQ(scope.mode(), ScopeMode::Auto);
     EXPECT_TRUE(scope.running());
 }
@@ -88,39 +89,42 @@ TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
     openBench();
     deliver();
     // Once the amplitude has settled, the level lies on the screen.
-    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 5; }));
-    auto& view = scope.view();
-    QTest::keyClick(&view, Qt::Key_N);
-    ASSERT_TRUE(comes([&] { return scope.table().statistics().captures() >= 6; }));
-    view.fit();
-    scope.refresh(desk.telemetry());
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 5; }));
+    auto& screen = scope.screen();
+    QTest::keyClick(&screen, Qt::Key_N);
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 6; }));
+    scope.model().fit();
+    scope.refresh(controller.telemetry());
     draw();
-    ASSERT_TRUE(view.overlay().trigger && view.overlay().trigger->height);
+    ASSERT_TRUE(screen.overlay().trigger && screen.overlay().trigger->height);
     const double before = scope.settings().triggerLevel;
-    const double height = *view.overlay().trigger->height;
-    const double perDivision = view.viewport().lanes.at("channel/voltage").perDivision;
-    drag(view, at(view, 9.95, height), at(view, 9.95, height + 0.3));
+    const double height = *screen.overlay().trigger->height;
+    const double perDivision = scope.model().viewport().lanes.at("channel/voltage").perDivision;
+    drag(screen, at(screen, 9.95, height), at(screen, 9.95, height + 0.3));
     EXPECT_NEAR(scope.settings().triggerLevel - before, 0.3 * perDivision, 0.05 * perDivision);
     // In Auto it follows the command: there is nothing to drag.
-    QTest::keyClick(&view, Qt::Key_A);
-    scope.refresh(desk.telemetry());
-    EXPECT_TRUE(view.overlay().trigger->held);
+    QTest::keyClick(&screen, Qt::Key_A);
+    scope.refresh(controller.telemetry());
+    EXPECT_TRUE(screen.overlay().trigger->held);
 }
 
 TEST_F(Scope, DraggingTheTriggersMomentChangesThePreTrigger) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    scope.refresh(desk.telemetry());
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    EXPECT_NEAR(500e-6 / scope.model().viewport().width_s(), 1.0 / 3, 0.1) << "the first train is seen at once";
+    scope.model().fit();
+    scope.refresh(controller.telemetry());
     draw();
-    auto& view = scope.view();
+    auto& screen = scope.screen();
     EXPECT_NEAR(scope.settings().preTrigger, 0.1, 1e-9);
-    const auto from = atTime(view, 0, 3.95);
-    drag(view, from, from + QPoint(view.axisRect()->width() / 5, 0));
+    const auto from = atTime(screen, 0, 3.95);
+    drag(screen, from, from + QPoint(screen.axisRect()->width() / 5, 0));
     EXPECT_NEAR(scope.settings().preTrigger, 0.3, 0.011);
-    ASSERT_TRUE(comes([&] { return view.shown()->zero_s - view.shown()->capture->start_s > 0.28 * 10e-3; }))
-        << "the next captures begin earlier";
-    EXPECT_NEAR(view.viewport().left_s, -3e-3, 1e-4) << "and are seen whole, as before";
+    ASSERT_IN_TIME(comes([&] {
+        return scope.model().shown()->zero_s - scope.model().shown()->capture->start_s > 0.28 * 10e-3;
+    })) << "the next captures begin earlier";
+    EXPECT_NEAR(scope.model().viewport().left_s, -3e-3, 1e-4) << "and are seen whole, as before";
 }
 
 TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
@@ -129,7 +133,7 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
     ASSERT_TRUE(writeCapture(good.toStdString(), twoPulses(0)));
     EXPECT_FALSE(scope.openCaptureFile(folder.filePath("none.csv")));
     EXPECT_TRUE(scope.openCaptureFile(good));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     EXPECT_THAT(status(), HasSubstr("good.csv · 20000 samples at 2"));
     EXPECT_EQ(scope.table().statistics().captures(), 1U);
     shot(scope, "workspace-file");
@@ -138,31 +142,31 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
     file.write("time_s,voltage_v\n0,1\n0.001,oops\n0.002,1\n");
     file.close();
     EXPECT_TRUE(scope.openCaptureFile(bad));
-    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).contains("could not be opened"); }));
+    ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).contains("could not be opened"); }));
     EXPECT_THAT(status(), HasSubstr("bad.csv"));
-    EXPECT_EQ(scope.view().shown()->source, "good.csv") << "what was shown stays";
+    EXPECT_EQ(scope.model().shown()->source, "good.csv") << "what was shown stays";
 }
 
 TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     click(*find<QCheckBox>(scope, "Power V·I"));
-    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 3; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().lanes().size() == 3; }));
     click(*find<QCheckBox>(scope, "Charge ∫I dt"));
-    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 4; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().lanes().size() == 4; }));
     click(*find<QPushButton>(scope, "Store as reference"));
-    ASSERT_EQ(scope.view().lanes().size(), 5U);
+    ASSERT_EQ(scope.model().lanes().size(), 5U);
     auto* difference = find<QComboBox>(scope, "Difference");
     ASSERT_EQ(difference->count(), 2) << "voltage minus its reference; the current has no partner";
     difference->setFocus();
     QTest::keyClick(difference, Qt::Key_Down);
-    ASSERT_TRUE(comes([&] { return scope.view().lanes().size() == 6; }));
-    const auto nothing = scope.view().trace("math/difference");
+    ASSERT_IN_TIME(comes([&] { return scope.model().lanes().size() == 6; }));
+    const auto nothing = scope.model().trace("math/difference");
     ASSERT_TRUE(nothing);
     EXPECT_EQ(nothing->pyramid.over(0, nothing->size()).high, 0.0F) << "it has not changed since it was stored";
     click(*find<QCheckBox>(scope, "Spectrum"));
-    scope.view().fit();
-    EXPECT_TRUE(comes([&] { return find<QWidget>(scope, "Spectrum") != nullptr; }));
+    scope.model().fit();
+    EXPECT_IN_TIME(comes([&] { return find<QWidget>(scope, "Spectrum") != nullptr; }));
     QCoreApplication::processEvents();  // layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-everything");
@@ -170,15 +174,20 @@ TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
 
 TEST_F(Scope, SavesAndCopies) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     const QTemporaryDir folder;
     scope.saveAs(folder.filePath("all.csv"));
-    ASSERT_TRUE(comes([&] { return QString::fromStdString(status()).startsWith("Saved"); }));
+    ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("Saved"); }));
     const auto read = readCapture(folder.filePath("all.csv").toStdString());
     ASSERT_TRUE(read);
     EXPECT_EQ(read->capture.samples(), 20'000U);
     scope.saveAs(folder.filePath("picture.svg"));
-    EXPECT_TRUE(QFile::exists(folder.filePath("picture.svg")));
+    QFile picture(folder.filePath("picture.svg"));
+    ASSERT_TRUE(picture.open(QIODevice::ReadOnly));
+    const auto drawn = QString::fromUtf8(picture.readAll());
+    for (const auto* text : {"Oscilloscope · simulated", "capture", "20000 samples", "Amplitude", "Interval"}) {
+        EXPECT_TRUE(drawn.contains(text)) << text;
+    }
     auto* menu = scope.findChild<QMenu*>();
     for (auto* action : menu->actions()) {
         if (action->text() == "Copy visible data") action->trigger();
@@ -190,23 +199,25 @@ TEST_F(Scope, SavesAndCopies) {
     EXPECT_FALSE(QGuiApplication::clipboard()->image().isNull());
 }
 
-TEST_F(Scope, CursorsReadBelowTheTools) {
+TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
-    auto* readout = scope.findChild<QLabel*>("cursorReadout");
-    EXPECT_FALSE(readout->isVisible());
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    auto& screen = scope.screen();
+    const auto read = [&] { return screen.accessibleDescription().toStdString(); };
+    EXPECT_TRUE(screen.overlay().flags.empty());
     click(*find<QToolButton>(scope, "Time cursors"));
     click(*find<QToolButton>(scope, "Level cursors"));
-    EXPECT_TRUE(readout->isVisible());
-    EXPECT_THAT(readout->text().toStdString(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("Y2")));
-    // By keys: X1 to the first onset, X2 to the second pulse's.
-    auto& view = scope.view();
-    QTest::keyClick(&view, Qt::Key_1);
-    for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
-    QTest::keyClick(&view, Qt::Key_2);
-    for (int i = 0; i < 4; ++i) QTest::keyClick(&view, Qt::Key_Left, Qt::ControlModifier);
-    EXPECT_THAT(readout->text().toStdString(),
-                testing::AllOf(HasSubstr("X1 0"), HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
+    EXPECT_EQ(screen.overlay().flags.size(), 2U);
+    EXPECT_EQ(screen.overlay().levelTexts.size(), 2U);
+    EXPECT_THAT(read(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("y₂")));
+    // By keys: t₁ to the first onset, t₂ to the second pulse's.
+    QTest::keyClick(&screen, Qt::Key_1);
+    for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);
+    QTest::keyClick(&screen, Qt::Key_2);
+    for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);
+    EXPECT_THAT(read(),
+                testing::AllOf(HasSubstr("t₁ 0"), HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
+    EXPECT_EQ(screen.overlay().timeSpan, "Δ 4.000\u202fms · 1/Δ 250.0\u202fHz");
     QCoreApplication::processEvents();  // layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-cursors");
@@ -214,10 +225,10 @@ TEST_F(Scope, CursorsReadBelowTheTools) {
 
 TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     find<QToolButton>(scope, "Auto")->setFocus();
     QStringList met;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 60; ++i) {
         auto* at = scope.focusWidget();
         const auto* button = qobject_cast<QAbstractButton*>(at);
         met << (at->accessibleName().isEmpty() && button != nullptr ? button->text() : at->accessibleName());
@@ -235,7 +246,7 @@ TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
 
 TEST_F(Scope, EverythingThatIsUsedHasANameAndTeaches) {
     scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     for (const auto* widget : scope.findChildren<QWidget*>()) {
         if (!widget->isVisible() || widget->focusPolicy() == Qt::NoFocus) continue;
         const auto* button = qobject_cast<const QAbstractButton*>(widget);
@@ -253,22 +264,119 @@ TEST_F(Scope, ACaptureWithoutPulsesSaysWhyInWords) {
     Capture flat = twoPulses();
     for (auto& channel : flat.channels) std::fill(channel.samples.begin(), channel.samples.end(), NAN);
     scope.show(std::make_shared<const Capture>(flat));
-    ASSERT_TRUE(comes([&] { return scope.view().shown() != nullptr; }));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
     draw();
-    EXPECT_GT(scope.view().graph("channel/voltage")->gapColumns(), 100);
+    EXPECT_GT(scope.screen().graph("channel/voltage")->gapColumns(), 100);
     EXPECT_THAT(scope.findChild<QLabel*>("warnings")->text().toStdString(), HasSubstr("no pulses"));
     shot(scope, "workspace-nan");
+}
+
+TEST_F(Scope, AnAverageIsMarkedAndBeginsAnewWithTheCommand) {
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    click(*find<QToolButton>(scope, "Average"));
+    EXPECT_EQ(find<QComboBox>(scope, "Average")->currentText(), "16 captures");
+    const auto averaged = [&] { return scope.model().shown()->averaged; };
+    ASSERT_IN_TIME(comes([&] { return averaged() >= 3; }));
+    ASSERT_FALSE(scope.screen().overlay().notes.isEmpty());
+    EXPECT_EQ(scope.screen().overlay().notes.first(), QString("averaged %1").arg(averaged()));
+    shot(scope, "workspace-averaged");
+    const auto before = averaged();
+    controller.drive(DriveSource::Manual, 1, 0.2);
+    ASSERT_IN_TIME(comes([&] { return averaged() < before; })) << "another command is no repetition";
+    click(*find<QToolButton>(scope, "Average"));
+    ASSERT_IN_TIME(comes([&] { return averaged() == 0; }));
+    EXPECT_TRUE(scope.screen().overlay().notes.isEmpty());
+}
+
+TEST_F(Scope, AMaskThatFailsSaysSoLoudlyKeepsTheFirstAndTouchesNoOutput) {
+    RecordProperty("hazard", "H9");
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 6; })) << "the amplitude has settled";
+    click(*find<QToolButton>(scope, "Mask"));
+    auto* says = scope.findChild<QLabel*>("maskSays");
+    ASSERT_IN_TIME(comes([&] { return status().find("captures inside") != std::string::npos; }));
+    EXPECT_EQ(scope.screen().alarm(), "");
+    EXPECT_TRUE(scope.screen().mask());
+    shot(scope, "workspace-mask");
+    const auto delivered = controller.telemetry().trainsDelivered;
+    controller.drive(DriveSource::Manual, 1, 0.9);
+    ASSERT_IN_TIME(comes([&] { return !scope.screen().alarm().isEmpty(); }));
+    EXPECT_TRUE(scope.screen().alarm().startsWith("✕ Mask failed: "));
+    EXPECT_THAT(says->text().toStdString(), HasSubstr("The first outside: "));
+    shot(scope, "workspace-mask-failed");
+    ASSERT_IN_TIME(comes([&] { return controller.telemetry().trainsDelivered > delivered + 3; }))
+        << "a mask never controls the output";
+    EXPECT_EQ(controller.telemetry().state, InterlockState::Delivering);
+    const auto first = find<QPushButton>(scope, "Show the first outside");
+    ASSERT_NE(first, nullptr);
+    click(*first);
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown()->source == "first capture outside the mask"; }));
+    click(*find<QPushButton>(scope, "Reset counts"));
+    EXPECT_EQ(scope.screen().alarm(), "");
+    click(*find<QPushButton>(scope, "Remove"));
+    EXPECT_FALSE(scope.screen().mask());
+    EXPECT_THAT(status(), testing::Not(HasSubstr("Mask")));
+}
+
+TEST_F(Scope, OpeningABenchLeavesTheFile) {
+    const QTemporaryDir folder;
+    ASSERT_TRUE(writeCapture(folder.filePath("old.csv").toStdString(), twoPulses(0)));
+    scope.openCaptureFile(folder.filePath("old.csv"));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    openBench();
+    EXPECT_IN_TIME(comes([&] { return scope.running(); })) << "though the file had put it on hold";
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown() && scope.model().shown()->source.isEmpty(); }));
+    EXPECT_THAT(status(), testing::Not(HasSubstr("old.csv")));
+}
+
+TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    auto& screen = scope.screen();
+    QTest::keyClick(&screen, Qt::Key_R);
+    EXPECT_FALSE(scope.running());
+    QTest::keyClick(&screen, Qt::Key_R);
+    EXPECT_TRUE(scope.running());
+    QTest::keyClick(&screen, Qt::Key_T);
+    QTest::keyClick(&screen, Qt::Key_L);
+    EXPECT_TRUE(scope.model().cursors().time_s() && scope.model().cursors().level());
+    QTest::keyClick(&screen, Qt::Key_T);
+    QTest::keyClick(&screen, Qt::Key_L);
+    EXPECT_FALSE(scope.model().cursors().time_s() || scope.model().cursors().level());
+    QSignalSpy drive(&scope, &ScopeWorkspace::driveWanted);
+    QTest::keyClick(&screen, Qt::Key_D);
+    EXPECT_EQ(drive.count(), 1);
+    const auto state = controller.telemetry().state;
+    QTest::keyClick(&screen, Qt::Key_B);
+    EXPECT_TRUE(find<QToolButton>(scope, "Box")->isChecked());
+    QTest::keyClick(&screen, Qt::Key_S, Qt::ControlModifier);
+    EXPECT_EQ(controller.telemetry().state, state) << "none of them drives or stops";
+    for (auto* dialog : QApplication::topLevelWidgets()) {
+        if (dialog != &scope && dialog->isVisible()) dialog->close();
+    }
+    // In a field they are letters.
+    auto* level = find<gui::QuantitySpin>(scope, "Mask: Voltage ±");
+    level->setFocus();
+    const bool running = scope.running();
+    QTest::keyClicks(level, "r");
+    EXPECT_EQ(scope.running(), running);
 }
 
 TEST_F(Scope, RollFromTheBenchShowsSessionTime) {
     openBench();
     deliver();
-    ASSERT_TRUE(comes([&] { return triggered(); }));
-    click(*find<QToolButton>(scope, "Roll"));
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    for (auto* action : find<QToolButton>(scope, "Auto")->menu()->actions()) {
+        if (action->text() == "Roll") action->trigger();
+    }
     EXPECT_EQ(scope.mode(), ScopeMode::Roll);
-    ASSERT_TRUE(comes([&] { return scope.view().graph("channel/voltage")->spans().size() >= 6; }));
-    EXPECT_GE(scope.view().viewport().left_s, 0) << "before the session there is no time";
-    EXPECT_GE(scope.view().viewport().right_s(), scope.view().shown()->end_s() - 0.05);
+    ASSERT_IN_TIME(comes([&] { return scope.screen().graph("channel/voltage")->spans().size() >= 6; }));
+    EXPECT_GE(scope.model().viewport().left_s, 0) << "before the session there is no time";
+    EXPECT_GE(scope.model().viewport().right_s(), scope.model().shown()->end_s() - 0.05);
     shot(scope, "workspace-roll");
 }
 

@@ -1,15 +1,16 @@
 // Sessions as files and as a workspace: listed, searched, exported, replayed, verified.
 #include <QPushButton>
 #include <QTabWidget>
-#include <QTableWidget>
+#include <QTableView>
 #include <QTest>
+#include <QTextBrowser>
 #include <atomic>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
@@ -17,6 +18,7 @@
 #include "core/acquisition/Recording.h"
 #include "core/session/SessionReader.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -34,20 +36,20 @@ protected:
     std::filesystem::path record(const std::vector<const char*>& uris, int seconds) {
         gui::LiveOrder order;
         for (const auto* uri : uris) order.uris.push_back(*DeviceUri::parse(uri));
-        order.profile = desk.profile();
+        order.profile = controller.profile();
         order.speed = 5;
-        desk.openLive(order);
-        EXPECT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Live; }));
-        made_.push_back(desk.open()->session);
-        EXPECT_TRUE(comesTrue([&] { return desk.telemetry().at > std::chrono::seconds(seconds); }));
-        desk.close();
-        EXPECT_TRUE(comesTrue([this] { return desk.activity() == gui::Activity::Closed; }));
+        controller.openLive(order);
+        EXPECT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
+        made_.push_back(controller.open()->session);
+        EXPECT_IN_TIME(comesTrue([&] { return controller.telemetry().at > std::chrono::seconds(seconds); }));
+        controller.close();
+        EXPECT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
         return made_.back();
     }
     static gui::WorkPort port(bool cancelled = false) {
         return {std::make_shared<std::atomic<bool>>(cancelled), [](int, int) {}};
     }
-    gui::BenchDesk desk{simulatedRegistry};
+    gui::BenchController controller{simulatedRegistry};
     std::filesystem::path session;
     const ScratchDir folder;
 
@@ -56,16 +58,17 @@ private:
 };
 
 TEST_F(Recorded, IsALineThatSaysWhatItHolds) {
-    const auto entry = gui::readEntry(session);
+    const gui::SessionEntry entry(gui::userSessionIndex().read(session));
     EXPECT_EQ(entry.problem, "");
-    EXPECT_TRUE(entry.simulated);
-    EXPECT_TRUE(entry.closed);
-    EXPECT_GT(entry.duration_s, 1.5);
-    EXPECT_TRUE(entry.searched().contains("simulated stimulator"));
+    EXPECT_TRUE(entry.summary.simulated);
+    EXPECT_TRUE(entry.summary.closed);
+    EXPECT_GT(entry.summary.duration_s, 1.5);
+    EXPECT_TRUE(entry.searched.contains("simulated stimulator"));
 }
 
 TEST_F(Recorded, AForeignFileIsListedWithItsReason) {
-    const auto entry = gui::readEntry(folder.write("notes.tacto", "no session of any kind"));
+    const auto entry =
+        gui::SessionEntry(gui::userSessionIndex().read(folder.write("notes.tacto", "no session of any kind")));
     EXPECT_NE(entry.problem, "");
 }
 
@@ -146,25 +149,37 @@ TEST_F(Recorded, ReplaysAsARecording) {
 }
 
 TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
-    gui::SessionsWorkspace workspace(desk);
+    gui::SessionsWorkspace workspace(controller);
     workspace.resize(1200, 700);
     workspace.show();
-    auto* table = workspace.findChild<QTableWidget*>("sessionsTable");
+    auto* table = workspace.findChild<QTableView*>("sessionsTable");
     ASSERT_NE(table, nullptr);
     ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
-    ASSERT_TRUE(comesTrue([&] { return table->rowCount() >= 1 && !table->selectedItems().isEmpty(); }));
+    ASSERT_IN_TIME(
+        comesTrue([&] { return table->model()->rowCount() >= 1 && table->selectionModel()->hasSelection(); }));
     auto* verify = find<QPushButton>(workspace, "Verify");
     ASSERT_NE(verify, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return verify->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return verify->isEnabled(); }));
     click(*verify);
     auto* says = workspace.findChild<QLabel*>("sessionsSay");
-    EXPECT_TRUE(comesTrue([&] { return says->text().contains("is intact"); })) << says->text().toStdString();
+    EXPECT_IN_TIME(comesTrue([&] { return says->text().contains("is intact"); })) << says->text().toStdString();
     shot(workspace, "sessions");
     auto* search = find<QLineEdit>(workspace, "Search");
+    const int all = table->model()->rowCount();
     search->setText("no-such-word");
-    EXPECT_TRUE(table->isRowHidden(0));
+    EXPECT_EQ(table->model()->rowCount(), 0);
+    EXPECT_FALSE(verify->isEnabled()) << "what is not seen is not acted on";
+    EXPECT_EQ(verify->toolTip(), "Choose a session first.");
+    EXPECT_NE(find<QLabel>(workspace,
+                           "No session contains “no-such-word”. Searched are procedure, note, operator, sample, tags, "
+                           "verdict, devices, date and file name."),
+              nullptr);
+    shot(workspace, "sessions-no-hit");
     search->clear();
-    EXPECT_FALSE(table->isRowHidden(0));
+    EXPECT_EQ(table->model()->rowCount(), all);
+    const auto cell = [&](int column, int role) { return table->model()->index(0, column).data(role); };
+    EXPECT_TRUE(cell(1, Qt::DisplayRole).toString().startsWith("Today "));
+    EXPECT_FALSE(cell(0, Qt::DecorationRole).value<QIcon>().isNull()) << "a verdict has a shape";
 }
 
 TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
@@ -186,18 +201,18 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
         },
         [&](const Result<void>&) { second = true; });
     let = true;  // not reached if start() waited
-    ASSERT_TRUE(comesTrue([&] { return second; }));
+    ASSERT_IN_TIME(comesTrue([&] { return second; }));
     EXPECT_EQ(order, (std::vector<std::string>{"first", "second"}));
     EXPECT_FALSE(first) << "nobody wants its result any more";
 }
 
 TEST_F(Recorded, TwoAreComparedOverEachOther) {
     (void)record({"sim:stimulator?gain=1.05", "sim:"}, 3);
-    gui::SessionsWorkspace workspace(desk);
+    gui::SessionsWorkspace workspace(controller);
     workspace.resize(1200, 700);
     workspace.show();
-    auto* table = workspace.findChild<QTableWidget*>("sessionsTable");
-    ASSERT_TRUE(comesTrue([&] { return table->rowCount() == 2; }));
+    auto* table = workspace.findChild<QTableView*>("sessionsTable");
+    ASSERT_IN_TIME(comesTrue([&] { return table->model()->rowCount() == 2; }));
     auto* compare = find<QPushButton>(workspace, "Compare two");
     ASSERT_NE(compare, nullptr);
     const auto press = [&](int row, Qt::KeyboardModifiers modifiers) {
@@ -207,17 +222,12 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
     press(0, Qt::NoModifier);
     EXPECT_FALSE(compare->isEnabled()) << "one is compared with nothing";
     press(1, Qt::ControlModifier);
-    ASSERT_TRUE(comesTrue([&] { return compare->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return compare->isEnabled(); }));
     click(*compare);
     gui::CompareWindow* both = nullptr;
-    ASSERT_TRUE(comesTrue([&] { return (both = workspace.findChild<gui::CompareWindow*>()) != nullptr; }));
-    ASSERT_TRUE(comesTrue([&] { return both->isVisible(); }));
-    QString words;
-    for (auto* differs : both->findChildren<QTableWidget*>()) {
-        for (int row = 0; row < differs->rowCount(); ++row) {
-            for (int column = 0; column < 3; ++column) words += differs->item(row, column)->text() + "; ";
-        }
-    }
+    ASSERT_IN_TIME(comesTrue([&] { return (both = workspace.findChild<gui::CompareWindow*>()) != nullptr; }));
+    ASSERT_IN_TIME(comesTrue([&] { return both->isVisible(); }));
+    const auto words = both->findChild<QTextBrowser*>("differences")->toPlainText();
     EXPECT_TRUE(words.contains("gain=1.05")) << words.toStdString();
     auto* tabs = both->findChild<QTabWidget*>();
     for (int page = 0; page < tabs->count(); ++page) {
@@ -229,12 +239,12 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
         const auto plots = both->findChildren<QCustomPlot*>();
         return std::any_of(plots.begin(), plots.end(), [](const auto* plot) { return plot->plottableCount() >= 2; });
     };
-    EXPECT_TRUE(comesTrue(drawn)) << "a stream of both, over each other";
+    EXPECT_IN_TIME(comesTrue(drawn)) << "a stream of both, over each other";
     both->close();
 }
 
 TEST_F(Recorded, ReplayGoesToTheLiveWorkspace) {
-    gui::SessionsWorkspace workspace(desk);
+    gui::SessionsWorkspace workspace(controller);
     workspace.resize(1200, 700);
     workspace.show();
     ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
@@ -243,9 +253,9 @@ TEST_F(Recorded, ReplayGoesToTheLiveWorkspace) {
                      [&](const QString& target) { ready = target; });
     auto* replay = find<QPushButton>(workspace, "Replay");
     ASSERT_NE(replay, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return replay->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return replay->isEnabled(); }));
     click(*replay);
-    ASSERT_TRUE(comesTrue([&] { return !ready.isEmpty(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return !ready.isEmpty(); }));
     EXPECT_TRUE(Recording::open(ready.toStdString()).has_value());
 }
 

@@ -8,7 +8,7 @@
 #include <QTest>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Dialogs.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/window/StopKeys.h"
 #include "tests/gui/Person.h"
 #include "tests/support/Support.h"
@@ -36,7 +36,7 @@ TEST(Dialogs, AreOpenedInOneWayOnly) {
         ++files;
         auto text = QString::fromUtf8(file.readAll());
         const auto found = forbidden.match(text.remove(allowed));
-        EXPECT_FALSE(found.hasMatch()) << name << ": " << found.captured().toStdString() << " (use look/Dialogs.h)";
+        EXPECT_FALSE(found.hasMatch()) << name << ": " << found.captured().toStdString() << " (use theme/Dialogs.h)";
     }
     EXPECT_GT(files, 100);
 }

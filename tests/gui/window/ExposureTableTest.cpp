@@ -3,7 +3,7 @@
 #include <QTest>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/ExposureTable.h"
+#include "app/gui/theme/ExposureTable.h"
 
 namespace tacto::test {
 namespace {
@@ -39,21 +39,38 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
         table.setVisible(true);
         ASSERT_TRUE(QTest::qWaitForWindowExposed(&table));
         const std::vector<ExposureRow> before{peak(10)}, after{peak(30.7)};
-        table.show(before);
+        table.show(before, {});
         QTest::qWait(50);
         Painted painted;
         table.viewport()->installEventFilter(&painted);
-        table.show(after);
+        table.show(after, {});
         QTest::qWait(50);
         constexpr int kRow = 1;  // below the set's name
         const int barColumn = table.isColumnHidden(3) ? 0 : 3;
         const auto cell = table.visualRect(table.model()->index(kRow, barColumn));
         EXPECT_TRUE(painted.region.contains(cell.center())) << "the bar of 10 V stands beside 30.7 V, width " << width;
         painted.region = {};
-        table.show(after);
+        table.show(after, {});
         QTest::qWait(50);
         EXPECT_FALSE(painted.region.contains(cell.center())) << "nothing changed";
     }
+}
+
+TEST(ExposureTable, LimitSetsStandUnderTheirTitles) {
+    LimitSet set;
+    set.id = "paper";
+    set.title = "The paper's own limits";
+    auto ceiling = peak(10);
+    ceiling.set = "profile";
+    const std::vector<ExposureRow> rows{peak(10), ceiling};
+    gui::ExposureTable table;
+    table.resize(1200, 300);
+    table.show(rows, std::span(&set, 1));
+    EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
+    EXPECT_TRUE(table.item(1, 0)->toolTip().endsWith("limit of The paper's own limits"));
+    EXPECT_EQ(table.item(2, 0)->text().toStdString(), "The encoding profile");
+    table.resize(300, 300);  // written anew, narrow
+    EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
 }
 
 }  // namespace

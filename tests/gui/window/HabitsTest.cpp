@@ -1,18 +1,22 @@
-// What one expects of every good program: drop files on it, find them again, the tour, help at hand, and that it looks
+// What one expects of every good program: drop files on it, find them again, help at hand, and that it looks
 // tomorrow as it was left today.
+#include <QComboBox>
 #include <QDropEvent>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSettings>
 #include <QTabWidget>
+#include <QTableWidget>
 #include <QTextBrowser>
 #include <QToolBar>
 #include <QTreeWidget>
 #include <gmock/gmock.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -44,12 +48,11 @@ protected:
         }
         return nullptr;
     }
-    [[nodiscard]] QFrame* tour() { return window.findChild<QFrame*>("tour"); }
 };
 
 TEST_F(Habits, ARecordingThatIsDroppedReplaysAndIsRemembered) {
     drop(kExample);
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Live; }));
     auto* recent = menuEntry("File", "Recent");
     ASSERT_NE(recent, nullptr);
     emit recent->menu()->aboutToShow();
@@ -62,58 +65,20 @@ TEST_F(Habits, ACaptureThatIsDroppedOpensInTheOscilloscope) {
     drop(folder.write("pulse.csv", "time_s,voltage_V\n0,0\n0.0001,10\n0.0002,10\n0.0003,0\n0.0004,0\n"));
     EXPECT_EQ(banner().toStdString(), "");
     EXPECT_EQ(window.workspace(), 0);
-    EXPECT_EQ(window.findChild<QTabWidget*>("livePage")->currentIndex(), 1);
+    EXPECT_EQ(window.findChild<gui::TabbedPage*>("livePage")->currentIndex(), 1);
 }
 
 TEST_F(Habits, AForeignFileThatIsDroppedIsRefusedInWords) {
     const ScratchDir folder;
     drop(folder.write("photo.jpeg", "not for us"));
     EXPECT_THAT(banner().toStdString(), HasSubstr("photo.jpeg"));
-    EXPECT_EQ(window.desk().activity(), Activity::Closed);
-}
-
-TEST_F(Habits, TheTourIsDoneNotRead) {
-    window.beginTour();
-    ASSERT_NE(tour(), nullptr);
-    ASSERT_TRUE(tour()->isVisible());
-    const auto next = [this] { click(*find<QPushButton>(*tour(), "Next")); };
-    next();
-    click(*find<QPushButton>(*tour(), "Open it"));
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
-    next();
-    click(*find<QPushButton>(*tour(), "Slide over P120"));
-    EXPECT_TRUE(comesTrue([this] { return window.desk().telemetry().sliding; }));
-    next();
-    shot(window, "tour");
-    click(*find<QPushButton>(*tour(), "Arm…"));
-    auto* arm = window.findChild<QPushButton*>("armOutput");
-    ASSERT_NE(arm, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return arm->isVisible(); }));
-    EXPECT_EQ(state(), InterlockState::Disarmed) << "the tour arms nothing by itself";
-    key(Qt::Key_Escape);
-    next();
-    click(*find<QPushButton>(*tour(), "Show it"));
-    EXPECT_EQ(window.workspace(), 3);
-    click(*find<QPushButton>(*tour(), "Done"));
-    EXPECT_FALSE(tour()->isVisible());
-    EXPECT_TRUE(QSettings().value("tourDone").toBool()) << "it does not come again by itself";
-}
-
-TEST_F(Habits, EscStopsInsideTheTour) {
-    RecordProperty("hazard", "H2");
-    open();
-    arm();
-    deliver();
-    window.beginTour();
-    ASSERT_NE(tour(), nullptr);
-    key(Qt::Key_Escape);
-    EXPECT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; }));
+    EXPECT_EQ(window.controller().activity(), Activity::Closed);
 }
 
 TEST_F(Habits, TheKeysAreOneKeyAway) {
     key(Qt::Key_Question);
     QDialog* sheet = nullptr;
-    ASSERT_TRUE(comesTrue([&] {
+    ASSERT_IN_TIME(comesTrue([&] {
         for (auto* dialog : window.findChildren<QDialog*>()) {
             if (dialog->isVisible() && dialog->windowTitle() == "Keys") sheet = dialog;
         }
@@ -132,7 +97,7 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
     ASSERT_NE(entry, nullptr);
     entry->trigger();
     QDialog* help = nullptr;
-    ASSERT_TRUE(comesTrue([&] {
+    ASSERT_IN_TIME(comesTrue([&] {
         for (auto* dialog : window.findChildren<QDialog*>()) {
             if (dialog->isVisible()) help = dialog;
         }
@@ -142,14 +107,24 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
     ASSERT_NE(tabs, nullptr);
     shot(*help, "help-definitions");
     tabs->setCurrentIndex(1);
-    const auto limits = tabs->currentWidget()->findChildren<QTextBrowser*>() +
-                        QList<QTextBrowser*>{qobject_cast<QTextBrowser*>(tabs->currentWidget())};
-    QString words;
-    for (const auto* page : limits) {
-        if (page != nullptr) words += page->toPlainText();
+    auto* chooser = help->findChild<QComboBox*>("limitSet");
+    auto* rows = help->findChild<QTableWidget*>("limitRows");
+    ASSERT_NE(chooser, nullptr);
+    const auto& sets = window.controller().limits().sets;
+    ASSERT_EQ(chooser->count(), int(sets.size()));
+    for (int i = 0; i < chooser->count(); ++i) {
+        chooser->setCurrentIndex(i);
+        const auto& set = sets[std::size_t(i)];
+        EXPECT_EQ(chooser->currentText().toStdString(), set.title);
+        ASSERT_EQ(rows->rowCount(), int(set.rows.size()));
+        for (int line = 0; line < rows->rowCount(); ++line) {
+            const auto& row = set.rows[std::size_t(line)];
+            EXPECT_THAT(rows->item(line, 1)->text().toStdString(), HasSubstr(row.strict ? "<" : "≤"));
+            EXPECT_EQ(rows->item(line, 2)->text() == "one pulse", windowOf(row.quantity) == 0);
+            EXPECT_EQ(rows->item(line, 5)->text(), QString::fromStdString(row.source).replace(" ohm", " Ω"));
+        }
+        shot(*help, QString("help-limits-%1").arg(i + 1));
     }
-    for (const auto& set : window.desk().limits().sets) EXPECT_THAT(words.toStdString(), HasSubstr(set.id));
-    shot(*help, "help-limits");
     help->close();
 }
 
@@ -159,7 +134,7 @@ TEST_F(Habits, AThemeChangesEverythingAtOnce) {
     deliver();
     const auto* charge = window.findChild<QLabel*>("summaryHead");
     ASSERT_NE(charge, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return charge->text().contains("simulated"); })) << "a capture was measured";
+    ASSERT_IN_TIME(comesTrue([&] { return charge->text().contains("simulated"); })) << "a capture was measured";
     menuEntry("View", "Dark")->trigger();
     QTest::qWait(100);
     shot(window, "dark-while-measured");
@@ -175,7 +150,7 @@ TEST_F(Habits, AThemeChangesEverythingAtOnce) {
 TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
     auto* list = window.findChild<QTreeWidget*>();
     ASSERT_NE(list, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return list->topLevelItemCount() >= 3; }));
+    ASSERT_IN_TIME(comesTrue([&] { return list->topLevelItemCount() >= 3; }));
     const auto tick = [&](const QString& name) {
         for (int i = 0; i < list->topLevelItemCount(); ++i) {
             auto* item = list->topLevelItem(i);
@@ -192,9 +167,9 @@ TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
     auto* opens = window.findChild<QPushButton*>("openBench");
     EXPECT_TRUE(opens->text().contains("2")) << opens->text().toStdString();
     click(*opens);
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
-    EXPECT_TRUE(window.desk().open()->streams.empty()) << "no fingertip was asked for";
-    EXPECT_TRUE(window.desk().open()->source.has_value());
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Live; }));
+    EXPECT_TRUE(window.controller().open()->streams.empty()) << "no fingertip was asked for";
+    EXPECT_TRUE(window.controller().open()->source.has_value());
     arm();
     deliver();
 }

@@ -12,10 +12,11 @@
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/MainWindow.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
-#include "drivers/sensor_board/EmulatedBoardLine.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/sciencemode/EmulatedLine.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
 
@@ -98,35 +99,39 @@ protected:
     void open(const QStringList& uris) {
         for (const auto& uri : uris) ASSERT_NO_FATAL_FAILURE(tick(uri));
         click(*window.findChild<QPushButton*>("openBench"));
-        ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == gui::Activity::Live; }))
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }))
             << banner().toStdString();
     }
     /// Both steps, as a person takes them.
     void arm() {
         auto* first = window.findChild<QPushButton*>("armButton");
-        ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+        ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
         click(*first);
         auto* second = window.findChild<QPushButton*>("armOutput");
         ASSERT_NE(second, nullptr);
-        ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+        ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
         auto* load = second->window()->findChild<QLineEdit*>();
         if (load->text().isEmpty()) QTest::keyClicks(load, "1 kohm");
         click(*second);
-        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; })) << banner().toStdString();
     }
     void deliver() {
-        window.desk().drive(DriveSource::Manual, 0.5, 1);
-        ASSERT_TRUE(comesTrue([this] { return window.desk().telemetry().trainsDelivered > 0; }));
+        window.controller().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered > 0; }));
     }
     void pressReset() {
         auto* button = window.findChild<QPushButton*>("armButton");
-        ASSERT_TRUE(comesTrue([&] { return button->text().contains("Reset"); }));
+        ASSERT_IN_TIME(comesTrue([&] { return button->text().contains("Reset"); }));
         click(*button);
     }
-    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] InterlockState state() { return window.controller().telemetry().state; }
     [[nodiscard]] QString banner() {
+        // A fault stands in the safety bar, all else above the workspaces.
+        QString all;
+        const auto* fault = window.findChild<QLabel*>("faultText");
+        if (fault->isVisible()) all = "Fault: " + fault->parentWidget()->toolTip();
         const auto* label = window.findChild<QLabel*>("bannerText");
-        return label->isVisible() ? label->text() : QString();
+        return label->isVisible() ? all + label->text() : all;
     }
     [[nodiscard]] QString facts() { return window.findChild<QLabel*>("deviceFacts")->text(); }
 

@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/window/HardwareBench.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -47,13 +48,14 @@ TEST_F(HardwareWindow, ASensorBoardShowsWhatItsLineIsLike) {
         comesTrue([this] { return facts().contains("clock drift: ") && facts().contains("drift uncertainty"); }));
     EXPECT_FALSE(facts().contains("⚠"));
     board->inspect([](auto& b, Instant) { b.dropNext(0); });
-    EXPECT_TRUE(comesTrue([this] { return facts().contains("samples lost: 32") && facts().contains("⚠"); }));
+    EXPECT_IN_TIME(comesTrue([this] { return facts().contains("samples lost: 32") && facts().contains("⚠"); }));
     shot(window, "hardware_board");
 }
 
 TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
     plugs->permitted = false;
-    ASSERT_TRUE(comesTrue([this] { return row(kStimulator) != nullptr && row(kStimulator)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(
+        comesTrue([this] { return row(kStimulator) != nullptr && row(kStimulator)->text(0).contains("⚠"); }));
     choose(row(kStimulator));
     EXPECT_THAT(facts(), Says("./dev install-rules"));
     QTest::qWait(50);
@@ -63,7 +65,7 @@ TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
     EXPECT_TRUE(window.findChild<QPushButton*>("openBench")->text().remove('&').contains("simulated"));
     shot(window, "hardware_not_permitted");
     plugs->permitted = true;
-    ASSERT_TRUE(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
     tick(kStimulator);
 }
 
@@ -71,16 +73,16 @@ TEST_F(HardwareWindow, OneThatDoesNotAnswerIsABannerAndNoBench) {
     stimulator->unplug();  // it is still listed: the list is a second old at most
     tick(kStimulator);
     click(*window.findChild<QPushButton*>("openBench"));
-    ASSERT_TRUE(comesTrue([this] { return !banner().isEmpty(); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty(); }));
     EXPECT_THAT(banner(), Says("no stimulator \"P24-0017\" answers"));
-    EXPECT_EQ(window.desk().activity(), gui::Activity::Closed);
+    EXPECT_EQ(window.controller().activity(), gui::Activity::Closed);
 }
 
 TEST_F(HardwareWindow, NobodyButTheOperatorSaysWhatIsConnected) {
     RecordProperty("hazard", "H1");
     open({kStimulator});
     auto* first = window.findChild<QPushButton*>("armButton");
-    ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+    ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
     click(*first);
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_NE(second, nullptr);
@@ -92,7 +94,7 @@ TEST_F(HardwareWindow, NobodyButTheOperatorSaysWhatIsConnected) {
     EXPECT_TRUE(second->isEnabled());
     EXPECT_THAT(second->window()->findChild<QLabel*>("armingText")->text(), Says("into 470 ohm"));
     click(*second);
-    EXPECT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted || !banner().isEmpty(); }))
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted || !banner().isEmpty(); }))
         << "1 kohm is connected";
 }
 
@@ -102,22 +104,22 @@ TEST_F(HardwareWindow, APulledPlugFaultsSaysSoAndComesBackOnlyByAReset) {
     arm();
     deliver();
     unplugStimulator();
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
-    ASSERT_TRUE(comesTrue([this] { return banner().contains("Output is off"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_IN_TIME(comesTrue([this] { return banner().contains("Output is off"); }));
     EXPECT_THAT(banner(), Says("Fault: "));
-    ASSERT_TRUE(comesTrue([this] { return row(kStimulator)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return row(kStimulator)->text(0).contains("⚠"); }));
     choose(row(kStimulator));
     EXPECT_THAT(facts(), Says("It was unplugged. Plug it in again, then reset the fault."));
     shot(window, "hardware_unplugged");
     pressReset();
-    ASSERT_TRUE(comesTrue([this] { return banner().contains("ot reset"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return banner().contains("ot reset"); }));
     EXPECT_EQ(state(), InterlockState::Faulted);
 
     plugStimulator();
-    ASSERT_TRUE(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !row(kStimulator)->text(0).contains("⚠"); }));
     EXPECT_EQ(state(), InterlockState::Faulted) << "nothing comes back by itself";
     pressReset();
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
     arm();
 }
 
@@ -127,17 +129,17 @@ TEST_F(HardwareWindow, APulledSensorBoardEndsTheOutputToo) {
     arm();
     deliver();
     board->unplug();
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
-    ASSERT_TRUE(comesTrue([this] { return banner().contains("fingertip sensor failed"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_IN_TIME(comesTrue([this] { return banner().contains("fingertip sensor failed"); }));
     const auto pulses = stimulator->pulses();
     QTest::qWait(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
     board->plug();
-    ASSERT_TRUE(comesTrue([this] { return !row(kBoard)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !row(kBoard)->text(0).contains("⚠"); }));
     pressReset();
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
-    EXPECT_TRUE(comesTrue([this] { return window.desk().telemetry().sensorAge_s < 0.1; }));
-    EXPECT_TRUE(comesTrue([this] { return banner().isEmpty(); })) << banner().toStdString();
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
+    EXPECT_IN_TIME(comesTrue([this] { return window.controller().telemetry().sensorAge_s < 0.1; }));
+    EXPECT_IN_TIME(comesTrue([this] { return banner().isEmpty(); })) << banner().toStdString();
 }
 
 TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
@@ -157,7 +159,7 @@ TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
     }
     window.resize(1100, 700);
     unplugStimulator();
-    ASSERT_TRUE(comesTrue([this] { return !banner().isEmpty() && row(kStimulator)->text(0).contains("⚠"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty() && row(kStimulator)->text(0).contains("⚠"); }));
     choose(row(kStimulator));
     QTest::qWait(100);
     shot(window, "hardware_faulted_dark_small");
@@ -176,14 +178,14 @@ TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
     arm();
     deliver();
     window.showMinimized();
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Disarmed; }, 1000));
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }, 1000));
     const auto pulses = stimulator->pulses();
     QTest::qWait(700);
     EXPECT_EQ(stimulator->pulses(), pulses);
     window.showNormal();
     EXPECT_EQ(state(), InterlockState::Disarmed) << "nothing comes back by itself";
-    window.desk().close();
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == gui::Activity::Closed; }));
+    window.controller().close();
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
 }
 
 }  // namespace

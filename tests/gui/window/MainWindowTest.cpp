@@ -15,11 +15,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/look/ConfirmButton.h"
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/run/RunFiles.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -29,7 +31,7 @@ using gui::Activity;
 using testing::HasSubstr;
 
 TEST_F(Window, ArmingTakesTwoSteps) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H12");
     open();
     click(*window.findChild<QPushButton*>("armButton"));
     auto* second = window.findChild<QPushButton*>("armOutput");
@@ -49,13 +51,13 @@ TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
     click(*first);
     auto* second = window.findChild<QPushButton*>("checkImpedance");
     ASSERT_NE(second, nullptr) << "one click was enough";
-    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     const auto* text = window.findChild<QLabel*>("armingText");
     ASSERT_NE(text, nullptr);
     EXPECT_THAT(text->text().toStdString(), HasSubstr("into 1 kohm, up to 40 V"));
-    EXPECT_TRUE(std::isnan(window.desk().telemetry().impedance_ohm));
+    EXPECT_TRUE(std::isnan(window.controller().telemetry().impedance_ohm));
     click(*second);
-    ASSERT_TRUE(comesTrue([this] {
+    ASSERT_IN_TIME(comesTrue([this] {
         const auto widgets = window.statusBar()->findChildren<QWidget*>();
         return std::any_of(widgets.begin(), widgets.end(),
                            [](const QWidget* widget) { return widget->toolTip().contains("Ω. Disarmed."); });
@@ -64,11 +66,11 @@ TEST_F(Window, CheckingTheImpedanceTakesTwoStepsAndEndsDisarmed) {
 }
 
 TEST_F(Window, AHeldReturnDoesNotArm) {
-    RecordProperty("hazard", "H6");
+    RecordProperty("hazard", "H12");
     open();
     click(*window.findChild<QPushButton*>("armButton"));
     auto* second = window.findChild<QPushButton*>("armOutput");
-    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     second->setFocus();
     QKeyEvent repeat(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r", true);
     QCoreApplication::sendEvent(second, &repeat);
@@ -93,7 +95,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     };
     press(first);
     auto* second = window.findChild<QPushButton*>("armOutput");
-    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     second->setFocus();
     QTest::qWait(gui::ConfirmButton::kDeaf_ms + 160);  // until a held key repeats
     for (int i = 0; i < 10; ++i) {
@@ -106,7 +108,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     QCoreApplication::sendEvent(second, &up);
     QTest::qWait(300);
     press(second);
-    EXPECT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; })) << "a press of its own does";
+    EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; })) << "a press of its own does";
 }
 
 TEST_F(Window, TheSecondHalfOfADoubleClickAndAHeldLetterDoNotTakeTheSecondStep) {
@@ -114,7 +116,7 @@ TEST_F(Window, TheSecondHalfOfADoubleClickAndAHeldLetterDoNotTakeTheSecondStep) 
     open();
     QTest::mouseClick(window.findChild<QPushButton*>("armButton"), Qt::LeftButton);
     auto* second = window.findChild<QPushButton*>("armOutput");
-    ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     QTest::mouseClick(second, Qt::LeftButton);
     QTest::mouseDClick(second, Qt::LeftButton);
     QTest::qWait(gui::ConfirmButton::kDeaf_ms + 100);
@@ -132,23 +134,23 @@ TEST_F(Window, AStopBetweenTheTwoStepsVoidsTheFirst) {
     for (const char* name : {"armOutput", "checkImpedance"}) {
         click(*window.findChild<QPushButton*>(name == std::string_view("armOutput") ? "armButton" : "impedanceButton"));
         QPointer<QPushButton> second = window.findChild<QPushButton*>(name);
-        ASSERT_TRUE(comesTrue([&] { return second != nullptr && second->isVisible(); })) << name;
+        ASSERT_IN_TIME(comesTrue([&] { return second != nullptr && second->isVisible(); })) << name;
         key(Qt::Key_Pause);
-        EXPECT_TRUE(comesTrue([&] { return second == nullptr || !second->isVisible(); })) << name;
+        EXPECT_IN_TIME(comesTrue([&] { return second == nullptr || !second->isVisible(); })) << name;
         QTest::qWait(200);
     }
     EXPECT_EQ(state(), InterlockState::Disarmed);
-    const auto asked = window.desk().mark();
-    window.desk().stop("the test");
+    const auto asked = window.controller().mark();
+    window.controller().stop("the test");
     ArmRequest request;
     request.operatorConfirmed = true;
-    window.desk().arm(request, asked);
+    window.controller().arm(request, asked);
     QTest::qWait(300);
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 
 TEST_F(Window, EscStopsFromInsideAModalDialog) {
-    RecordProperty("hazard", "H5");
+    RecordProperty("hazard", "H2");
     open();
     arm();
     deliver();
@@ -172,14 +174,14 @@ TEST_F(Window, TheLastMessageDoesNotSayArmedWhenThatIsOver) {
     };
     open();
     arm();
-    ASSERT_TRUE(comesTrue([&] { return says("Armed."); }));
+    ASSERT_IN_TIME(comesTrue([&] { return says("Armed."); }));
     key(Qt::Key_Pause);
-    EXPECT_TRUE(comesTrue([&] { return says("Disarmed: ") && says("Output is off."); }));
+    EXPECT_IN_TIME(comesTrue([&] { return says("Disarmed: ") && says("Output is off."); }));
     EXPECT_FALSE(says("Armed."));
     arm();
-    ASSERT_TRUE(comesTrue([&] { return says("Armed."); }));
-    window.desk().close();
-    EXPECT_TRUE(comesTrue([&] { return says("Output is off.") && !says("Armed."); }));
+    ASSERT_IN_TIME(comesTrue([&] { return says("Armed."); }));
+    window.controller().close();
+    EXPECT_IN_TIME(comesTrue([&] { return says("Output is off.") && !says("Armed."); }));
 }
 
 TEST_F(Window, TheQuestionToArmIsVoidWithTheBenchItWasAskedFor) {
@@ -187,13 +189,13 @@ TEST_F(Window, TheQuestionToArmIsVoidWithTheBenchItWasAskedFor) {
     open();
     click(*window.findChild<QPushButton*>("armButton"));
     QPointer<QPushButton> second = window.findChild<QPushButton*>("armOutput");
-    ASSERT_TRUE(comesTrue([&] { return second != nullptr && second->isVisible(); }));
-    window.desk().close();
-    EXPECT_TRUE(comesTrue([&] { return second == nullptr; })) << "it would arm whatever is opened next";
+    ASSERT_IN_TIME(comesTrue([&] { return second != nullptr && second->isVisible(); }));
+    window.controller().close();
+    EXPECT_IN_TIME(comesTrue([&] { return second == nullptr; })) << "it would arm whatever is opened next";
 }
 
 TEST_F(Window, SpaceStopsInEveryWorkspace) {
-    RecordProperty("hazard", "H5");
+    RecordProperty("hazard", "H2");
     open();
     for (int page = 0; page < 7; ++page) {
         arm();
@@ -213,21 +215,15 @@ TEST_F(Window, KeysReachEveryWorkspace) {
 }
 
 TEST_F(Window, AnUnplugDuringDeliveryIsSaidWithWhatItMeans) {
-    RecordProperty("hazard", "H3");
-    gui::LiveOrder order;
-    order.uris.push_back(*DeviceUri::parse("sim:stimulator?fault=unplug@2s"));
-    order.uris.push_back(*DeviceUri::parse("sim:"));
-    order.profile = window.desk().profile();
-    window.desk().openLive(order);
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
-    QTest::qWait(80);
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
     arm();
-    window.desk().drive(DriveSource::Manual, 1, 1);
-    ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    window.controller().drive(DriveSource::Manual, 1, 1);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
     auto* word = window.findChild<QLabel*>("interlockState");
-    EXPECT_TRUE(comesTrue([&] { return word->text() == "FAULTED"; }));
+    EXPECT_IN_TIME(comesTrue([&] { return word->text() == "FAULTED"; }));
     click(*window.findChild<QPushButton*>("armButton"));  // Reset fault
-    EXPECT_TRUE(comesTrue([this] { return banner().contains("ot reset"); })) << banner().toStdString();
+    EXPECT_IN_TIME(comesTrue([this] { return banner().contains("ot reset"); })) << banner().toStdString();
     EXPECT_THAT(banner().toStdString(), HasSubstr("Output is off"));
 }
 
@@ -238,12 +234,12 @@ TEST_F(Window, ASessionThatCannotBeWrittenIsSaidAndTheWindowLives) {
     std::filesystem::remove_all(folder);
     { std::ofstream file(folder); }  // a file where the folder should be
     key(Qt::Key_B, Qt::ControlModifier);
-    EXPECT_TRUE(comesTrue([this] { return !banner().isEmpty(); }));
+    EXPECT_IN_TIME(comesTrue([this] { return !banner().isEmpty(); }));
     EXPECT_THAT(banner().toStdString(), HasSubstr("sessions"));
-    EXPECT_EQ(window.desk().activity(), Activity::Closed);
+    EXPECT_EQ(window.controller().activity(), Activity::Closed);
     std::filesystem::remove(folder);
     key(Qt::Key_B, Qt::ControlModifier);
-    EXPECT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
+    EXPECT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Live; }));
 }
 
 TEST_F(Window, AFileThatIsNothingOfOursIsRefusedInOneSentence) {
@@ -256,8 +252,8 @@ TEST_F(Window, AFileThatIsNothingOfOursIsRefusedInOneSentence) {
 
 TEST_F(Window, TheExampleRecordingReplays) {
     window.openFile(QString::fromStdString((sourceDir() / "resources" / "examples" / "linen-slide").string()));
-    ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == Activity::Live; }));
-    ASSERT_TRUE(comesTrue([this] { return window.desk().telemetry().contact; }));
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == Activity::Live; }));
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().contact; }));
     EXPECT_EQ(window.workspace(), 0);
 }
 
@@ -275,56 +271,34 @@ TEST_F(Window, EveryControlHasAToolTipOrALabelOfItsOwn) {
     }
 }
 
-/// Counts when a widget is hidden, and how often the desk was gone by then.
+/// Counts when a widget is hidden, and how often the controller was gone by then.
 class Witness final : public QObject {
 public:
-    explicit Witness(gui::BenchDesk& desk) : desk_(&desk) {}
+    explicit Witness(gui::BenchController& controller) : controller_(&controller) {}
     int hidden = 0, late = 0;
 
 protected:
     bool eventFilter(QObject*, QEvent* event) override {
         if (event->type() != QEvent::Hide) return false;
         ++hidden;
-        if (desk_.isNull()) ++late;
+        if (controller_.isNull()) ++late;
         return false;
     }
 
 private:
-    QPointer<gui::BenchDesk> desk_;
+    QPointer<gui::BenchController> controller_;
 };
 
-TEST(WindowsEnd, AWindowDeletedWhileShownHidesBeforeItsDeskIsGone) {
+TEST(WindowsEnd, AWindowDeletedWhileShownHidesBeforeItsControllerIsGone) {
     auto window = std::make_unique<gui::MainWindow>(simulatedRegistry);
     window->showWorkspace(0);
     window->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
-    Witness witness(window->desk());
-    window->findChild<QTabWidget*>("livePage")->installEventFilter(&witness);
+    Witness witness(window->controller());
+    window->findChild<gui::TabbedPage*>("livePage")->installEventFilter(&witness);
     window.reset();
     EXPECT_GE(witness.hidden, 1);
     EXPECT_EQ(witness.late, 0);
-}
-
-TEST_F(Window, LooksRightInBothThemesAndSizes) {
-    open();
-    window.desk().present("P120", 50, 1);
-    QTest::qWait(1500);
-    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
-        gui::applyTheme(theme);
-        for (const auto size : {QSize(1440, 900), QSize(1024, 640)}) {
-            window.resize(size);
-            for (int page = 0; page < 7; ++page) {
-                window.showWorkspace(page);
-                QTest::qWait(120);
-                shot(window, QString("window-%1-%2-%3")
-                                 .arg(theme == gui::Theme::Dark ? "dark" : "light")
-                                 .arg(size.width())
-                                 .arg(page));
-            }
-            EXPECT_LE(window.width(), size.width()) << "everything fits a small screen";
-        }
-    }
-    gui::applyTheme(gui::Theme::Light);
 }
 
 }  // namespace

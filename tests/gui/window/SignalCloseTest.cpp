@@ -4,9 +4,11 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/gui/runner/ScriptEditor.h"
 #include "app/gui/window/SignalClose.h"
 #include "app/run/SignalStop.h"
 #include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -21,6 +23,15 @@ public:
         open();
         arm();
         deliver();
+        // A script that is not saved: a signal does not ask about it.
+        window.showWorkspace(6);
+        QPushButton* button = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] { return (button = find<QPushButton>(window, "New…")) != nullptr; }));
+        click(*button);
+        auto* editor = window.findChild<gui::ScriptEditor*>();
+        ASSERT_NE(editor, nullptr);
+        QTest::keyClicks(&editor->code(), "//mine");
+        ASSERT_TRUE(editor->unsaved());
     }
     void TestBody() override {}
     using Window::state;
@@ -41,7 +52,7 @@ void deliverUntilSignalled() {
         SignalStop stops;
         SignalledWindow app;
         app.beginDelivery();
-        session = app.window.desk().open()->session.string();
+        session = app.window.controller().open()->session.string();
         {
             const gui::SignalClose closes(stops, app.window);
             std::cout << "delivering" << std::endl;
@@ -49,9 +60,9 @@ void deliverUntilSignalled() {
         }
         EXPECT_EQ(app.state(), InterlockState::Disarmed);
         // The reason comes with the control loop's next step.
-        EXPECT_TRUE(comesTrue([&] {
-            return std::string_view(app.window.desk().telemetry().reason.c_str()) == "operator (signal)";
-        })) << app.window.desk().telemetry().reason.c_str();
+        EXPECT_IN_TIME(comesTrue([&] {
+            return std::string_view(app.window.controller().telemetry().reason.c_str()) == "operator (signal)";
+        })) << app.window.controller().telemetry().reason.c_str();
         EXPECT_FALSE(app.window.isVisible());
     }
     QProcess verify;
@@ -79,7 +90,7 @@ TEST(SignalClose, ASignalEndsTheOutputAndClosesTheWindowAndItsSession) {
                     {"--gtest_filter=SignalClose.ASignalEndsTheOutputAndClosesTheWindowAndItsSession"});
         ASSERT_TRUE(other.waitForStarted());
         QByteArray said;
-        ASSERT_TRUE(comesTrue([&] { return (said += other.readAll()).contains("delivering"); }, 30'000))
+        ASSERT_IN_TIME(comesTrue([&] { return (said += other.readAll()).contains("delivering"); }, 30'000))
             << said.toStdString();
         kill(static_cast<pid_t>(other.processId()), signal);
         ASSERT_TRUE(other.waitForFinished(20'000)) << "signal " << signal;
@@ -95,7 +106,7 @@ TEST(SignalClose, WhatTheWindowOpensTakesSignalsAsUsual) {
     const auto path = scratch.path() / "mask";
     ASSERT_TRUE(QProcess::startDetached(
         "/bin/sh", {"-c", QString("grep SigBlk /proc/self/status > %1.part; mv %1.part %1").arg(path.c_str())}));
-    ASSERT_TRUE(comesTrue([&] { return std::filesystem::exists(path); }));
+    ASSERT_IN_TIME(comesTrue([&] { return std::filesystem::exists(path); }));
     block(SIG_UNBLOCK);  // of this thread, for the tests after it
     std::ifstream stream(path);
     std::string name;

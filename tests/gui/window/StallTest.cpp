@@ -9,6 +9,7 @@
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/window/StallWatch.h"
+#include "tests/support/InTime.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -36,7 +37,7 @@ TEST(Stalls, TheWindowAnswersWhileAProtocolAReportAndAnExportRun) {
     window.resize(1440, 900);
     window.show();
     std::shared_ptr<const gui::FinishedRun> ended;
-    QObject::connect(&window.desk(), &gui::BenchDesk::finished, &window,
+    QObject::connect(&window.controller(), &gui::BenchController::finished, &window,
                      [&](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
     const auto expectNone = [](const char* what, const std::optional<Stalls>& stalls) {
         ASSERT_TRUE(stalls) << what << " did not come to its end";
@@ -46,7 +47,7 @@ TEST(Stalls, TheWindowAnswersWhileAProtocolAReportAndAnExportRun) {
     window.showWorkspace(3);
     auto* run = find<QPushButton>(window, "runButton");
     ASSERT_NE(run, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return run->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return run->isEnabled(); }));
     expectNone("a protocol", stallsWhile([&] { click(*run); }, [&] { return ended != nullptr; }, kLimit_ms));
     ASSERT_TRUE(ended);
     ASSERT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
@@ -62,7 +63,7 @@ TEST(Stalls, TheWindowAnswersWhileAProtocolAReportAndAnExportRun) {
     window.openFile(QString::fromStdString(ended->result.session.string()));
     auto* verify = find<QPushButton>(*sessions, "Verify");
     ASSERT_NE(verify, nullptr);
-    ASSERT_TRUE(comesTrue([&] { return verify->isEnabled(); }));
+    ASSERT_IN_TIME(comesTrue([&] { return verify->isEnabled(); }));
     const auto target = folder.path() / "csv";
     expectNone("an export", stallsWhile([&] { sessions->exportTo(QString::fromStdString(target.string())); },
                                         [&] { return std::filesystem::exists(target); }, kLimit_ms));

@@ -17,7 +17,7 @@ namespace {
 class Keys : public testing::Test {
 protected:
     Keys() {
-        RecordProperty("hazard", "H6");
+        RecordProperty("hazard", "H2");
         auto* layout = new QVBoxLayout(&window);
         for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
             layout->addWidget(widget);

@@ -8,6 +8,7 @@
 
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
+#include "tests/support/InTime.h"
 
 namespace tacto::test {
 
@@ -25,30 +26,44 @@ protected:
         QTest::keyClick(focus->windowHandle(), key, modifiers);
         QCoreApplication::processEvents();
     }
-    [[nodiscard]] InterlockState state() { return window.desk().telemetry().state; }
+    [[nodiscard]] InterlockState state() { return window.controller().telemetry().state; }
     [[nodiscard]] QString banner() {
+        // A fault stands in the safety bar, all else above the workspaces.
+        QString all;
+        const auto* fault = window.findChild<QLabel*>("faultText");
+        if (fault->isVisible()) all = "Fault: " + fault->parentWidget()->toolTip();
         const auto* label = window.findChild<QLabel*>("bannerText");
-        return label->isVisible() ? label->text() : QString();
+        return label->isVisible() ? all + label->text() : all;
     }
     void open() {
         key(Qt::Key_B, Qt::ControlModifier);
-        ASSERT_TRUE(comesTrue([this] { return window.desk().activity() == gui::Activity::Live; }));
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
         QTest::qWait(80);  // the next frame enables the buttons
+    }
+    /// The simulated bench, whose stimulator is unplugged two seconds later.
+    void openAndUnplugAfter2s() {
+        gui::LiveOrder order;
+        order.uris.push_back(*DeviceUri::parse("sim:stimulator?fault=unplug@2s"));
+        order.uris.push_back(*DeviceUri::parse("sim:"));
+        order.profile = window.controller().profile();
+        window.controller().openLive(order);
+        ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+        QTest::qWait(80);
     }
     /// Both steps, as a person takes them.
     void arm() {
         auto* first = window.findChild<QPushButton*>("armButton");
-        ASSERT_TRUE(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
+        ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
         click(*first);
         auto* second = window.findChild<QPushButton*>("armOutput");
         ASSERT_NE(second, nullptr);
-        ASSERT_TRUE(comesTrue([&] { return second->isVisible(); }));
+        ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
         click(*second);
-        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Armed; }));
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Armed; }));
     }
     void deliver() {
-        window.desk().drive(DriveSource::Manual, 0.5, 1);
-        ASSERT_TRUE(comesTrue([this] { return state() == InterlockState::Delivering; }));
+        window.controller().drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
     }
     gui::MainWindow window{simulatedRegistry};
 };

@@ -9,8 +9,9 @@
 
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/live/StripPlots.h"
-#include "app/gui/scope/ScopeView.h"
+#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
 #include "tests/perf/window/WindowPerf.h"
@@ -102,27 +103,29 @@ Cost emptyPlot() {
 /// Two channels, another capture of the bench in each frame: no real one triggers so fast.
 void twoChannels(const Cost& baseline) {
     const char* what = "oscilloscope: two channels, new each frame";
-    gui::BenchDesk desk(test::simulatedRegistry);
-    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
+    gui::BenchController controller(test::simulatedRegistry);
+    if (!openBench(controller) || !deliver(controller))
+        return notMeasured(what, "the simulated bench does not deliver");
     std::vector<gui::ShownPtr> captures;
-    QObject::connect(&desk, &gui::BenchDesk::captured, [&](std::shared_ptr<const Capture> capture) {
+    QObject::connect(&controller, &gui::BenchController::captured, [&](std::shared_ptr<const Capture> capture) {
         captures.push_back(gui::prepareCapture(std::move(capture), {}, {}));
     });
     ScopeSettings settings;
     {
-        gui::ScopeWorkspace controls(desk);
+        gui::ScopeWorkspace controls(controller);
         settings = controls.settings();
     }
-    desk.runScope(settings, false);
+    controller.runScope(settings, false);
     if (!comes([&] { return captures.size() >= 4; })) return notMeasured(what, "the oscilloscope does not trigger");
-    desk.stopScope();
+    controller.stopScope();
     pass(100);
-    gui::ScopeView view;
-    view.resize(kScreen);
-    view.QWidget::show();
+    gui::ScopeModel model;
+    gui::ScopeScreen screen(model);
+    screen.resize(kScreen);
+    screen.QWidget::show();
     std::size_t drawn = 0, k = 0;
-    count(view, drawn);
-    const auto cost = costOf([&] { view.show(captures[k++ % captures.size()]); }, drawn);
+    count(screen, drawn);
+    const auto cost = costOf([&] { model.show(captures[k++ % captures.size()]); }, drawn);
     tell(what, cost, baseline, true);
 }
 
@@ -130,25 +133,26 @@ void twoChannels(const Cost& baseline) {
 /// half as often: wholeWindow().
 void touch(const Cost& baseline) {
     const char* what = "touch: every strip; plane 30/s, numbers 10/s";
-    gui::BenchDesk desk(test::simulatedRegistry);
-    gui::LiveWorkspace live(desk);
+    gui::BenchController controller(test::simulatedRegistry);
+    gui::LiveWorkspace live(controller);
     live.resize(kScreen);
     live.show();
-    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
-    desk.present("P120", 50, 1);
-    desk.drive(DriveSource::Sensor);
+    if (!openBench(controller) || !deliver(controller))
+        return notMeasured(what, "the simulated bench does not deliver");
+    controller.present("P120", 50, 1);
+    controller.drive(DriveSource::Sensor);
     std::size_t drawn = 0;
     count(const_cast<gui::StripPlots&>(live.plots()), drawn);
     // Ten seconds are shown: a full picture is what costs.
     QTimer fill;
-    QObject::connect(&fill, &QTimer::timeout, [&] { live.refresh(desk.telemetry(), true); });
+    QObject::connect(&fill, &QTimer::timeout, [&] { live.refresh(controller.telemetry(), true); });
     fill.start(50);
-    desk.setSpeed(10);
+    controller.setSpeed(10);
     const bool filled = comes([&] { return live.history().now_s() > 14; });
-    desk.setSpeed(1);
+    controller.setSpeed(1);
     fill.stop();
     if (!filled) return notMeasured(what, "the simulated bench stands still");
-    tell(what, costOf([&] { live.refresh(desk.telemetry(), true); }, drawn), baseline, false,
+    tell(what, costOf([&] { live.refresh(controller.telemetry(), true); }, drawn), baseline, false,
          fmt::format("; 14 traces and a spectrum, where {:.0f} % are asked of two channels", kGoal_percent));
 }
 
@@ -157,15 +161,16 @@ void wholeWindow(const Cost& baseline, int tab, const std::string& what) {
     gui::MainWindow window(test::simulatedRegistry);
     window.resize(1440, 900);
     window.show();
-    auto& desk = window.desk();
-    if (!openBench(desk) || !deliver(desk)) return notMeasured(what, "the simulated bench does not deliver");
-    desk.present("P120", 50, 1);
-    desk.drive(DriveSource::Sensor);
-    auto* tabs = window.findChild<QTabWidget*>("livePage");
+    auto& controller = window.controller();
+    if (!openBench(controller) || !deliver(controller))
+        return notMeasured(what, "the simulated bench does not deliver");
+    controller.present("P120", 50, 1);
+    controller.drive(DriveSource::Sensor);
+    auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
     window.showWorkspace(0);
     tabs->setCurrentIndex(tab);
     auto* plot = tab == 0 ? static_cast<QCustomPlot*>(window.findChild<gui::StripPlots*>())
-                          : static_cast<QCustomPlot*>(window.findChild<gui::ScopeView*>());
+                          : static_cast<QCustomPlot*>(window.findChild<gui::ScopeScreen*>());
     std::size_t drawn = 0;
     count(*plot, drawn);
     pass(2000);

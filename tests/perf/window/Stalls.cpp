@@ -12,6 +12,7 @@
 
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
+#include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/MainWindow.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/window/StallWatch.h"
@@ -62,7 +63,7 @@ QString longSession(const std::string& cli, const QString& folder) {
 
 void protocolAndReport(gui::MainWindow& window, Table& table) {
     std::shared_ptr<const gui::FinishedRun> ended;
-    QObject::connect(&window.desk(), &gui::BenchDesk::finished, &window,
+    QObject::connect(&window.controller(), &gui::BenchController::finished, &window,
                      [&](std::shared_ptr<const gui::FinishedRun> run) { ended = std::move(run); });
     window.showWorkspace(kSeparability);
     auto* run = test::find<QPushButton>(window, "runButton");
@@ -75,7 +76,7 @@ void protocolAndReport(gui::MainWindow& window, Table& table) {
         "its report, drawn by a child process",
         stallsWhile([] {}, [&] { return std::filesystem::exists(ended->html) && std::filesystem::exists(ended->pdf); },
                     kLimit_ms));
-    auto* open = test::find<QPushButton>(window, "Open the report");
+    auto* open = test::find<QPushButton>(window, "Sign report…");
     if (open == nullptr || !comes([&] { return open->isEnabled(); })) return notMeasured("the report", "not written");
     table.add("the report, opened in place", stallsWhile([&] { test::click(*open); }, after(2500), kLimit_ms));
 }
@@ -116,16 +117,16 @@ void measureStalls(const std::string& cli) {
                                                            [&] {
                                                                gui::LiveOrder order;
                                                                order.uris.push_back(*DeviceUri::parse("sim:"));
-                                                               order.profile = window.desk().profile();
-                                                               window.desk().openLive(order);
+                                                               order.profile = window.controller().profile();
+                                                               window.controller().openLive(order);
                                                                ArmRequest request;
                                                                request.operatorConfirmed = true;
-                                                               window.desk().arm(request);
-                                                               window.desk().present("P120", 50, 1);
-                                                               window.desk().drive(DriveSource::Sensor);
+                                                               window.controller().arm(request);
+                                                               window.controller().present("P120", 50, 1);
+                                                               window.controller().drive(DriveSource::Sensor);
                                                            },
                                                            after(4000), kLimit_ms));
-    auto* tabs = window.findChild<QTabWidget*>("livePage");
+    auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
     table.add("the same, in the oscilloscope", stallsWhile([&] { tabs->setCurrentIndex(1); }, after(4000), kLimit_ms));
     window.close();
 }

@@ -142,20 +142,20 @@ Taken emptyWindow() {
 }
 
 /// Delivers, then times `stop`, given how long to wait first, a hundred times.
-void rounds(gui::BenchDesk& desk, const std::string& what, const Taken& baseline,
+void rounds(gui::BenchController& controller, const std::string& what, const Taken& baseline,
             const std::function<double(double wait_ms)>& stop) {
     std::vector<double> all;
     Random random(7, what.c_str());
     for (int round = 0; round < kRounds; ++round) {
-        desk.setSpeed(10);  // arming takes bench time
-        const bool on = deliver(desk);
-        desk.setSpeed(1);
+        controller.setSpeed(10);  // arming takes bench time
+        const bool on = deliver(controller);
+        controller.setSpeed(1);
         if (!on) return notMeasured(what, "the simulated bench does not deliver");
         offAt_ns = 0;
         const double ms = stop(anyMoment_ms(random));
         if (!std::isfinite(ms)) return notMeasured(what, "the output was not switched off within 5 s");
         all.push_back(ms);
-        if (!comes([&] { return desk.telemetry().state == InterlockState::Disarmed; }))
+        if (!comes([&] { return controller.telemetry().state == InterlockState::Disarmed; }))
             return notMeasured(what, "the bench is not disarmed after a stop");
     }
     const auto taken = takenOf(std::move(all));
@@ -175,15 +175,15 @@ void measureStop() {
     window.resize(1440, 900);
     window.show();
     window.activateWindow();
-    auto& desk = window.desk();
-    if (!openBench(desk)) return notMeasured("stop", "the simulated bench does not open");
-    desk.present("P120", 50, 1);
+    auto& controller = window.controller();
+    if (!openBench(controller)) return notMeasured("stop", "the simulated bench does not open");
+    controller.present("P120", 50, 1);
     const auto* button = window.findChild<QPushButton*>("stopButton");
-    rounds(desk, "STOP clicked", baseline,
+    rounds(controller, "STOP clicked", baseline,
            [&](double wait_ms) { return answerTime_ms(wait_ms, *window.windowHandle(), clickOn(*button), offAt_ns); });
-    rounds(desk, "Esc", baseline,
+    rounds(controller, "Esc", baseline,
            [&](double wait_ms) { return answerTime_ms(wait_ms, *window.windowHandle(), escape(), offAt_ns); });
-    rounds(desk, "Esc in a modal dialog's text field", baseline, [&](double wait_ms) {
+    rounds(controller, "Esc in a modal dialog's text field", baseline, [&](double wait_ms) {
         QDialog dialog(&window);
         dialog.setModal(true);
         QLineEdit field(&dialog);

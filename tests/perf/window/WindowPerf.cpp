@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <set>
 
-#include "app/gui/look/Look.h"
+#include "app/gui/theme/Theme.h"
 #include "tests/gui/OffscreenScreen.h"
 #include "tests/gui/window/StallWatch.h"
 
@@ -59,22 +59,22 @@ void pass(int ms) {
     loop.exec();
 }
 
-bool openBench(gui::BenchDesk& desk, double speed) {
+bool openBench(gui::BenchController& controller, double speed) {
     gui::LiveOrder order;
     order.uris.push_back(*DeviceUri::parse("sim:"));
-    order.profile = desk.profile();
+    order.profile = controller.profile();
     order.speed = speed;
-    desk.openLive(order);
-    return comes([&] { return desk.activity() == gui::Activity::Live; });
+    controller.openLive(order);
+    return comes([&] { return controller.activity() == gui::Activity::Live; });
 }
 
-bool deliver(gui::BenchDesk& desk) {
-    const auto state = [&] { return desk.telemetry().state; };
+bool deliver(gui::BenchController& controller) {
+    const auto state = [&] { return controller.telemetry().state; };
     ArmRequest request;
     request.operatorConfirmed = true;
-    desk.arm(request);
+    controller.arm(request);
     if (!comes([&] { return state() == InterlockState::Armed; })) return false;
-    desk.drive(DriveSource::Manual, 0.5, 1);
+    controller.drive(DriveSource::Manual, 0.5, 1);
     return comes([&] { return state() == InterlockState::Delivering; });
 }
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "app/gui/desk/BenchDesk.h"
+#include "app/gui/controller/BenchController.h"
 
 namespace tacto::perf {
 
@@ -31,9 +31,9 @@ void notMeasured(const std::string& what, const std::string& why);
 void pass(int ms);
 
 /// Opens the simulated bench at `speed` times real time.
-[[nodiscard]] bool openBench(gui::BenchDesk& desk, double speed = 1);
+[[nodiscard]] bool openBench(gui::BenchController& controller, double speed = 1);
 /// Arms it and drives by hand: both within a few trains. False, when the bench does not deliver.
-[[nodiscard]] bool deliver(gui::BenchDesk& desk);
+[[nodiscard]] bool deliver(gui::BenchController& controller);
 
 void measureRedraw();
 void measureStalls(const std::string& cli);

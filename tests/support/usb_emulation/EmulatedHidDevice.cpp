@@ -12,7 +12,6 @@ namespace tacto::test {
 namespace {
 
 constexpr auto kHidTimeout = std::chrono::seconds(5);
-constexpr std::uint8_t kInputEndpoint = 0x81;
 
 void check(GError* error) {
     if (error == nullptr) return;
@@ -101,10 +100,6 @@ void EmulatedHidDevice::unplug() {
 
 void EmulatedHidDevice::send(std::span<const std::uint8_t> report) {
     auto& e = *emulation_;
-    if (!e.usb.kernelDriverBound()) {
-        e.usb.send(kInputEndpoint, report);
-        return;
-    }
     const std::lock_guard lock(e.mutex);
     if (e.fifo && e.readers > 0) (void)e.fifo->put(report);
 }

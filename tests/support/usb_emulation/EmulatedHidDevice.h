@@ -1,9 +1,7 @@
-// EmulatedHidDevice.h - a USB HID device without hardware, for hidapi with either backend: as /dev/hidrawN, and as
-// the USB device behind it. Reports are as on the wire: with their number in front where the report descriptor
-// numbers them, without otherwise.
+// EmulatedHidDevice.h - a USB HID device without hardware: as /dev/hidrawN, and as the USB device behind it. Reports
+// are as on the wire: with their number in front where the report descriptor numbers them, without otherwise.
 //
-// As in the kernel, input reports go to hidraw while usbhid holds the interface, and to the USB endpoint while a
-// program (hidapi's libusb backend) has taken it away; hidraw keeps none while nobody has it open.
+// Input reports go to the programs that have the node open; it keeps none while no program has.
 //
 // Thread-safety: as EmulatedUsbDevice.
 #pragma once
@@ -51,7 +49,7 @@ public:
     [[nodiscard]] std::vector<UsbBytes> waitForReports(std::size_t count) const;
     /// Feature reports that the host set, in order.
     [[nodiscard]] std::vector<UsbBytes> featuresSet() const;
-    /// The USB side, for its faults: stall, hold, takeOnly on endpoints 0x01 and 0x81.
+    /// The USB device behind it, which answers no transfers.
     [[nodiscard]] EmulatedUsbDevice& usb() noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // HidEmulation.h - the inside of an EmulatedHidDevice: HidrawCalls.cpp answers system calls on /dev/hidrawN,
-// HidReports.cpp is the device that both ways lead to, EmulatedHidDevice.cpp what a test calls.
+// HidReports.cpp is the device that they lead to, EmulatedHidDevice.cpp what a test calls.
 #pragma once
 
 #include <condition_variable>
@@ -33,8 +33,6 @@ struct EmulatedHidDevice::Emulation {
     long ioctl(UMockdevIoctlClient* client, int& error);
     void write(UMockdevIoctlClient* client);
     std::vector<UsbBytes> take(std::span<const std::uint8_t> report);
-    UsbBytes fromUsb(std::span<const std::uint8_t> report);
-    std::optional<UsbBytes> request(const UsbSetup& setup, std::span<const std::uint8_t> data);
     void setFeature(std::span<const std::uint8_t> report, std::uint8_t number);
     std::optional<UsbBytes> getFeature(std::uint8_t number);
     void releaseHeld();

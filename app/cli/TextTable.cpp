@@ -1,0 +1,49 @@
+#include "app/cli/TextTable.h"
+
+#include <algorithm>
+
+#include "app/cli/Say.h"
+
+namespace tacto::cli {
+
+namespace {
+
+/// Characters, not bytes.
+std::size_t lengthOf(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+TextTable::TextTable(std::vector<std::string> headings) {
+    for (auto& heading : headings) {
+        toTheRight_.push_back(heading.starts_with('>'));
+        if (toTheRight_.back()) heading.erase(0, 1);
+    }
+    add(std::move(headings));
+}
+
+void TextTable::add(std::vector<std::string> cells) {
+    for (auto& cell : cells) cell = printable(cell);
+    cells.resize(toTheRight_.size());
+    rows_.push_back(std::move(cells));
+}
+
+void TextTable::print() const {
+    std::vector<std::size_t> widths(toTheRight_.size());
+    for (const auto& row : rows_) {
+        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], lengthOf(row[c]));
+    }
+    say("\n");
+    for (const auto& row : rows_) {
+        std::string line;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const std::string blanks(widths[c] - lengthOf(row[c]), ' ');
+            line += "  " + (toTheRight_[c] ? blanks + row[c] : row[c] + blanks);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        say("{}\n", line);
+    }
+}
+
+}  // namespace tacto::cli

@@ -1,0 +1,25 @@
+// TextTable.h - a table for the terminal: each column as wide as what stands in it.
+//
+// Thread-safety: none; one owner.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tacto::cli {
+
+class TextTable {
+public:
+    /// A heading that begins with '>' stands to the right with its column, as numbers do; the mark is not printed.
+    explicit TextTable(std::vector<std::string> headings);
+    /// As many cells as there are headings.
+    void add(std::vector<std::string> cells);
+    /// After an empty line.
+    void print() const;
+
+private:
+    std::vector<bool> toTheRight_;
+    std::vector<std::vector<std::string>> rows_;  ///< printable; the headings first
+};
+
+}  // namespace tacto::cli

@@ -1,0 +1,63 @@
+// InstrumentDialog.h - the laboratory's oscilloscopes, shunts and probes: saved once by name, chosen in place.
+//
+// What is chosen is put together as the address of the oscilloscope. An instrument whose certificate expired says so
+// and its figures are left out: unknown is not zero (hazard H9).
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QComboBox>
+#include <QDialog>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <array>
+
+#include "app/run/InstrumentPresets.h"
+
+namespace tacto::gui {
+
+class InstrumentDialog final : public QDialog {
+    Q_OBJECT
+public:
+    explicit InstrumentDialog(QWidget* parent);
+
+signals:
+    /// The address of the chosen oscilloscope, with what is stated of it, its shunt and its probe.
+    void chosen(const QString& address);
+
+private:
+    [[nodiscard]] QWidget* buildChoice();
+    [[nodiscard]] QWidget* buildForm();
+    void read();
+    void compose();
+    [[nodiscard]] ChosenInstruments picked() const;
+    [[nodiscard]] InstrumentKind formKind() const;
+    /// As written in the form. Errors: InvalidArgument, one sentence.
+    [[nodiscard]] Result<InstrumentPreset> written() const;
+    void showFields();
+    void judge();
+    void save();
+    void remove();
+
+    std::vector<InstrumentPreset> all_;
+    std::array<QComboBox*, 3> choosers_{};  // as InstrumentKind
+    QLabel* address_ = nullptr;
+    QLabel* said_ = nullptr;
+    QPushButton* use_ = nullptr;
+    QFormLayout* form_ = nullptr;
+    QComboBox* kind_ = nullptr;
+    QLineEdit* name_ = nullptr;
+    QLineEdit* serial_ = nullptr;
+    QLineEdit* where_ = nullptr;
+    QLineEdit* ohms_ = nullptr;
+    QLineEdit* accuracy_ = nullptr;
+    QLineEdit* timeBase_ = nullptr;
+    QLineEdit* due_ = nullptr;
+    QLabel* trouble_ = nullptr;
+    QPushButton* save_ = nullptr;
+    QPushButton* remove_ = nullptr;
+};
+
+}  // namespace tacto::gui

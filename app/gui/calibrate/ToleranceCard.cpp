@@ -1,0 +1,126 @@
+#include "app/gui/calibrate/ToleranceCard.h"
+
+#include <QEvent>
+#include <QPainter>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kCardWidth = 176, kNarrowCard = 104, kCardPad = 8, kCardBar = 6, kCardIcon = 14;
+constexpr double kNearTolerance = 0.8;
+
+}  // namespace
+
+ToleranceCard::ToleranceCard(const QString& title, QWidget* parent) : QAbstractButton(parent) {
+    setText(title);
+    setAccessibleName(title);
+    setCheckable(true);
+    setAutoExclusive(true);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+void ToleranceCard::setLow(bool low) {
+    if (std::exchange(low_, low) != low) updateGeometry();
+}
+
+void ToleranceCard::show(const CalibrationReadings& of) {
+    verdict_ = of.verdict;
+    const auto* use = of.nearest();
+    share_ = use != nullptr ? use->share() : 0;
+    large_ = use != nullptr ? quantityText(100 * share_, "%", 2) : QString::number(of.readings.size());
+    beside_ = use != nullptr ? tr("of the tolerance used") : tr("readings");
+    where_ = use != nullptr
+                 ? tr("at %1: %2")
+                       .arg(settingText(use->commanded, of.unit), uncertainText(use->error, use->expanded, of.unit))
+                 : QString();
+    tolerance_ = use != nullptr ? tr("tolerance ± %1").arg(settingText(use->tolerance, of.unit)) : QString();
+    const auto said = QStringList{verdict_, large_ + ' ' + beside_, where_, tolerance_}.join("; ");
+    setToolTip(tr("%1: %2. Shows it in the plot.").arg(text(), said));
+    setAccessibleDescription(said);
+    update();
+}
+
+QSize ToleranceCard::sizeHint() const {
+    const int small = QFontMetrics(textFont(TextSize::Small)).height();
+    const int height = QFontMetrics(textFont(TextSize::Body)).height() +
+                       QFontMetrics(textFont(TextSize::Large)).height() + scaledPx(kCardBar) + (low_ ? 1 : 2) * small +
+                       2 * kCardPad + 4;
+    return {scaledPx(kCardWidth), height};
+}
+
+QSize ToleranceCard::minimumSizeHint() const { return {scaledPx(kNarrowCard), sizeHint().height()}; }
+
+void ToleranceCard::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) updateGeometry();
+    QAbstractButton::changeEvent(event);
+}
+
+void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    const auto& c = colours();
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool chosen = isChecked();
+    const double pen = chosen ? 2 : 1;
+    painter.setPen(QPen(chosen ? c.text : hasFocus() ? c.edge : c.line, pen));
+    painter.setBrush(underMouse() && !chosen ? c.sunken : c.base);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(pen / 2, pen / 2, -pen / 2, -pen / 2), 4, 4);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+
+    auto line = rect().adjusted(kCardPad, kCardPad, -kCardPad, -kCardPad);
+    const auto write = [&](const QFont& font, const QColor& ink, const QString& text, int from = 0) {
+        painter.setFont(font);
+        painter.setPen(ink);
+        const auto metrics = painter.fontMetrics();
+        const QRect place(line.left() + from, line.top(), line.width() - from, metrics.height());
+        painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(text, Qt::ElideRight, place.width()));
+        return metrics.horizontalAdvance(text);
+    };
+    const auto title = textFont(TextSize::Body, QFont::DemiBold);
+    const QRect head(line.left(), line.top(), line.width(), QFontMetrics(title).height());
+    int taken = 0;  // at the right of the title
+    if (!verdict_.isEmpty()) {
+        const auto style = verdictStyle(verdict_);
+        const auto small = textFont(TextSize::Small, QFont::DemiBold);
+        const int size = scaledPx(kCardIcon), word = QFontMetrics(small).horizontalAdvance(verdict_) + 4;
+        // In a narrow card the shape alone; the word is in the verdict above and in the tool tip.
+        const bool room = QFontMetrics(title).horizontalAdvance(text()) + size + word + kCardPad <= head.width();
+        taken = size + (room ? word : 0) + 4;
+        painter.setFont(small);
+        painter.setPen(style.colour);
+        if (room) painter.drawText(head, Qt::AlignRight | Qt::AlignVCenter, verdict_);
+        painter.drawPixmap(head.right() - taken + 4, head.center().y() - size / 2,
+                           iconPixmap(style.icon, style.colour, size, devicePixelRatioF()));
+    }
+    painter.setFont(title);
+    painter.setPen(c.text);
+    painter.drawText(head, Qt::AlignLeft | Qt::AlignVCenter,
+                     painter.fontMetrics().elidedText(text(), Qt::ElideRight, head.width() - taken));
+    line.setTop(line.top() + QFontMetrics(title).height());
+    const auto large = textFont(TextSize::Large, QFont::DemiBold);
+    const int wide = write(large, c.text, large_);
+    const int high = QFontMetrics(large).height();
+    const int drop = high - QFontMetrics(textFont(TextSize::Small)).height() - 3;
+    line.setTop(line.top() + drop);
+    write(textFont(TextSize::Small), c.quiet, beside_, wide + 6);
+    line.setTop(line.top() - drop + high);
+    const QRect bar(line.left(), line.top(), line.width(), scaledPx(kCardBar));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(c.sunken);
+    painter.drawRect(bar);
+    painter.setBrush(share_ > 1 ? c.fail : share_ >= kNearTolerance ? c.amber : c.bar);
+    painter.drawRect(QRect(bar.topLeft(), QSize(int(bar.width() * std::clamp(share_, 0.0, 1.0)), bar.height())));
+    line.setTop(bar.bottom() + 4);
+    write(textFont(TextSize::Small), c.text, where_);
+    line.setTop(line.top() + QFontMetrics(textFont(TextSize::Small)).height());
+    if (!low_) write(textFont(TextSize::Small), c.quiet, tolerance_);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,342 @@
+#include "app/gui/controller/BenchController.h"
+
+#include <QMetaObject>
+#include <cmath>
+
+#include "app/gui/controller/DrivenBench.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/bench/ArmingText.h"
+
+namespace tacto::gui {
+
+// A socket is looked at that often; plugging in is not a thing of milliseconds.
+constexpr std::chrono::milliseconds kLookEvery(1000);
+
+BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent)
+    : QObject(parent),
+      makeRegistry_(std::move(makeRegistry)),
+      watch_(makeRegistry_, kLookEvery),
+      thread_([this] { return serveLive(); }, [this] { closeOnThread(); }) {
+    qRegisterMetaType<std::shared_ptr<const Capture>>();
+    qRegisterMetaType<std::shared_ptr<const FinishedRun>>();
+    qRegisterMetaType<OperatorQuestion>();
+    if (auto profile = shippedProfile()) profile_ = std::move(*profile);
+    if (auto limits = shippedLimits()) limits_ = std::move(*limits);
+}
+
+BenchController::~BenchController() {
+    stop("the window closes");
+    thread_.quit();
+}
+
+Telemetry BenchController::telemetry() const {
+    const std::scoped_lock lock(benchMutex_);
+    return bench_ != nullptr ? bench_->telemetry() : Telemetry{};
+}
+
+std::string BenchController::confirmationOf(const Load& load) const {
+    if (!open_ || !open_->output) return {};
+    return armingText(*open_->output, open_->source ? &*open_->source : nullptr, profile_, OutputMode::BenchLoad, load);
+}
+
+std::optional<DeviceReport> BenchController::deviceReport(Role role) const {
+    const std::scoped_lock lock(benchMutex_);
+    return bench_ != nullptr ? bench_->deviceReport(role) : std::nullopt;
+}
+
+Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) const {
+    return makeRegistry_().allVirtual(uris);
+}
+
+void BenchController::stop(const char* by) noexcept {
+    stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
+    const std::scoped_lock lock(benchMutex_);
+    stoppedBy_ = by;
+    if (script_ != nullptr)
+        script_->stop(by);
+    else if (bench_ != nullptr)
+        bench_->stop(by);
+}
+
+void BenchController::pause() {
+    const std::scoped_lock lock(benchMutex_);
+    if (script_ != nullptr)
+        script_->pause();
+    else if (bench_ != nullptr)
+        bench_->pause();
+}
+
+void BenchController::resume() {
+    const std::scoped_lock lock(benchMutex_);
+    if (script_ != nullptr)
+        script_->resume();
+    else if (bench_ != nullptr)
+        bench_->resume();
+}
+
+bool BenchController::markMoment(Instant at, const QString& word) {
+    {
+        const std::scoped_lock lock(benchMutex_);
+        if (bench_ == nullptr || !bench_->markMoment(at, word.toStdString())) return false;
+    }
+    emit marked(toSeconds(at), word);
+    return true;
+}
+
+void BenchController::openLive(const LiveOrder& order) {
+    profile_ = order.profile;
+    speed_ = order.speed;
+    auto noted = order;
+    noted.notes = day_.notes();
+    thread_.post([this, noted = std::move(noted), asked = stops_->mark()] { openOnThread(noted, asked); });
+}
+
+void BenchController::close() {
+    stop("closed by the operator");
+    thread_.post([this] { closeOnThread(); });
+}
+
+void BenchController::arm(const ArmRequest& request, StopMark asked) {
+    order(asked, [this, request](Bench& bench) -> Result<void> {
+        if (bench.telemetry().paused) bench.disarm();  // so that resuming lets no train out
+        bench.resume();                                // a pause from before this arming is over
+        const auto armed = bench.arm(request);
+        if (!armed) bench.disarm();                                                   // also what was armed before
+        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // arming may have used it
+        if (!armed) return armed;
+        tell([this] { emit this->armed(); });
+        return {};
+    });
+}
+
+void BenchController::checkImpedance(const ArmRequest& request, StopMark asked) {
+    order(asked, [this, request](Bench& bench) -> Result<void> {
+        if (bench.telemetry().paused) bench.disarm();
+        bench.resume();  // a pause from before this check is over
+        const auto found = bench.checkImpedance(request);
+        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // the check may have used it
+        if (!found) return failure(found);
+        tell([this, ohms = *found ? (*found)->value() : std::nan("")] { emit checked(ohms); });
+        return {};
+    });
+}
+
+void BenchController::disarm() { stop("operator (Disarm)"); }
+
+void BenchController::resetFault() {
+    order([](Bench& bench) { return bench.resetFault(); });
+}
+
+void BenchController::drive(DriveSource source, double roughness, double pressure) {
+    lastDrive_ = {source, roughness, pressure};
+    if (source == DriveSource::Off) {
+        thread_.post([this] {
+            if (live_) static_cast<void>(live_->bench().drive(DriveSource::Off));  // refused for nothing
+        });
+        return;
+    }
+    order([source, roughness, pressure](Bench& bench) { return bench.drive(source, roughness, pressure); });
+}
+
+void BenchController::setProfile(const Profile& profile) {
+    if (activity_ == Activity::Closed) {
+        profile_ = profile;
+        emit changed();
+        return;
+    }
+    if (activity_ != Activity::Live) {
+        return report({ErrorCode::NotArmed,
+                       "The profile was not changed: it can be while no protocol runs and no bench opens or closes."});
+    }
+    thread_.post([this, profile] {
+        if (!live_) return;
+        if (auto set = live_->bench().setProfile(profile); !set) return report(set.error());
+        tell([this, profile] {
+            profile_ = profile;
+            emit changed();
+        });
+    });
+}
+
+void BenchController::setSpeed(double speed) {
+    if (speed > 0) speed_ = speed;
+}
+
+void BenchController::present(const std::string& material, double speed_mm_s, double force_n) {
+    thread_.post([this, material, speed_mm_s, force_n] {
+        if (!live_ || !live_->bench().devices().surface) return;
+        auto& surface = *live_->bench().devices().surface;
+        if (auto done = surface.present(material, MillimetresPerSecond(speed_mm_s), Newtons(force_n)); !done)
+            return report(done.error());
+        tell([this, name = QString::fromStdString(material), speed_mm_s, force_n] {
+            emit presented(name, speed_mm_s, force_n);
+        });
+    });
+}
+
+void BenchController::fitLoad(const std::string& load) {
+    thread_.post([this, load] {
+        if (!live_ || !live_->bench().devices().load) return;
+        live_->bench().disarm();
+        if (auto done = live_->bench().devices().load->fitLoad(load); !done) report(done.error());
+    });
+}
+
+void BenchController::runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter) {
+    thread_.post([this, settings, single, untriggeredAfter] {
+        if (!live_) return;
+        if (auto asked = live_->runScope(settings, single, untriggeredAfter); !asked) scopeFailed(asked.error());
+    });
+}
+
+void BenchController::stopScope() {
+    thread_.post([this] {
+        if (live_) live_->stopScope();
+    });
+}
+
+void BenchController::run(const RunOrder& order, StopMark asked) {
+    profile_ = order.profile;
+    operator_.prepare(order.settings.answers);
+    auto marked = order;
+    marked.stops = stops_;
+    marked.asked = asked;
+    marked.watched = [pulse = pulse_] { return pulse->runs(); };
+    activity_ = Activity::Opening;  // at once: no other run is begun beside it
+    emit changed();
+    thread_.post([this, marked = std::move(marked)] { runOnThread(marked); });
+}
+
+void BenchController::order(StopMark asked, std::function<Result<void>(Bench&)> task) {
+    thread_.post([this, asked, task = std::move(task)] {
+        if (!live_) return report(Error{ErrorCode::NotArmed, "Nothing was done: no bench is open."});
+        auto done = live_->bench().begin(asked);
+        if (done) done = task(live_->bench());
+        if (!done) report(done.error());
+    });
+}
+
+void BenchController::tell(std::function<void()> onWindow) {
+    QMetaObject::invokeMethod(this, std::move(onWindow), Qt::QueuedConnection);
+}
+
+void BenchController::report(const Error& error) {
+    tell([this, what = QString::fromStdString(error.message)] { emit failed(what); });
+}
+
+bool BenchController::serveLive() {
+    if (!live_) return false;
+    live_->serve(speed_);
+    serveScope();
+    if (const auto failed = live_->takeRecordingFailure()) {
+        live_->bench().stop("recording failed");
+        report(Error{failed->code, fmt::format("Recording ended: {}. Output is off.", failed->message)});
+    }
+    return true;
+}
+
+void BenchController::serveScope() {
+    const auto taken = live_->takeCapture();
+    if (!taken) return scopeFailed(taken.error());
+    if (!*taken) return;
+    tell([this, capture = *taken] { emit captured(capture); });
+    if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());
+}
+
+void BenchController::scopeFailed(const Error& error) {
+    report(error);
+    tell([this, why = QString::fromStdString(error.message)] { emit scopeStopped(why); });
+}
+
+void BenchController::publishBench(Bench* bench, ScriptRun* script) {
+    const std::scoped_lock lock(benchMutex_);
+    bench_ = bench;
+    script_ = script;
+}
+
+std::string BenchController::lastStop() const {
+    const std::scoped_lock lock(benchMutex_);
+    return stoppedBy_;
+}
+
+void BenchController::become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap) {
+    tell([this, activity, open = std::move(open), tap = std::move(tap)] {
+        activity_ = activity;
+        open_ = open;
+        tap_ = tap;
+        emit changed();
+    });
+}
+
+void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
+    closeOnThread();
+    become(Activity::Opening, nullptr, nullptr);
+    const auto give_up = [this](const Error& error) {
+        report(error);
+        become(Activity::Closed, nullptr, nullptr);
+    };
+    auto registry = makeRegistry_();
+    auto live =
+        DrivenBench::open(registry, order, {limits_, stops_, asked, [pulse = pulse_] { return pulse->runs(); }});
+    if (!live) return give_up(live.error());
+    publishBench(&(*live)->bench(), nullptr);  // from here on a stop reaches it
+    if (stops_->movedSince(asked)) {
+        publishBench(nullptr, nullptr);
+        live->reset();
+        return give_up(Error{ErrorCode::Stopped, "stopped while devices were opening: nothing was delivered"});
+    }
+    live_ = std::move(*live);
+    become(Activity::Live, live_->about(), live_->tap());
+    for (const auto& warning : live_->warnings()) report({ErrorCode::Unsupported, warning});
+}
+
+void BenchController::closeOnThread() {
+    if (!live_) return;
+    publishBench(nullptr, nullptr);
+    if (auto closed = live_->close(); !closed) report(closed.error());
+    live_.reset();
+    become(Activity::Closed, nullptr, nullptr);
+}
+
+void BenchController::runOnThread(const RunOrder& order) {
+    closeOnThread();
+    become(Activity::Opening, nullptr, nullptr);
+    static_cast<void>(feed_.take());
+    auto finished = std::make_shared<FinishedRun>();
+    finished->order = order;
+    auto tap = std::make_shared<BenchTap>();
+    auto registry = makeRegistry_();
+    const auto end = [&] {
+        become(Activity::Closed, nullptr, nullptr);
+        tell([this, finished] { emit this->finished(finished); });
+    };
+    auto prepared = ProtocolRun::prepare(order, registry, tap);
+    if (!prepared) {
+        finished->result.outcome.error = prepared.error();
+        finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
+        return end();
+    }
+    auto& run = **prepared;
+    publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
+    RunRequest hooks;
+    hooks.operatorDesk = &operator_;
+    feed_.listen(hooks);
+    if (auto started = run.start(std::move(hooks)); !started) {
+        publishBench(nullptr, nullptr);
+        finished->result = run.finish();
+        return end();
+    }
+    publishBench(&run.bench(), run.script());
+    // A stop between start and publishing has switched off the bench, and has not reached the script.
+    if (stops_->movedSince(order.asked)) run.script()->stop(lastStop().c_str());
+    become(Activity::Running, describeBench(run.opened()), tap);
+    static_cast<void>(run.script()->wait());
+    publishBench(nullptr, nullptr);
+    become(Activity::Closing, nullptr, tap);
+    finished->result = run.finish();
+    finished->html = run.files().report(".html");
+    finished->pdf = run.files().report(".pdf");
+    end();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,183 @@
+// BenchController.h - the window's one way to the bench: opens it, drives it, runs protocols on it, and lets displays
+// look.
+//
+// The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
+// thread; what fails is told by failed(). stop() goes straight to the outputs, past every queue, and ends everything
+// that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if
+// no stop came since it was asked for.
+//
+// A bench of simulated devices and recordings runs on the virtual clock, moved by that thread at `speed` times real
+// time; one with hardware runs on the steady clock. Every opened bench records to a session file.
+//
+// Thread-safety: the GUI thread, but for stop(), which any thread may call.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "app/gui/controller/DayNotes.h"
+#include "app/gui/controller/DeviceWatch.h"
+#include "app/gui/controller/OpenBench.h"
+#include "app/gui/controller/RunFeed.h"
+#include "app/gui/controller/TaskThread.h"
+#include "app/gui/controller/WindowOperator.h"
+#include "app/gui/controller/WindowPulse.h"
+#include "app/run/ProtocolRun.h"
+#include "core/bench/BenchTap.h"
+
+namespace tacto::gui {
+
+class DrivenBench;
+
+enum class Activity {
+    Closed,  ///< no bench
+    Opening,
+    Live,     ///< a bench is open for looking and driving by hand
+    Running,  ///< a protocol has it
+    Closing,
+};
+
+/// A run's end, with the reports that were written of it.
+struct FinishedRun {
+    RunOrder order;
+    RunResult result;
+    std::filesystem::path html, pdf;  ///< empty when not written
+};
+
+class BenchController final : public QObject {
+    Q_OBJECT
+public:
+    using MakeRegistry = std::function<Registry()>;
+    explicit BenchController(MakeRegistry makeRegistry, QObject* parent = nullptr);
+    ~BenchController() override;  ///< outputs off, bench closed, thread joined
+
+    [[nodiscard]] Activity activity() const noexcept { return activity_; }
+    /// Null while Closed or Opening.
+    [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
+    /// Disconnected without a bench.
+    [[nodiscard]] Telemetry telemetry() const;
+    /// What the open device of that role reports on itself: losses, clock drift. Nothing where there is none.
+    [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const;
+    /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
+    [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
+    /// The profile in force: of the open bench, else the one of the last order or the shipped one.
+    [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
+    [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
+    /// Who works here today, on which sample: in every session that is begun.
+    [[nodiscard]] DayNotes& day() noexcept { return day_; }
+    /// What is present.
+    [[nodiscard]] DeviceWatch& watch() noexcept { return watch_; }
+    /// Whether these are simulated devices and recordings only: nothing that can put out a current.
+    /// Errors: as Registry::allVirtual().
+    [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
+
+    void openLive(const LiveOrder& order);
+    void close();
+    /// What the operator is shown and confirms before this load is armed: `request.confirmed`. Empty without a bench.
+    [[nodiscard]] std::string confirmationOf(const Load& load) const;
+    /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken. Whatever fails leaves
+    /// the bench disarmed.
+    void arm(const ArmRequest& request, StopMark asked);
+    void arm(const ArmRequest& request) { arm(request, mark()); }
+    /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() tells what it found.
+    void checkImpedance(const ArmRequest& request, StopMark asked);
+    void checkImpedance(const ArmRequest& request) { checkImpedance(request, mark()); }
+    /// At once, past what waits to be done; ends a running protocol.
+    void disarm();
+    /// For an order of two steps: taken at the first, so that a stop before the second voids it.
+    [[nodiscard]] StopMark mark() const noexcept { return stops_->mark(); }
+    [[nodiscard]] bool stoppedSince(StopMark asked) const noexcept { return stops_->movedSince(asked); }
+    /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
+    /// the driver that is at work returns.
+    void stop(const char* by) noexcept;
+    void pause();
+    void resume();
+    /// Marks the moment `at` of the session that is being recorded with a word, past every queue and without waiting
+    /// for the disk; no output is touched. False where nothing is recorded.
+    [[nodiscard]] bool markMoment(Instant at, const QString& word);
+    void resetFault();
+    void drive(DriveSource source, double roughness = 0, double pressure = 0);
+    /// As it was last ordered here; whether the bench still follows it, telemetry says.
+    [[nodiscard]] const DriveCommand& lastDrive() const noexcept { return lastDrive_; }
+    void setProfile(const Profile& profile);
+    void setSpeed(double speed);
+    /// Puts a surface under a simulated finger; an empty material lifts it.
+    void present(const std::string& material, double speed_mm_s, double force_n);
+    void fitLoad(const std::string& load);
+    /// From now on captures come by captured(), one per trigger, until stopScope() or scopeStopped(). `single`: one,
+    /// then none. `untriggeredAfter`: one also whenever no trigger has come for that long (where open()->untriggered).
+    void runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter = {});
+    void stopScope();
+
+    /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is.
+    void run(const RunOrder& order, StopMark asked);
+    void run(const RunOrder& order) { run(order, mark()); }
+    [[nodiscard]] RunFeed takeRunFeed() { return feed_.take(); }
+    [[nodiscard]] WindowOperator& windowOperator() noexcept { return operator_; }
+
+signals:
+    void changed();                    ///< activity, open bench or profile
+    void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
+    void armed();
+    void checked(double impedance_ohm);  ///< of the electrodes; NaN where the source does not measure it
+    void marked(double at_s, const QString& word);
+    /// The finger slides over another surface, for the window or a script. An empty material: it is lifted.
+    void presented(const QString& material, double speed_mm_s, double force_n);
+    void captured(std::shared_ptr<const tacto::Capture> capture);
+    /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
+    /// is not touched by it. failed() says it too, for who looks elsewhere.
+    void scopeStopped(const QString& why);
+    void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);
+
+private:
+    /// Carried out on the live bench unless a stop comes first; what fails is reported. For all that may start output.
+    void order(std::function<Result<void>(Bench&)> task) { order(mark(), std::move(task)); }
+    void order(StopMark asked, std::function<Result<void>(Bench&)> task);
+    void tell(std::function<void()> onWindow);
+    void report(const Error& error);
+    /// Returns whether there is a bench that wants to be served again.
+    bool serveLive();
+    void serveScope();
+    void scopeFailed(const Error& error);
+    void openOnThread(const LiveOrder& order, StopMark asked);
+    void closeOnThread();
+    void runOnThread(const RunOrder& order);
+    void publishBench(Bench* bench, ScriptRun* script);
+    [[nodiscard]] std::string lastStop() const;
+    void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
+
+    const MakeRegistry makeRegistry_;
+    const std::shared_ptr<WindowPulse> pulse_ = std::make_shared<WindowPulse>();
+    WindowOperator operator_;
+    DeviceWatch watch_;
+    DayNotes day_;
+
+    // The window's:
+    Activity activity_ = Activity::Closed;
+    std::shared_ptr<const OpenBench> open_;
+    std::shared_ptr<BenchTap> tap_;
+    Profile profile_;
+    DriveCommand lastDrive_;
+    ShippedLimits limits_;
+
+    // One for this controller and all its benches.
+    const std::shared_ptr<StopCounter> stops_ = std::make_shared<StopCounter>();
+    mutable std::mutex benchMutex_;  // held for moments: to swap the pointers, to look, to stop
+    Bench* bench_ = nullptr;         // guarded by benchMutex_
+    ScriptRun* script_ = nullptr;    // guarded by benchMutex_
+    std::string stoppedBy_;          // guarded by benchMutex_: the last stop
+
+    RunFeedCollector feed_;
+    std::atomic<double> speed_{1};
+    std::unique_ptr<DrivenBench> live_;  // the thread's
+    TaskThread thread_;                  // last: starts when all else is ready
+};
+
+}  // namespace tacto::gui
+
+Q_DECLARE_METATYPE(std::shared_ptr<const tacto::Capture>)
+Q_DECLARE_METATYPE(std::shared_ptr<const tacto::gui::FinishedRun>)

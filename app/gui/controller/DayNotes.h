@@ -1,0 +1,44 @@
+// DayNotes.h - who works at this bench today, on which sample: asked once a day, written into every session that is
+// begun on that day, and shown where it can be changed.
+//
+// What was entered on another day counts no longer: the next person at the bench may be another, and so may the sample.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QDate>
+#include <QObject>
+#include <functional>
+
+#include "app/run/RunNotes.h"
+
+namespace tacto::gui {
+
+class DayNotes final : public QObject {
+    Q_OBJECT
+public:
+    /// `today` is asked whenever it matters; empty: the computer's.
+    explicit DayNotes(QObject* parent = nullptr, std::function<QDate()> today = {});
+
+    /// As entered today; empty where nothing was.
+    [[nodiscard]] RunNotes notes() const;
+    /// Keeps them until the day is over, beyond the end of the program.
+    void set(const RunNotes& notes);
+    /// Whether the question was answered or put off today.
+    [[nodiscard]] bool asked() const;
+    void noteAsked();
+    /// As entered on the last day before, to be offered. Empty where nothing is known.
+    [[nodiscard]] RunNotes before() const;
+    /// "A. Weber · sample S-014"; empty where neither was entered.
+    [[nodiscard]] QString words() const;
+
+signals:
+    void changed();
+
+private:
+    [[nodiscard]] bool isToday(const char* group) const;
+    void beginDay();
+    const std::function<QDate()> today_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,54 @@
+#include "app/gui/controller/TaskThread.h"
+
+#include <chrono>
+#include <utility>
+
+namespace tacto::gui {
+
+TaskThread::TaskThread(std::function<bool()> turn, std::function<void()> end)
+    : thread_([this, turn = std::move(turn), end = std::move(end)] {
+          work(turn);
+          end();
+      }) {}
+
+void TaskThread::post(std::function<void()> task) {
+    {
+        const std::scoped_lock lock(mutex_);
+        tasks_.push_back(std::move(task));
+    }
+    came_.notify_all();
+}
+
+void TaskThread::quit() {
+    {
+        const std::scoped_lock lock(mutex_);
+        quitting_ = true;
+    }
+    came_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void TaskThread::work(const std::function<bool()>& turn) {
+    constexpr auto kTurn = std::chrono::milliseconds(4);
+    bool busy = false;
+    for (;;) {
+        std::function<void()> task;
+        {
+            std::unique_lock lock(mutex_);
+            const auto wanted = [this] { return quitting_ || !tasks_.empty(); };
+            if (busy)
+                came_.wait_for(lock, kTurn, wanted);
+            else
+                came_.wait(lock, wanted);
+            if (quitting_) return;
+            if (!tasks_.empty()) {
+                task = std::move(tasks_.front());
+                tasks_.pop_front();
+            }
+        }
+        if (task) task();
+        busy = turn();
+    }
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,50 @@
+// TrainGraphs.h - what is drawn of the trains: the command as a line, each train as delivered, what the source read
+// back and the oscilloscope measured of it, and those that were not delivered.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <qcustomplot.h>
+#include <vector>
+
+#include "app/gui/live/Strip.h"
+
+namespace tacto::gui {
+
+class TrainGraphs {
+public:
+    /// Draws into `strip`, which outlives this.
+    explicit TrainGraphs(Strip& strip);
+    /// Begins another bench: the oscilloscope has measured nothing.
+    void begin();
+    /// An amplitude that the oscilloscope measured, in the source's unit.
+    void addScopeReading(double t_s, double amplitude);
+    /// In the strip's unit: volts, or what they come to in milliamps through the impedance of the time.
+    void draw(const LiveHistory& history, const QCPRange& time);
+    /// In the current theme.
+    void colour();
+    void caption() const;
+
+    /// Amplitudes of the trains that are drawn, as delivered.
+    [[nodiscard]] std::vector<double> shownTrains() const;
+    /// Corners of the command's line, and the oscilloscope's readings within the window; in the source's unit.
+    [[nodiscard]] std::vector<double> shownCommand() const;
+    [[nodiscard]] std::vector<double> scopeReadings() const;
+
+private:
+    void drawCommand(const LiveHistory& history, const QCPRange& time);
+    void drawTrains(const LiveHistory& history, const QCPRange& time);
+
+    Strip& strip_;
+    QCPGraph* command_;
+    QCPBars* delivered_;
+    QCPGraph* measured_ = nullptr;
+    QCPGraph* scoped_ = nullptr;
+    QCPGraph* failed_ = nullptr;
+    static constexpr std::size_t kReadings = 256;
+    std::vector<QCPGraphData> readings_;  // of the oscilloscope, a ring
+    std::size_t nextReading_ = 0;
+    QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // reused
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,120 @@
+#include "app/gui/runner/FindBar.h"
+
+#include <QHBoxLayout>
+#include <QKeyEvent>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code) {
+    setObjectName("findBar");
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    words_ = new QLineEdit(this);
+    words_->setObjectName("findWords");
+    words_->setAccessibleName(tr("Find"));
+    words_->setPlaceholderText(tr("Find in the script"));
+    words_->setToolTip(tr("Case does not count. Return or F3: next; with Shift: previous."));
+    words_->installEventFilter(this);
+    row->addWidget(words_, 1);
+    says_ = new QLabel(this);
+    says_->setObjectName("findCount");
+    setTone(*says_, Tone::Quiet);
+    says_->setMinimumWidth(says_->fontMetrics().horizontalAdvance(tr("%1 of %2, from the top").arg(999).arg(999)));
+    row->addWidget(says_);
+    back_ = addButton(tr("Previous"), "findPrevious", tr("The match before (Shift+F3)."));
+    next_ = addButton(tr("Next"), "findNext", tr("The next match (F3)."));
+    auto* done = addButton({}, "findClose", tr("Closes the search (Esc)."));
+    done->setIcon(icon("close"));
+    done->setAccessibleName(tr("Close the search"));
+    makeQuiet(*done);
+    connect(words_, &QLineEdit::textChanged, this, &FindBar::search);
+    connect(back_, &QPushButton::clicked, this, [this] { go(false); });
+    connect(next_, &QPushButton::clicked, this, [this] { go(true); });
+    connect(done, &QPushButton::clicked, this, &FindBar::close);
+    connect(&code_, &QPlainTextEdit::textChanged, this, [this] {
+        if (isVisible()) count();
+    });
+    hide();
+}
+
+QPushButton* FindBar::addButton(const QString& text, const QString& name, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    made->setAutoDefault(false);
+    layout()->addWidget(made);
+    return made;
+}
+
+void FindBar::begin() {
+    const auto selected = code_.textCursor().selectedText();
+    if (!selected.isEmpty() && !selected.contains(QChar::ParagraphSeparator)) words_->setText(selected);
+    show();
+    words_->setFocus(Qt::ShortcutFocusReason);
+    words_->selectAll();
+    count();
+}
+
+void FindBar::close() {
+    hide();
+    code_.markWords({});
+    code_.setFocus();
+}
+
+/// While the words are typed: the first match from where the present one begins.
+void FindBar::search() {
+    auto cursor = code_.textCursor();
+    cursor.setPosition(cursor.selectionStart());
+    code_.setTextCursor(cursor);
+    if (words_->text().isEmpty()) return count();
+    go(true);
+}
+
+void FindBar::go(bool forward) {
+    if (words_->text().isEmpty()) return;
+    const auto flags = forward ? QTextDocument::FindFlags() : QTextDocument::FindBackward;
+    const auto* text = code_.document();
+    auto found = text->find(words_->text(), code_.textCursor(), flags);
+    const bool wrapped = found.isNull();
+    if (wrapped) {
+        QTextCursor end(code_.document());
+        if (!forward) end.movePosition(QTextCursor::End);
+        found = text->find(words_->text(), end, flags);
+    }
+    if (!found.isNull()) code_.setTextCursor(found);
+    count();
+    if (wrapped && !found.isNull())
+        says_->setText(forward ? tr("%1, from the top").arg(says_->text()) : tr("%1, from the end").arg(says_->text()));
+}
+
+void FindBar::count() {
+    const int all = code_.markWords(words_->text());
+    int at = 0;
+    const auto current = code_.textCursor();
+    if (current.hasSelection() && current.selectedText().compare(words_->text(), Qt::CaseInsensitive) == 0) {
+        for (QTextCursor each(code_.document());;) {
+            each = code_.document()->find(words_->text(), each);
+            if (each.isNull() || each.selectionStart() > current.selectionStart()) break;
+            ++at;
+        }
+    }
+    says_->setText(words_->text().isEmpty() ? QString()
+                   : all == 0               ? tr("no match")
+                   : at == 0                ? tr("%n match(es)", nullptr, all)
+                                            : tr("%1 of %2").arg(at).arg(all));
+    setTone(*says_, all == 0 && !words_->text().isEmpty() ? Tone::Warning : Tone::Quiet);
+    for (auto* button : {back_, next_}) button->setEnabled(all > 0);
+}
+
+bool FindBar::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    if (key.key() != Qt::Key_Return && key.key() != Qt::Key_Enter) return false;
+    go((key.modifiers() & Qt::ShiftModifier) == 0);
+    return true;
+}
+
+}  // namespace tacto::gui

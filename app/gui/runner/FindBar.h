@@ -1,0 +1,42 @@
+// FindBar.h - finds words in a script: every match is marked, one is current, and the search goes round at the ends.
+//
+// Case does not count. Ctrl+F opens it with what is selected; F3 and Return go on, with Shift back.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/gui/runner/CodeEdit.h"
+
+namespace tacto::gui {
+
+class FindBar final : public QWidget {
+    Q_OBJECT
+public:
+    /// Hidden until open(). `code` outlives it.
+    FindBar(CodeEdit& code, QWidget* parent);
+    void begin();
+    void close();
+    /// To the next match from the cursor, or the one before.
+    void go(bool forward);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void search();
+    void count();
+    [[nodiscard]] QPushButton* addButton(const QString& text, const QString& name, const QString& tip);
+
+    CodeEdit& code_;
+    QLineEdit* words_;
+    QLabel* says_;
+    QPushButton* back_ = nullptr;
+    QPushButton* next_ = nullptr;
+};
+
+}  // namespace tacto::gui

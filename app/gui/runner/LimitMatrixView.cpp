@@ -1,0 +1,238 @@
+#include "app/gui/runner/LimitMatrixView.h"
+
+#include <QHeaderView>
+#include <QPainter>
+#include <QStyledItemDelegate>
+#include <cmath>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
+
+namespace tacto::gui {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kCellVerdict = Qt::UserRole;    // "pass", ...; none where nothing is asked
+constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
+constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
+constexpr int kLineNote = Qt::UserRole;       // below a limit's title
+constexpr int kRow = 40, kIconSize = 14, kPad = 8;
+constexpr double kNear_pct = 80;
+constexpr int kLimitChars = 28, kLoadChars = 9;
+
+double numberOf(const json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+QString wordsOf(const json& value) {
+    return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
+}
+
+/// Of the limit, value and U together.
+QString shareText(double used_pct) {
+    if (!std::isfinite(used_pct)) return "–";
+    if (used_pct > 0 && used_pct < 0.1) return QObject::tr("< 0.1 %");
+    return QString::number(used_pct, 'f', used_pct < 1 && used_pct > 0 ? 1 : 0) + " %";
+}
+
+/// The limit's title, below it the limit, whose it is and its verdict.
+class LimitDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto& c = colours();
+        painter->save();
+        const auto area = option.rect.adjusted(kPad, 0, -kPad, 0);
+        const auto line = [&](const QString& text, TextSize size, const QColor& ink, bool lower) {
+            painter->setFont(textFont(size));
+            painter->setPen(ink);
+            const auto half =
+                QRect(area.left(), area.top() + (lower ? area.height() / 2 : 0), area.width(), area.height() / 2);
+            const int down = lower ? Qt::AlignTop : Qt::AlignBottom;
+            painter->drawText(half, down | Qt::AlignLeft,
+                              painter->fontMetrics().elidedText(text, Qt::ElideRight, half.width()));
+        };
+        line(index.data().toString(), TextSize::Body, c.text, false);
+        line(index.data(kLineNote).toString(), TextSize::Small, c.quiet, true);
+        painter->setPen(c.grid);
+        painter->drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
+        painter->restore();
+    }
+};
+
+struct CellStyle {
+    QColor ground, ink;
+};
+
+CellStyle styleOf(const QString& verdict, bool isNear) {
+    const auto& c = colours();
+    if (verdict == "fail") return {c.fail, c.failText};
+    if (verdict == "attention") return {c.amber, c.amberInk};
+    if (verdict == "indeterminate" || verdict == "refused as expected" || (verdict == "pass" && isNear))
+        return {c.amberCell, c.amberText};
+    if (verdict == "pass") return {c.passCell, c.text};
+    return {c.base, c.quiet};
+}
+
+class CellDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto& c = colours();
+        const auto verdict = index.data(kCellVerdict).toString();
+        const auto style = styleOf(verdict, index.data(kCellNear).toBool());
+        painter->save();
+        const auto cell = option.rect.adjusted(1, 1, -1, -1);
+        painter->fillRect(cell, style.ground);
+        if (verdict == "not evaluated") painter->fillRect(cell, QBrush(c.hatch, Qt::BDiagPattern));
+        const bool asked = !verdict.isEmpty() && verdict != "not applicable";
+        painter->setFont(textFont(TextSize::Small, asked ? QFont::DemiBold : QFont::Normal));
+        const int size = scaledPx(kIconSize);
+        const bool room = cell.width() >= size + kPad + painter->fontMetrics().horizontalAdvance("100 %") + 4;
+        if (asked && room) {
+            const auto shape = verdict == "pass" && !index.data(kCellNear).toBool() ? c.passText : style.ink;
+            painter->drawPixmap(
+                cell.left() + kPad / 2, cell.center().y() - size / 2 + 1,
+                iconPixmap(verdictStyle(verdict).icon, shape, size, painter->device()->devicePixelRatioF()));
+        }
+        const auto text = asked && !room ? index.data().toString() : index.data(kCellShare).toString();
+        painter->setPen(style.ink);
+        if (verdict == "not evaluated") {
+            // Words keep their contrast on the hatch.
+            const auto words = painter->fontMetrics().boundingRect(cell.adjusted(0, 0, -kPad / 2, 0),
+                                                                   Qt::AlignRight | Qt::AlignVCenter, text);
+            painter->fillRect(words.adjusted(-2, 0, 2, 0), style.ground);
+        }
+        painter->drawText(cell.adjusted(0, 0, -kPad / 2, 0),
+                          int(asked ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter, text);
+        if ((option.state & QStyle::State_HasFocus) != 0) {
+            painter->setPen(QPen(c.text, 2));
+            painter->drawRect(cell.adjusted(1, 1, -1, -1));
+        }
+        painter->restore();
+    }
+};
+
+}  // namespace
+
+LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
+    setObjectName("limitMatrix");
+    setAccessibleName(tr("Limits on each load"));
+    setToolTip(tr(
+        "How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
+        "? indeterminate; ✖ not kept; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load."));
+    verticalHeader()->hide();
+    setEditTriggers(NoEditTriggers);
+    setSelectionMode(NoSelection);
+    setTabKeyNavigation(false);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setVerticalScrollMode(ScrollPerPixel);
+    setItemDelegate(new CellDelegate(this));
+    setItemDelegateForColumn(0, new LimitDelegate(this));
+    auto* header = horizontalHeader();
+    header->setHighlightSections(false);
+    header->setSectionsClickable(false);
+    setTextSize(*header, TextSize::Small);
+}
+
+void LimitMatrixView::show(const json& matrix) {
+    clear();
+    loads_.clear();
+    setRowCount(0);
+    setColumnCount(0);
+    const auto& lines = memberAt(matrix, "lines");
+    const auto& loads = memberAt(matrix, "loads");
+    if (!lines.is_array() || !loads.is_array()) return;
+    QStringList header{tr("Limit, worst first\nshare used, with U")};
+    for (const auto& load : loads) {
+        const auto name = wordsOf(load);
+        loads_.push_back(loadText(name));
+        header << (name.contains("||")                           ? tr("skin RC")
+                   : name.contains(' ') && !name.contains("ohm") ? QString(name).replace(' ', '\n')
+                                                                 : loadText(name));
+    }
+    setColumnCount(int(header.size()));
+    setHorizontalHeaderLabels(header);
+    horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    for (int c = 1; c < columnCount(); ++c) horizontalHeaderItem(c)->setToolTip(loads_[std::size_t(c) - 1]);
+    setRowCount(int(lines.size()));
+    for (int row = 0; row < rowCount(); ++row) addLine(row, lines[std::size_t(row)]);
+    fitColumns();
+}
+
+void LimitMatrixView::addLine(int row, const json& line) {
+    const auto unit = wordsOf(memberAt(line, "unit"));
+    const auto title = titled(wordsOf(memberAt(line, "title")));
+    const auto limit = (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) +
+                       settingText(numberOf(memberAt(line, "limit")), unit);
+    const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
+    const auto verdict = wordsOf(memberAt(line, "verdict"));
+    auto* head = new QTableWidgetItem(title);
+    head->setData(kLineNote, QStringList{verdictText(verdict), limit, set}.join(" · "));
+    head->setToolTip(QStringList{title, limit, set, wordsOf(memberAt(line, "source")), verdict}.join(" · "));
+    setItem(row, 0, head);
+    const auto& cells = memberAt(line, "cells");
+    for (int c = 1; c < columnCount(); ++c) {
+        const auto at = std::size_t(c) - 1;
+        const json none;
+        const auto& cell = cells.is_array() && at < cells.size() ? cells[at] : none;
+        auto* item = new QTableWidgetItem("–");
+        setItem(row, c, item);
+        item->setData(kCellShare, QString("–"));
+        if (!cell.is_object()) {
+            item->setToolTip(tr("%1 is not judged on %2.").arg(title, loads_[at]));
+            continue;
+        }
+        const auto judged = wordsOf(memberAt(cell, "verdict"));
+        const double used = 100 - numberOf(memberAt(cell, "margin_pct"));
+        const auto share = judged == "not evaluated"    ? tr("n. e.")
+                           : judged == "not applicable" ? QString("–")
+                                                        : shareText(used);
+        item->setText(verdictStyle(judged).shape + " " + share);
+        item->setData(kCellVerdict, judged);
+        item->setData(kCellShare, share);
+        item->setData(kCellNear, used >= kNear_pct);
+        const auto measured =
+            uncertainText(numberOf(memberAt(cell, "value")), numberOf(memberAt(cell, "expanded_uncertainty")), unit);
+        QStringList says{tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)};
+        if (std::isfinite(used))
+            says << tr("%1 used with its uncertainty, margin %2.").arg(share, shareText(100 - used));
+        says << tr("Verdict: %1.").arg(judged) << wordsOf(memberAt(cell, "note"));
+        item->setToolTip(says.join(' ').trimmed());
+        item->setData(Qt::AccessibleTextRole, item->toolTip());
+    }
+}
+
+void LimitMatrixView::fitColumns() {
+    verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+    horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
+    if (columnCount() < 2) return;
+    auto* header = horizontalHeader();
+    const int loads = columnCount() - 1;
+    const int chars = fontMetrics().averageCharWidth();
+    // Loads share what the limits leave, and are never wider than their words want.
+    const int first = std::min(chars * kLimitChars * 2, std::max(chars * kLimitChars, viewport()->width() / 4));
+    const int each = std::clamp((viewport()->width() - first) / loads, chars * kLoadChars / 2, chars * kLoadChars * 2);
+    header->setSectionResizeMode(0, QHeaderView::Stretch);
+    for (int c = 1; c < columnCount(); ++c) {
+        header->setSectionResizeMode(c, QHeaderView::Fixed);
+        header->resizeSection(c, each);
+    }
+}
+
+void LimitMatrixView::resizeEvent(QResizeEvent* event) {
+    QTableWidget::resizeEvent(event);
+    fitColumns();
+}
+
+void LimitMatrixView::changeEvent(QEvent* event) {
+    QTableWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) fitColumns();
+    if (event->type() == QEvent::PaletteChange) viewport()->update();
+}
+
+}  // namespace tacto::gui

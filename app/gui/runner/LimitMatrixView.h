@@ -1,0 +1,30 @@
+// LimitMatrixView.h - limits x loads: every limit once, the nearest to its limit first, and on each load how much of it
+// is used, uncertainty included. A cell is colour, shape and share; what was not evaluated is hatched.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QTableWidget>
+#include <nlohmann/json.hpp>
+
+namespace tacto::gui {
+
+class LimitMatrixView final : public QTableWidget {
+    Q_OBJECT
+public:
+    explicit LimitMatrixView(QWidget* parent = nullptr);
+    /// `matrix` as toJson(LimitMatrix); anything else empties it.
+    void show(const nlohmann::json& matrix);
+    [[nodiscard]] bool empty() const { return rowCount() == 0; }
+
+protected:
+    void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void addLine(int row, const nlohmann::json& line);
+    void fitColumns();
+    std::vector<QString> loads_;  // as people write them
+};
+
+}  // namespace tacto::gui

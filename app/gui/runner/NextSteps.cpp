@@ -1,0 +1,99 @@
+#include "app/gui/runner/NextSteps.h"
+
+#include <QPushButton>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+struct NextStepWords {
+    QString text, icon, tip;
+};
+
+NextStepWords wordsOf(NextStep step) {
+    switch (step) {
+        case NextStep::UseProfile:
+            return {QObject::tr("Use this profile"), "verdict-pass",
+                    QObject::tr("The profile that this run made comes into force: for the open bench and for the next "
+                                "runs. Arming asks as always.")};
+        case NextStep::Check:
+            return {QObject::tr("Run check"), "run",
+                    QObject::tr("Checks the stored calibration at three levels of each quantity. Stores nothing.")};
+        case NextStep::Calibrate:
+            return {QObject::tr("Calibrate again"), "run", QObject::tr("The full run, with the settings as they are.")};
+        case NextStep::SafetyCheck:
+            return {QObject::tr("Go to safety check"), "safety-check",
+                    QObject::tr("Does the output keep every limit on known loads?")};
+        case NextStep::Live:
+            return {QObject::tr("Go to Live"), "live", QObject::tr("Touch, and drive by hand.")};
+        case NextStep::Sign:
+            return {QObject::tr("Sign report…"), "sign",
+                    QObject::tr("Shows the report with its lines for signatures.")};
+        case NextStep::Session:
+            return {QObject::tr("Open session"), "open", QObject::tr("Everything that this run recorded.")};
+        case NextStep::ChangeSettings:
+            return {QObject::tr("Change settings"), "settings",
+                    QObject::tr("Back to the settings of this run; the result is kept in its session.")};
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
+    const auto& outcome = run.result.outcome;
+    const auto& results = outcome.results;
+    const auto& kind = memberAt(results, "kind");
+    const auto verdict = run.result.verdict();
+    const bool passed = verdict == "pass";
+    std::vector<NextStep> steps;
+    if (outcome.error || (!passed && !verdict.empty())) {
+        const bool failedCheck = kind == "stimulator-calibration" && results.contains("check");
+        steps.push_back(failedCheck && !outcome.error ? NextStep::Calibrate : NextStep::ChangeSettings);
+    } else if (passed && memberAt(results, "profile.profile").is_object()) {
+        steps.push_back(NextStep::UseProfile);
+    }
+    if (!run.result.session.empty()) {
+        if (!outcome.error) steps.push_back(NextStep::Sign);
+        if (passed && kind == "stimulator-calibration") steps.push_back(NextStep::SafetyCheck);
+        if (passed && kind == "stimulator-calibration" && memberAt(results, "stored").is_object())
+            steps.push_back(NextStep::Check);
+        if (passed && kind == "load-safety") steps.push_back(NextStep::Live);
+        steps.push_back(NextStep::Session);
+    }
+    return steps;
+}
+
+NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent), row_(new QHBoxLayout(this)) {
+    setObjectName("nextSteps");
+    setAccessibleName(tr("What comes next"));
+    row_->setContentsMargins(0, 0, 0, 0);
+    row_->setSpacing(8);
+}
+
+void NextStepBar::show(const std::vector<NextStep>& steps) {
+    while (auto* item = row_->takeAt(0)) {
+        // Later: one of them may be what was clicked.
+        if (item->widget() != nullptr) item->widget()->hide(), item->widget()->deleteLater();
+        delete item;
+    }
+    for (const auto step : steps) {
+        const auto words = wordsOf(step);
+        auto* button = new QPushButton(words.text, this);
+        const bool first = row_->count() == 0;
+        button->setIcon(icon(words.icon, first ? Ink::Primary : Ink::Text));
+        button->setToolTip(words.tip);
+        button->setAutoDefault(false);
+        makePrimary(*button, first);
+        if (step == NextStep::Session) makeQuiet(*button);
+        connect(button, &QPushButton::clicked, this, [this, step] { emit chosen(step); });
+        row_->addWidget(button);
+        button->show();
+    }
+}
+
+}  // namespace tacto::gui

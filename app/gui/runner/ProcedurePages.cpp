@@ -1,0 +1,170 @@
+#include "app/gui/runner/ProcedurePages.h"
+
+#include <QScrollArea>
+
+#include "app/gui/calibrate/WiringPage.h"
+#include "app/gui/runner/NotesPanel.h"
+#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/runner/RunViews.h"
+#include "app/gui/runner/SignPage.h"
+#include "app/gui/runner/WiringPanel.h"
+#include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kPageSide = 16, kPageTop = 8;
+constexpr int kFormWidth = 400;        // fields are read from label to value
+constexpr int kColumnsFromChars = 88;  // two columns from this width on
+
+enum PageIndex { kWiringPage, kReferencePage, kSettingsPage, kRunPage, kSignPage };
+
+int pageOf(Step step) {
+    switch (step) {
+        case kWiring:
+            return kWiringPage;
+        case kReference:
+            return kReferencePage;
+        case kSettings:
+            return kSettingsPage;
+        case kRun:
+        case kResult:
+            return kRunPage;
+        case kSign:
+            return kSignPage;
+    }
+    return kSettingsPage;
+}
+
+/// Scrolls up and down only.
+QScrollArea* scrolling(QWidget* part, QWidget* parent) {
+    auto* area = new QScrollArea(parent);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setFocusPolicy(Qt::NoFocus);
+    area->setWidget(part);
+    for (auto* ground : {part, area->viewport()}) ground->setAutoFillBackground(false);
+    return area;
+}
+
+QVBoxLayout* pageLayout(QWidget* page, const QString& title, const QString& about) {
+    auto* column = new QVBoxLayout(page);
+    column->setContentsMargins(kPageSide, kPageTop, kPageSide, kPageTop);
+    if (!title.isEmpty()) {
+        auto* head = new QLabel(title, page);
+        setTextSize(*head, TextSize::Large);
+        column->addWidget(head);
+    }
+    if (about.isEmpty()) return column;
+    auto* says = new QLabel(about, page);
+    says->setWordWrap(true);
+    setTone(*says, Tone::Quiet);
+    column->addWidget(says);
+    return column;
+}
+
+/// The part in a column no wider than a form is read well.
+QWidget* formColumn(QWidget* part) {
+    auto* body = new QWidget;
+    auto* column = new QVBoxLayout(body);
+    column->setContentsMargins(0, 0, 12, 0);
+    column->addWidget(part);
+    column->addStretch();
+    return body;
+}
+
+}  // namespace
+
+ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : QStackedWidget(parent) {
+    form_ = new ParameterForm(this);
+    addWidget(buildWiring());
+    addWidget(buildReference());
+    addWidget(buildSettings());
+    auto* run = new QWidget(this);
+    auto* column = new QVBoxLayout(run);
+    column->setContentsMargins(kPageSide, kPageTop / 2, kPageSide, kPageTop / 2);  // the plot has the room
+    views_ = new RunViews(run);
+    column->addWidget(views_);
+    addWidget(run);
+    auto* sign = new QWidget(this);
+    auto* signColumn = pageLayout(sign, tr("Sign"), {});
+    sign_ = new SignPage(day, sign);
+    signColumn->addWidget(sign_, 1);
+    addWidget(sign);
+    showStep(kSettings);
+}
+
+QWidget* ProcedurePages::buildWiring() {
+    auto* page = new QWidget(this);
+    auto* column = pageLayout(page, {}, {});  // the panel has a title
+    wiringRow_ = new QHBoxLayout;
+    wiringRow_->setSpacing(kPageSide);
+    wiring_ = new WiringPanel(page);
+    auto* devices = scrolling(formColumn(wiring_), page);
+    drawing_ = new WiringPage(page);
+    wiringRow_->addWidget(devices, 2);
+    wiringRow_->addWidget(drawing_, 3);
+    column->addLayout(wiringRow_, 1);
+    return page;
+}
+
+QWidget* ProcedurePages::buildReference() {
+    auto* page = new QWidget(this);
+    auto* column = pageLayout(page, tr("Known reference"),
+                              tr("Read first: a set-up that does not read it as what it is can judge nothing, and the "
+                                 "run ends there."));
+    form_->referencePart().setMaximumWidth(scaledPx(kFormWidth * 3 / 2));
+    column->addWidget(scrolling(formColumn(&form_->referencePart()), page), 1);
+    return page;
+}
+
+QWidget* ProcedurePages::buildSettings() {
+    auto* page = new QWidget(this);
+    auto* column = pageLayout(page, tr("Settings"), {});
+    settingsRow_ = new QHBoxLayout;
+    settingsRow_->setSpacing(kPageSide);
+    auto* fields = scrolling(formColumn(form_), page);
+    worst_ = new WorstPage(page);
+    settingsRow_->addWidget(fields, 2);
+    settingsRow_->addWidget(worst_, 3);
+    column->addLayout(settingsRow_, 1);
+    return page;
+}
+
+void ProcedurePages::offer(const ProtocolDeclaration& declaration) {
+    wiring_->show(declaration);
+    form_->show(declaration);
+    const bool drives = declaration.needs.contains(Role::Stimulator);
+    drawing_->setVisible(drives && declaration.needs.contains(Role::Oscilloscope));
+    worst_->setVisible(drives);  // else nothing is judged
+}
+
+void ProcedurePages::showStep(Step step) {
+    setCurrentIndex(pageOf(step));
+    if (step == kRun || step == kResult) views_->showResult(step == kResult);
+}
+
+void ProcedurePages::setChangeable(bool changeable) {
+    for (QWidget* part : {static_cast<QWidget*>(form_), &form_->referencePart(), static_cast<QWidget*>(wiring_),
+                          static_cast<QWidget*>(&sign_->notes())})
+        part->setEnabled(changeable);
+}
+
+void ProcedurePages::arrange() {
+    const bool wide = width() >= fontMetrics().averageCharWidth() * kColumnsFromChars;
+    for (auto* row : {wiringRow_, settingsRow_}) {
+        row->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+        row->setStretch(0, wide ? 2 : 3);
+        row->setStretch(1, wide ? 3 : 2);
+    }
+}
+
+void ProcedurePages::resizeEvent(QResizeEvent* event) {
+    QStackedWidget::resizeEvent(event);
+    arrange();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,58 @@
+// ProcedurePages.h - a page for each step of a procedure: wiring, known reference, settings, run and result, report.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QBoxLayout>
+#include <QStackedWidget>
+
+#include "app/scripting/engine/ProtocolDeclaration.h"
+
+namespace tacto::gui {
+
+class DayNotes;
+class ParameterForm;
+class RunViews;
+class SignPage;
+class WiringPage;
+class WiringPanel;
+class WorstPage;
+
+/// In their order. Run and result are one page, without and with the verdict.
+enum Step { kWiring, kReference, kSettings, kRun, kResult, kSign };
+
+class ProcedurePages final : public QStackedWidget {
+    Q_OBJECT
+public:
+    explicit ProcedurePages(DayNotes& day, QWidget* parent = nullptr);
+    /// The fields and pages of this protocol.
+    void offer(const ProtocolDeclaration& declaration);
+    void showStep(Step step);
+    /// A running protocol has its settings.
+    void setChangeable(bool changeable);
+
+    [[nodiscard]] WiringPanel& wiring() noexcept { return *wiring_; }
+    [[nodiscard]] ParameterForm& form() noexcept { return *form_; }
+    [[nodiscard]] WorstPage& worst() noexcept { return *worst_; }
+    [[nodiscard]] RunViews& views() noexcept { return *views_; }
+    [[nodiscard]] SignPage& sign() noexcept { return *sign_; }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    [[nodiscard]] QWidget* buildWiring();
+    [[nodiscard]] QWidget* buildReference();
+    [[nodiscard]] QWidget* buildSettings();
+    void arrange();
+    WiringPanel* wiring_ = nullptr;
+    WiringPage* drawing_ = nullptr;
+    QBoxLayout* wiringRow_ = nullptr;
+    ParameterForm* form_ = nullptr;
+    WorstPage* worst_ = nullptr;
+    QBoxLayout* settingsRow_ = nullptr;
+    RunViews* views_ = nullptr;
+    SignPage* sign_ = nullptr;
+};
+
+}  // namespace tacto::gui

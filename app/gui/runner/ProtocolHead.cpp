@@ -1,0 +1,90 @@
+#include "app/gui/runner/ProtocolHead.h"
+
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Theme.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+
+namespace tacto::gui {
+
+ProtocolHead::ProtocolHead(bool chooses, QWidget* parent) : QWidget(parent), buttons_(new QHBoxLayout) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(2);
+    const auto words = [this, column](const char* name) {
+        auto* label = new QLabel(this);
+        label->setTextFormat(Qt::PlainText);
+        label->setObjectName(name);
+        label->setWordWrap(true);
+        column->addWidget(label);
+        return label;
+    };
+    if (chooses) {
+        chooser_ = new QComboBox(this);
+        chooser_->setObjectName("chooser");
+        chooser_->setAccessibleName(tr("Protocol"));
+        chooser_->setToolTip(tr("Protocols that came with the program, and the lab's own."));
+        chooser_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        connect(chooser_, &QComboBox::currentIndexChanged, this,
+                [this] { emit chosen(chooser_->currentData().toString()); });
+        column->addWidget(chooser_);
+    }
+    title_ = words("protocolTitle");
+    setTextSize(*title_, TextSize::Body, true);
+    purpose_ = words("purpose");
+    setTextSize(*purpose_, TextSize::Small);
+    setTone(*purpose_, Tone::Quiet);
+    if (chooses) {
+        addButton(tr("Ed&it…"), tr("Opens the script. Shipped ones are read-only: save a copy."),
+                  &ProtocolHead::editWanted);
+        addButton(tr("&New…"), tr("A protocol of your own, from a small template."), &ProtocolHead::newWanted);
+    } else {
+        addButton(tr("Scr&ipt…"), tr("Shows how it is done: the script of this protocol, and its reference."),
+                  &ProtocolHead::editWanted);
+    }
+    buttons_->addStretch();
+    column->addLayout(buttons_);
+}
+
+void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {
+    auto* button = new QPushButton(text, this);
+    button->setAutoDefault(false);
+    button->setToolTip(tip);
+    connect(button, &QPushButton::clicked, this, wanted);
+    buttons_->addWidget(button);
+}
+
+bool ProtocolHead::fill(const QString& select) {
+    {
+        const QSignalBlocker quiet(chooser_);
+        chooser_->clear();
+        const ProtocolLibrary library;
+        for (const auto& source : library.list()) {
+            const auto name = QString::fromStdString(source.name);
+            chooser_->addItem(source.shipped ? name : tr("%1 (the lab's own)").arg(name), name);
+            chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(originOf(source)), Qt::ToolTipRole);
+        }
+        for (const auto& refused : library.refused()) {
+            const auto path = QString::fromStdString(refused.path.string());
+            chooser_->addItem(tr("%1 (refused)").arg(path), path);
+            chooser_->setItemData(chooser_->count() - 1, QString::fromStdString(refused.why), Qt::ToolTipRole);
+        }
+        if (chooser_->count() == 0) return false;
+        chooser_->setCurrentIndex(std::max(0, chooser_->findData(select)));
+    }
+    emit chosen(chooser_->currentData().toString());
+    return true;
+}
+
+void ProtocolHead::setChangeable(bool changeable) {
+    if (chooser_ != nullptr) chooser_->setEnabled(changeable);
+}
+
+void ProtocolHead::show(const QString& title, const QString& purpose) {
+    title_->setText(title);
+    purpose_->setText(purpose);
+    purpose_->setVisible(!purpose.isEmpty());
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,106 @@
+#include "app/gui/runner/ResultHead.h"
+
+#include <QHBoxLayout>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kBesideBlock = 16;
+
+/// A script's words: one line each, as plain text.
+QLabel* wordsLabel(const char* name, QWidget* parent) {
+    auto* label = new QLabel(parent);
+    label->setObjectName(name);
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    return label;
+}
+
+}  // namespace
+
+ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(kBesideBlock);
+    verdict_ = new VerdictBlock(this);
+    row->addWidget(verdict_, 0, Qt::AlignTop);
+    // As high as the block: reasons may be many, and the plot keeps its room.
+    auto* area = new QScrollArea(this);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setFixedHeight(verdict_->sizeHint().height());
+    auto* page = new QWidget(area);
+    auto* column = new QVBoxLayout(page);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(2);
+    why_ = wordsLabel("verdictWhy", page);
+    setTextSize(*why_, TextSize::Body, true);
+    more_ = wordsLabel("verdictMore", page);
+    setTextSize(*more_, TextSize::Small);
+    setTone(*more_, Tone::Quiet);
+    toScript_ = new QPushButton(tr("Show the &line in the script"), page);
+    toScript_->setObjectName("toScript");
+    toScript_->setToolTip(tr("Opens the script with the line marked at which it ended."));
+    toScript_->setAutoDefault(false);
+    connect(toScript_, &QPushButton::clicked, this, [this] { emit scriptErrorChosen(errorLine_, error_); });
+    column->addWidget(why_);
+    column->addWidget(more_);
+    column->addStretch();
+    area->setWidget(page);
+    for (auto* ground : {page, area->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+    row->addWidget(area, 1);
+    row->addWidget(toScript_, 0, Qt::AlignTop);
+    clear();
+}
+
+void ResultHead::clear() {
+    word_.clear();
+    error_.clear();
+    errorLine_ = 0;
+    verdict_->setVerdict({});
+    why_->clear();
+    more_->clear();
+    toScript_->hide();
+}
+
+void ResultHead::show(const FinishedRun& run) {
+    clear();
+    const auto& outcome = run.result.outcome;
+    auto key = QString::fromStdString(run.result.verdict());
+    if (outcome.error && key.isEmpty()) key = "error";
+    word_ = verdictStyle(key).word;
+    verdict_->setVerdict(key);
+    QStringList why;
+    if (outcome.error) {
+        error_ = QString::fromStdString(outcome.error->message);
+        const bool saysSo = error_.contains("Output is off");
+        why << sentence(error_) + (saysSo ? QString() : tr(" Output is off."));
+    }
+    // A run that was stopped gives its error as its reason too.
+    for (const auto& reason : outcome.reasons) {
+        if (!outcome.error || reason != outcome.error->message) why << QString::fromStdString(reason);
+    }
+    for (const auto& trouble : run.result.troubles) why << QString::fromStdString(trouble.message);
+    if (outcome.abandoned) {
+        why << tr(
+            "The script did not end when it was told to and was given up: it cannot reach the bench any more. "
+            "Output is off. Restart the program when you can.");
+    }
+    if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
+    why_->setText(titled(why.takeFirst()));
+    for (const auto& mark : run.result.marks) why << QString::fromStdString(mark);
+    more_->setText(why.join("\n"));
+    more_->setVisible(!why.isEmpty());
+    errorLine_ = outcome.line;
+    toScript_->setVisible(outcome.error && outcome.line > 0);
+}
+
+}  // namespace tacto::gui

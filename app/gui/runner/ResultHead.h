@@ -1,0 +1,37 @@
+// ResultHead.h - how a run ended: the verdict in a word, then why, then what it rests on.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/Verdict.h"
+
+namespace tacto::gui {
+
+class ResultHead final : public QWidget {
+    Q_OBJECT
+public:
+    explicit ResultHead(QWidget* parent = nullptr);
+    void clear();
+    void show(const FinishedRun& run);
+    /// "PASS", as it stands there.
+    [[nodiscard]] QString word() const { return word_; }
+
+signals:
+    void scriptErrorChosen(int line, const QString& why);  ///< the operator wants to see the line
+
+private:
+    VerdictBlock* verdict_;
+    QLabel* why_;
+    QLabel* more_;
+    QPushButton* toScript_;
+    QString word_;
+    QString error_;
+    int errorLine_ = 0;
+};
+
+}  // namespace tacto::gui

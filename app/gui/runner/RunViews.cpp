@@ -1,0 +1,228 @@
+#include "app/gui/runner/RunViews.h"
+
+#include <QHBoxLayout>
+#include <QScrollArea>
+
+#include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/LimitMatrixView.h"
+#include "app/gui/runner/LoadRows.h"
+#include "app/gui/runner/ResultHead.h"
+#include "app/gui/runner/ResultTables.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kLogLines = 5000;    // shown; all of them are in the session
+constexpr int kBesideChars = 115;  // the waveform stands beside the plot from this width on
+constexpr int kPageGap = 6;
+
+TrialPlane::Features featuresOf(RunViews::Plot plot) {
+    return plot == RunViews::Plot::Slides ? TrialPlane::Features::Slides : TrialPlane::Features::Trains;
+}
+
+}  // namespace
+
+RunViews::RunViews(QWidget* parent) : QWidget(parent) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(kPageGap);
+    head_ = new ResultHead(this);
+    connect(head_, &ResultHead::scriptErrorChosen, this, &RunViews::scriptErrorChosen);
+    column->addWidget(head_);
+    views_ = new QStackedWidget(this);
+    views_->addWidget(buildPlots());
+    auto* area = new QScrollArea(views_);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    tables_ = new ResultTables(area);
+    area->setWidget(tables_);
+    for (auto* ground : {static_cast<QWidget*>(tables_), area->viewport()}) ground->setAutoFillBackground(false);
+    views_->addWidget(area);
+    auto* waveform = new QWidget(views_);
+    auto* room = new QVBoxLayout(waveform);
+    room->setContentsMargins(0, 0, 0, 0);
+    views_->addWidget(waveform);
+    log_ = new QPlainTextEdit(views_);
+    log_->setReadOnly(true);
+    log_->setTabChangesFocus(true);
+    log_->setMaximumBlockCount(kLogLines);
+    log_->setAccessibleName(tr("Log"));
+    log_->setToolTip(tr("The script's own words; they are in the session too."));
+    log_->setPlaceholderText(tr("What the script says while it runs."));
+    views_->addWidget(log_);
+    column->addWidget(views_, 1);
+    column->addWidget(buildBar());
+    showResult(false);
+    showPlot(Plot::Trials);
+}
+
+QWidget* RunViews::buildPlots() {
+    auto* holder = new QWidget;
+    plots_ = new QHBoxLayout(holder);
+    plots_->setContentsMargins(0, 0, 0, 0);
+    plane_ = new TrialPlane(holder);
+    loads_ = new LoadRows(holder);
+    matrix_ = new LimitMatrixView(holder);
+    calibration_ = new CalibrationView(holder);
+    none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
+                          "tables."),
+                       holder);
+    none_->setWordWrap(true);
+    none_->setAlignment(Qt::AlignCenter);
+    setTone(*none_, Tone::Quiet);
+    wave_ = new CaptureStrip(holder);
+    plots_->addWidget(plane_, 3);
+    plots_->addWidget(loads_, 3);
+    plots_->addWidget(matrix_, 3);
+    plots_->addWidget(calibration_, 3);
+    plots_->addWidget(none_, 3);
+    plots_->addWidget(wave_, 2);
+    return holder;
+}
+
+QWidget* RunViews::buildBar() {
+    auto* holder = new QWidget(this);
+    bar_ = new QHBoxLayout(holder);
+    bar_->setContentsMargins(0, 0, 0, 0);
+    next_ = new NextStepBar(holder);
+    connect(next_, &NextStepBar::chosen, this, &RunViews::nextChosen);
+    bar_->addWidget(next_);
+    bar_->addStretch();
+    viewRow_ = new QWidget(holder);
+    auto* row = new QHBoxLayout(viewRow_);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(0);
+    choices_ = new QButtonGroup(this);
+    const std::pair<QString, QString> views[] = {
+        {tr("Plot"), tr("The main plot of this protocol.")},
+        {tr("Tables"), tr("The numbers that the verdict was given.")},
+        {tr("Waveform"), tr("The last train as the oscilloscope recorded it.")},
+        {tr("Log"), tr("The script's own words.")}};
+    for (const auto& [name, tip] : views) {
+        auto* button = new QPushButton(name, viewRow_);
+        button->setCheckable(true);
+        button->setAutoDefault(false);
+        button->setProperty("role", "segment");
+        button->setToolTip(tip);
+        choices_->addButton(button, int(choices_->buttons().size()));
+        row->addWidget(button);
+    }
+    choices_->button(kPlot)->setChecked(true);
+    connect(choices_, &QButtonGroup::idClicked, this, [this](int view) { showView(View(view)); });
+    bar_->addWidget(viewRow_);
+    return holder;
+}
+
+void RunViews::showView(View view) {
+    views_->setCurrentIndex(view);
+    choices_->button(view)->setChecked(true);
+}
+
+void RunViews::showPlot(Plot plot) {
+    if (plane_->features() != featuresOf(plot)) plane_->begin(false, featuresOf(plot));
+    plot_ = plot;
+    arrange();
+}
+
+void RunViews::showResult(bool result) {
+    showsResult_ = result;
+    head_->setVisible(result);
+    next_->setVisible(result);
+    choices_->button(kTables)->setVisible(result);
+    if (!result && views_->currentIndex() == kTables) showView(kPlot);
+    arrange();
+}
+
+/// One main plot. The waveform stands beside it where there is room, else it is a view of its own; a calibration and
+/// the limits on all loads want the whole width. Nowhere in a run without an oscilloscope.
+void RunViews::arrange() {
+    const bool judged = showsResult_ && !matrix_->empty();
+    plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
+    calibration_->setVisible(plot_ == Plot::Calibration);
+    matrix_->setVisible(plot_ == Plot::Loads && judged);
+    loads_->setVisible(plot_ == Plot::Loads && !judged);
+    none_->setVisible(plot_ == Plot::None);
+    const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None;
+    const bool roomy = width() >= fontMetrics().averageCharWidth() * kBesideChars;
+    const bool beside = anywhere && roomy && plot_ != Plot::Calibration && !judged;
+    auto* own = views_->widget(kWaveform)->layout();
+    if (beside && own->indexOf(wave_) >= 0) {
+        own->removeWidget(wave_);
+        plots_->addWidget(wave_, 2);
+    } else if (!beside && plots_->indexOf(wave_) >= 0) {
+        plots_->removeWidget(wave_);
+        own->addWidget(wave_);
+    }
+    wave_->setVisible(anywhere);
+    choices_->button(kWaveform)->setVisible(anywhere && !beside);
+    if (beside && views_->currentIndex() == kWaveform) showView(kPlot);
+    const bool wide = width() >= next_->sizeHint().width() + viewRow_->sizeHint().width() + bar_->spacing();
+    bar_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+}
+
+void RunViews::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    arrange();
+}
+
+QString RunViews::word() const { return head_->word(); }
+
+void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
+    head_->clear();
+    next_->show({});
+    tables_->show({});
+    matrix_->show({});
+    log_->clear();
+    plane_->begin(false, featuresOf(plot));
+    loads_->begin();
+    calibration_->begin(parameters);
+    calibration_->setSimulated(false);
+    wave_->show(nullptr);
+    showPlot(plot);
+    showView(plot == Plot::None ? kLog : kPlot);
+}
+
+void RunViews::setSimulated(bool simulated) {
+    plane_->setSimulated(simulated);
+    calibration_->setSimulated(simulated);
+}
+
+void RunViews::take(const RunFeed& feed) {
+    for (const auto& line : feed.log) log_->appendPlainText(QString::fromStdString(line));
+    for (const auto& trial : feed.trials) {
+        plane_->add(trial);
+        if (plot_ == Plot::Loads) loads_->add(trial);
+        if (plot_ == Plot::Calibration) calibration_->add(trial);
+    }
+    calibration_->draw();
+    if (!feed.captures.empty()) wave_->show(feed.captures.back());
+}
+
+QString RunViews::end(const FinishedRun& run) {
+    setSimulated(run.result.simulated);
+    QString odd;
+    const auto shows = [&odd](auto&& show) {
+        try {
+            show();
+        } catch (const nlohmann::json::exception& problem) {
+            odd = tr("The results do not have the shape that is shown here (%1); the session holds them as they are.")
+                      .arg(QString::fromUtf8(problem.what()));
+        }
+    };
+    const auto& results = run.result.outcome.results;
+    shows([&] { loads_->end(results); });
+    shows([&] { matrix_->show(memberAt(results, "matrix")); });
+    shows([&] { calibration_->end(results); });
+    shows([&] { tables_->show(results); });
+    head_->show(run);
+    shows([&] { next_->show(nextStepsAfter(run)); });
+    showView(plot_ == Plot::None && !tables_->empty() ? kTables : kPlot);
+    arrange();
+    return odd;
+}
+
+}  // namespace tacto::gui

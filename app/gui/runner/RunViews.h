@@ -1,0 +1,78 @@
+// RunViews.h - what a run shows: its main plot while it goes on; at its end the verdict above the plot, the tables and
+// the log behind it, and what comes next below.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QButtonGroup>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QStackedWidget>
+#include <QWidget>
+
+#include "app/gui/runner/NextSteps.h"
+#include "app/gui/runner/TrialPlane.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
+
+namespace tacto::gui {
+
+class CalibrationView;
+class CaptureStrip;
+class LimitMatrixView;
+class LoadRows;
+class ResultHead;
+class ResultTables;
+
+class RunViews final : public QWidget {
+    Q_OBJECT
+public:
+    enum class Plot { Trials, Loads, Calibration, Slides, None };
+    enum View { kPlot, kTables, kWaveform, kLog };
+
+    explicit RunViews(QWidget* parent = nullptr);
+    void showPlot(Plot plot);
+    /// With the result's head and what comes next, or without.
+    void showResult(bool result);
+    void showView(View view);
+
+    /// Empty, for a run with these parameters.
+    void begin(Plot plot, const nlohmann::json& parameters);
+    void setSimulated(bool simulated);
+    void take(const RunFeed& feed);
+    /// Results may have any shape: where they do not have the one that a view shows, the sentence says so; else empty.
+    [[nodiscard]] QString end(const FinishedRun& run);
+    /// "PASS"; empty before the end.
+    [[nodiscard]] QString word() const;
+
+signals:
+    void scriptErrorChosen(int line, const QString& why);
+    void nextChosen(tacto::gui::NextStep step);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    [[nodiscard]] QWidget* buildPlots();
+    [[nodiscard]] QWidget* buildBar();
+    void arrange();
+
+    Plot plot_ = Plot::Trials;
+    bool showsResult_ = false;
+    ResultHead* head_ = nullptr;
+    QStackedWidget* views_ = nullptr;
+    QBoxLayout* plots_ = nullptr;
+    TrialPlane* plane_ = nullptr;
+    LoadRows* loads_ = nullptr;               // in the plane's place where a protocol measures loads
+    LimitMatrixView* matrix_ = nullptr;       // and what they come to
+    CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
+    QLabel* none_ = nullptr;
+    CaptureStrip* wave_ = nullptr;
+    ResultTables* tables_ = nullptr;
+    QPlainTextEdit* log_ = nullptr;
+    QBoxLayout* bar_ = nullptr;
+    NextStepBar* next_ = nullptr;
+    QWidget* viewRow_ = nullptr;
+    QButtonGroup* choices_ = nullptr;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,60 @@
+// SignPage.h - the report and who signs it: names for its first page before the run, the report itself after it.
+//
+// A signature is by hand, on paper or in the PDF; the program keeps names and draws the lines.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QPdfDocument>
+#include <QPdfView>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/runner/ReportMaker.h"
+
+namespace tacto::gui {
+
+class NotesPanel;
+
+class SignPage final : public QWidget {
+    Q_OBJECT
+public:
+    /// `day` outlives the page.
+    explicit SignPage(DayNotes& day, QWidget* parent = nullptr);
+    [[nodiscard]] NotesPanel& notes() { return *notes_; }
+    /// Before a run: no report, and what is being drawn is given up.
+    void clear();
+    /// Has the reports of the run drawn.
+    void show(const FinishedRun& run);
+    /// "written", "being drawn…", or why there is none; for the step.
+    [[nodiscard]] QString state() const;
+
+signals:
+    void stateChanged();
+
+protected:
+    void showEvent(QShowEvent* event) override;
+
+private:
+    [[nodiscard]] QWidget* buildReportRow();
+    void showState();
+    void showPdf();
+    void zoom(double factor);
+    NotesPanel* notes_;
+    QLabel* empty_;
+    QPdfDocument* document_;
+    QPdfView* view_;
+    QWidget* zoom_ = nullptr;  ///< its buttons
+    QPushButton* elsewhere_ = nullptr;
+    QPushButton* cancel_ = nullptr;
+    QProgressBar* drawing_ = nullptr;
+    QLabel* says_ = nullptr;
+    ReportMaker maker_;
+    QString report_;  // the PDF, once it is written
+    QString fault_;   // of the first report that failed
+};
+
+}  // namespace tacto::gui

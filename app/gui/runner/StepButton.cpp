@@ -1,0 +1,131 @@
+#include "app/gui/runner/StepButton.h"
+
+#include <QEvent>
+#include <QPainter>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kStepWidth = 224, kStepHeight = 56, kStepLow = 36;
+constexpr int kShapeLeft = 24, kShape = 16, kWordsLeft = 48, kChosenBar = 4, kDot = 12;
+
+}  // namespace
+
+StepButton::StepButton(const QString& name, Place place, QWidget* parent) : QAbstractButton(parent), place_(place) {
+    setText(name);
+    setAccessibleName(name);
+    setCheckable(true);
+    setAutoExclusive(true);
+    setFocusPolicy(Qt::TabFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    say();
+}
+
+void StepButton::setState(StepList::State state) {
+    if (std::exchange(state_, state) != state) say();
+}
+
+void StepButton::setNote(const QString& note) {
+    if (std::exchange(note_, note) != note) say();
+}
+
+void StepButton::setOutOfReach(const QString& why) {
+    outOfReach_ = why;
+    setEnabled(why.isEmpty());
+    say();
+}
+
+void StepButton::setLow(bool low) {
+    if (std::exchange(low_, low) != low) updateGeometry();
+}
+
+void StepButton::say() {
+    const auto word = [&] {
+        switch (state_) {
+            case StepList::State::ToDo:
+                return tr("to do");
+            case StepList::State::UnderWay:
+                return tr("under way");
+            case StepList::State::Done:
+                return tr("done");
+            case StepList::State::Troubled:
+                return tr("to be mended");
+        }
+        return QString();
+    }();
+    const auto says = note_.isEmpty() ? word : word + ": " + note_;
+    setAccessibleDescription(says);
+    setToolTip(outOfReach_.isEmpty() ? tr("%1: %2. Shows this step.").arg(text(), says) : outOfReach_);
+    update();
+}
+
+QSize StepButton::sizeHint() const {
+    const int words =
+        QFontMetrics(textFont(TextSize::Body)).height() + (low_ ? 0 : QFontMetrics(textFont(TextSize::Small)).height());
+    return {scaledPx(kStepWidth), std::max(scaledPx(low_ ? kStepLow : kStepHeight), words + 8)};
+}
+
+void StepButton::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) updateGeometry();
+    QAbstractButton::changeEvent(event);
+}
+
+/// ✔ done, a disc under way, ⚠ to be mended, a ring to do.
+void StepButton::paintShape(QPainter& painter, const QPoint& centre) const {
+    const auto& c = colours();
+    const int size = scaledPx(kShape);
+    const auto place = [&](const QString& icon, const QColor& ink) {
+        painter.drawPixmap(centre - QPoint(size / 2, size / 2), iconPixmap(icon, ink, size, devicePixelRatioF()));
+    };
+    if (state_ == StepList::State::Done) return place("verdict-pass", c.text);
+    if (state_ == StepList::State::Troubled) return place("verdict-attention", c.amberText);
+    const double radius = scaledPx(kDot) / 2.0;
+    const bool filled = state_ == StepList::State::UnderWay;
+    painter.setPen(QPen(filled ? c.text : c.edge, 2));
+    painter.setBrush(filled ? QBrush(c.text) : Qt::NoBrush);
+    painter.drawEllipse(QPointF(centre), radius - 1, radius - 1);
+}
+
+void StepButton::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto& c = colours();
+    if (isChecked()) {
+        painter.fillRect(rect(), c.selection);
+        painter.fillRect(0, 0, kChosenBar, height(), c.primary);
+    } else if (underMouse() && isEnabled()) {
+        painter.fillRect(rect(), c.sunken);
+    }
+    const auto name = textFont(TextSize::Body, isChecked() ? QFont::DemiBold : QFont::Normal);
+    const auto small = textFont(TextSize::Small);
+    const QFontMetrics above(name), below(small);
+    const bool two = !low_ && !note_.isEmpty();
+    const int top = (height() - above.height() - (two ? below.height() : 0)) / 2;
+    const QPoint shape(scaledPx(kShapeLeft), top + above.height() / 2);
+    // The path from the step before, and to the next.
+    painter.setPen(QPen(c.line, 2));
+    const int half = scaledPx(kShape) / 2 + 3;
+    if (place_ != Place::First) painter.drawLine(shape.x(), 0, shape.x(), shape.y() - half);
+    if (place_ != Place::Last) painter.drawLine(shape.x(), shape.y() + half, shape.x(), height());
+    paintShape(painter, shape);
+    const QRect words(scaledPx(kWordsLeft), top, width() - scaledPx(kWordsLeft) - 8, above.height());
+    painter.setFont(name);
+    painter.setPen(isEnabled() ? c.text : c.quiet);
+    painter.drawText(words, Qt::AlignLeft | Qt::AlignVCenter, above.elidedText(text(), Qt::ElideRight, words.width()));
+    if (two) {
+        painter.setFont(small);
+        painter.setPen(state_ == StepList::State::Troubled ? c.amberText : c.quiet);
+        painter.drawText(words.translated(0, above.height()), Qt::AlignLeft | Qt::AlignTop,
+                         below.elidedText(note_, Qt::ElideRight, words.width()));
+    }
+    if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+    painter.setPen(QPen(c.text, 2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+}  // namespace tacto::gui

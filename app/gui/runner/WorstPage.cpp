@@ -1,0 +1,100 @@
+#include "app/gui/runner/WorstPage.h"
+
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "app/gui/runner/WorstCase.h"
+#include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ExposureTable.h"
+#include "app/gui/theme/LimitSetView.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/report/TableContent.h"
+
+namespace tacto::gui {
+
+WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
+    auto* column = new QVBoxLayout(this);
+    says_->setTextFormat(Qt::PlainText);
+    says_->setObjectName("worstCase");
+    says_->setWordWrap(true);
+    column->addWidget(says_);
+    column->addWidget(buildChooser());
+    worst_->setAccessibleName(tr("Worst case against the limits"));
+    worst_->setToolTip(
+        tr("The strongest command into 80 to 120 % of the declared load, from an ideal voltage source. "
+           "Hatched: not evaluated, and never a pass."));
+    column->addWidget(worst_, 1);
+}
+
+QWidget* WorstPage::buildChooser() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    chooser_ = new QComboBox(holder);
+    chooser_->setObjectName("limitSetChooser");
+    chooser_->setAccessibleName(tr("Limit set"));
+    chooser_->setToolTip(tr("Whose limits are shown. All of them hold, whichever is chosen."));
+    chooser_->addItem(tr("All limits"));
+    connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);
+    auto* read = new QPushButton(tr("Read the limits…"), holder);
+    read->setObjectName("readLimits");
+    read->setAutoDefault(false);
+    read->setToolTip(tr("Each limit with its value, the time it is taken over, and its source."));
+    connect(read, &QPushButton::clicked, this, [this] {
+        if (sets_ != nullptr) openDialog(makeLimitSetWindow(*sets_, chooser_->currentData().toString(), window()));
+    });
+    row->addWidget(chooser_);
+    row->addWidget(read);
+    row->addStretch();
+    return holder;
+}
+
+void WorstPage::show(std::vector<ExposureRow> rows) {
+    rows_ = std::move(rows);
+    filter();
+}
+
+void WorstPage::filter() {
+    if (sets_ == nullptr) return;
+    const auto chosen = chooser_->currentData().toString().toStdString();
+    auto shown = rows_;
+    std::erase_if(shown, [&](const ExposureRow& row) { return !chosen.empty() && row.set.view() != chosen; });
+    worst_->show(shown, *sets_);
+}
+
+QString WorstPage::judge(const BenchController& controller, const Result<ProtocolSettings>& settings, bool drives) {
+    if (std::exchange(sets_, &controller.limits().sets) == nullptr) {
+        for (const auto& set : *sets_) chooser_->addItem(qtext(set.title), qtext(set.id));
+    }
+    if (!settings) {
+        show({});
+        says_->setText(tr("Shown again when every setting is accepted."));
+        return {};
+    }
+    const auto load = declaredLoad(settings->parameters);
+    const auto worst = worstCase(controller.profile(), controller.limits().sets, load);
+    if (!worst) {
+        show({});
+        says_->setText("⚠ " + sentence(worst.error()));
+        return {};
+    }
+    show(worst->rows);
+    bool isNumber = false;
+    const auto words = QString::fromStdString(load);
+    const double ohms = words.section(' ', 0, 0).toDouble(&isNumber);
+    const auto& encoding = controller.profile().encoding;
+    const auto strongest =
+        tr("The profile's strongest command, %1 every %2 into %3.")
+            .arg(settingText(encoding.amplitudeMax.value(), "V"), settingText(encoding.intervalMin.count(), "s"),
+                 isNumber && words.endsWith(" ohm") ? settingText(ohms, "ohm") : loadText(words));
+    says_->setText(worst->refused.isEmpty() ? tr("%1 Every limit that can be evaluated is kept.").arg(strongest)
+                                            : tr("⚠ %1 %2").arg(strongest, worst->refused));
+    // Without a load of its own the protocol is judged by its script, load by load.
+    const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();
+    return judged ? tr("%1 Choose another load or profile. Nothing is put out.").arg(worst->refused) : QString();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,41 @@
+// ChosenReadings.h - which readings are shown, chosen freely and remembered; one choice for the table and the dock.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+#include <vector>
+
+#include "app/gui/scope/Reading.h"
+
+class QMenu;
+class QSettings;
+class QWidget;
+
+namespace tacto::gui {
+
+class ChosenReadings final : public QObject {
+    Q_OBJECT
+public:
+    ChosenReadings();
+    /// In Reading's order.
+    [[nodiscard]] const std::vector<Reading>& all() const noexcept { return chosen_; }
+    [[nodiscard]] bool has(Reading reading) const;
+    void choose(Reading reading, bool on);
+    void chooseStandard();
+
+    void save(QSettings& settings) const;
+    /// Names that are none are passed over; without any the choice stays.
+    void restore(const QSettings& settings);
+
+signals:
+    void changed();
+
+private:
+    std::vector<Reading> chosen_;
+};
+
+/// A menu in which they are chosen; it stays open from one to the next. `chosen` outlives it.
+[[nodiscard]] QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent);
+
+}  // namespace tacto::gui

@@ -1,0 +1,209 @@
+#include "app/gui/scope/Reading.h"
+
+#include <QObject>
+#include <algorithm>
+#include <cmath>
+
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+double ofPulse(Reading reading, const PulseMeasurement& pulse) {
+    const auto second = [&](auto member) { return pulse.second ? std::abs((*pulse.second).*member) : kNotMeasured; };
+    switch (reading) {
+        case Reading::Amplitude:
+            return std::abs(pulse.leading.plateau);
+        case Reading::Width:
+            return pulse.leading.width_s;
+        case Reading::Rise:
+            return pulse.leading.rise_s;
+        case Reading::Fall:
+            return pulse.leading.fall_s;
+        case Reading::Overshoot:
+            return pulse.leading.overshoot;
+        case Reading::Droop:
+            return pulse.leading.droop;
+        case Reading::Charge:
+            return std::abs(pulse.leading.charge);
+        case Reading::Gap:
+            return pulse.gap_s;
+        case Reading::Imbalance:
+            return pulse.imbalance;
+        case Reading::SecondAmplitude:
+            return second(&PhaseMeasurement::plateau);
+        case Reading::SecondWidth:
+            return second(&PhaseMeasurement::width_s);
+        case Reading::SecondCharge:
+            return second(&PhaseMeasurement::charge);
+        default:
+            return kNotMeasured;
+    }
+}
+
+std::optional<double> ofWaveform(Reading reading, const WaveformMeasurement& waveform) {
+    switch (reading) {
+        case Reading::PeakToPeak:
+            return waveform.peakToPeak;
+        case Reading::Rms:
+            return waveform.rms;
+        case Reading::Mean:
+            return waveform.mean;
+        case Reading::Frequency:
+            return waveform.frequency_hz;
+        case Reading::Duty:
+            return waveform.duty;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// A share to a thousandth of a per cent: what is below that is noise.
+QString percentText(double value) {
+    const double size = std::abs(value);
+    const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
+    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + QChar(0x202f) + "%";
+}
+
+bool isCharge(Reading reading) { return reading == Reading::Charge || reading == Reading::SecondCharge; }
+
+}  // namespace
+
+std::array<Reading, kReadings> allReadings() {
+    std::array<Reading, kReadings> all{};
+    for (std::size_t i = 0; i < kReadings; ++i) all[i] = static_cast<Reading>(i);
+    return all;
+}
+
+ReadingName nameOf(Reading reading) {
+    switch (reading) {
+        case Reading::Amplitude:
+            return {"amplitude", QObject::tr("Amplitude"),
+                    QObject::tr("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."),
+                    ""};
+        case Reading::PeakToPeak:
+            return {"peak-to-peak", QObject::tr("Peak to peak"),
+                    QObject::tr("Largest less smallest sample of the record, noise included."), ""};
+        case Reading::Width:
+            return {"width", QObject::tr("Width"), QObject::tr("Leading phase, from half height to half height."), "s"};
+        case Reading::Gap:
+            return {"gap", QObject::tr("Gap"),
+                    QObject::tr("Between the two phases of a biphasic pulse, at half height."), "s"};
+        case Reading::Interval:
+            return {"interval", QObject::tr("Interval"),
+                    QObject::tr("Onset to onset of trains, in a record and from one capture to the next. A train that "
+                                "the oscilloscope missed makes it a multiple."),
+                    "s"};
+        case Reading::Rise:
+            return {"rise", QObject::tr("Rise"),
+                    QObject::tr("Leading edge of the leading phase, from 10 to 90 % of the height."), "s"};
+        case Reading::Fall:
+            return {"fall", QObject::tr("Fall"),
+                    QObject::tr("Trailing edge of the leading phase, from 90 to 10 % of the height."), "s"};
+        case Reading::Charge:
+            return {"charge", QObject::tr("Charge"), QObject::tr("Area under the leading phase of a current."), "C"};
+        case Reading::Imbalance:
+            return {"imbalance", QObject::tr("Imbalance"),
+                    QObject::tr("Charge that the second phase does not bring back, as a share of the larger phase."),
+                    "%"};
+        case Reading::Overshoot:
+            return {"overshoot", QObject::tr("Overshoot"),
+                    QObject::tr("Largest excess over the plateau, as a share of it."), "%"};
+        case Reading::Droop:
+            return {"droop", QObject::tr("Droop"),
+                    QObject::tr("What the plateau loses over the width, as a share of it."), "%"};
+        case Reading::Frequency:
+            return {"frequency", QObject::tr("Frequency"),
+                    QObject::tr("Periods a second between the first and the last time that the waveform leaves its "
+                                "baseline, at half height."),
+                    "Hz"};
+        case Reading::Duty:
+            return {"duty", QObject::tr("Duty cycle"),
+                    QObject::tr("Share of whole periods that the waveform is beyond half the height."), "%"};
+        case Reading::Rms:
+            return {"rms", QObject::tr("RMS"),
+                    QObject::tr("Root mean square about zero over the whole record: silence counts too."), ""};
+        case Reading::Mean:
+            return {"mean", QObject::tr("Mean"), QObject::tr("Over the whole record."), ""};
+        case Reading::SecondAmplitude:
+            return {"second-amplitude", QObject::tr("2nd amplitude"),
+                    QObject::tr("Mean height of the second phase, as of the leading one."), ""};
+        case Reading::SecondWidth:
+            return {"second-width", QObject::tr("2nd width"),
+                    QObject::tr("Second phase, from half height to half height."), "s"};
+        case Reading::SecondCharge:
+            return {"second-charge", QObject::tr("2nd charge"),
+                    QObject::tr("Area under the second phase of a current."), "C"};
+        case Reading::Pulses:
+            break;
+    }
+    return {"pulses", QObject::tr("Pulses"),
+            QObject::tr("Pulses measured in a capture. Those that were not are named on the screen."), ""};
+}
+
+std::optional<Reading> readingOfKey(const QString& key) {
+    for (const auto reading : allReadings()) {
+        if (nameOf(reading).key == key) return reading;
+    }
+    return std::nullopt;
+}
+
+std::vector<double> readingsOf(Reading reading, const ChannelMeasurement& measured,
+                               const WaveformMeasurement& waveform) {
+    std::vector<double> values;
+    if (reading == Reading::Pulses) return {static_cast<double>(measured.measuredPulses)};
+    if (const auto whole = ofWaveform(reading, waveform)) {
+        values.push_back(*whole);
+    } else if (reading == Reading::Interval) {
+        for (const auto& train : measured.trains) values.push_back(train.interval_s);
+    } else {
+        for (const auto& pulse : measured.pulses) values.push_back(ofPulse(reading, pulse));
+    }
+    std::erase_if(values, [](double v) { return std::isnan(v); });
+    return values;
+}
+
+QString readingText(Reading reading, double value, const QString& channelUnit, int digits) {
+    if (!std::isfinite(value) || (isCharge(reading) && channelUnit != "A")) return QStringLiteral("–");
+    if (reading == Reading::Pulses) return QString::number(value, 'g', digits);
+    const auto unit = nameOf(reading).unit;
+    if (unit == "%") return percentText(100 * value);
+    return quantityText(value, unit.isEmpty() ? channelUnit : unit, digits);
+}
+
+QString whyMissing(Reading reading, const ChannelMeasurement& measured, const WaveformMeasurement& waveform) {
+    if (isCharge(reading) && measured.unit != "A") return QObject::tr("Charge is read on the current channel.");
+    if (reading == Reading::Frequency || reading == Reading::Duty) {
+        return waveform.missing > 0 ? QObject::tr("Samples are missing: a period may hide in the gap.")
+                                    : QObject::tr("The record holds no whole period. Choose a longer record.");
+    }
+    if (ofWaveform(reading, waveform)) {
+        return waveform.clipped ? QObject::tr("The record is clipped: choose a larger range.")
+                                : QObject::tr("The record holds no sample.");
+    }
+    if (measured.pulses.empty()) return QObject::tr("No pulse stands out of the baseline on this channel.");
+    if (measured.measuredPulses == 0) {
+        return QObject::tr("The pulses are clipped, cut off or too coarse to be measured: the oscilloscope names it.");
+    }
+    if (reading == Reading::Interval) {
+        return QObject::tr(
+            "It takes two trains: in one record, or in captures that follow one another. For a single "
+            "capture choose a longer record.");
+    }
+    return QObject::tr("The pulses have no second phase.");
+}
+
+QString channelLetter(const std::vector<ChannelMeasurement>& channels, std::size_t channel) {
+    int number = 0, alike = 0;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (channels[c].unit != channels[channel].unit) continue;
+        ++alike;
+        if (c == channel) number = alike;
+    }
+    const auto& unit = channels[channel].unit;
+    const QString letter = unit == "V" ? "V" : unit == "A" ? "I" : "D";
+    return alike > 1 ? letter + QString::number(number) : letter;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,62 @@
+// Reading.h - the quantities that are measured of every capture (science.md section 8 and
+// core/measure/WaveformMeasurement.h), each described once: name, explanation, unit, and how it is stored as a choice.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <QString>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "app/gui/scope/Trace.h"
+
+namespace tacto::gui {
+
+/// In the order of the tables: what is looked at first stands first.
+enum class Reading {
+    Amplitude,
+    PeakToPeak,
+    Width,
+    Gap,
+    Interval,
+    Rise,
+    Fall,
+    Charge,
+    Imbalance,
+    Overshoot,
+    Droop,
+    Frequency,
+    Duty,
+    Rms,
+    Mean,
+    SecondAmplitude,
+    SecondWidth,
+    SecondCharge,
+    Pulses,
+};
+inline constexpr std::size_t kReadings = 19;
+[[nodiscard]] std::array<Reading, kReadings> allReadings();
+
+struct ReadingName {
+    QString key;        ///< "amplitude": as it is stored
+    QString title;      ///< "Amplitude"
+    QString explained;  ///< one or two sentences for a tool tip
+    QString unit;       ///< "s", "%", "Hz", "C"; empty: the channel's own
+};
+[[nodiscard]] ReadingName nameOf(Reading reading);
+[[nodiscard]] std::optional<Reading> readingOfKey(const QString& key);
+
+/// All of the channel's in one capture: one per measured pulse, per train for the interval, one of the waveform.
+[[nodiscard]] std::vector<double> readingsOf(Reading reading, const ChannelMeasurement& measured,
+                                             const WaveformMeasurement& waveform);
+/// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is no current.
+[[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
+/// Why there is none, in a sentence or two.
+[[nodiscard]] QString whyMissing(Reading reading, const ChannelMeasurement& measured,
+                                 const WaveformMeasurement& waveform);
+/// "V", or "V2" where several channels have the unit; so on plots and above columns.
+[[nodiscard]] QString channelLetter(const std::vector<ChannelMeasurement>& channels, std::size_t channel);
+
+}  // namespace tacto::gui

@@ -1,0 +1,56 @@
+// ScopeFiles.h - the oscilloscope's files and clipboard: the menu that opens, saves and copies.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+#include <functional>
+
+#include "app/gui/scope/ScopePicture.h"
+
+class QMenu;
+class QWidget;
+
+namespace tacto::gui {
+
+class CapturePipe;
+class MeasurementTable;
+class ScopeModel;
+class ScopeScreen;
+
+class ScopeFiles final : public QObject {
+    Q_OBJECT
+public:
+    /// `window` is the parent of menu and dialogs.
+    ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window);
+    /// Set before the menu is used; both outlive this. `caption` says what a picture shows.
+    void show(ScopeScreen& screen, MeasurementTable& table, std::function<ScopeCaption()> caption);
+    [[nodiscard]] QMenu* menu() const noexcept { return menu_; }
+
+    /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
+    [[nodiscard]] static QString captureGlobs();
+    void askOpen();
+    void askSavePicture();
+    /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background).
+    void saveAs(const QString& path);
+
+signals:
+    void openWanted(const QString& path);
+    /// A sentence about what was begun, done, or went wrong; an empty one clears what was said.
+    void told(const QString& done, const QString& problem);
+
+private:
+    void askSave(const QString& filter, const QString& ending);
+    void copyPicture();
+    void copyData();
+
+    CapturePipe& pipe_;
+    ScopeModel& model_;
+    QWidget& window_;
+    QMenu* menu_;
+    ScopeScreen* screen_ = nullptr;
+    MeasurementTable* table_ = nullptr;
+    std::function<ScopeCaption()> caption_;
+};
+
+}  // namespace tacto::gui

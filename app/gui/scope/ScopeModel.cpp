@@ -1,0 +1,472 @@
+#include "app/gui/scope/ScopeModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr std::size_t kMaxInRoll = 600;
+constexpr double kRollPerDivision_s = 1;  ///< at least
+constexpr std::size_t kMaxSamplesKept = 40'000'000;
+
+double lengthOf(const ShownCapture& shown) { return shown.end_s() - shown.capture->start_s; }
+
+}  // namespace
+
+void ScopeModel::setHeld(bool held) {
+    if (std::exchange(held_, held) != held) emit heldChanged();
+}
+
+void ScopeModel::show(ShownPtr shown) {
+    setHeld(false);
+    if (shown_ && shown_->source.isEmpty() && shown->source.isEmpty()) {
+        older_.push_front(std::move(shown_));
+    } else {
+        chosen_ = chosenView();
+        older_.clear();
+    }
+    shown_ = std::move(shown);
+    dropOldest();
+    const bool others = takeLanes();
+    if (older_.empty()) {
+        history_ = {};
+        if (!roll_) fitTime(view_);
+        timeView_ = TimeView::Whole;
+        if (roll_) view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
+        lanes_.fit(*shown_, view_);
+        untouched_ = true;
+        takeChosenView();
+    } else if (!roll_) {
+        followTime(*older_.front());
+    }
+    if (untouched_ && lanes_.outgrow(*shown_, view_)) lanes_.fit(*shown_, view_);
+    if (roll_) view_.left_s = rollLeft(view_.perDivision_s);
+    tellTraces(others);
+}
+
+/// A view of the whole record goes on to show the whole record when its length or pre-trigger changes, one of a pulse
+/// to show it when its width or place does.
+void ScopeModel::followTime(const ShownCapture& before) {
+    if (timeView_ == TimeView::Chosen) return;
+    const auto placed = [](const ShownCapture& s) { return s.capture->start_s - s.zero_s; };
+    const double length = lengthOf(before);
+    const bool moved =
+        std::abs(placed(before) - placed(*shown_)) > length / 50 || std::abs(lengthOf(*shown_) - length) > length / 50;
+    if (timeView_ == TimeView::Whole) {
+        if (moved) fitTime(view_);
+        return;
+    }
+    if (!pulseNear(lanes_.edgesFor(active_), 0)) return;
+    auto next = view_;
+    framePulse(next);
+    constexpr double kJitter = 0.2;
+    if (std::abs(next.perDivision_s / view_.perDivision_s - 1) > kJitter ||
+        std::abs(next.left_s - view_.left_s) > view_.perDivision_s) {
+        view_ = next;
+    }
+}
+
+void ScopeModel::clear() {
+    if (!shown_) return;
+    chosen_ = chosenView();
+    setHeld(false);
+    shown_.reset();
+    older_.clear();
+    history_ = {};
+    hovered_.reset();
+    lanes_.clear();
+    lanes_.fill(shown_, older_, roll_, persistence_);
+    chooseActive();
+    tellTraces(true);
+}
+
+void ScopeModel::dropOldest() {
+    const std::size_t most = roll_ ? kMaxInRoll : static_cast<std::size_t>(kMaxBehind);
+    std::size_t keep = 0;
+    std::size_t samples = 0;
+    while (keep < older_.size() && keep < most) {
+        samples += older_[keep]->capture->samples() * older_[keep]->traces.size();
+        if (samples > kMaxSamplesKept) break;
+        ++keep;
+    }
+    older_.resize(keep);
+}
+
+void ScopeModel::replaceMath(ShownPtr shown) {
+    shown_ = std::move(shown);
+    tellTraces(takeLanes());
+}
+
+/// Returns whether the lanes are others than before.
+bool ScopeModel::takeLanes() {
+    const bool others = lanes_.take(*shown_);
+    lanes_.fill(shown_, older_, roll_, persistence_);
+    chooseActive();
+    // A new lane begins with a scale of its own that shows it; what is there keeps its place.
+    Viewport fitted = view_;
+    lanes_.fit(*shown_, fitted);
+    view_.lanes.insert(fitted.lanes.begin(), fitted.lanes.end());
+    return others;
+}
+
+void ScopeModel::chooseActive() {
+    if (active() != nullptr || lanes().empty()) return;
+    active_ = lanes().front().key;
+    emit activeLaneChanged();
+}
+
+void ScopeModel::tellTraces(bool lanesToo) {
+    emit tracesChanged();
+    if (lanesToo) emit lanesChanged();
+    emit viewChanged();
+}
+
+void ScopeModel::setPersistence(int captures) {
+    persistence_ = std::clamp(captures, 0, kMaxBehind);
+    lanes_.fill(shown_, older_, roll_, persistence_);
+    tellTraces(false);
+}
+
+void ScopeModel::setRoll(bool roll) {
+    if (roll == roll_) return;
+    roll_ = roll;
+    cursors_.hideTime();
+    trigger_.forgetMoment();
+    history_ = {};
+    if (roll_ && shown_) {
+        view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
+        view_.left_s = rollLeft(view_.perDivision_s);
+    } else {
+        dropOldest();
+        fitTime(view_);
+        timeView_ = TimeView::Whole;
+    }
+    lanes_.fill(shown_, older_, roll_, persistence_);
+    tellCursors();
+    tellTraces(false);
+}
+
+TracePtr ScopeModel::trace(const QString& key) const {
+    const auto* its = lane(key);
+    if (its == nullptr) return nullptr;
+    return its->stored ? its->stored : shown_ ? shown_->trace(key) : nullptr;
+}
+
+void ScopeModel::setActiveLane(const QString& key) {
+    if (key == active_ || lane(key) == nullptr) return;
+    if (active() != nullptr) cursors_.changeLane(scaleOf(*active()), scaleOf(*lane(key)));
+    active_ = key;
+    emit activeLaneChanged();
+    emit cursorsChanged();
+    emit viewChanged();
+}
+
+void ScopeModel::pickLane(double from_s, double to_s, double height, double reach) {
+    setActiveLane(lanes_.nearest(view_, from_s, to_s, height, reach));
+}
+
+void ScopeModel::setLaneShown(const QString& key, bool shown) {
+    auto* its = lanes_.find(key);
+    if (its == nullptr || its->shown == shown) return;
+    its->shown = shown;
+    emit lanesChanged();
+    emit viewChanged();
+}
+
+void ScopeModel::setLaneScale(const QString& key, double perDivision) {
+    if (lane(key) == nullptr || !(perDivision > 0)) return;
+    auto next = view_;
+    next.lanes[key].perDivision = perDivision;
+    go(next, "scale " + key);
+}
+
+void ScopeModel::setLanePosition(const QString& key, double position) {
+    if (lane(key) == nullptr || !std::isfinite(position)) return;
+    auto next = view_;
+    next.lanes[key].position = position;
+    go(next, "position " + key);
+}
+
+QString ScopeModel::storeReference() {
+    const auto source = trace(active_);
+    if (!source || active()->reference()) return {};
+    const auto key = lanes_.store(active_, *source);
+    lanes_.fill(shown_, older_, roll_, persistence_);
+    tellTraces(true);
+    return key;
+}
+
+void ScopeModel::removeReference(const QString& key) {
+    if (const auto* its = lane(key); its == nullptr || !its->reference()) return;
+    lanes_.remove(QString(key));
+    chooseActive();
+    tellTraces(true);
+}
+
+void ScopeModel::fitTime(Viewport& view) const {
+    if (!shown_) return;
+    double from = shown_->capture->start_s;
+    if (roll_ && !older_.empty()) from = std::min(from, older_.back()->capture->start_s);
+    view = showingTime(view, from - zero_s(), shown_->end_s() - zero_s());
+}
+
+void ScopeModel::framePulse(Viewport& view) const {
+    if (!shown_) return;
+    const auto pulse = roll_ ? std::nullopt : pulseNear(lanes_.edgesFor(active_), 0);
+    fitTime(view);
+    if (!pulse) return;
+    const auto framed = framingPulse(view, pulse->first, pulse->second);
+    if (framed.perDivision_s < view.perDivision_s) view = framed;
+}
+
+void ScopeModel::frameFirstPulse() {
+    if (timeView_ != TimeView::Whole || roll_ || !shown_) return;
+    auto next = view_;
+    framePulse(next);
+    go(next, {});
+    timeView_ = showsWhole(*shown_) ? TimeView::Whole : TimeView::Pulse;
+}
+
+bool ScopeModel::showsWhole(const ShownCapture& shown) const {
+    const auto fitted = showingTime(view_, shown.capture->start_s - shown.zero_s, shown.end_s() - shown.zero_s);
+    return std::abs(fitted.left_s - view_.left_s) < view_.perDivision_s / 10 &&
+           fitted.perDivision_s == view_.perDivision_s;
+}
+
+ChosenView ScopeModel::chosenView() const {
+    if (!shown_ || !shown_->source.isEmpty()) return chosen_;
+    ChosenView chosen;
+    if (!roll_ && timeView_ == TimeView::Chosen) chosen.time = ChosenView::Time{view_.left_s, view_.perDivision_s};
+    if (untouched_) return chosen;
+    for (const auto& l : lanes()) {
+        if (!l.reference()) chosen.lanes[l.key] = scaleOf(l);
+    }
+    return chosen;
+}
+
+void ScopeModel::takeChosenView() {
+    if (!shown_->source.isEmpty()) return;
+    if (chosen_.time && !roll_) {
+        view_.left_s = chosen_.time->left_s;
+        view_.perDivision_s = chosen_.time->perDivision_s;
+        timeView_ = TimeView::Chosen;
+    }
+    for (const auto& [key, scale] : chosen_.lanes) {
+        if (lane(key) == nullptr) continue;
+        view_.lanes[key] = scale;
+        untouched_ = false;
+    }
+}
+
+void ScopeModel::fit() {
+    if (!shown_) return;
+    auto next = view_;
+    framePulse(next);
+    lanes_.fit(*shown_, next);
+    constexpr double kSame = 0.08;  // a pulse that jitters is still the same
+    const bool again = timeView_ == TimeView::Pulse && next.lanes == view_.lanes &&
+                       std::abs(next.perDivision_s / view_.perDivision_s - 1) < kSame;
+    if (again) fitTime(next);
+    go(next, {});
+    timeView_ = roll_ || showsWhole(*shown_) ? TimeView::Whole : TimeView::Pulse;
+    untouched_ = true;
+}
+
+double ScopeModel::rollLeft(double perDivision_s) const {
+    const double left = onGrid(shown_->end_s() - perDivision_s * kDivisionsAcross, perDivision_s);
+    return std::max(left, std::min(0.0, shown_->capture->start_s));  // before a session there is no time
+}
+
+void ScopeModel::setTimePerDivision(double perDivision_s) {
+    if (!(perDivision_s > 0)) return;
+    auto next = view_;
+    const double centre = view_.left_s + view_.width_s() / 2;
+    next.perDivision_s = perDivision_s;
+    next.left_s = roll_ && shown_ ? rollLeft(perDivision_s) : onGrid(centre - next.width_s() / 2, perDivision_s);
+    go(next, "time base");
+}
+
+void ScopeModel::setTimeCentre(double centre_s) {
+    if (!std::isfinite(centre_s)) return;
+    auto next = view_;
+    next.left_s = centre_s - next.width_s() / 2;
+    go(next, "time position");
+}
+
+void ScopeModel::zoomTime(int steps, double anchor_s, const QString& kind) {
+    go(zoomedInTime(view_, steps, anchor_s), kind);
+}
+
+void ScopeModel::zoomLevel(int steps, double anchorHeight, const QString& kind) {
+    if (active() == nullptr) return;
+    auto next = view_;
+    next.lanes[active()->scaleKey()] = zoomedInLevel(scaleOf(*active()), steps, anchorHeight);
+    go(next, kind);
+}
+
+void ScopeModel::zoomToBox(double from_s, double to_s, double bottom, double top) {
+    auto next = spanningTime(view_, from_s, to_s);
+    for (const auto& l : lanes()) {
+        if (!l.reference() && l.shown) next.lanes[l.key] = showingHeights(scaleOf(l), bottom, top);
+    }
+    go(next, {});
+}
+
+void ScopeModel::movedBy(Viewport& view, double time_s, double height) const {
+    view.left_s = onGrid(view.left_s + time_s, view.perDivision_s);
+    for (const auto& l : lanes()) {
+        if (l.reference() || !l.shown) continue;
+        auto& position = view.lanes[l.key].position;
+        position = onGrid(position + height, 1);
+    }
+}
+
+void ScopeModel::pan(double time_s, double height, const QString& kind) {
+    auto next = view_;
+    movedBy(next, time_s, height);
+    go(next, kind);
+}
+
+void ScopeModel::dragView(const Viewport& from, double time_s, double height) {
+    auto next = from;
+    movedBy(next, time_s, height);
+    become(next);
+}
+
+void ScopeModel::dragLane(const Viewport& from, const QString& key, double height) {
+    if (lane(key) == nullptr) return;
+    auto next = view_;
+    next.lanes[key].position = onGrid(std::clamp(height, -kHalfUp, kHalfUp), 1);
+    if (view_ == from && next != view_) remember();
+    become(next);
+}
+
+void ScopeModel::go(const Viewport& next, const QString& kind) {
+    if (next == view_) return;
+    history_.remember(view_, kind);
+    become(next);
+}
+
+void ScopeModel::become(const Viewport& next) {
+    if (next.lanes != view_.lanes) untouched_ = false;
+    const bool moved = next.left_s != view_.left_s || next.perDivision_s != view_.perDivision_s;
+    view_ = next;
+    if (moved) timeView_ = shown_ && !roll_ && showsWhole(*shown_) ? TimeView::Whole : TimeView::Chosen;
+    emit viewChanged();
+}
+
+bool ScopeModel::undoZoom() {
+    const auto before = history_.undo();
+    if (!before) return false;
+    untouched_ = false;
+    auto next = *before;
+    next.lanes.insert(view_.lanes.begin(), view_.lanes.end());  // lanes that came since keep their scale
+    become(next);
+    return true;
+}
+
+void ScopeModel::tellCursors() {
+    emit cursorsChanged();
+    emit overlayChanged();
+}
+
+void ScopeModel::setTimeCursors(bool on) {
+    if (on == cursors_.time_s().has_value()) return;
+    on ? cursors_.showTime(view_) : cursors_.hideTime();
+    tellCursors();
+}
+
+void ScopeModel::setLevelCursors(bool on) {
+    if (on == cursors_.level().has_value() || (on && active() == nullptr)) return;
+    on ? cursors_.showLevel(scaleOf(*active())) : cursors_.hideLevel();
+    tellCursors();
+}
+
+void ScopeModel::focusCursor(int cursor) {
+    cursors_.focus(cursor);
+    emit overlayChanged();
+}
+
+void ScopeModel::dragTimeCursor(int which, double time_s, double reach_s) {
+    if (!cursors_.time_s()) return;
+    cursors_.placeTime(which, snappedToEdge(lanes_.edgesFor(active_), time_s, reach_s));
+    tellCursors();
+}
+
+void ScopeModel::dragLevelCursor(int which, double height, double reach) {
+    const auto its = trace(active_);
+    if (!cursors_.level() || active() == nullptr) return;
+    const auto scale = scaleOf(*active());
+    const double level = scale.levelAt(height);
+    double best = level, distance = reach * scale.perDivision;
+    for (const double rest : its ? its->levels : std::vector<double>{}) {
+        if (std::abs(rest - level) >= distance) continue;
+        distance = std::abs(rest - level);
+        best = rest;
+    }
+    cursors_.placeLevel(which, best);
+    tellCursors();
+}
+
+bool ScopeModel::nudgeTimeCursor(double by_s) {
+    if (!cursors_.timeFocused()) return false;
+    const int which = cursors_.focused();
+    const double at = (*cursors_.time_s())[static_cast<std::size_t>(which)] + by_s;
+    cursors_.placeTime(which, at);
+    hovered_ = edgesAround(lanes_.edgesFor(active_), at);  // as under the mouse
+    tellCursors();
+    return true;
+}
+
+bool ScopeModel::jumpTimeCursor(double direction) {
+    if (!cursors_.timeFocused()) return false;
+    const double at = (*cursors_.time_s())[static_cast<std::size_t>(cursors_.focused())];
+    return nudgeTimeCursor(nextEdge(lanes_.edgesFor(active_), at, direction, view_.width_s() * 1e-9) - at);
+}
+
+bool ScopeModel::nudgeLevelCursor(double byHeight) {
+    if (!cursors_.levelFocused() || active() == nullptr) return false;
+    const int which = cursors_.focused() - 2;
+    cursors_.placeLevel(
+        which, (*cursors_.level())[static_cast<std::size_t>(which)] + byHeight * scaleOf(*active()).perDivision);
+    tellCursors();
+    return true;
+}
+
+std::vector<CursorValue> ScopeModel::cursorValues() const { return cursors_.values(lanes()); }
+
+CursorReadout ScopeModel::readout() const {
+    return active() == nullptr ? CursorReadout{} : cursors_.readout(*active());
+}
+
+void ScopeModel::hover(std::optional<double> time_s) {
+    auto now = time_s && active() != nullptr ? edgesAround(lanes_.edgesFor(active_), *time_s) : std::nullopt;
+    if (now == hovered_) return;
+    hovered_ = std::move(now);
+    emit overlayChanged();
+}
+
+void ScopeModel::setTrigger(const QString& key, double level, bool held) {
+    if (trigger_.set(key, level, held)) emit overlayChanged();
+}
+
+void ScopeModel::dragTriggerLevel(double height) {
+    const auto* source = lane(trigger_.lane());
+    if (source == nullptr || !trigger_.dragLevel(height, scaleOf(*source), source->unit)) return;
+    emit triggerLevelChosen(trigger_.level());
+    emit overlayChanged();
+}
+
+void ScopeModel::dragTriggerMoment(double time_s) {
+    if (shown_ && trigger_.dragMoment(time_s, lengthOf(*shown_))) emit overlayChanged();
+}
+
+void ScopeModel::dropTrigger() {
+    if (const auto chosen = trigger_.drop(shown_ ? lengthOf(*shown_) : 1)) emit preTriggerChosen(*chosen);
+    emit overlayChanged();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,190 @@
+#include "app/gui/scope/ScopeTools.h"
+
+#include <QActionGroup>
+#include <QMenu>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "app/gui/scope/Steps.h"
+#include "app/gui/scope/ToolRow.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+/// Anywhere on it; the arrow has a place of its own.
+void opensMenu(QToolButton& button) {
+    button.setPopupMode(QToolButton::MenuButtonPopup);
+    QObject::connect(&button, &QToolButton::clicked, &button, &QToolButton::showMenu);
+}
+
+}  // namespace
+
+ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
+    : QWidget(parent), run_(new QPushButton(tr("Run"), this)), modes_(new QActionGroup(this)) {
+    auto* row = new ToolRow(this);
+    run_->setToolTip(tr("R: Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
+    connect(run_, &QPushButton::clicked, this, &ScopeTools::runClicked);
+    makePrimary(*run_);
+    row->addWidget(run_);
+    addModes(*row);
+    addViews(*row);
+    row->addGap();
+    addPanels(*row);
+    row->addGap();
+    auto* save =
+        tool(tr("Save"), tr("Copies and saves the picture and its data, opens captures. Ctrl+S saves."), false, "save");
+    save->setPopupMode(QToolButton::InstantPopup);
+    save->setMenu(files);
+    row->addWidget(save);
+    controls_ =
+        tool(tr("Controls"), tr("Lanes, view, mask, trigger and record, in a column at the right."), true, "settings");
+    connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
+    row->addWidget(controls_);
+}
+
+void ScopeTools::addModes(ToolRow& row) {
+    single_ = tool(tr("Single"), tr("S: takes one capture and holds it."), true, "single");
+    single_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    connect(single_, &QToolButton::clicked, this, [this] { emit modeChosen(ScopeMode::Single); });
+    row.addWidget(single_);
+    mode_ = tool(tr("Auto"), tr("What makes a capture."), false);
+    opensMenu(*mode_);
+    auto* menu = new QMenu(mode_);
+    menu->setToolTipsVisible(true);
+    const auto add = [&](ScopeMode mode, const QString& text, const QString& tip) {
+        auto* action = menu->addAction(text);
+        action->setToolTip(tip);
+        action->setCheckable(true);
+        action->setData(static_cast<int>(mode));
+        modes_->addAction(action);
+        connect(action, &QAction::triggered, this, [this, mode] { emit modeChosen(mode); });
+    };
+    add(ScopeMode::Auto, tr("Auto"),
+        tr("A: the trigger level follows a fifth of the commanded amplitude. When no trigger comes, the signal is "
+           "shown untriggered."));
+    add(ScopeMode::Normal, tr("Normal"), tr("N: captures whenever the signal rises through the level set here."));
+    add(ScopeMode::Roll, tr("Roll"),
+        tr("Captures one after the other on the session's time. A capture is a record around a trigger: what lies "
+           "between them was not recorded and is hatched."));
+    mode_->setMenu(menu);
+    row.addWidget(mode_);
+    base_ = tool(tr("Time base"), tr("How much time one of the ten divisions is."), false);
+    opensMenu(*base_);
+    auto* steps = new QMenu(base_);
+    for (const double step : stepsBetween(100e-9, 1)) {
+        steps->addAction(tr("%1/div").arg(settingText(step, "s")), this, [this, step] { emit timeBaseChosen(step); });
+    }
+    base_->setMenu(steps);
+    row.addWidget(base_);
+}
+
+void ScopeTools::addViews(ToolRow& row) {
+    auto* fit = tool(tr("Fit"),
+                     tr("Home or a double click: the pulse in a third of the screen, every lane as large as it can "
+                        "be; once more: the whole record."),
+                     false, "fit");
+    connect(fit, &QToolButton::clicked, this, &ScopeTools::fitClicked);
+    undo_ = tool(tr("Undo zoom"), tr("Ctrl+Z: back to the view before."), false, "undo-zoom");
+    connect(undo_, &QToolButton::clicked, this, &ScopeTools::undoClicked);
+    box_ =
+        tool(tr("Box"), tr("B: the next drag draws a box that becomes the whole screen. Shift+drag does it at once."),
+             true, "box-zoom");
+    connect(box_, &QToolButton::toggled, this, &ScopeTools::boxToggled);
+    time_ = tool(tr("Time cursors"),
+                 tr("T: two cursors across time. They snap to edges; arrows nudge the one with the dark flag, "
+                    "Ctrl+arrow jumps to the next edge, 1 and 2 choose."),
+                 true, "time-cursors");
+    connect(time_, &QToolButton::toggled, this, &ScopeTools::timeCursorsToggled);
+    level_ = tool(tr("Level cursors"),
+                  tr("L: two cursors across the active lane's level. They snap to where the signal rests; up and down "
+                     "nudge, 3 and 4 choose."),
+                  true, "level-cursors");
+    connect(level_, &QToolButton::toggled, this, &ScopeTools::levelCursorsToggled);
+    for (auto* button : {fit, undo_, box_, time_, level_}) row.addWidget(button);
+}
+
+void ScopeTools::addPanels(ToolRow& row) {
+    average_ = tool(tr("Average"),
+                    tr("The mean of the latest captures, aligned at the trigger. How many stands in the controls."),
+                    true, "average");
+    connect(average_, &QToolButton::clicked, this, &ScopeTools::averageClicked);
+    mask_ = tool(tr("Mask"),
+                 tr("Tests captures against a band around what is shown now. Its width stands in the controls. The "
+                    "output is not touched by it."),
+                 true, "mask");
+    connect(mask_, &QToolButton::clicked, this, &ScopeTools::maskClicked);
+    spectrum_ =
+        tool(tr("Spectrum tool"), tr("The spectrum of what a lane shows on the screen, below it."), true, "spectrum");
+    connect(spectrum_, &QToolButton::clicked, this, &ScopeTools::spectrumClicked);
+    table_ = tool(tr("All measurements"),
+                  tr("The chosen measurements of every channel with their statistics, below the screen."), true,
+                  "measurements");
+    connect(table_, &QToolButton::clicked, this, &ScopeTools::tableClicked);
+    for (auto* button : {average_, mask_, spectrum_, table_}) row.addWidget(button);
+}
+
+QToolButton* ScopeTools::tool(const QString& text, const QString& tip, bool checkable, const QString& iconName) {
+    auto* button = new QToolButton(this);
+    button->setText(text);
+    button->setAccessibleName(text);
+    if (!iconName.isEmpty()) {
+        button->setIcon(icon(iconName));
+        button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    }
+    button->setToolTip(tip);
+    button->setCheckable(checkable);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
+
+void ScopeTools::showMode(ScopeMode mode) {
+    single_->setChecked(mode == ScopeMode::Single);
+    for (auto* action : modes_->actions()) {
+        if (action->data().toInt() != static_cast<int>(mode)) continue;
+        action->setChecked(true);
+        mode_->setText(action->text());
+    }
+}
+
+void ScopeTools::showRunning(bool running, bool possible) {
+    run_->setText(running ? tr("Hold") : tr("Run"));
+    run_->setIcon(icon(running ? "hold" : "run", Ink::Primary));
+    run_->setEnabled(possible);
+}
+
+void ScopeTools::showTimeBase(double perDivision_s) {
+    const auto text = tr("%1/div").arg(quantityText(perDivision_s, "s", 3));
+    const auto exact = tr("%1/div").arg(settingText(perDivision_s, "s"));
+    base_->setText(exact.size() <= text.size() ? exact : text);
+    base_->setAccessibleName(tr("Time base tool"));
+    base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("00.00 µs/div") + scaledPx(24));
+}
+
+void ScopeTools::showControls(bool on) { controls_->setChecked(on); }
+
+void ScopeTools::showTable(bool on) { table_->setChecked(on); }
+
+void ScopeTools::showSpectrum(bool on) { spectrum_->setChecked(on); }
+
+void ScopeTools::showAverage(bool on) { average_->setChecked(on); }
+
+void ScopeTools::showMask(bool on, bool possible) {
+    mask_->setChecked(on);
+    mask_->setEnabled(on || possible);
+}
+
+void ScopeTools::setCanUndo(bool can) { undo_->setEnabled(can); }
+
+void ScopeTools::endBox() { box_->setChecked(false); }
+
+void ScopeTools::toggleTimeCursors() { time_->toggle(); }
+
+void ScopeTools::toggleLevelCursors() { level_->toggle(); }
+
+void ScopeTools::toggleBox() { box_->toggle(); }
+
+}  // namespace tacto::gui

@@ -1,0 +1,78 @@
+// ScopeTools.h - the row of tools above the oscilloscope's screen.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+
+#include "app/gui/scope/ScopeAcquisition.h"
+
+class QActionGroup;
+class QMenu;
+class QPushButton;
+class QToolButton;
+
+namespace tacto::gui {
+
+class ToolRow;
+
+class ScopeTools final : public QWidget {
+    Q_OBJECT
+public:
+    /// `files` is the menu of the button "Save".
+    ScopeTools(QMenu* files, QWidget* parent);
+    void showMode(ScopeMode mode);
+    void showRunning(bool running, bool possible);
+    void showTimeBase(double perDivision_s);
+    void showControls(bool on);
+    void showTable(bool on);
+    void showSpectrum(bool on);
+    void showAverage(bool on);
+    void showMask(bool on, bool possible);
+    void setCanUndo(bool can);
+    void endBox();
+
+public slots:
+    void toggleTimeCursors();
+    void toggleLevelCursors();
+    void toggleBox();
+
+signals:
+    void runClicked();
+    void modeChosen(tacto::gui::ScopeMode mode);
+    void timeBaseChosen(double perDivision_s);
+    void fitClicked();
+    void undoClicked();
+    void boxToggled(bool on);
+    void timeCursorsToggled(bool on);
+    void levelCursorsToggled(bool on);
+    void averageClicked(bool on);
+    void maskClicked(bool on);
+    void spectrumClicked(bool on);
+    void tableClicked(bool on);
+    void controlsClicked(bool on);
+
+private:
+    /// With an icon, `text` is its name for screen readers.
+    QToolButton* tool(const QString& text, const QString& tip, bool checkable, const QString& iconName = {});
+    void addModes(ToolRow& row);
+    void addViews(ToolRow& row);
+    void addPanels(ToolRow& row);
+
+    QPushButton* run_;
+    QToolButton* single_ = nullptr;
+    QToolButton* mode_ = nullptr;
+    QActionGroup* modes_;
+    QToolButton* base_ = nullptr;
+    QToolButton* undo_ = nullptr;
+    QToolButton* box_ = nullptr;
+    QToolButton* time_ = nullptr;
+    QToolButton* level_ = nullptr;
+    QToolButton* average_ = nullptr;
+    QToolButton* mask_ = nullptr;
+    QToolButton* spectrum_ = nullptr;
+    QToolButton* table_ = nullptr;
+    QToolButton* controls_ = nullptr;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,288 @@
+#include "app/gui/sessions/SessionList.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QScrollBar>
+#include <QShortcut>
+#include <algorithm>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/run/RunFiles.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kRow = 32;
+constexpr int kListIcon = 16;
+constexpr int kSeenAfter_ms = 150;
+constexpr int kMeasuredRows = 60;  // for the widths of columns
+constexpr int kRoomyChars = 88;    // from this width on all columns are shown
+constexpr int kGap = 8;
+
+}  // namespace
+
+SessionList::SessionList(QWidget* parent)
+    : QWidget(parent), index_(userSessionIndex()), model_(new SessionModel(this)), empty_(new QLabel(this)) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(kGap);
+    column->addWidget(buildSearch());
+    buildTable();
+    column->addWidget(table_, 1);
+    empty_->setObjectName("sessionsEmpty");
+    empty_->setWordWrap(true);
+    empty_->setAlignment(Qt::AlignCenter);
+    empty_->setMargin(kGap);
+    column->addWidget(empty_, 1);
+    seen_.setSingleShot(true);
+    seen_.setInterval(kSeenAfter_ms);
+    connect(&seen_, &QTimer::timeout, this, &SessionList::confirmSeen);
+    connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, &seen_, qOverload<>(&QTimer::start));
+    say();
+}
+
+QWidget* SessionList::buildSearch() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(kGap);
+    search_ = new QLineEdit(holder);
+    search_->addAction(icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
+    search_->setPlaceholderText(tr("Search names, notes, tags, devices"));
+    search_->setClearButtonEnabled(true);
+    search_->setAccessibleName(tr("Search"));
+    search_->setToolTip(
+        tr("Shows only sessions that contain every word: procedure, note, operator, sample, tags, "
+           "verdict, devices, date or file name (Ctrl+F)."));
+    auto* find = new QShortcut(QKeySequence::Find, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    connect(find, &QShortcut::activated, search_, [this] { search_->setFocus(); });
+    ending_ = new QComboBox(holder);
+    ending_->setAccessibleName(tr("Verdict"));
+    ending_->addItem(tr("Any verdict"), QString());
+    for (const auto& word : {tr("pass"), tr("fail"), tr("indeterminate"), tr("stopped"), tr("fault"), tr("no verdict")})
+        ending_->addItem(word, word);
+    age_ = new QComboBox(holder);
+    age_->setAccessibleName(tr("Date"));
+    age_->addItem(tr("Any date"));
+    age_->addItem(tr("Today"), 0);
+    age_->addItem(tr("7 days"), 6);
+    age_->addItem(tr("30 days"), 29);
+    count_ = new QLabel(holder);
+    count_->setObjectName("sessionsCount");
+    setTone(*count_, Tone::Quiet);
+    setTextSize(*count_, TextSize::Small);
+    row->addWidget(search_, 1);
+    row->addWidget(ending_);
+    row->addWidget(age_);
+    row->addWidget(count_);
+    connect(search_, &QLineEdit::textChanged, this, &SessionList::filter);
+    connect(ending_, &QComboBox::currentIndexChanged, this, &SessionList::filter);
+    connect(age_, &QComboBox::currentIndexChanged, this, &SessionList::filter);
+    return holder;
+}
+
+void SessionList::buildTable() {
+    table_ = new QTableView(this);
+    table_->setObjectName("sessionsTable");
+    table_->setAccessibleName(tr("Sessions"));
+    table_->setModel(model_);
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+    table_->setIconSize({kListIcon, kListIcon});
+    table_->setWordWrap(false);
+    table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
+    table_->setTabKeyNavigation(false);                            // Tab leaves the table
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table_->horizontalHeader()->setResizeContentsPrecision(kMeasuredRows);
+    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->setSortingEnabled(true);
+    table_->sortByColumn(SessionModel::kBegan, Qt::DescendingOrder);
+    table_->setToolTip(tr("Every session of the sessions folder, newest first. Drop other *.tacto files here."));
+    connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+        if (!arranging_) emit selectionChanged();
+    });
+}
+
+void SessionList::rescan(const std::filesystem::path& recording) {
+    recording_ = recording;
+    const auto found = std::make_shared<std::vector<SessionEntry>>();
+    scan_.start(
+        [found, index = index_, others = others_](const WorkPort& port) -> Result<void> {
+            auto files = sessionFiles(userSessionsFolder());
+            for (const auto& other : others)
+                if (std::ranges::find(files, other) == files.end()) files.push_back(other);
+            const int total = int(files.size());
+            auto listed = index.list(files, [&](std::size_t done) {
+                port.progress(int(done), total);
+                return !port.stopped();
+            });
+            found->reserve(listed.size());
+            for (auto& session : listed) found->emplace_back(std::move(session));
+            if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled");
+            return {};
+        },
+        [this, found](const Result<void>& done) {
+            if (done) take(std::move(*found));
+        });
+}
+
+void SessionList::take(std::vector<SessionEntry> entries) {
+    const bool asked = !wanted_.empty();
+    const bool same =
+        std::ranges::equal(entries, model_->entries(), [](const auto& a, const auto& b) { return a.sameAs(b); });
+    if (same && !asked && shownRecording_ == recording_) return say();
+    shownRecording_ = recording_;
+    confirmed_.clear();
+    const auto before = chosenNow();
+    auto chosen = chosenPaths();
+    if (!wanted_.empty()) chosen = {wanted_};
+    arranging_ = true;
+    model_->setEntries(std::move(entries), recording_);
+    if (asked && model_->rowOf(wanted_) < 0) {  // a search must not hide what was asked for
+        for (auto* box : {ending_, age_}) box->setCurrentIndex(0);
+        search_->clear();
+    }
+    arranging_ = true;  // filter() ends it
+    choose(chosen);
+    arranging_ = false;
+    wanted_.clear();
+    for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
+    say();
+    if (asked || chosenNow() != before) emit selectionChanged();
+    seen_.start();
+}
+
+/// What a display of the chosen ones depends on. Not the labels: they are changed there.
+std::vector<std::pair<std::filesystem::path, SessionSummary>> SessionList::chosenNow() const {
+    std::vector<std::pair<std::filesystem::path, SessionSummary>> now;
+    for (const auto* entry : selected()) {
+        now.emplace_back(entry->path, entry->summary);
+        now.back().second.labels = {};
+    }
+    return now;
+}
+
+void SessionList::choose(const std::vector<std::filesystem::path>& paths) {
+    table_->clearSelection();
+    for (const auto& path : paths) {
+        const int row = model_->rowOf(path);
+        if (row < 0) continue;
+        const auto at = model_->index(row, 0);
+        table_->selectionModel()->setCurrentIndex(at, QItemSelectionModel::Select | QItemSelectionModel::Rows);
+        table_->scrollTo(at);
+    }
+}
+
+void SessionList::add(const std::filesystem::path& file) {
+    const auto listed = std::ranges::find(model_->entries(), file, &SessionEntry::path) != model_->entries().end();
+    if (!listed && file.parent_path() != userSessionsFolder()) others_.insert(file);
+    wanted_ = file;
+}
+
+void SessionList::confirm(const std::filesystem::path& file) {
+    confirmed_.erase(file);
+    confirmSeen();
+}
+
+/// What is seen is what the sessions say, and not what an index remembers of them.
+void SessionList::confirmSeen() {
+    const int first = table_->rowAt(0);
+    if (first < 0) return;
+    const int last = table_->rowAt(table_->viewport()->height() - 1);
+    const auto read = std::make_shared<std::vector<ListedSession>>();
+    std::vector<std::filesystem::path> paths;
+    for (int row = first; row <= (last < 0 ? model_->rowCount() - 1 : last); ++row) {
+        const auto& path = model_->entry(row).path;
+        if (path != recording_ && !confirmed_.contains(path)) paths.push_back(path);
+    }
+    if (paths.empty()) return;
+    confirm_.start(
+        [read, paths, index = index_](const WorkPort& port) -> Result<void> {
+            for (const auto& path : paths) {
+                if (port.stopped()) return fail(ErrorCode::Stopped, "cancelled");
+                read->push_back(index.read(path));
+            }
+            return {};
+        },
+        [this, read](const Result<void>& done) {
+            if (!done) return;
+            for (auto& session : *read) {
+                confirmed_.insert(session.path);
+                model_->replace(SessionEntry(std::move(session)));
+            }
+        });
+}
+
+void SessionList::filter() {
+    SessionFilter wanted{search_->text(), ending_->currentData().toString(), {}};
+    if (age_->currentData().isValid()) wanted.withinDays = age_->currentData().toInt();
+    const auto chosen = chosenPaths();
+    arranging_ = true;
+    model_->setFilter(wanted);
+    choose(chosen);  // what is not seen is not acted on
+    arranging_ = false;
+    say();
+    if (chosenPaths() != chosen) emit selectionChanged();
+    seen_.start();
+}
+
+void SessionList::say() {
+    const int shown = model_->rowCount();
+    const int all = int(model_->entries().size());
+    const auto many = all == 1 ? tr("1 session") : tr("%1 sessions").arg(all);
+    count_->setText(shown == all ? many : tr("%1 of %2").arg(shown).arg(many));
+    table_->setVisible(shown > 0);
+    empty_->setVisible(shown == 0);
+    if (all == 0)
+        empty_->setText(
+            tr("No session yet. Every open bench and every protocol run is recorded and appears here: open "
+               "the simulated bench (Ctrl+B) or run Separability."));
+    else if (search_->text().trimmed().isEmpty())
+        empty_->setText(tr("No session is of this verdict and date."));
+    else
+        empty_->setText(tr("No session contains “%1”. Searched are procedure, note, operator, sample, tags, verdict, "
+                           "devices, date and file name.")
+                            .arg(search_->text().trimmed()));
+}
+
+void SessionList::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
+    for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+    seen_.start();
+}
+
+void SessionList::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (table_ == nullptr) return;
+    if (event->type() == QEvent::FontChange) table_->verticalHeader()->setDefaultSectionSize(scaledPx(kRow));
+    if (event->type() == QEvent::PaletteChange) model_->recolour();
+}
+
+std::vector<std::filesystem::path> SessionList::chosenPaths() const {
+    std::vector<std::filesystem::path> paths;
+    for (const auto* entry : selected()) paths.push_back(entry->path);
+    return paths;
+}
+
+std::vector<const SessionEntry*> SessionList::selected() const {
+    auto rows = table_->selectionModel()->selectedRows();
+    std::ranges::sort(rows, {}, &QModelIndex::row);
+    std::vector<const SessionEntry*> found;
+    for (const auto& index : rows) found.push_back(&model_->entry(index.row()));
+    return found;
+}
+
+const SessionEntry* SessionList::current() const {
+    const auto all = selected();
+    return all.size() == 1 ? all[0] : nullptr;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,60 @@
+// SessionModel.h - the sessions as rows of a table: those that a search and a choice of verdict and age let through, in
+// the order of a column. Thousands of rows cost what is seen of them.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <optional>
+#include <vector>
+
+#include "app/gui/sessions/SessionEntry.h"
+
+namespace tacto::gui {
+
+/// Which sessions are shown.
+struct SessionFilter {
+    QString words;                    ///< each must be found
+    QString ending;                   ///< the word of the column Verdict; empty: any
+    std::optional<int> withinDays{};  ///< 0: today
+    [[nodiscard]] bool empty() const { return words.trimmed().isEmpty() && ending.isEmpty() && !withinDays; }
+};
+
+class SessionModel final : public QAbstractTableModel {
+    Q_OBJECT
+public:
+    enum Column { kVerdict, kBegan, kProcedure, kSample, kOperator, kLength, kNote, kColumns };
+    explicit SessionModel(QObject* parent);
+
+    void setEntries(std::vector<SessionEntry> entries, const std::filesystem::path& recording);
+    /// In place of the one of the same path, in its row, whatever the filter and the order say.
+    void replace(SessionEntry entry);
+    void setFilter(const SessionFilter& filter);
+    /// Verdicts take their colours from the theme.
+    void recolour();
+
+    [[nodiscard]] const std::vector<SessionEntry>& entries() const { return entries_; }
+    [[nodiscard]] const SessionEntry& entry(int row) const { return entries_[rows_[std::size_t(row)]]; }
+    /// -1 where it is not shown.
+    [[nodiscard]] int rowOf(const std::filesystem::path& path) const;
+
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+    void sort(int column, Qt::SortOrder order) override;
+
+private:
+    void arrange();
+    [[nodiscard]] bool passes(const SessionEntry& entry, const QStringList& words) const;
+    [[nodiscard]] QString text(const SessionEntry& entry, int column) const;
+    [[nodiscard]] QString about(const SessionEntry& entry) const;
+    std::vector<SessionEntry> entries_;
+    std::vector<std::size_t> rows_;  // into entries_
+    std::filesystem::path recording_;
+    SessionFilter filter_;
+    int column_ = kBegan;
+    Qt::SortOrder order_ = Qt::DescendingOrder;
+};
+
+}  // namespace tacto::gui

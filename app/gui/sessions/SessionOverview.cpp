@@ -1,0 +1,270 @@
+#include "app/gui/sessions/SessionOverview.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QSplitter>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include "app/gui/sessions/SessionPreview.h"
+#include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "core/session/SessionLabels.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kGrid = 8;
+constexpr int kHeadIcon = 32;
+constexpr int kShownMoments = 500;
+constexpr int kLeastMoments = 3;  // lines
+constexpr int kWhyLines = 2;
+constexpr double kWrapped = 0.85;  // of a line's width is used where words wrap
+
+SessionEntry entryOf(const ReadSession& session) {
+    ListedSession listed;
+    listed.path = session.path;
+    listed.summary.closed = session.closed;
+    listed.summary.wallStart = session.about.wallStart;
+    if (!session.verdicts.empty()) listed.summary.verdict = session.verdicts.back().verdict;
+    listed.summary.faulted =
+        std::ranges::any_of(session.events, [](const auto& event) { return event.name == "fault"; });
+    return SessionEntry(std::move(listed));
+}
+
+}  // namespace
+
+SessionOverview::SessionOverview(QWidget* parent)
+    : QWidget(parent), content_(new QWidget(this)), nothing_(new QLabel(this)) {
+    auto* page = new QVBoxLayout(this);
+    page->setContentsMargins(0, 0, 0, 0);
+    nothing_->setWordWrap(true);
+    nothing_->setAlignment(Qt::AlignCenter);
+    nothing_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    setTone(*nothing_, Tone::Quiet);
+    page->addWidget(nothing_, 1);
+    page->addWidget(content_, 1);
+    auto* column = new QVBoxLayout(content_);
+    column->setContentsMargins(2 * kGrid, kGrid, 2 * kGrid, kGrid);
+    column->setSpacing(kGrid);
+    column->addWidget(buildHead());
+    column->addWidget(buildFields());
+    auto* split = new QSplitter(Qt::Vertical, content_);
+    split->setChildrenCollapsible(false);
+    preview_ = new SessionPreview(split);
+    split->addWidget(preview_);
+    split->addWidget(buildHappened());
+    split->setStretchFactor(0, 3);
+    split->setStretchFactor(1, 2);
+    column->addWidget(split, 1);
+    say(tr("Choose a session at the left."));
+}
+
+QWidget* SessionOverview::buildHead() {
+    auto* head = new QWidget(content_);
+    auto* grid = new QGridLayout(head);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(kGrid);
+    grid->setVerticalSpacing(0);
+    icon_ = new QLabel(head);
+    title_ = new QLabel(head);
+    title_->setObjectName("sessionTitle");
+    title_->setWordWrap(true);
+    setTextSize(*title_, TextSize::Large, true);
+    why_ = new QLabel(head);
+    why_->setObjectName("sessionWhy");
+    why_->setWordWrap(true);
+    why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    grid->addWidget(icon_, 0, 0, 2, 1, Qt::AlignTop);
+    grid->addWidget(title_, 0, 1);
+    grid->addWidget(why_, 1, 1);
+    grid->setColumnStretch(1, 1);
+    return head;
+}
+
+QWidget* SessionOverview::buildHappened() {
+    auto* holder = new QWidget(content_);
+    auto* column = new QVBoxLayout(holder);
+    column->setContentsMargins(0, kGrid, 0, 0);
+    column->setSpacing(kGrid / 2);
+    auto* heading = new QLabel(tr("What happened"), holder);
+    setTextSize(*heading, TextSize::Body, true);
+    column->addWidget(heading);
+    happened_ = new QTextBrowser(holder);
+    happened_->setObjectName("whatHappened");
+    happened_->setAccessibleName(tr("What happened"));
+    happened_->setTabChangesFocus(true);
+    happened_->setMinimumHeight(fontMetrics().height() * kLeastMoments);
+    column->addWidget(happened_, 1);
+    return holder;
+}
+
+QWidget* SessionOverview::buildFields() {
+    auto* fields = new QWidget(content_);
+    auto* grid = new QGridLayout(fields);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(kGrid);
+    grid->setVerticalSpacing(4);
+    const auto add = [&](const QString& title, const char* name, const QString& placeholder, std::size_t limit, int row,
+                         int column, int columns) {
+        auto* label = new QLabel(title, fields);
+        setTone(*label, Tone::Quiet);
+        setTextSize(*label, TextSize::Small);
+        auto* edit = new QLineEdit(fields);
+        edit->setObjectName(name);
+        edit->setAccessibleName(title);
+        edit->setPlaceholderText(placeholder);
+        edit->setMaxLength(int(limit));
+        connect(edit, &QLineEdit::editingFinished, this, &SessionOverview::save);
+        grid->addWidget(label, row, column, 1, columns);
+        grid->addWidget(edit, row + 1, column, 1, columns);
+        return edit;
+    };
+    operator_ = add(tr("Operator"), "labelOperator", tr("not recorded"), kLabelLimit, 0, 0, 1);
+    sample_ = add(tr("Sample"), "labelSample", tr("not recorded"), kLabelLimit, 0, 1, 1);
+    tags_ = add(tr("Tags"), "labelTags", tr("P60, P120"), kMaxTags * (kTagLimit + 2), 0, 2, 1);
+    note_ = add(tr("Note"), "labelNote", tr("what the next reader should know"), kSessionNoteLimit, 2, 0, 3);
+    saved_ = new QLabel(fields);
+    saved_->setObjectName("labelsSaved");
+    saved_->setWordWrap(true);
+    setTextSize(*saved_, TextSize::Small);
+    grid->addWidget(saved_, 4, 0, 1, 3);
+    for (int column = 0; column < 3; ++column) grid->setColumnStretch(column, column == 2 ? 3 : 2);
+    return fields;
+}
+
+void SessionOverview::say(const QString& why) {
+    save();
+    session_.reset();
+    nothing_->setText(why);
+    nothing_->show();
+    content_->hide();
+}
+
+void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
+    save();
+    session_ = std::move(session);
+    kept_ = session_->labels;
+    nothing_->hide();
+    content_->show();
+    showFields();
+    preview_->show(*session_);
+    layout()->activate();
+    showHead();
+    showHappened();
+}
+
+void SessionOverview::showHead() {
+    const auto ending = endingOf(entryOf(*session_), false);
+    icon_->setPixmap(iconPixmap(ending.icon, ending.colour, scaledPx(kHeadIcon), devicePixelRatioF()));
+    title_->setText(tr("%1: %2").arg(procedureText(session_->about.protocol), ending.word));
+    title_->setToolTip(qtext(session_->path.string()));
+    QStringList why;
+    if (!session_->verdicts.empty())
+        for (const auto& reason : session_->verdicts.back().reasons) why << sentence(qtext(reason));
+    whole_ = why.isEmpty() ? tr("%1, %2%3.")
+                                 .arg(beganText(entryOf(*session_).began), lengthText(toSeconds(session_->length)),
+                                      session_->about.simulated ? tr(", simulated") : QString())
+                           : why.first();
+    fitWhy();
+    why_->setToolTip(why.join('\n'));
+}
+
+/// The plot below keeps its room, however long the reason is; the tool tip has all of it.
+void SessionOverview::fitWhy() {
+    const int room = int(kWhyLines * kWrapped * why_->width());
+    why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
+}
+
+void SessionOverview::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (session_) QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
+}
+
+void SessionOverview::showFields() {
+    QStringList tags;
+    for (const auto& tag : kept_.tags) tags << qtext(tag);
+    operator_->setText(qtext(kept_.operatorName));
+    sample_->setText(qtext(kept_.sample));
+    tags_->setText(tags.join(", "));
+    note_->setText(qtext(kept_.note));
+    const bool fixed = !session_->fixed.isEmpty();
+    const std::pair<QLineEdit*, QString> all[] = {{operator_, tr("Who did it, for the report.")},
+                                                  {sample_, tr("What was measured, by your own id.")},
+                                                  {tags_, tr("Words to find it by, with commas between them.")},
+                                                  {note_, tr("One line; it is searched, and stands in the report.")}};
+    for (const auto& [edit, tip] : all) {
+        edit->setReadOnly(fixed);
+        edit->setToolTip(fixed ? session_->fixed
+                               : tip + tr(" Kept in the session when you press Return or leave the field; what was "
+                                          "recorded stays as it is."));
+    }
+    saySaved(session_->fixed, false);
+}
+
+SessionLabels SessionOverview::entered() const {
+    const auto text = [](const QLineEdit* edit) { return edit->text().simplified().toStdString(); };
+    SessionLabels labels{text(operator_), text(sample_), text(note_), {}};
+    for (const auto& tag : tags_->text().split(',', Qt::SkipEmptyParts))
+        if (const auto word = tag.simplified().toStdString();
+            !word.empty() && std::ranges::find(labels.tags, word) == labels.tags.end())
+            labels.tags.push_back(word);
+    return labels;
+}
+
+void SessionOverview::save() {
+    if (!session_ || !session_->fixed.isEmpty()) return;
+    const auto labels = entered();
+    if (labels == kept_) return;
+    const auto before = std::exchange(kept_, labels);
+    saySaved(tr("Saving…"), false);
+    saving_.start([path = session_->path, labels](const WorkPort&) { return saveLabels(path, labels); },
+                  [this, before, session = session_](const Result<void>& done) {
+                      const bool shown = session_ == session;
+                      if (done) emit labelsSaved(qtext(session->path.string()));
+                      if (!done && shown) kept_ = before;  // the next Return tries again
+                      if (!done && !shown) emit labelsRefused(sentence(done.error()));
+                      if (shown) saySaved(done ? tr("Kept in the session.") : sentence(done.error()), !done);
+                  });
+}
+
+void SessionOverview::saySaved(const QString& text, bool refused) {
+    saved_->setText(text);
+    saved_->setVisible(!text.isEmpty());
+    setTone(*saved_, refused ? Tone::Warning : Tone::Quiet);
+}
+
+void SessionOverview::showHappened() {
+    const auto all = whatHappened(*session_);
+    const auto quiet = colours().quiet.name();
+    QString html = "<table cellspacing=\"0\" cellpadding=\"2\">";
+    int shown = 0;
+    for (const auto& moment : all) {
+        if (++shown > kShownMoments) break;
+        const auto text = moment.text.toHtmlEscaped();
+        html += QString("<tr><td style=\"color:%1; white-space:nowrap; padding-right:12px\">%2</td><td>%3</td></tr>")
+                    .arg(quiet, moment.when, moment.mark ? "<b>" + text + "</b>" : text);
+    }
+    html += "</table>";
+    if (all.size() > kShownMoments)
+        html += "<p>" + tr("%1 more are in the export.").arg(all.size() - kShownMoments) + "</p>";
+    happened_->setHtml(html);
+}
+
+/// The window closes, or another page comes: what was typed is kept.
+void SessionOverview::hideEvent(QHideEvent* event) {
+    save();
+    QWidget::hideEvent(event);
+}
+
+void SessionOverview::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() != QEvent::PaletteChange || !session_ || happened_ == nullptr) return;
+    showHead();
+    showHappened();
+}
+
+}  // namespace tacto::gui

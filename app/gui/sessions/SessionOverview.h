@@ -1,0 +1,70 @@
+// SessionOverview.h - the chosen session at a glance: how it ended and why, who and what, to be edited in place, its
+// main plot, and what happened in it.
+//
+// An edit is kept in the session when the field is left or Return is pressed; what the session refuses is said, and
+// stays in the field.
+//
+// Thread-safety: the GUI thread; saving happens beside it.
+#pragma once
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QTextBrowser>
+#include <memory>
+
+#include "app/gui/sessions/Background.h"
+#include "app/gui/sessions/ReadSession.h"
+
+namespace tacto::gui {
+
+class SessionPreview;
+
+class SessionOverview final : public QWidget {
+    Q_OBJECT
+public:
+    explicit SessionOverview(QWidget* parent = nullptr);
+    /// Keeps what was edited of the one before.
+    void show(std::shared_ptr<const ReadSession> session);
+    void say(const QString& why);
+
+signals:
+    void labelsSaved(const QString& session);
+    /// Of a session that is no longer shown: a sentence.
+    void labelsRefused(const QString& why);
+
+protected:
+    void changeEvent(QEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    [[nodiscard]] QWidget* buildHead();
+    [[nodiscard]] QWidget* buildFields();
+    [[nodiscard]] QWidget* buildHappened();
+    void fitWhy();
+    void showHead();
+    void showFields();
+    void showHappened();
+    void save();
+    void saySaved(const QString& text, bool refused);
+    [[nodiscard]] SessionLabels entered() const;
+
+    std::shared_ptr<const ReadSession> session_;
+    SessionLabels kept_;  ///< as they are in the session, or on their way into it
+    Background saving_;
+    QWidget* content_;
+    QLabel* nothing_;
+    QLabel* icon_ = nullptr;
+    QLabel* title_ = nullptr;
+    QLabel* why_ = nullptr;
+    QString whole_;  ///< what why_ says, before it is elided
+    QLineEdit* operator_ = nullptr;
+    QLineEdit* sample_ = nullptr;
+    QLineEdit* tags_ = nullptr;
+    QLineEdit* note_ = nullptr;
+    QLabel* saved_ = nullptr;
+    SessionPreview* preview_ = nullptr;
+    QTextBrowser* happened_ = nullptr;
+};
+
+}  // namespace tacto::gui

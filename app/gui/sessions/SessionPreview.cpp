@@ -1,0 +1,191 @@
+#include "app/gui/sessions/SessionPreview.h"
+
+#include <QPainter>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/PlotPicture.h"
+#include "app/gui/theme/Theme.h"
+#include "app/report/FigureDrawing.h"
+#include "core/base/JsonFields.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr std::size_t kCoursePoints = 3000;
+constexpr int kLeastLines = 10;  // of text: the height of a plot that can be read
+
+bool inThePlane(const SessionTrial& trial) {
+    return std::isfinite(numberOr(trial.measured, "amplitude_v")) &&
+           std::isfinite(numberOr(trial.measured, "interval_s"));
+}
+
+void addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
+              const QString& name) {
+    auto* graph = plot.addGraph(plot.xAxis, values);
+    graph->setName(name);
+    QVector<double> x, shown;
+    for (const auto i : visiblePoints(y, kCoursePoints)) {
+        x << t[i];
+        shown << y[i];
+    }
+    graph->setData(x, shown, true);
+}
+
+}  // namespace
+
+void SheetView::show(std::unique_ptr<PlotSheet> sheet) {
+    sheet_ = std::move(sheet);
+    update();
+}
+
+QSize SheetView::minimumSizeHint() const { return {0, fontMetrics().height() * kLeastLines}; }
+
+void SheetView::paintEvent(QPaintEvent* /*event*/) {
+    if (!sheet_) return;
+    const auto size = sheet_->size();
+    const double scale = std::min(double(width()) / size.width(), double(height()) / size.height());
+    QCPPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QRectF paper(0, 0, size.width() * scale, size.height() * scale);
+    painter.fillRect(paper, Qt::white);  // as it is printed
+    painter.scale(scale, scale);
+    sheet_->paint(painter);
+}
+
+SessionPreview::SessionPreview(QWidget* parent)
+    : QWidget(parent), title_(new QLabel(this)), stack_(new QStackedWidget(this)) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(4);
+    title_->setObjectName("previewTitle");
+    title_->setWordWrap(true);
+    setTextSize(*title_, TextSize::Small, true);
+    column->addWidget(title_);
+    column->addWidget(stack_, 1);
+    nothing_ = new QLabel(stack_);
+    nothing_->setObjectName("nothingToDraw");
+    nothing_->setAlignment(Qt::AlignCenter);
+    nothing_->setWordWrap(true);
+    setTone(*nothing_, Tone::Quiet);
+    plane_ = new TrialPlane(stack_);
+    plane_->setMinimumHeight(fontMetrics().height() * kLeastLines);
+    sheet_ = new SheetView(stack_);
+    course_ = new QCustomPlot(stack_);
+    course_->setAccessibleName(tr("What was felt and delivered"));
+    course_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+    course_->axisRect()->setRangeZoom(Qt::Horizontal);
+    course_->axisRect()->setRangeDrag(Qt::Horizontal);
+    course_->setMinimumHeight(fontMetrics().height() * kLeastLines);
+    // Above the axes: inside, it would hide data.
+    course_->axisRect()->insetLayout()->take(course_->legend);
+    course_->plotLayout()->insertRow(0);
+    course_->plotLayout()->addElement(0, 0, course_->legend);
+    course_->plotLayout()->setRowStretchFactor(0, 0.001);
+    course_->legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    course_->legend->setWrap(0);
+    addPlotMenu(*course_, "session");
+    watermark_ = addWatermark(*course_->axisRect());
+    for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
+    clear();
+}
+
+void SessionPreview::clear() {
+    title_->clear();
+    nothing_->clear();
+    stack_->setCurrentWidget(nothing_);
+}
+
+void SessionPreview::show(const ReadSession& session) {
+    const auto drawn = std::ranges::count_if(session.trials, inThePlane);
+    if (drawn > 0 && (session.planeOfTrials || !session.figure)) {
+        plane_->begin(session.about.simulated);
+        for (const auto& trial : session.trials) {
+            auto measured = trial.measured;
+            measured["condition"] = trial.condition;
+            plane_->add(measured);
+        }
+        title_->setText(tr("Trials in the plane, %1 of %2").arg(drawn).arg(session.trials.size()));
+        return stack_->setCurrentWidget(plane_);
+    }
+    if (session.figure) {
+        sheet_->show(drawFigure(*session.figure, session.about.simulated));
+        title_->setText(session.caption.isEmpty() ? tr("First figure of the report") : session.caption);
+        return stack_->setCurrentWidget(sheet_);
+    }
+    if (!session.course.empty()) {
+        drawCourse(session);
+        title_->setText(session.course.train_s.empty() ? tr("What the fingertip felt")
+                                                       : tr("What was felt, and the trains that were delivered"));
+        return stack_->setCurrentWidget(course_);
+    }
+    title_->clear();
+    nothing_->setText(tr("Nothing to draw: this session holds no trial, no figure, no train and no touch."));
+    stack_->setCurrentWidget(nothing_);
+}
+
+void SessionPreview::drawCourse(const ReadSession& session) {
+    const auto& course = session.course;
+    course_->clearGraphs();
+    for (auto* mark : marks_) course_->removeItem(mark);
+    marks_.clear();
+    watermark_->setVisible(session.about.simulated);
+    course_->xAxis->setLabel(tr("time (s)"));
+    const bool felt = !course.frame_s.empty();
+    const bool delivered = !course.train_s.empty();
+    auto* amplitudes = felt ? course_->yAxis2 : course_->yAxis;
+    if (felt) {
+        addCurve(*course_, course_->yAxis, course.frame_s, course.roughness, tr("R"));
+        addCurve(*course_, course_->yAxis, course.frame_s, course.pressure, tr("P"));
+        course_->yAxis->setLabel(tr("R and P"));
+    }
+    if (delivered) {
+        addCurve(*course_, amplitudes, course.train_s, course.amplitude, tr("amplitude"));
+        course_->graph(course_->graphCount() - 1)->setLineStyle(QCPGraph::lsImpulse);
+        amplitudes->setLabel(tr("amplitude (%1)").arg(course.unit));
+    }
+    course_->yAxis2->setVisible(felt && delivered);
+    for (const auto& event : session.events) {
+        if (event.name != kOperatorMarkEvent) continue;
+        auto* line = new QCPItemStraightLine(course_);
+        line->point1->setCoords(toSeconds(event.at), 0);
+        line->point2->setCoords(toSeconds(event.at), 1);
+        marks_.push_back(line);
+    }
+    course_->legend->setVisible(course_->graphCount() > 1);
+    course_->rescaleAxes();
+    if (felt) course_->yAxis->setRange(-0.05, 1.05);
+    if (delivered) amplitudes->setRange(0, std::max(1.0, amplitudes->range().upper * 1.15));
+    const double end = std::max(toSeconds(session.length), 1e-3);
+    course_->xAxis->setRange(0, end);
+    colour();
+}
+
+void SessionPreview::colour() {
+    stylePlot(*course_);
+    styleAxis(*course_->yAxis2);
+    course_->yAxis2->grid()->setVisible(false);
+    const auto& c = colours();
+    course_->legend->setTextColor(c.text);
+    course_->legend->setBrush(QBrush(c.base));
+    course_->legend->setBorderPen(Qt::NoPen);
+    for (int i = 0; i < course_->graphCount(); ++i) {
+        auto* graph = course_->graph(i);
+        const bool train = graph->lineStyle() == QCPGraph::lsImpulse;
+        graph->setPen(train    ? QPen(c.text)
+                      : i == 0 ? QPen(conditionInTheme("rough-high").color)
+                               : QPen(conditionInTheme("smooth-high").color, 1, Qt::DashLine));
+    }
+    for (auto* mark : marks_) mark->setPen(QPen(c.text, 1, Qt::DashLine));
+    course_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SessionPreview::changeEvent(QEvent* event) {
+    if ((event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) && watermark_ != nullptr)
+        colour();
+    QWidget::changeEvent(event);
+}
+
+}  // namespace tacto::gui

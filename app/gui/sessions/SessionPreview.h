@@ -1,0 +1,59 @@
+// SessionPreview.h - the main plot of a session: its trials in the plane, else the first figure of its report, else
+// what was felt and delivered over time, with the operator's marks.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QStackedWidget>
+#include <memory>
+#include <qcustomplot.h>
+
+#include "app/gui/sessions/ReadSession.h"
+#include "app/report/PlotSheet.h"
+
+namespace tacto::gui {
+
+class TrialPlane;
+
+/// A sheet of the report, as large as there is room for.
+class SheetView final : public QWidget {
+    Q_OBJECT
+public:
+    using QWidget::QWidget;
+    void show(std::unique_ptr<PlotSheet> sheet);
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    std::unique_ptr<PlotSheet> sheet_;
+};
+
+class SessionPreview final : public QWidget {
+    Q_OBJECT
+public:
+    explicit SessionPreview(QWidget* parent = nullptr);
+    void show(const ReadSession& session);
+    void clear();
+    /// "Trials in the plane", a figure's caption, ...; empty while nothing is shown.
+    [[nodiscard]] QString title() const { return title_->text(); }
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    void drawCourse(const ReadSession& session);
+    void colour();
+    QLabel* title_;
+    QStackedWidget* stack_;
+    QLabel* nothing_;
+    TrialPlane* plane_;
+    SheetView* sheet_;
+    QCustomPlot* course_;
+    QCPItemText* watermark_ = nullptr;
+    std::vector<QCPItemStraightLine*> marks_;
+};
+
+}  // namespace tacto::gui

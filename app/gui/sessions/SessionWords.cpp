@@ -1,0 +1,242 @@
+#include "app/gui/sessions/SessionWords.h"
+
+#include <QJsonDocument>
+#include <QLocale>
+#include <algorithm>
+#include <map>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "core/base/JsonFields.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kShortValues = 60;  // characters that may follow an event's own words
+
+QString words(const char* text) { return QObject::tr(text); }
+
+/// What stands for the kinds of events; others are their own words.
+const std::map<std::string, const char*>& titles() {
+    static const std::map<std::string, const char*> all{
+        {"fault", QT_TR_NOOP("Fault")},
+        {"refused", QT_TR_NOOP("A train was refused")},
+        {"stale", QT_TR_NOOP("The fingertip fell silent")},
+        {"records lost", QT_TR_NOOP("Records were lost")},
+        {"device report", QT_TR_NOOP("A device reports")},
+        {"calibration", QT_TR_NOOP("Stimulator calibration")},
+        {kCertificateEvent, QT_TR_NOOP("Oscilloscope certificate")},
+        {kMarkEvent, QT_TR_NOOP("R drove the output, flagged")},
+        {"operator", QT_TR_NOOP("The operator answered")},
+        {"script not started", QT_TR_NOOP("The script was not started")},
+        {"capture warning", QT_TR_NOOP("Oscilloscope")},
+        {"unattended", QT_TR_NOOP("Output ended")},
+        {"unrecorded", QT_TR_NOOP("Output ended")},
+        {"sleep", QT_TR_NOOP("Output ended")},
+        {"arming", QT_TR_NOOP("Arming")},
+    };
+    return all;
+}
+
+/// "Encoding, A max" of "encoding.A_max_v".
+QString fieldName(const QString& place) {
+    QStringList parts;
+    for (const auto& part : place.split('.')) parts << columnName(part).title;
+    return parts.join(", ");
+}
+
+QString scalarText(const nlohmann::json& value, const QString& unit) {
+    if (value.is_number()) return quantityText(value.get<double>(), unit, 4);
+    if (value.is_boolean()) return value.get<bool>() ? words("yes") : words("no");
+    if (value.is_string()) return qtext(value.get<std::string>());
+    return QString("–");
+}
+
+/// "Net charge 1.20 µC, Load 1 kΩ": the plain values of a body, named as in tables. Lists of words are joined.
+QString fieldsText(const nlohmann::json& body) {
+    QStringList parts;
+    for (const auto& [key, value] : body.items()) {
+        const auto named = columnName(qtext(key));
+        if (value.is_array()) {
+            QStringList each;
+            for (const auto& one : value)
+                if (one.is_primitive()) each << scalarText(one, named.unit).replace('_', ' ').replace('.', ' ');
+            if (!each.isEmpty()) parts << named.title.toLower() + " " + each.join(", ");
+        } else if (value.is_primitive() && !value.is_null()) {
+            parts << named.title.toLower() + " " + scalarText(value, named.unit);
+        }
+    }
+    return parts.join(", ");
+}
+
+/// The numbers of a body that has words of its own too.
+nlohmann::json numbersOf(const nlohmann::json& body) {
+    auto numbers = nlohmann::json::object();
+    for (const auto& [key, value] : body.items())
+        if (value.is_number()) numbers[key] = value;
+    return numbers;
+}
+
+/// What the event itself says in words.
+QString ownWords(const nlohmann::json& body) {
+    for (const char* key : {"text", "message", "reason", "why"})
+        if (const auto own = textOr(body, key); !own.empty()) return qtext(own);
+    return {};
+}
+
+QString armingSentence(const nlohmann::json& body) {
+    const auto load = conditionText(textOr(body, "load"));
+    const bool calibrated = flagOr(body, "calibrated");
+    return QObject::tr("Arming was asked for, into a load declared as %1, with a stimulator that is %2.")
+        .arg(load.isEmpty() ? QString("–") : load, calibrated ? words("calibrated") : words("not calibrated"));
+}
+
+QString marksSentence(const nlohmann::json& body) {
+    QStringList flags;
+    for (const auto& flag : textsOr(body, "flags")) flags << qtext(flag);
+    return flags.isEmpty() ? words("The bench was closed without a flag of R.")
+                           : QObject::tr("The bench was closed with the flags of R: %1.").arg(flags.join(", "));
+}
+
+/// "11:02:10" where the session's time is the day's, "0:12.3" on a virtual clock.
+QString momentText(const ReadSession& session, Instant at) {
+    const auto& about = session.about;
+    const auto start = QDateTime::fromString(qtext(about.wallStart), Qt::ISODate);
+    if (!about.virtualClock && start.isValid())
+        return start.addMSecs(qint64(toSeconds(at - about.wallStartAt) * 1e3)).toLocalTime().toString("HH:mm:ss");
+    const double s = std::max(0.0, toSeconds(at));
+    return QString("%1:%2").arg(int(s) / 60).arg(s - 60 * (int(s) / 60), 4, 'f', 1, QChar('0'));
+}
+
+QString beginning(const ReadSession& session) {
+    const auto& labels = session.labels;
+    QStringList devices;
+    for (const auto& device : session.about.devices) devices << qtext(device.name);
+    devices.removeDuplicates();
+    return QObject::tr("%1 began%2%3%4.")
+        .arg(procedureText(session.about.protocol),
+             labels.operatorName.empty() ? QString() : QObject::tr(", by %1").arg(qtext(labels.operatorName)),
+             labels.sample.empty() ? QString() : QObject::tr(", on sample %1").arg(qtext(labels.sample)),
+             devices.isEmpty() ? words(", without devices") : QObject::tr(", with %1").arg(devices.join(", ")));
+}
+
+QString ending(const ReadSession& session) {
+    if (!session.closed) return words("The recording has no end mark: a crash, or it is still going on.");
+    QStringList found;
+    if (!session.trials.empty()) found << trialsText(session.trials.size());
+    if (session.trains > 0)
+        found << (session.unit.isEmpty() ? QObject::tr("%1 trains").arg(session.trains)
+                                         : QObject::tr("%1 trains of at most %2")
+                                               .arg(session.trains)
+                                               .arg(quantityText(session.most, session.unit, 4)));
+    return found.isEmpty() ? words("Ended in order; nothing was delivered.")
+                           : QObject::tr("Ended in order: %1.").arg(found.join(", "));
+}
+
+}  // namespace
+
+QString lengthText(double seconds) {
+    const int s = int(seconds);
+    if (s < 60) return QObject::tr("%1 s").arg(s);
+    if (s < 3600) return QObject::tr("%1 min").arg(s / 60);
+    return QObject::tr("%1 h %2 min").arg(s / 3600).arg(s / 60 % 60);
+}
+
+QString trialsText(std::size_t count) {
+    return count == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(count);
+}
+
+QString conditionText(const std::string& condition) {
+    return qtext(condition).replace("kohm", "kΩ").replace("Mohm", "MΩ").replace("ohm", "Ω");
+}
+
+QString beganText(const QDateTime& began) {
+    const auto today = QDate::currentDate();
+    const auto time = began.toString("HH:mm");
+    if (began.date() == today) return QObject::tr("Today %1").arg(time);
+    if (began.date() == today.addDays(-1)) return QObject::tr("Yesterday %1").arg(time);
+    const auto language = QLocale::c();
+    return began.date().year() == today.year() ? language.toString(began, "d MMM HH:mm")
+                                               : language.toString(began, "d MMM yyyy");
+}
+
+QString procedureText(const std::string& protocol) {
+    return protocol.empty() ? words("Live") : titled(qtext(protocol).replace('-', ' '));
+}
+
+SessionEnding endingOf(const SessionEntry& entry, bool recording) {
+    const auto as = [](const QString& word, const VerdictStyle& style) {
+        return SessionEnding{word, style.icon, style.colour};
+    };
+    if (!entry.problem.isEmpty()) return as(words("cannot be read"), verdictStyle("error"));
+    if (recording) return {words("recording"), "state-delivering", verdictStyle({}).colour};
+    const auto& summary = entry.summary;
+    if (!summary.verdict.empty() && summary.verdict != "none")
+        return as(qtext(summary.verdict), verdictStyle(qtext(summary.verdict)));
+    if (!summary.closed) return as(words("not ended in order"), verdictStyle("error"));
+    if (summary.faulted) return {words("fault"), "state-faulted", colours().fault};
+    return as(words("no verdict"), verdictStyle({}));
+}
+
+QString eventSentence(const SessionRow& event) {
+    const auto& body = event.body;
+    const auto own = ownWords(body);
+    if (event.name == kOperatorMarkEvent) return QObject::tr("Mark: “%1”").arg(own);
+    if (event.name == "interlock") return sentence(own);
+    if (event.name == "arming") return armingSentence(body);
+    if (event.name == kMarksEvent) return marksSentence(body);
+    if (event.name == "settings") {
+        QStringList changed;
+        for (const auto& key : textsOr(body, "changed")) changed << fieldName(qtext(key));
+        return QObject::tr("The encoding profile was changed: %1.").arg(changed.join(", "));
+    }
+    auto kind = qtext(event.name);
+    if (kind.startsWith("script: ")) kind = kind.mid(8);
+    const auto known = titles().find(event.name);
+    const auto title = known != titles().end() ? words(known->second) : titled(kind.replace('_', ' '));
+    const auto values = fieldsText(numbersOf(body));
+    const bool few = !own.isEmpty() && !values.isEmpty() && values.size() < kShortValues;
+    const auto rest = own.isEmpty() ? fieldsText(body) : few ? own + " (" + values + ")" : own;
+    return rest.isEmpty() ? title + '.' : sentence(title + ": " + rest);
+}
+
+QList<SessionMoment> whatHappened(const ReadSession& session) {
+    struct Line {
+        Instant at;
+        QString text;
+        bool mark;
+    };
+    std::vector<Line> lines;
+    for (const auto& event : session.events)
+        lines.push_back({event.at, eventSentence(event), event.name == kOperatorMarkEvent});
+    for (const auto& line : session.log) lines.push_back({line.at, sentence(qtext(textOr(line.body, "text"))), false});
+    for (const auto& verdict : session.verdicts) {
+        const auto why = verdict.reasons.empty() ? QString() : ": " + qtext(verdict.reasons.front());
+        lines.push_back({verdict.at, sentence(QObject::tr("Verdict %1%2").arg(qtext(verdict.verdict), why)), false});
+    }
+    std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+    QList<SessionMoment> all{{toSeconds(session.about.wallStartAt), momentText(session, session.about.wallStartAt),
+                              beginning(session), false}};
+    std::size_t repeats = 1;
+    const auto count = [&] {
+        if (repeats > 1) all.back().text += QObject::tr(" (%1 times)").arg(repeats);
+        repeats = 1;
+    };
+    QString last;
+    for (const auto& line : lines) {
+        if (line.text == last && !line.mark) {
+            ++repeats;
+            continue;
+        }
+        count();
+        last = line.text;
+        all << SessionMoment{toSeconds(line.at), momentText(session, line.at), line.text, line.mark};
+    }
+    count();
+    all << SessionMoment{toSeconds(session.length), momentText(session, session.length), ending(session), false};
+    return all;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,49 @@
+// SessionWords.h - a session in words: its name, when it was, how it ended, what happened in it.
+//
+// Thread-safety: pure functions; endingOf() the GUI thread, for the theme's colours.
+#pragma once
+
+#include <QColor>
+#include <QDateTime>
+#include <QList>
+#include <QString>
+
+#include "app/gui/sessions/ReadSession.h"
+#include "app/gui/sessions/SessionEntry.h"
+
+namespace tacto::gui {
+
+/// "28 s", "7 min", "1 h 12 min".
+[[nodiscard]] QString lengthText(double seconds);
+/// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; of another year the date alone.
+[[nodiscard]] QString beganText(const QDateTime& began);
+/// "Stimulator calibration" of "stimulator-calibration"; "Live" of a session without a protocol.
+[[nodiscard]] QString procedureText(const std::string& protocol);
+
+/// "1 trial", "25 trials".
+[[nodiscard]] QString trialsText(std::size_t count);
+/// "1 kΩ, 10.0 V" of "1 kohm, 10.0 V": loads and conditions as people write them.
+[[nodiscard]] QString conditionText(const std::string& condition);
+
+/// How a session ended, as a word, an icon and its colour.
+struct SessionEnding {
+    QString word;
+    QString icon;
+    QColor colour;
+};
+/// `recording`: of the session that is being written.
+[[nodiscard]] SessionEnding endingOf(const SessionEntry& entry, bool recording);
+
+/// A line of what happened.
+struct SessionMoment {
+    double at_s = 0;  ///< of the session's time base
+    QString when;     ///< time of day; on a virtual clock the time since the beginning
+    QString text;     ///< a sentence
+    bool mark = false;
+};
+/// In order, from how it began to how it ended; what is repeated at once stands once, with its count.
+[[nodiscard]] QList<SessionMoment> whatHappened(const ReadSession& session);
+/// One event as a sentence: no ids, no JSON.
+[[nodiscard]] QString eventSentence(const SessionRow& event);
+
+}  // namespace tacto::gui

@@ -1,0 +1,56 @@
+// Colours.h - the window's colours by role, light and dark.
+//
+// Data and the state of the output carry the colour; everything else is quiet. Text keeps a contrast of 4.5:1 on every
+// ground that it stands on, fills, edges and traces of 3:1. Red is for STOP and faults; blue is voltage and delivering.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QColor>
+#include <QPalette>
+
+namespace tacto::gui {
+
+enum class Theme { Light, Dark };
+
+struct Colours {
+    QColor window;     ///< window, rail, docks and bars
+    QColor base;       ///< plots, tables and fields
+    QColor sunken;     ///< troughs of bars, tags, what the pointer is over
+    QColor selection;  ///< chosen row, step or workspace
+    QColor line;       ///< separators
+    QColor edge;       ///< of fields and buttons
+    QColor text;
+    QColor quiet;        ///< secondary text
+    QColor primary;      ///< the one button that goes on: ink, so that blue keeps its meaning
+    QColor primaryText;  ///< on it
+    QColor voltage;
+    QColor current;
+    QColor currentText;  ///< words in the current's colour
+    QColor third;        ///< the third axis, and what is computed from the two
+    QColor grid;
+    QColor zero;       ///< the line at 0, and older traces
+    QColor frame;      ///< of plots
+    QColor amber;      ///< fill of what is armed, and of a limit from 80 %
+    QColor amberInk;   ///< words on it
+    QColor amberText;  ///< words of warning
+    QColor amberCell;  ///< a table's cell near its limit
+    QColor delivering;
+    QColor stop;      ///< fill of STOP and of the faulted state
+    QColor fault;     ///< words and marks of faults, and nothing else
+    QColor banner;    ///< ground of what a fault says
+    QColor pass;      ///< fill of the verdict; white on it
+    QColor passText;  ///< the word alone, and the edges of tolerance bands
+    QColor passCell;  ///< a table's cell, a tolerance band
+    QColor fail;      ///< fill of the verdict and of a cell
+    QColor failText;  ///< on it
+    QColor hatch;     ///< not evaluated
+    QColor bar;       ///< of a limit below 80 %
+    QColor watermark;
+};
+
+[[nodiscard]] const Colours& coloursOf(Theme theme);
+/// Qt's roles from them, for what draws itself.
+[[nodiscard]] QPalette paletteOf(const Colours& colours);
+
+}  // namespace tacto::gui

@@ -1,0 +1,124 @@
+#include "app/gui/theme/Dialogs.h"
+
+#include <QAbstractItemView>
+#include <QApplication>
+#include <QFileDialog>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScreen>
+#include <QShortcut>
+
+namespace tacto::gui {
+
+namespace {
+
+using Wants = FileQuestion::Wants;
+
+/// Qt's own file dialog without the questions that it asks in modal boxes: those stand in its last line.
+class FileChooser final : public QFileDialog {
+public:
+    FileChooser(QWidget* parent, const FileQuestion& question) : QFileDialog(parent, question.title) {
+        setObjectName("fileChooser");
+        // The desktop's own dialog keeps its keys to itself, Esc and Pause too.
+        setOptions(DontUseNativeDialog | DontConfirmOverwrite);
+        setFileMode(question.wants == Wants::Folder    ? Directory
+                    : question.wants == Wants::NewFile ? AnyFile
+                                                       : ExistingFile);
+        setOption(ShowDirsOnly, question.wants == Wants::Folder);
+        setAcceptMode(question.wants == Wants::NewFile ? AcceptSave : AcceptOpen);
+        if (!question.filters.isEmpty()) setNameFilters(question.filters);
+        if (!question.folder.isEmpty()) setDirectory(question.folder);
+        if (!question.suffix.isEmpty()) setDefaultSuffix(question.suffix);
+        if (!question.name.isEmpty()) selectFile(question.name);
+        // It chooses. Deleting files is not its work, and would ask in a box of its own.
+        for (auto* view : findChildren<QAbstractItemView*>()) view->setContextMenuPolicy(Qt::NoContextMenu);
+        for (auto* shortcut : findChildren<QShortcut*>()) {
+            if (shortcut->key() == QKeySequence(QKeySequence::Delete)) shortcut->setEnabled(false);
+        }
+        says_ = new QLabel(this);
+        says_->setObjectName("fileTrouble");
+        says_->setWordWrap(true);
+        says_->hide();
+        if (auto* grid = qobject_cast<QGridLayout*>(layout()))
+            grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());
+    }
+
+    void accept() override {
+        const auto files = selectedFiles();
+        if (files.isEmpty()) return;
+        const QFileInfo file(files.first());
+        if (acceptMode() == AcceptOpen && !file.exists())
+            return say(QObject::tr("⚠ %1 is not there. Choose another name.").arg(file.fileName()));
+        const bool replaces = acceptMode() == AcceptSave && file.isFile();
+        if (replaces && std::exchange(replaces_, file.absoluteFilePath()) != file.absoluteFilePath())
+            return say(QObject::tr("⚠ %1 exists. Press Save again to replace it.").arg(file.fileName()));
+        QFileDialog::accept();
+    }
+
+private:
+    void say(const QString& what) {
+        says_->setText(what);
+        says_->show();
+    }
+    QLabel* says_;
+    QString replaces_;  ///< the file that the operator was told about
+};
+
+/// The dialog that is open already, if any.
+QDialog* openTwin(const QDialog& dialog) {
+    for (auto* widget : QApplication::topLevelWidgets()) {
+        auto* other = qobject_cast<QDialog*>(widget);
+        if (other != nullptr && other != &dialog && other->isVisible() && other->metaObject() == dialog.metaObject() &&
+            other->parentWidget() == dialog.parentWidget() && other->windowTitle() == dialog.windowTitle())
+            return other;
+    }
+    return nullptr;
+}
+
+/// Room for the frame that a window manager puts above a window.
+constexpr int kTitleBar = 30;
+
+}  // namespace
+
+void place(QWidget& dialog) {
+    if (dialog.parentWidget() == nullptr) return;
+    const auto* window = dialog.parentWidget()->window();
+    auto room = window->screen()->availableGeometry();
+    dialog.ensurePolished();
+    if (!dialog.testAttribute(Qt::WA_Resized)) dialog.adjustSize();
+    if (const auto* bar = window->findChild<const QWidget*>("safetyBar"); bar != nullptr) {
+        const int below = bar->mapToGlobal(QPoint(0, bar->height())).y() + kTitleBar;
+        if (room.contains(room.left(), below)) room.setTop(below);
+    }
+    dialog.setMinimumHeight(std::min(dialog.minimumHeight(), room.height()));
+    if (auto* layout = dialog.layout(); layout != nullptr && layout->minimumSize().height() > room.height())
+        layout->setSizeConstraint(QLayout::SetNoConstraint);
+    dialog.resize(dialog.size().boundedTo(room.size()));
+    const int top = window->geometry().top() + (window->height() - dialog.height()) / 2;
+    const int left = window->geometry().left() + (window->width() - dialog.width()) / 2;
+    dialog.move(std::max(room.left(), std::min(left, room.right() - dialog.width())),
+                std::max(room.top(), std::min(top, room.bottom() - dialog.height())));
+}
+
+void openDialog(QDialog* dialog) {
+    if (auto* twin = openTwin(*dialog)) {
+        dialog->deleteLater();
+        dialog = twin;
+    } else {
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->setWindowModality(Qt::NonModal);
+        place(*dialog);
+        dialog->show();
+    }
+    dialog->raise();
+    dialog->activateWindow();
+}
+
+void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then) {
+    QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+    auto* chooser = new FileChooser(&asking, question);
+    QObject::connect(chooser, &QFileDialog::fileSelected, &asking, std::move(then));
+    openDialog(chooser);
+}
+
+}  // namespace tacto::gui

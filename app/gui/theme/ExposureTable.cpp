@@ -1,0 +1,200 @@
+#include "app/gui/theme/ExposureTable.h"
+
+#include <QHeaderView>
+#include <QPainter>
+#include <QStyledItemDelegate>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kShare = Qt::UserRole;          // double; none without a limit or a value
+constexpr int kEvaluated = Qt::UserRole + 1;  // bool
+constexpr int kBroken = Qt::UserRole + 2;     // bool: a limit that refuses is not kept
+constexpr int kQuantity = 0, kValue = 1, kLimit = 2, kUsed = 3;
+constexpr int kWideChars = 75;  // from this width on the bar has a column of its own
+
+/// A thin bar of how much of a limit is used; hatched where that was not evaluated.
+void paintShare(QPainter& painter, const QRectF& frame, const QModelIndex& index, const QPalette& palette) {
+    const auto& c = colours();
+    const auto used = index.data(kShare);
+    const double share = used.toDouble();
+    painter.save();
+    painter.setPen(QPen(palette.color(QPalette::Mid), 1));
+    if (!index.data(kEvaluated).toBool()) {
+        painter.setBrush(QBrush(c.quiet, Qt::BDiagPattern));
+        painter.drawRect(frame);
+    } else if (used.isValid()) {
+        painter.setBrush(palette.color(QPalette::Midlight));
+        painter.drawRect(frame);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(index.data(kBroken).toBool() ? c.fail : share >= 0.8 ? c.amber : c.bar);
+        painter.drawRect(
+            QRectF(frame.left(), frame.top(), frame.width() * std::clamp(share, 0.0, 1.0), frame.height()));
+    }
+    painter.restore();
+}
+
+class BarDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const double inset = option.rect.height() * 0.3;
+        paintShare(*painter, QRectF(option.rect).adjusted(3.5, inset, -3.5, -inset), index, option.palette);
+    }
+};
+
+/// The quantity, and under it the bar while it has no column of its own.
+class QuantityDelegate final : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        const auto* table = qobject_cast<const QTableView*>(option.widget);
+        if (table == nullptr || !table->isColumnHidden(kUsed) || !index.data(kEvaluated).isValid())
+            return QStyledItemDelegate::paint(painter, option, index);
+        auto above = option;
+        const int height = std::max(4, option.rect.height() / 5);
+        above.rect.adjust(0, 0, 0, -height);
+        QStyledItemDelegate::paint(painter, above, index);
+        paintShare(*painter,
+                   QRectF(option.rect.left() + 3.5, option.rect.bottom() - height - 0.5, option.rect.width() - 7.0,
+                          height - 1.0),
+                   index, option.palette);
+    }
+};
+
+}  // namespace
+
+QString rowTitle(const ExposureRow& row) {
+    const auto title = qtext(titleOf(row.quantity));
+    return row.judged == JudgedAt::Ohm500 ? QObject::tr("%1 into 500 Ω").arg(title) : title;
+}
+
+QString limitText(const ExposureRow& row, bool compact) {
+    if (std::isnan(row.limit)) return "–";
+    const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, qtext(row.unit));
+    if (compact) return limit;
+    switch (row.action) {
+        case LimitAction::Warn:
+            return QObject::tr("%1 (warning)").arg(limit);
+        case LimitAction::Disclose:
+            return QObject::tr("%1 (to be stated)").arg(limit);
+        case LimitAction::Refuse:
+            break;
+    }
+    return limit;
+}
+
+ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
+    setHorizontalHeaderLabels({tr("Quantity"), tr("Value"), tr("Limit"), tr("Used")});
+    verticalHeader()->hide();
+    setEditTriggers(QAbstractItemView::NoEditTriggers);
+    setSelectionBehavior(QAbstractItemView::SelectRows);
+    setWordWrap(false);
+    setTabKeyNavigation(false);  // Tab leaves the table
+    setShowGrid(false);
+    setItemDelegateForColumn(kQuantity, new QuantityDelegate(this));
+    setItemDelegateForColumn(kUsed, new BarDelegate(this));
+    auto* header = horizontalHeader();
+    header->setSectionResizeMode(kQuantity, QHeaderView::Stretch);
+    for (const int column : {kValue, kLimit}) header->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    header->resizeSection(kUsed, fontMetrics().horizontalAdvance("not evaluated"));
+    header->setHighlightSections(false);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    measure();
+}
+
+void ExposureTable::measure() {
+    compact_ = width() < fontMetrics().averageCharWidth() * kWideChars;
+    setColumnHidden(kUsed, compact_);
+    verticalHeader()->setDefaultSectionSize(fontMetrics().height() + (compact_ ? 10 : 6));
+}
+
+void ExposureTable::resizeEvent(QResizeEvent* event) {
+    const bool was = compact_;
+    measure();
+    if (was != compact_) fill();
+    QTableWidget::resizeEvent(event);
+}
+
+void ExposureTable::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) measure();
+    QTableWidget::changeEvent(event);
+}
+
+QTableWidgetItem* ExposureTable::cell(int line, int column, const QString& shown) {
+    auto* made = item(line, column);
+    if (made == nullptr) {
+        made = new QTableWidgetItem;
+        if (column > 0) made->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        setItem(line, column, made);
+    }
+    if (made->text() != shown) made->setText(shown);
+    return made;
+}
+
+void ExposureTable::showSection(int line, const QString& title) {
+    if (columnSpan(line, kQuantity) == 1) setSpan(line, kQuantity, 1, columnCount());
+    auto* made = cell(line, kQuantity, title);
+    made->setData(Qt::ForegroundRole, QBrush(colours().quiet));
+    made->setToolTip({});
+    made->setData(kEvaluated, QVariant());
+    cell(line, kUsed, {})->setData(kEvaluated, QVariant());
+}
+
+void ExposureTable::showRow(int line, const ExposureRow& row) {
+    if (columnSpan(line, kQuantity) != 1) setSpan(line, kQuantity, 1, 1);
+    const bool broken = row.evaluated && !row.within && row.action == LimitAction::Refuse;
+    const auto title = rowTitle(row);
+    auto* quantity = cell(line, kQuantity, title);
+    quantity->setToolTip(row.set.empty() ? title : tr("%1, limit of %2").arg(title, titleOfSet(row)));
+    quantity->setData(Qt::ForegroundRole, QVariant());
+    const auto missing = compact_ ? QString("–") : tr("not evaluated");
+    auto* value = cell(line, kValue, row.evaluated ? quantityText(row.value, qtext(row.unit), 3) : missing);
+    value->setToolTip(row.evaluated ? QString() : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
+    // Else the palette's own, which follows the theme.
+    value->setData(Qt::ForegroundRole, QVariant());
+    cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
+    // Both cells that may draw the bar have its data: a cell is painted again when data of its own change.
+    const auto share = row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
+    for (auto* drawn : {quantity, cell(line, kUsed, QString())}) {
+        drawn->setData(kShare, share);
+        drawn->setData(kEvaluated, row.evaluated);
+        drawn->setData(kBroken, broken);
+    }
+}
+
+QString ExposureTable::titleOfSet(const ExposureRow& row) const {
+    for (const auto& [id, title] : titles_) {
+        if (id == row.set.view()) return title;
+    }
+    return {};
+}
+
+void ExposureTable::show(std::span<const ExposureRow> rows, std::span<const LimitSet> sets) {
+    rows_.assign(rows.begin(), rows.end());
+    titles_.clear();
+    for (const auto& row : rows_) {
+        if (row.set.empty() || !titleOfSet(row).isEmpty()) continue;
+        titles_.emplace_back(row.set.view(), qtext(titleOf(sets, row.set.view())));
+    }
+    fill();
+}
+
+void ExposureTable::fill() {
+    int lines = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) lines += i == 0 || !(rows_[i].set == rows_[i - 1].set) ? 2 : 1;
+    if (rowCount() != lines) setRowCount(lines);
+    int line = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const auto& row = rows_[i];
+        if (i == 0 || !(row.set == rows_[i - 1].set))
+            showSection(line++, row.set.empty() ? tr("shown, without a limit") : titled(titleOfSet(row)));
+        showRow(line++, row);
+    }
+}
+
+}  // namespace tacto::gui

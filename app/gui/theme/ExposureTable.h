@@ -1,0 +1,44 @@
+// ExposureTable.h - exposure rows against their limits: quantity, value, limit, and a bar of how much of it is used;
+// hatched where a row was not evaluated. In a narrow place the bar stands under the quantity.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QTableWidget>
+#include <span>
+#include <vector>
+
+#include "core/safety/Exposure.h"
+
+namespace tacto::gui {
+
+class ExposureTable final : public QTableWidget {
+    Q_OBJECT
+public:
+    explicit ExposureTable(QWidget* parent = nullptr);
+    /// Rows of one limit set stand under its title, as `sets` has it.
+    void show(std::span<const ExposureRow> rows, std::span<const LimitSet> sets);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void measure();
+    void fill();
+    [[nodiscard]] QString titleOfSet(const ExposureRow& row) const;
+    [[nodiscard]] QTableWidgetItem* cell(int line, int column, const QString& shown);
+    void showSection(int line, const QString& title);
+    void showRow(int line, const ExposureRow& row);
+
+    std::vector<ExposureRow> rows_;
+    std::vector<std::pair<std::string, QString>> titles_;  ///< of the rows' sets, by id
+    bool compact_ = false;  ///< narrow: the bar under the quantity, what kind of limit it is in the tool tip
+};
+
+/// "RMS current over 5 s into 500 Ω".
+[[nodiscard]] QString rowTitle(const ExposureRow& row);
+/// "< 10 mA", "≤ 2 mA/cm² (warning)", "–" without a limit.
+[[nodiscard]] QString limitText(const ExposureRow& row, bool compact = false);
+
+}  // namespace tacto::gui

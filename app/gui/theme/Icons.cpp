@@ -1,0 +1,78 @@
+#include "app/gui/theme/Icons.h"
+
+#include <QFile>
+#include <QIconEngine>
+#include <QPainter>
+#include <QPixmapCache>
+#include <QSvgRenderer>
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+QString fileOf(const QString& name) { return ":/icons/" + name + ".svg"; }
+
+void paintIcon(QPainter& painter, const QString& name, const QColor& colour, const QRectF& place) {
+    QFile file(fileOf(name));
+    if (!file.open(QIODevice::ReadOnly)) return;
+    QSvgRenderer drawing(file.readAll().replace("currentColor", colour.name().toLatin1()));
+    drawing.render(&painter, place);
+}
+
+class ThemeIcon final : public QIconEngine {
+public:
+    ThemeIcon(QString name, Ink ink) : name_(std::move(name)), ink_(ink) {}
+
+    void paint(QPainter* painter, const QRect& place, QIcon::Mode mode, QIcon::State /*state*/) override {
+        paintIcon(*painter, name_, colour(mode), place);
+    }
+    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+        return scaledPixmap(size, mode, state, 1);
+    }
+    QPixmap scaledPixmap(const QSize& size, QIcon::Mode mode, QIcon::State /*state*/, double /*scale*/) override {
+        const auto ink = colour(mode);
+        const auto key = QString("%1 %2 %3x%4").arg(name_, ink.name()).arg(size.width()).arg(size.height());
+        QPixmap pixmap;
+        if (QPixmapCache::find(key, &pixmap)) return pixmap;
+        pixmap = QPixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paintIcon(painter, name_, ink, QRectF(QPointF(), QSizeF(size)));
+        painter.end();
+        QPixmapCache::insert(key, pixmap);
+        return pixmap;
+    }
+    QIconEngine* clone() const override { return new ThemeIcon(*this); }
+    QString iconName() override { return name_; }
+    bool isNull() override { return false; }
+
+private:
+    [[nodiscard]] QColor colour(QIcon::Mode mode) const {
+        const auto& c = colours();
+        if (mode == QIcon::Disabled) return c.edge;
+        return ink_ == Ink::Primary ? c.primaryText : c.text;
+    }
+
+    QString name_;
+    Ink ink_;
+};
+
+}  // namespace
+
+QIcon icon(const QString& name, Ink ink) {
+    if (!QFile::exists(fileOf(name))) return {};
+    return QIcon(new ThemeIcon(name, ink));
+}
+
+QPixmap iconPixmap(const QString& name, const QColor& colour, int size, double scale) {
+    QPixmap pixmap(QSize(size, size) * scale);
+    pixmap.setDevicePixelRatio(scale);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    paintIcon(painter, name, colour, QRectF(0, 0, size, size));
+    return pixmap;
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,25 @@
+// Icons.h - the icons of resources/icons in the theme's colours: lines on a grid of 24 px, drawn at 16, 20, 24 or 32.
+//
+// An icon takes its colour when it is painted, so it follows a change of theme by itself.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QIcon>
+#include <QPixmap>
+#include <QString>
+
+namespace tacto::gui {
+
+enum class Ink {
+    Text,     ///< as words beside it; a disabled one as disabled words
+    Primary,  ///< as words on the primary fill
+};
+
+/// `name`: the file's, without its ending ("state-armed"). An icon that is not there is a null icon.
+[[nodiscard]] QIcon icon(const QString& name, Ink ink = Ink::Text);
+
+/// In one colour, `size` logical pixels wide and high, sharp on a screen of `scale` pixels each.
+[[nodiscard]] QPixmap iconPixmap(const QString& name, const QColor& colour, int size, double scale);
+
+}  // namespace tacto::gui

@@ -1,0 +1,25 @@
+// MnemonicStyle.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QProxyStyle>
+
+namespace tacto::gui {
+
+class MnemonicStyle final : public QProxyStyle {
+    Q_OBJECT
+public:
+    MnemonicStyle();
+    [[nodiscard]] int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                                QStyleHintReturn* returned) const override;
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void underline(bool held);
+    bool held_ = false;
+};
+
+}  // namespace tacto::gui

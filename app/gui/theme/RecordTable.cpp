@@ -1,0 +1,229 @@
+#include "app/gui/theme/RecordTable.h"
+
+#include <QHeaderView>
+#include <cmath>
+
+#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Verdict.h"
+#include "app/report/NumberText.h"
+#include "app/report/TableContent.h"
+
+namespace tacto::gui {
+
+namespace {
+
+using nlohmann::json;
+using As = RecordColumn::As;
+
+constexpr double kOnePrefix = 1000;  // numbers further apart than this have a prefix each
+constexpr int kHeaderPad = 10;
+constexpr int kLongestText = 44;  // characters of a column of words that is not the last
+const QString kNone = QStringLiteral("–");
+
+/// A number of a record with what is known around it.
+struct Known {
+    double value = std::nan("");
+    double around = std::nan("");  ///< U, or a standard deviation
+    double low = std::nan("");
+    double high = std::nan("");
+    bool hasAround = false;
+};
+
+double numberOf(const json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
+QString textOf(const json& value) {
+    if (value.is_string()) return visible(QString::fromStdString(value.get<std::string>()));
+    if (value.is_boolean()) return value.get<bool>() ? QObject::tr("yes") : QObject::tr("no");
+    if (value.is_number()) return settingText(value.get<double>(), {});
+    return kNone;
+}
+
+Known knownOf(const RecordColumn& column, const json& record) {
+    const auto& value = memberAt(record, column.at);
+    Known known;
+    known.value = numberOf(value);
+    if (value.is_object()) {
+        const bool spread = value.contains("mean") || value.contains("sd");
+        known.value = numberOf(memberAt(value, value.contains("mean")     ? "mean"
+                                               : value.contains("median") ? "median"
+                                                                          : "value"));
+        known.hasAround = spread;
+        if (spread) known.around = numberOf(memberAt(value, "sd"));
+        known.low = spread ? std::nan("") : numberOf(memberAt(value, "low"));
+        known.high = spread ? std::nan("") : numberOf(memberAt(value, "high"));
+    }
+    if (!column.uncertainty.empty()) {
+        known.hasAround = true;
+        known.around = numberOf(memberAt(record, column.uncertainty));
+    }
+    return known;
+}
+
+/// The text of one number in `unit`; with `spread` the second one is a standard deviation, and may be unknown.
+QString numberText(const Known& known, const QString& unit, bool isU) {
+    if (!std::isfinite(known.value)) return kNone;
+    if (known.hasAround)
+        return isU ? uncertainText(known.value, known.around, unit) : quantityText(known.value, known.around, unit);
+    auto text = quantityText(known.value, unit);
+    if (std::isfinite(known.low) && std::isfinite(known.high))
+        text += QObject::tr(" (%1 to %2)").arg(quantityText(known.low, unit), quantityText(known.high, unit));
+    return text;
+}
+
+QString withUnit(const QString& title, const QString& unit) {
+    return unit.isEmpty() ? title : QString("%1\n(%2)").arg(title, unit);
+}
+
+void scale(Known& known, double factor) {
+    for (auto* number : {&known.value, &known.around, &known.low, &known.high}) *number *= factor;
+}
+
+ColumnText sharesText(const RecordColumn& column, const json& records) {
+    ColumnText out{withUnit(column.title, "%"), {}, true};
+    for (const auto& record : records) {
+        auto known = knownOf(column, record);
+        scale(known, 100);
+        const auto tenth = [](double value) { return QString::number(value, 'f', 1); };
+        out.cells << (std::isfinite(known.low) && std::isfinite(known.high)
+                          ? QObject::tr("%1 (%2 to %3)").arg(tenth(known.value), tenth(known.low), tenth(known.high))
+                          : numberText(known, {}, true));
+    }
+    return out;
+}
+
+ColumnText numbersText(const RecordColumn& column, const json& records) {
+    ColumnText out{column.title, {}, true};
+    const bool isU = !column.uncertainty.empty();
+    std::vector<Known> all;
+    std::vector<double> values;
+    double least = 0, most = 0;
+    for (const auto& record : records) {
+        all.push_back(knownOf(column, record));
+        values.push_back(all.back().value);
+        const double size = std::abs(all.back().value);
+        const double seen =
+            all.back().hasAround && std::isfinite(all.back().around) ? std::max(size, all.back().around) : size;
+        if (!std::isfinite(seen) || seen == 0) continue;
+        least = least == 0 ? seen : std::min(least, seen);
+        most = std::max(most, seen);
+    }
+    const bool own = column.unit.startsWith('@');
+    const bool apart = most > kOnePrefix * least;
+    const bool around =
+        std::any_of(all.begin(), all.end(), [](const Known& k) { return k.hasAround || std::isfinite(k.low); });
+    const auto axis = axisUnit(most, own ? QString() : column.unit);
+    const auto format = columnFormat(values, column.unit);
+    for (std::size_t row = 0; row < all.size(); ++row) {
+        auto& known = all[row];
+        if (own) {
+            out.cells << numberText(known, textOf(memberAt(records[row], column.unit.mid(1).toStdString())), isU);
+        } else if (apart && !column.unit.isEmpty()) {
+            out.cells << numberText(known, column.unit, isU);
+        } else if (!around && format && std::isfinite(known.value)) {
+            out.cells << quantityText(known.value, column.unit, *format).section(QChar(0x202f), 0, 0);
+        } else {
+            scale(known, axis.factor);
+            out.cells << numberText(known, {}, isU);
+        }
+    }
+    if (!own && !apart) out.header = withUnit(column.title, axis.unit);
+    return out;
+}
+
+QString wordsText(As as, const json& value) {
+    if (value.is_null()) return kNone;
+    const auto text = textOf(value);
+    switch (as) {
+        case As::Verdict:
+            return text.isEmpty() || text == kNone ? kNone : verdictText(text);
+        case As::Load:
+            return loadText(text);
+        case As::LimitSet:
+            return limitSetTitle(text);
+        default:
+            return text.isEmpty() ? kNone : text;
+    }
+}
+
+}  // namespace
+
+const json& memberAt(const json& record, const std::string& path) {
+    static const json kNothing;
+    const auto* here = &record;
+    for (std::size_t from = 0; from <= path.size() && !path.empty();) {
+        const auto dot = std::min(path.find('.', from), path.size());
+        if (!here->is_object()) return kNothing;
+        const auto at = here->find(path.substr(from, dot - from));
+        if (at == here->end()) return kNothing;
+        here = &*at;
+        from = dot + 1;
+    }
+    return *here;
+}
+
+ColumnText columnText(const RecordColumn& column, const json& records) {
+    if (column.as == As::Share) return sharesText(column, records);
+    if (column.as == As::Number) return numbersText(column, records);
+    ColumnText out{column.title, {}, false};
+    for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));
+    return out;
+}
+
+QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const json& records, QWidget* parent) {
+    auto* table = new QTableWidget(int(records.size()), int(columns.size()), parent);
+    for (int c = 0; c < int(columns.size()); ++c) {
+        const auto& column = columns[std::size_t(c)];
+        const auto text = columnText(column, records);
+        auto* header = new QTableWidgetItem(text.header);
+        header->setTextAlignment((text.right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+        table->setHorizontalHeaderItem(c, header);
+        for (int r = 0; r < table->rowCount(); ++r) {
+            putText(*table, r, c, text.cells[r], text.right);
+            if (!text.right) table->item(r, c)->setToolTip(text.cells[r]);
+        }
+    }
+    layOutRecordTable(*table);
+    return table;
+}
+
+void putText(QTableWidget& table, int row, int column, const QString& text, bool right) {
+    auto* item = new QTableWidgetItem(text);
+    item->setTextAlignment((right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    table.setItem(row, column, item);
+}
+
+void layOutRecordTable(QTableWidget& table) {
+    table.verticalHeader()->hide();
+    table.setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table.setSelectionMode(QAbstractItemView::NoSelection);
+    table.setWordWrap(false);
+    table.setTextElideMode(Qt::ElideRight);
+    table.setTabKeyNavigation(false);
+    table.setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table.setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    auto* header = table.horizontalHeader();
+    header->setHighlightSections(false);
+    header->setSectionsClickable(false);
+    setTextSize(*header, TextSize::Small);
+    const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
+    table.resizeColumnsToContents();
+    int lines = 1, width = 2 * table.frameWidth();
+    for (int c = 0; c < table.columnCount(); ++c) {
+        lines = std::max(lines, int(table.horizontalHeaderItem(c)->text().count('\n')) + 1);
+        if (table.columnWidth(c) > longest) table.setColumnWidth(c, longest);
+        width += table.columnWidth(c);
+    }
+    // A last column of words takes the rest; one of numbers stands beside the others.
+    const auto* last = table.item(0, table.columnCount() - 1);
+    const bool words = last == nullptr || (last->textAlignment() & Qt::AlignRight) == 0;
+    header->setStretchLastSection(words);
+    table.setMaximumWidth(words ? QWIDGETSIZE_MAX : width);
+    table.resizeRowsToContents();
+    header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
+    int height = header->height() + 2 * table.frameWidth();
+    for (int row = 0; row < table.rowCount(); ++row) height += table.rowHeight(row);
+    table.setFixedHeight(height);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,45 @@
+// RecordTable.h - records as a table by a list of columns: what each column is called, which member it shows, in which
+// unit. Columns stand in the order of the list, the unit in the header with a prefix that suits all rows, a value with
+// its uncertainty after GUM, a verdict as shape and word. No key of a record is ever shown.
+//
+// Thread-safety: the GUI thread; the texts are pure functions.
+#pragma once
+
+#include <QStringList>
+#include <QTableWidget>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace tacto::gui {
+
+struct RecordColumn {
+    enum class As { Text, Number, Share, YesNo, Verdict, Load, LimitSet };
+    QString title;
+    std::string at;  ///< the member; "a.b" for a member of a member
+    As as = As::Text;
+    QString unit{};             ///< of a number; "@b": the record's own, which its member b states
+    std::string uncertainty{};  ///< the member with U (95 %), in the number's unit; empty for none
+};
+
+/// The member at "a.b"; null where there is none.
+[[nodiscard]] const nlohmann::json& memberAt(const nlohmann::json& record, const std::string& path);
+
+/// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A statistic
+/// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "99.0 (94.6 to 99.8)". Numbers more than a
+/// thousand times apart carry a prefix each, in their cells.
+struct ColumnText {
+    QString header;
+    QStringList cells;
+    bool right = false;
+};
+[[nodiscard]] ColumnText columnText(const RecordColumn& column, const nlohmann::json& records);
+
+/// Nothing to edit, no scroll bars of its own: all rows are in sight, and the last column of words takes the room that
+/// is left and elides. Takes `parent`.
+[[nodiscard]] QTableWidget* makeRecordTable(const std::vector<RecordColumn>& columns, const nlohmann::json& records,
+                                            QWidget* parent);
+/// The same room for a table that is filled by hand, with putText().
+void layOutRecordTable(QTableWidget& table);
+void putText(QTableWidget& table, int row, int column, const QString& text, bool right);
+
+}  // namespace tacto::gui

@@ -1,0 +1,38 @@
+#include "app/gui/theme/TabbedPage.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+
+namespace tacto::gui {
+
+TabbedPage::TabbedPage(QWidget* parent)
+    : QWidget(parent), bar_(new QTabBar(this)), tools_(new QStackedWidget(this)), pages_(new QStackedWidget(this)) {
+    bar_->setExpanding(false);
+    bar_->setDrawBase(false);
+    auto* head = new QWidget(this);
+    head->setObjectName("tabRow");
+    head->setAttribute(Qt::WA_StyledBackground);
+    auto* row = new QHBoxLayout(head);
+    row->setContentsMargins(0, 0, 8, 0);
+    row->addWidget(bar_, 0, Qt::AlignBottom);
+    row->addWidget(tools_, 1);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(head);
+    column->addWidget(pages_, 1);
+    tools_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    connect(bar_, &QTabBar::currentChanged, this, [this](int index) {
+        pages_->setCurrentIndex(index);
+        tools_->setCurrentIndex(index);
+        emit currentChanged(index);
+    });
+}
+
+void TabbedPage::addTab(QWidget* page, const QString& title, QWidget* tools) {
+    pages_->addWidget(page);
+    tools_->addWidget(tools != nullptr ? tools : new QWidget(tools_));
+    bar_->addTab(title);
+}
+
+}  // namespace tacto::gui

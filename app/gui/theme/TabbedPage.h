@@ -1,0 +1,30 @@
+// TabbedPage.h - pages behind tabs, each with its own tools in the row of the tabs.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QStackedWidget>
+#include <QTabBar>
+#include <QWidget>
+
+namespace tacto::gui {
+
+class TabbedPage final : public QWidget {
+    Q_OBJECT
+public:
+    explicit TabbedPage(QWidget* parent);
+    /// Takes both; `tools` may be null.
+    void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
+    void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
+    [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
+
+signals:
+    void currentChanged(int index);
+
+private:
+    QTabBar* bar_;
+    QStackedWidget* tools_;
+    QStackedWidget* pages_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,30 @@
+// Text.h - the core's words as the window shows them.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <QString>
+#include <string_view>
+
+#include "core/base/Result.h"
+
+namespace tacto::gui {
+
+[[nodiscard]] inline QString qtext(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
+}
+
+/// "Voltage" of "voltage".
+[[nodiscard]] inline QString titled(QString name) {
+    if (!name.isEmpty()) name[0] = name[0].toUpper();
+    return name;
+}
+
+/// "The load is open." of "the load is open".
+[[nodiscard]] inline QString sentence(const QString& words) {
+    const auto whole = titled(words);
+    return whole.isEmpty() || whole.endsWith('.') ? whole : whole + '.';
+}
+[[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }
+
+}  // namespace tacto::gui

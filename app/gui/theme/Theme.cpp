@@ -1,0 +1,224 @@
+#include "app/gui/theme/Theme.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <cmath>
+#include <map>
+
+#include "app/gui/theme/MnemonicStyle.h"
+#include "app/gui/theme/StyleSheet.h"
+
+namespace tacto::gui {
+
+namespace {
+
+Theme theme = Theme::Light;
+
+constexpr double kSmallestText_pt = 10.5;
+
+void applySheet() { qApp->setStyleSheet(styleSheetOf(theme, QApplication::font())); }
+
+/// A property that the style sheet knows.
+void setStyled(QWidget& widget, const char* name, const QString& value) {
+    if (widget.property(name).toString() == value) return;
+    widget.setProperty(name, value);
+    widget.style()->unpolish(&widget);
+    widget.style()->polish(&widget);
+}
+
+}  // namespace
+
+void applyTheme(Theme wanted) {
+    theme = wanted;
+    QApplication::setStyle(new MnemonicStyle);
+    QApplication::setPalette(paletteOf(colours()));
+    applySheet();
+}
+
+void applyTextSize(int percent) {
+    static const double desktops_pt = QApplication::font().pointSizeF();
+    auto font = QApplication::font();
+    font.setFamilies({"Noto Sans", "DejaVu Sans"});
+    font.setPointSizeF(std::max(desktops_pt, kSmallestText_pt) * (percent < 100 || percent > 200 ? 100 : percent) /
+                       100);
+    // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
+    qApp->setStyleSheet({});
+    QApplication::setFont(font);
+    applySheet();
+}
+
+Theme currentTheme() { return theme; }
+
+const Colours& colours() { return coloursOf(theme); }
+
+QFont textFont(TextSize size, QFont::Weight weight) {
+    auto font = QApplication::font();
+    const double scale = size == TextSize::Small     ? 9 / 10.5
+                         : size == TextSize::Large   ? 15 / 10.5
+                         : size == TextSize::Display ? kDisplayText
+                                                     : 1;
+    font.setPointSizeF(font.pointSizeF() * scale);
+    font.setWeight(weight);
+    return font;
+}
+
+void setTextSize(QWidget& widget, TextSize size, bool strong) {
+    setStyled(widget, "textSize", size == TextSize::Small ? "small" : size == TextSize::Large ? "large" : "");
+    setStyled(widget, "textWeight", strong ? "strong" : "");
+}
+
+void setTone(QLabel& label, Tone tone) {
+    setStyled(label, "tone", tone == Tone::Quiet ? "quiet" : tone == Tone::Warning ? "warning" : "");
+}
+
+int scaledPx(int px) { return int(std::lround(px * QApplication::font().pointSizeF() / kSmallestText_pt)); }
+
+void makePrimary(QPushButton& button, bool primary) { setStyled(button, "role", primary ? "primary" : ""); }
+
+void makeQuiet(QPushButton& button) { setStyled(button, "role", "quiet"); }
+
+ConditionStyle conditionInTheme(const QString& name, int index) {
+    static const std::map<QString, QColor> onDark{
+        {"smooth-low", "#8CCBF0"}, {"smooth-high", "#56B4E9"}, {"rough-low", "#F0AE1D"}, {"rough-high", "#F07F2E"}};
+    auto style = conditionStyle(name, index);
+    if (theme != Theme::Dark) return style;
+    if (const auto found = onDark.find(name); found != onDark.end()) style.color = found->second;
+    // The darkest of the others would sink into a dark ground.
+    if (style.color.lightnessF() < 0.4) style.color = style.color.lighter(165);
+    return style;
+}
+
+StateStyle stateStyle(InterlockState state) {
+    const auto& c = colours();
+    switch (state) {
+        case InterlockState::Disconnected:
+            return {QObject::tr("DISCONNECTED"), "◌", "state-disconnected", c.base, c.quiet};
+        case InterlockState::Disarmed:
+            return {QObject::tr("DISARMED"), "◯", "state-disarmed", c.base, c.text};
+        case InterlockState::Checking:
+            return {QObject::tr("CHECKING"), "◔", "state-checking", c.base, c.text};
+        case InterlockState::Armed:
+            return {QObject::tr("ARMED"), "▲", "state-armed", c.amber, c.amberInk};
+        case InterlockState::Delivering:
+            return {QObject::tr("DELIVERING"), "●", "state-delivering", c.delivering, Qt::white};
+        case InterlockState::Paused:
+            return {QObject::tr("PAUSED"), "‖", "state-paused", c.base, c.text};
+        case InterlockState::Faulted:
+            break;
+    }
+    return {QObject::tr("FAULTED"), "■", "state-faulted", c.stop, Qt::white};
+}
+
+QString ageText(double seconds) {
+    if (!std::isfinite(seconds)) return "–";
+    if (seconds < 1) return QObject::tr("just now");
+    if (seconds < 120) return QObject::tr("%1 s ago").arg(int(seconds));
+    if (seconds < 7200) return QObject::tr("%1 min ago").arg(int(seconds / 60));
+    return QObject::tr("%1 h ago").arg(int(seconds / 3600));
+}
+
+QFont digits(QFont font, double scale) {
+    if (font.pointSizeF() > 0) font.setPointSizeF(font.pointSizeF() * scale);
+    font.setStyleHint(QFont::SansSerif);
+    return font;
+}
+
+void styleAxis(QCPAxis& axis) {
+    const auto& c = colours();
+    const auto small = textFont(TextSize::Small);
+    axis.setBasePen(QPen(c.frame, 1));
+    axis.setTickPen(QPen(c.frame, 1));
+    axis.setSubTickPen(Qt::NoPen);
+    axis.setTickLabelColor(c.quiet);
+    axis.setLabelColor(c.quiet);
+    axis.setTickLabelFont(small);
+    axis.setLabelFont(small);
+    axis.grid()->setPen(QPen(c.grid, 1));
+    axis.grid()->setZeroLinePen(QPen(c.zero, 1));
+    axis.grid()->setSubGridVisible(false);
+}
+
+void stylePlot(QCustomPlot& plot) {
+    plot.setBackground(QBrush(colours().base));
+    for (auto* rect : plot.axisRects()) {
+        for (auto* axis : rect->axes()) styleAxis(*axis);
+    }
+    for (int i = 0; i < plot.itemCount(); ++i) {
+        auto* item = plot.item(i);
+        if (item->objectName() != "watermark") continue;
+        static_cast<QCPItemText*>(item)->setColor(colours().watermark);
+    }
+}
+
+namespace {
+
+/// As large as its axes let it be: a word that is cut says nothing.
+class Watermark final : public QCPItemText {
+public:
+    using QCPItemText::QCPItemText;
+
+protected:
+    void draw(QCPPainter* painter) override {
+        constexpr double kRoomUsed = 0.9;
+        const auto whole = mFont;
+        const QSizeF room = clipAxisRect()->size();
+        const QSizeF needed =
+            QTransform().rotate(mRotation).mapRect(QRectF(QFontMetrics(mFont).boundingRect(mText))).size();
+        const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
+        if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
+        QCPItemText::draw(painter);
+        mFont = whole;
+    }
+};
+
+}  // namespace
+
+QCPItemText* addWatermark(QCPAxisRect& axes) {
+    auto* plot = axes.parentPlot();
+    if (plot->layer("watermark") == nullptr) plot->addLayer("watermark", plot->layer("grid"), QCustomPlot::limAbove);
+    auto* item = new Watermark(plot);
+    item->setObjectName("watermark");
+    item->setLayer("watermark");
+    item->setClipAxisRect(&axes);
+    item->position->setAxisRect(&axes);
+    item->position->setType(QCPItemPosition::ptAxisRectRatio);
+    item->position->setCoords(0.5, 0.5);
+    item->setText(QObject::tr("SIMULATED"));
+    item->setRotation(-20);
+    item->setSelectable(false);
+    item->setFont(textFont(TextSize::Display, QFont::Bold));
+    item->setColor(colours().watermark);
+    return item;
+}
+
+QWidget* heading(const QString& text, QWidget* parent) {
+    auto* label = new QLabel(text, parent);
+    setTextSize(*label, TextSize::Large);
+    return label;
+}
+
+QWidget* explanation(const QString& text, QWidget* parent) {
+    auto* label = new QLabel(text, parent);
+    label->setWordWrap(true);
+    setTone(*label, Tone::Quiet);
+    return label;
+}
+
+EmptyState::EmptyState(const QString& what, const QString& next, QWidget* parent) : QWidget(parent) {
+    auto* layout = new QVBoxLayout(this);
+    layout->addStretch();
+    auto* label = new QLabel(what, this);
+    label->setAlignment(Qt::AlignCenter);
+    label->setWordWrap(true);
+    layout->addWidget(label);
+    if (!next.isEmpty()) {
+        auto* button = new QPushButton(next, this);
+        connect(button, &QPushButton::clicked, this, &EmptyState::nextStep);
+        layout->addSpacing(12);
+        layout->addWidget(button, 0, Qt::AlignCenter);
+    }
+    layout->addStretch();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,91 @@
+// Theme.h - the window's theme, light and dark: colours by role, plots that share it, digits of equal width.
+//
+// Widgets take colours from their palette; plots take them from here, and again when the theme changes
+// (QEvent::PaletteChange). Conditions have the styles of the reports (conditionStyle()), numbers their text
+// (quantityText()).
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QApplication>
+#include <QFont>
+#include <QLabel>
+#include <QPushButton>
+#include <QWidget>
+#include <qcustomplot.h>
+
+#include "app/gui/theme/Colours.h"
+#include "app/report/NumberText.h"
+#include "app/report/PlotSheet.h"
+#include "core/safety/Interlock.h"
+
+namespace tacto::gui {
+
+/// Sets palette, style sheet and font of the whole program.
+void applyTheme(Theme theme);
+[[nodiscard]] Theme currentTheme();
+/// Text of the whole program at 100 to 200 % of its size, which is the desktop's and at least 10.5 pt; anything else is
+/// 100.
+void applyTextSize(int percent);
+
+/// The current theme's.
+[[nodiscard]] const Colours& colours();
+
+/// Three sizes of text, and a fourth for two words only, the state and the verdict.
+enum class TextSize { Small, Body, Large, Display };
+[[nodiscard]] QFont textFont(TextSize size, QFont::Weight weight = QFont::Normal);
+/// The widget's text, kept when the size of text changes. Small, Body or Large.
+void setTextSize(QWidget& widget, TextSize size, bool strong = false);
+enum class Tone { Text, Quiet, Warning };
+/// The colour of a label's words, kept when the theme changes.
+void setTone(QLabel& label, Tone tone);
+/// `px` at text of 10.5 pt, in the current size of text.
+[[nodiscard]] int scaledPx(int px);
+
+/// The filled button of a screen; one that has no edge until the pointer is over it. See StyleSheet.h.
+void makePrimary(QPushButton& button, bool primary = true);
+void makeQuiet(QPushButton& button);
+
+/// The condition's style in the current theme ("smooth-low", ...).
+[[nodiscard]] ConditionStyle conditionInTheme(const QString& name, int index = 0);
+
+/// Word, shape and colours of an interlock state; `ink` on `ground` has a contrast of 4.5:1 or more.
+struct StateStyle {
+    QString word;   ///< "DISARMED"
+    QString shape;  ///< "◯"
+    QString icon;   ///< "state-disarmed"
+    QColor ground;
+    QColor ink;
+};
+[[nodiscard]] StateStyle stateStyle(InterlockState state);
+
+/// `font` at `scale` times its size, with digits of equal width (Noto Sans and DejaVu Sans have them).
+[[nodiscard]] QFont digits(QFont font, double scale = 1);
+
+/// The word that is read from two metres, times the size of text: 28 pt where text has 10.5 pt.
+constexpr double kDisplayText = 28 / 10.5;
+
+/// Quiet axes of the current theme: call again on a PaletteChange. Fonts follow the application's.
+void styleAxis(QCPAxis& axis);
+void stylePlot(QCustomPlot& plot);
+
+/// "SIMULATED" across an axis rect, behind the data. Returns the item, to be hidden where nothing is simulated.
+QCPItemText* addWatermark(QCPAxisRect& axes);
+
+/// "just now", "2 s ago", "3 min ago"; "–" for NaN.
+[[nodiscard]] QString ageText(double seconds);
+
+/// A heading, and a quiet line of explanation that wraps.
+[[nodiscard]] QWidget* heading(const QString& text, QWidget* parent = nullptr);
+[[nodiscard]] QWidget* explanation(const QString& text, QWidget* parent = nullptr);
+
+/// An empty workspace: what it is for, and a button with the next step. `next` may be empty.
+class EmptyState : public QWidget {
+    Q_OBJECT
+public:
+    EmptyState(const QString& what, const QString& next, QWidget* parent = nullptr);
+signals:
+    void nextStep();
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,79 @@
+#include "app/gui/theme/Verdict.h"
+
+#include <QEvent>
+#include <QPainter>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kHeight = 72;
+constexpr int kWidth = 216;
+constexpr int kIcon = 32;
+constexpr int kPadding = 16;
+
+}  // namespace
+
+VerdictStyle verdictStyle(const QString& key) {
+    const auto& c = colours();
+    const auto amber = [&](const char* shape, const char* icon, const QString& word) {
+        return VerdictStyle{shape, icon, word, c.amberCell, c.amberText, c.amberText};
+    };
+    if (key == "pass") return {"✔", "verdict-pass", QObject::tr("PASS"), c.pass, Qt::white, c.passText};
+    if (key == "fail") return {"✖", "verdict-fail", QObject::tr("FAIL"), c.fail, c.failText, c.text};
+    if (key == "stopped") return {"■", "verdict-stopped", QObject::tr("STOPPED"), c.sunken, c.text, c.quiet};
+    if (key == "indeterminate") return amber("?", "verdict-indeterminate", QObject::tr("INDETERMINATE"));
+    if (key == "error") return amber("✖", "verdict-attention", QObject::tr("DID NOT RUN TO ITS END"));
+    if (key == "attention") return amber("▲", "verdict-attention", QObject::tr("ATTENTION"));
+    if (key == "refused as expected")
+        return {"⊘", "verdict-refused", QObject::tr("REFUSED AS EXPECTED"), c.amberCell, c.amberText, c.text};
+    if (key == "not evaluated")
+        return {"○", "verdict-not-evaluated", QObject::tr("NOT EVALUATED"), c.sunken, c.text, c.text};
+    if (key == "not applicable") return {"–", "verdict-none", QObject::tr("NOT APPLICABLE"), c.sunken, c.text, c.quiet};
+    return {"–", "verdict-none", QObject::tr("NO VERDICT"), c.sunken, c.text, c.quiet};
+}
+
+QString verdictText(const QString& key) { return verdictStyle(key).shape + " " + key; }
+
+VerdictBlock::VerdictBlock(QWidget* parent) : QLabel(parent) {
+    setObjectName("verdict");
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+}
+
+void VerdictBlock::setVerdict(const QString& key) {
+    key_ = key;
+    setText(verdictStyle(key).word);
+    updateGeometry();
+    update();
+}
+
+QSize VerdictBlock::sizeHint() const {
+    const QFontMetrics word(textFont(TextSize::Display, QFont::Bold));
+    return {std::max(scaledPx(kWidth), word.horizontalAdvance(text()) + scaledPx(kIcon) + 3 * kPadding),
+            std::max(scaledPx(kHeight), word.height())};
+}
+
+void VerdictBlock::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) updateGeometry();
+    QLabel::changeEvent(event);
+}
+
+void VerdictBlock::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto style = verdictStyle(key_);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(style.fill);
+    painter.drawRoundedRect(rect(), 4, 4);
+    const int size = scaledPx(kIcon);
+    painter.drawPixmap(kPadding, (height() - size) / 2, iconPixmap(style.icon, style.ink, size, devicePixelRatioF()));
+    painter.setFont(textFont(TextSize::Display, QFont::Bold));
+    painter.setPen(style.ink);
+    painter.drawText(rect().adjusted(2 * kPadding + size, 0, -kPadding, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                     style.word);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,176 @@
+#include "app/gui/window/DockColumn.h"
+
+#include <QPainter>
+#include <QSettings>
+#include <QTimer>
+#include <QToolButton>
+#include <algorithm>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kDocks = 224;
+constexpr int kStripWidth = 32;
+constexpr int kStripIcon = 16;
+constexpr int kStripGap = 8;
+
+QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
+
+}  // namespace
+
+/// A dock's icon, and its name and key figure along the edge, to be read from top to bottom.
+class StripButton final : public QToolButton {
+public:
+    StripButton(FoldingDock& dock, QWidget* parent) : QToolButton(parent), dock_(dock) {
+        setFocusPolicy(Qt::TabFocus);
+        setAccessibleName(dock.windowTitle());
+        setToolTip(DockColumn::tr("Show %1").arg(dock.windowTitle()));
+        refresh();
+    }
+    void refresh() {
+        const auto figure = dock_.keyFigure();
+        const auto text = figure.isEmpty() ? dock_.windowTitle() : dock_.windowTitle() + " · " + figure;
+        if (std::exchange(text_, text) == text) return;
+        setAccessibleDescription(figure);
+        updateGeometry();
+        update();
+    }
+    [[nodiscard]] QSize sizeHint() const override {
+        const QFontMetrics words(textFont(TextSize::Small));
+        return {kStripWidth, kStripIcon + words.horizontalAdvance(text_) + 4 * kStripGap};
+    }
+    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter painter(this);
+        const auto& c = colours();
+        if (underMouse()) painter.fillRect(rect(), c.sunken);
+        painter.drawPixmap((width() - kStripIcon) / 2, kStripGap,
+                           iconPixmap(dock_.iconName(), c.text, kStripIcon, devicePixelRatioF()));
+        painter.setFont(textFont(TextSize::Small));
+        painter.setPen(c.quiet);
+        painter.translate(width(), kStripIcon + 2 * kStripGap);
+        painter.rotate(90);
+        painter.drawText(QRect(0, 0, height() - kStripIcon - 2 * kStripGap, width()), Qt::AlignLeft | Qt::AlignVCenter,
+                         text_);
+        painter.resetTransform();
+        if (!hasFocus()) return;
+        painter.setPen(QPen(c.text, 2));
+        painter.drawRect(rect().adjusted(1, 1, -1, -1));
+    }
+
+private:
+    FoldingDock& dock_;
+    QString text_;
+};
+
+DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
+    : QObject(&window), window_(window), docks_(std::move(docks)), strip_(new QToolBar(tr("Docks"), &window)) {
+    toggle_ = new QAction(tr("&Docks"), this);
+    toggle_->setCheckable(true);
+    toggle_->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_D));
+    toggle_->setToolTip(tr("Opens the docks, or collapses them to a strip (Ctrl+D)"));
+    connect(toggle_, &QAction::triggered, this, [this](bool open) { setCollapsed(!open); });
+    strip_->setObjectName("dockStrip");
+    strip_->setMovable(false);
+    strip_->setFloatable(false);
+    strip_->toggleViewAction()->setEnabled(false);
+    strip_->setContextMenuPolicy(Qt::PreventContextMenu);
+    auto* open = new QToolButton(strip_);
+    open->setIcon(icon("expand"));
+    open->setAccessibleName(tr("Open the docks"));
+    open->setToolTip(tr("Opens the docks (Ctrl+D)"));
+    connect(open, &QToolButton::clicked, this, [this] { setCollapsed(false); });
+    strip_->addWidget(open);
+    for (auto* dock : docks_) {
+        window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+        auto* button = new StripButton(*dock, strip_);
+        connect(button, &QToolButton::clicked, this, [this, dock] { show(*dock); });
+        strip_->addWidget(button);
+        buttons_.push_back(button);
+    }
+    window_.addToolBar(Qt::RightToolBarArea, strip_);
+    window_.installEventFilter(this);
+    apply();
+}
+
+void DockColumn::enter(int workspace, bool openByDefault) {
+    workspace_ = workspace;
+    collapsed_ = QSettings().value(settingOf(workspace), !openByDefault).toBool();
+    apply();
+}
+
+void DockColumn::setCollapsed(bool collapsed) {
+    collapsed_ = collapsed;
+    QSettings().setValue(settingOf(workspace_), collapsed);
+    apply();
+}
+
+void DockColumn::show(FoldingDock& dock) {
+    dock.fold(false);
+    setCollapsed(false);
+    dock.show();
+    dock.raise();
+}
+
+void DockColumn::reset() {
+    QSettings().remove("docks");
+    for (auto* dock : docks_) {
+        dock->setFloating(false);
+        dock->fold(false);
+        window_.addDockWidget(Qt::RightDockWidgetArea, dock);
+    }
+    const QList<QDockWidget*> all{docks_.begin(), docks_.end()};
+    window_.resizeDocks(all, QList<int>(all.size(), scaledPx(kDocks)), Qt::Horizontal);
+    // What a dock wants, as far as there is room: those further down give way first.
+    int left = 0;
+    for (const auto* dock : docks_) left += dock->height();
+    QList<int> heights;
+    for (const auto* dock : docks_) {
+        heights << std::clamp(dock->sizeHint().height(), dock->minimumSizeHint().height(),
+                              std::max(left, dock->minimumSizeHint().height()));
+        left -= heights.back();
+    }
+    window_.resizeDocks(all, heights, Qt::Vertical);
+}
+
+void DockColumn::setHidden(bool hidden) {
+    hidden_ = hidden;
+    apply();
+}
+
+void DockColumn::refresh() {
+    if (!strip_->isVisible()) return;
+    for (auto* button : buttons_) button->refresh();
+}
+
+void DockColumn::apply() {
+    for (auto* dock : docks_) {
+        if (!dock->isFloating()) dock->setVisible(!collapsed_ && !hidden_);
+    }
+    strip_->setVisible(collapsed_ && !hidden_);
+    toggle_->setChecked(!collapsed_);
+    QTimer::singleShot(0, this, &DockColumn::giveFirst);  // once they are laid out
+}
+
+/// A window shares a change of its height among its docks; the first of them has a claim.
+void DockColumn::giveFirst() {
+    for (auto* dock : docks_) {
+        const bool open = dock->isVisible() && !dock->isFloating() && !dock->folded();
+        if (open && dock->room() == FoldingDock::Room::First && dock->height() < dock->maximumHeight() &&
+            dock->maximumHeight() < QWIDGETSIZE_MAX)
+            window_.resizeDocks({dock}, {dock->maximumHeight()}, Qt::Vertical);
+    }
+}
+
+bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::giveFirst);
+    return QObject::eventFilter(watched, event);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,57 @@
+// DockColumn.h - the docks at the right: open, or collapsed to a strip that keeps their names and key figures.
+//
+// Each workspace remembers which: live work shows the docks, everything else gives the room to its plot.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QAction>
+#include <QMainWindow>
+#include <QToolBar>
+#include <vector>
+
+#include "app/gui/window/FoldingDock.h"
+
+namespace tacto::gui {
+
+class StripButton;
+
+class DockColumn final : public QObject {
+    Q_OBJECT
+public:
+    /// The docks belong to the window, and are listed from top to bottom.
+    DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks);
+    /// As this workspace was left, else open where it is live.
+    void enter(int workspace, bool openByDefault);
+    void setCollapsed(bool collapsed);
+    [[nodiscard]] bool collapsed() const { return collapsed_; }
+    [[nodiscard]] const std::vector<FoldingDock*>& docks() const { return docks_; }
+    /// Opens the column with this dock unfolded.
+    void show(FoldingDock& dock);
+    /// As at the first start: in their places, open where work is live.
+    void reset();
+    /// While the plot has the whole window: neither docks nor strip.
+    void setHidden(bool hidden);
+    /// The key figures, as often as telemetry is read.
+    void refresh();
+    /// Collapses and opens the column; has a key.
+    [[nodiscard]] QAction* toggle() const { return toggle_; }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void apply();
+    void giveFirst();
+
+    QMainWindow& window_;
+    std::vector<FoldingDock*> docks_;
+    std::vector<StripButton*> buttons_;
+    QToolBar* strip_;
+    QAction* toggle_;
+    int workspace_ = 0;
+    bool collapsed_ = false;
+    bool hidden_ = false;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,119 @@
+#include "app/gui/window/FoldingDock.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kDockHeader = 32;
+constexpr int kDockPadding = 12;
+constexpr int kDockIcon = 16;
+
+/// As high as the designed header: a dock gives its title bar the height that it hints.
+class DockHeader final : public QWidget {
+public:
+    using QWidget::QWidget;
+    [[nodiscard]] QSize sizeHint() const override { return {QWidget::sizeHint().width(), scaledPx(kDockHeader)}; }
+    [[nodiscard]] QSize minimumSizeHint() const override {
+        return {QWidget::minimumSizeHint().width(), scaledPx(kDockHeader)};
+    }
+};
+
+}  // namespace
+
+FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent)
+    : QDockWidget(title, parent),
+      icon_(iconName),
+      header_(new DockHeader(this)),
+      picture_(new QLabel(header_)),
+      title_(new QLabel(title, header_)),
+      toggle_(new QToolButton(header_)) {
+    setObjectName(name);
+    auto* row = new QHBoxLayout(header_);
+    row->setContentsMargins(kDockPadding, 0, 4, 0);
+    row->setSpacing(8);
+    row->addWidget(picture_);
+    row->addWidget(title_, 1);
+    row->addWidget(toggle_);
+    toggle_->setFocusPolicy(Qt::TabFocus);
+    connect(toggle_, &QToolButton::clicked, this, [this] { fold(!folded_); });
+    setTextSize(*title_, TextSize::Body, true);
+    setTitleBarWidget(header_);
+    dress();
+}
+
+void FoldingDock::setContent(QWidget* content, Room room) {
+    room_ = room;
+    auto* body = new QWidget(this);
+    auto* column = new QVBoxLayout(body);
+    column->setContentsMargins(kDockPadding, 4, 0, kDockPadding);
+    if (qobject_cast<QAbstractScrollArea*>(content) == nullptr) {
+        auto* area = new QScrollArea(body);
+        area->setFrameShape(QFrame::NoFrame);
+        area->setWidgetResizable(true);
+        area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+        area->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+        area->setFocusPolicy(Qt::NoFocus);
+        area->setMinimumHeight(1);
+        inside_ = new QWidget(area);
+        auto* rows = new QVBoxLayout(inside_);
+        rows->setContentsMargins(0, 0, kDockPadding, 0);
+        rows->addWidget(content);
+        rows->addStretch();
+        area->setWidget(inside_);
+        content = area;
+    }
+    column->addWidget(content);
+    setWidget(body);
+    if (inside_ != nullptr && room == Room::First) inside_->installEventFilter(this);
+}
+
+void FoldingDock::fold(bool folded) {
+    if (folded_ == folded) return;
+    folded_ = folded;
+    if (widget() != nullptr) widget()->setVisible(!folded);
+    limitHeight();
+    dress();
+    emit foldChanged();
+}
+
+void FoldingDock::limitHeight() {
+    int most = QWIDGETSIZE_MAX;
+    if (folded_) {
+        most = header_->height() + 1;
+    } else if (room_ == Room::First && inside_ != nullptr && !isFloating()) {
+        const auto margins = widget()->layout()->contentsMargins();
+        most = header_->height() + 1 + margins.top() + margins.bottom() +
+               inside_->layout()->totalHeightForWidth(inside_->width());
+    }
+    if (most != maximumHeight()) setMaximumHeight(most);
+}
+
+bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == inside_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
+        limitHeight();
+    return QDockWidget::eventFilter(watched, event);
+}
+
+void FoldingDock::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) dress();
+    QDockWidget::changeEvent(event);
+}
+
+void FoldingDock::dress() {
+    header_->updateGeometry();
+    picture_->setPixmap(iconPixmap(icon_, colours().text, kDockIcon, devicePixelRatioF()));
+    toggle_->setIcon(icon(folded_ ? "chevron-right" : "chevron-down"));
+    const auto says = folded_ ? tr("Unfold %1") : tr("Fold %1");
+    toggle_->setAccessibleName(says.arg(windowTitle()));
+    toggle_->setToolTip(toggle_->accessibleName());
+}
+
+}  // namespace tacto::gui

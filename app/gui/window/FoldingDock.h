@@ -1,0 +1,53 @@
+// FoldingDock.h - a dock with a header of its own: icon, title, and a button that folds it to the header. It can be
+// moved and floats as any other.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QDockWidget>
+#include <QLabel>
+#include <QToolButton>
+
+namespace tacto::gui {
+
+class FoldingDock : public QDockWidget {
+    Q_OBJECT
+public:
+    /// `name` is the object's, by which its place is remembered.
+    FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent);
+    /// In its column. On a low screen every dock scrolls: none makes the window larger than the screen.
+    enum class Room {
+        Shared,
+        First  ///< as high as its content, as far as the others can give way; they take what is left
+    };
+    /// Takes `content`, with the docks' margin around it.
+    void setContent(QWidget* content, Room room = Room::Shared);
+    [[nodiscard]] Room room() const { return room_; }
+    void fold(bool folded);
+    [[nodiscard]] bool folded() const { return folded_; }
+    [[nodiscard]] const QString& iconName() const { return icon_; }
+    /// What the collapsed docks still say: "Off", "1.13 of 10 mA". May be empty.
+    [[nodiscard]] virtual QString keyFigure() const { return {}; }
+
+signals:
+    void foldChanged();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void dress();
+    void limitHeight();
+
+    QString icon_;
+    QWidget* header_;
+    QLabel* picture_;
+    QLabel* title_;
+    QToolButton* toggle_;
+    bool folded_ = false;
+    Room room_ = Room::Shared;
+    QWidget* inside_ = nullptr;  ///< of the scroll area around the content; null where that scrolls by itself
+};
+
+}  // namespace tacto::gui

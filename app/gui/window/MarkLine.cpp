@@ -1,0 +1,124 @@
+#include "app/gui/window/MarkLine.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QPushButton>
+#include <algorithm>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/window/RecordingLine.h"
+#include "app/run/RunNotes.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kMarkGap = 8;
+constexpr int kMarkIcon = 16;
+constexpr int kMarkChars = 80;
+
+QString momentOf(Instant at) {
+    const double s = toSeconds(at);
+    return QString("%1:%2").arg(int(s) / 60).arg(s - 60 * (int(s) / 60), 4, 'f', 1, QChar('0'));
+}
+
+}  // namespace
+
+MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& over)
+    : QFrame(&over),
+      controller_(controller),
+      line_(line),
+      over_(over),
+      when_(new QLabel(this)),
+      word_(new QLineEdit(this)) {
+    setObjectName("markLine");
+    setFrameShape(QFrame::StyledPanel);
+    setAutoFillBackground(true);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(kMarkGap, kMarkGap / 2, kMarkGap / 2, kMarkGap / 2);
+    row->setSpacing(kMarkGap);
+    auto* shape = new QLabel(this);
+    shape->setPixmap(icon("mark").pixmap(kMarkIcon));
+    row->addWidget(shape);
+    row->addWidget(when_);
+    word_->setObjectName("markWord");
+    word_->setAccessibleName(tr("Word of the mark"));
+    word_->setPlaceholderText(tr("a word for it, then Return"));
+    word_->setToolTip(
+        tr("Kept in the session at the moment when the key was pressed, not at that of Return. Esc stops "
+           "the output here too, and closes the line."));
+    word_->setMaxLength(int(kNoteLimit));
+    connect(word_, &QLineEdit::returnPressed, this, &MarkLine::finish);
+    row->addWidget(word_, 1);
+    auto* close = new QPushButton(icon("close"), QString(), this);
+    close->setAccessibleName(tr("No mark"));
+    close->setToolTip(tr("Closes the line without a mark."));
+    close->setAutoDefault(false);
+    makeQuiet(*close);
+    connect(close, &QPushButton::clicked, this, &MarkLine::leave);
+    row->addWidget(close);
+    over_.installEventFilter(this);
+    hide();
+}
+
+void MarkLine::begin() {
+    const auto at = controller_.telemetry().at;  // first of all
+    if (isVisible()) finish();                   // the moment before
+    const auto open = controller_.open();
+    if (!open) {
+        emit refused(tr("There is nothing to mark: no bench is open, and nothing is recorded"));
+        return;
+    }
+    at_ = at;
+    session_ = open->session;
+    when_->setText(tr("Mark at %1").arg(momentOf(at_)));
+    word_->clear();
+    focusBefore_ = QApplication::focusWidget();
+    lieDown();
+    show();
+    raise();
+    window()->activateWindow();
+    word_->setFocus(Qt::ShortcutFocusReason);
+}
+
+void MarkLine::finish() {
+    const auto word = word_->text().simplified().isEmpty() ? tr("mark") : word_->text().simplified();
+    leave();
+    const auto open = controller_.open();
+    const bool same = open && open->session == session_;
+    if (!same || !controller_.markMoment(at_, word)) {
+        emit refused(tr("“%1” was not marked: its recording has ended").arg(word));
+        return;
+    }
+    line_.say(tr("Marked at %1: %2").arg(momentOf(at_), word));
+}
+
+/// The keys that follow are meant for what had them before: there Space stops again.
+void MarkLine::leave() {
+    hide();
+    if (focusBefore_ && focusBefore_->isVisible())
+        focusBefore_->setFocus(Qt::OtherFocusReason);
+    else
+        over_.setFocus(Qt::OtherFocusReason);
+}
+
+void MarkLine::lieDown() {
+    const int wide = std::min(over_.width() - 2 * kMarkGap, fontMetrics().averageCharWidth() * kMarkChars);
+    const int high = sizeHint().height();
+    setGeometry(kMarkGap, over_.height() - high - kMarkGap, wide, high);
+}
+
+bool MarkLine::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == &over_ && event->type() == QEvent::Resize && isVisible()) lieDown();
+    return QFrame::eventFilter(watched, event);
+}
+
+void MarkLine::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape) return leave();  // StopKeys has stopped by now
+    QFrame::keyPressEvent(event);
+}
+
+}  // namespace tacto::gui

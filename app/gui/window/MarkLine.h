@@ -1,0 +1,52 @@
+// MarkLine.h - a line for the word of a mark: the moment is that of the key that opened it, however long the typing
+// takes.
+//
+// It lies over the lower edge of the workspace, so that nothing moves, and is no dialog: all keys that stop do so in
+// it, and Esc closes it too. Return marks; a line left empty marks without a word of its own.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPointer>
+
+#include "app/gui/controller/BenchController.h"
+
+namespace tacto::gui {
+
+class RecordingLine;
+
+class MarkLine final : public QFrame {
+    Q_OBJECT
+public:
+    /// `over`: the widget at whose lower edge it lies.
+    MarkLine(BenchController& controller, RecordingLine& line, QWidget& over);
+    /// Takes this moment, and asks for its word; a line that is still open marks the moment before. Where nothing is
+    /// recorded it says so by refused().
+    void begin();
+
+signals:
+    void refused(const QString& why);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    void finish();
+    void leave();
+    void lieDown();
+
+    BenchController& controller_;
+    RecordingLine& line_;
+    QWidget& over_;
+    QLabel* when_;
+    QLineEdit* word_;
+    Instant at_{0};
+    std::filesystem::path session_;  ///< of the moment
+    QPointer<QWidget> focusBefore_;
+};
+
+}  // namespace tacto::gui

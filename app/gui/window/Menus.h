@@ -1,0 +1,35 @@
+// Menus.h - the main window's menus: files, bench, view, help.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QActionGroup>
+#include <QMenu>
+#include <QObject>
+
+namespace tacto::gui {
+
+class DockColumn;
+class MainWindow;
+class RecordingLine;
+
+class Menus final : public QObject {
+    Q_OBJECT
+public:
+    /// The window owns this; `workspaces` and `docks` are offered in the view menu, `line` takes what is said.
+    Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& docks, RecordingLine& line);
+
+private:
+    void addFiles();
+    void addBench();
+    void addView(const QActionGroup& workspaces, DockColumn& docks);
+    void addHelp();
+    void fillRecent();
+    void showAbout();
+
+    MainWindow& window_;
+    RecordingLine& line_;
+    QMenu* recent_ = nullptr;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,99 @@
+#include "app/gui/window/NoticeBanner.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <cmath>
+#include <utility>
+
+#include "app/gui/theme/Text.h"
+#include "app/gui/window/RecordingLine.h"
+#include "app/report/NumberText.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kFramesForReason = 10;  // a third of a second
+
+}  // namespace
+
+NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWidget* parent)
+    : QFrame(parent), controller_(controller), line_(line), text_(new QLabel(this)) {
+    setObjectName("banner");
+    setFrameShape(QFrame::StyledPanel);
+    auto* row = new QHBoxLayout(this);
+    text_->setObjectName("bannerText");
+    text_->setWordWrap(true);
+    text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    row->addWidget(text_, 1);
+    auto* dismiss = new QPushButton(tr("Dismiss"), this);
+    dismiss->setAutoDefault(false);
+    connect(dismiss, &QPushButton::clicked, this, &QWidget::hide);
+    row->addWidget(dismiss);
+    hide();
+    connect(&controller_, &BenchController::failed, this, &NoticeBanner::complain);
+    connect(&controller_, &BenchController::changed, this, [this] {
+        const auto open = controller_.open();
+        if (controller_.activity() != Activity::Live || !open) return;
+        line_.say(tr("Open. Recording to %1").arg(QString::fromStdString(open->session.filename().string())));
+        hide();
+    });
+    connect(&controller_, &BenchController::armed, this, [this] {
+        saidArmed_ = true;
+        line_.say(tr("Armed."));
+    });
+    connect(&controller_, &BenchController::checked, this, [this](double ohms) {
+        line_.say(std::isnan(ohms) ? tr("This stimulator does not measure the impedance. Disarmed.")
+                                   : tr("Impedance %1. Disarmed.").arg(quantityText(ohms, "ohm", 4)));
+    });
+}
+
+void NoticeBanner::refresh(const Telemetry& telemetry) {
+    sayState(telemetry);
+    sayFault(telemetry);
+}
+
+/// The last message must not say "Armed." when that is over. The state is there at once, its reason with the control
+/// loop's next step: that is waited for, for some frames.
+void NoticeBanner::sayState(const Telemetry& telemetry) {
+    const auto state = telemetry.state;
+    const bool live = state == InterlockState::Checking || state == InterlockState::Armed ||
+                      state == InterlockState::Delivering || state == InterlockState::Paused;
+    if (live || !saidArmed_) {
+        framesWithoutReason_ = 0;
+        return;
+    }
+    const auto reason = QString::fromUtf8(telemetry.reason.c_str());
+    if (state == InterlockState::Disarmed && reason.isEmpty() && ++framesWithoutReason_ < kFramesForReason) return;
+    saidArmed_ = false;
+    framesWithoutReason_ = 0;
+    if (state == InterlockState::Disconnected)
+        line_.say(tr("No stimulator is open. Output is off."));
+    else if (state == InterlockState::Disarmed)
+        line_.say(reason.isEmpty() ? tr("Disarmed. Output is off.") : tr("Disarmed: %1. Output is off.").arg(reason));
+}
+
+/// In the second frame: the state is there at once, its reason with the control loop's next step. The safety bar shows
+/// it as long as it lasts.
+void NoticeBanner::sayFault(const Telemetry& telemetry) {
+    if (telemetry.state != InterlockState::Faulted) {
+        faultedFrames_ = 0;
+        return;
+    }
+    if (++faultedFrames_ != 2) return;
+    line_.say(tr("Fault: %1 Output is off.").arg(sentence(QString::fromUtf8(telemetry.reason.c_str()))), true);
+}
+
+void NoticeBanner::complain(const QString& what) {
+    const auto state = controller_.telemetry().state;
+    const bool off =
+        state == InterlockState::Disconnected || state == InterlockState::Disarmed || state == InterlockState::Faulted;
+    auto text = sentence(what);
+    if (off && !text.contains(tr("Output is off"))) text += tr(" Output is off.");
+    text_->setText("⚠  " + text);
+    show();
+    line_.say(text, true);
+}
+
+}  // namespace tacto::gui

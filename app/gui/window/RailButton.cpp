@@ -1,0 +1,78 @@
+#include "app/gui/window/RailButton.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QEvent>
+#include <QPainter>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kRailWidth = 96;
+constexpr int kRailNarrow = 56;  // without the word
+constexpr int kRailCell = 64;
+constexpr int kRailLow = 640;
+constexpr int kRailLowCell = 44;
+constexpr int kRailLeft = 12;
+constexpr int kRailIcon = 24;
+constexpr int kRailBar = 4;
+constexpr double kRailNarrowFrom_pt = 15;  // with text this large the word would take the room of the data
+
+/// Icons alone, where text is large or the window is too low for all the cells.
+bool isNarrow(const QWidget& button) {
+    return QApplication::font().pointSizeF() > kRailNarrowFrom_pt || button.window()->height() < kRailLow;
+}
+
+}  // namespace
+
+RailButton::RailButton(QAction* action, QString iconName, QWidget* parent)
+    : QToolButton(parent), icon_(std::move(iconName)) {
+    setDefaultAction(action);
+    setObjectName("workspaceButton");
+    setFocusPolicy(Qt::TabFocus);
+    setAccessibleName(action->text());
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+}
+
+QSize RailButton::sizeHint() const {
+    if (isNarrow(*this)) return {kRailNarrow, kRailLowCell};
+    const QFontMetrics words(textFont(TextSize::Small));
+    return {std::max(kRailWidth, words.horizontalAdvance("Safety check") + kRailLeft + kRailBar), scaledPx(kRailCell)};
+}
+
+void RailButton::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::FontChange) updateGeometry();
+    QToolButton::changeEvent(event);
+}
+
+void RailButton::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    const auto& c = colours();
+    if (isChecked()) {
+        painter.fillRect(rect(), c.selection);
+        painter.fillRect(0, 0, kRailBar, height(), c.primary);
+    } else if (underMouse()) {
+        painter.fillRect(rect(), c.sunken);
+    }
+    const auto picture = iconPixmap(icon_, isEnabled() ? c.text : c.edge, kRailIcon, devicePixelRatioF());
+    if (isNarrow(*this)) {
+        painter.drawPixmap((width() - kRailIcon) / 2, (height() - kRailIcon) / 2, picture);
+    } else {
+        painter.setFont(textFont(TextSize::Small));
+        const int word = painter.fontMetrics().height();
+        const int top = (height() - kRailIcon - word) / 2;
+        painter.drawPixmap(kRailLeft, top, picture);
+        painter.setPen(isEnabled() ? c.text : c.edge);
+        painter.drawText(QRect(kRailLeft, top + kRailIcon, width() - kRailLeft, word), Qt::AlignLeft | Qt::AlignVCenter,
+                         defaultAction()->text());
+    }
+    if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+    painter.setPen(QPen(c.text, 2));
+    painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+}  // namespace tacto::gui

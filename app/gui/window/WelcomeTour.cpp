@@ -1,0 +1,182 @@
+#include "app/gui/window/WelcomeTour.h"
+
+#include <QSettings>
+#include <QTabBar>
+#include <algorithm>
+
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/FoldingDock.h"
+#include "app/gui/window/MainWindow.h"
+
+namespace tacto::gui {
+
+namespace {
+
+// Of the rail.
+constexpr int kLivePage = 0;
+constexpr int kSeparabilityPage = 3;
+constexpr int kSessionsPage = 5;
+constexpr int kTouchTab = 0;
+constexpr int kScopeTab = 1;
+constexpr int kOpenStep = 1;       // of the tour: the simulated bench
+constexpr int kReadFor_ms = 6000;  // where something is to be read when it is done
+
+}  // namespace
+
+WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window), controller_(window.controller()) {
+    auto steps = onTheBench();
+    for (auto& step : toTheVerdict()) steps.push_back(std::move(step));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        auto& step = steps[i];
+        step.enter = [this, enter = std::move(step.enter)] {
+            begun_ = controller_.mark();
+            presented_ = captured_ = judged_ = 0;
+            if (enter) enter();
+        };
+        if (int(i) <= kOpenStep) continue;
+        // It leads through arming and driving: on simulated devices alone.
+        step.target = [this, target = std::move(step.target)] { return target && !isReal() ? target() : TourTarget{}; };
+        step.done = [this, done = std::move(step.done)] { return done && !isReal() && done(); };
+    }
+    tour_ = new Tour(std::move(steps), &window);
+    connect(&controller_, &BenchController::presented, this, [this](const QString& material) {
+        if (!material.isEmpty()) ++presented_;
+    });
+    connect(&controller_, &BenchController::captured, this, [this](const std::shared_ptr<const Capture>& capture) {
+        if (!capture->untriggered) ++captured_;
+    });
+    connect(&controller_, &BenchController::finished, this, [this](const std::shared_ptr<const FinishedRun>& run) {
+        if (!run->result.outcome.error) ++judged_;
+    });
+    connect(tour_, &Tour::stepped, this, [](int step) { QSettings().setValue("tourStep", step); });
+    connect(tour_, &Tour::ended, this, [](bool finished) {
+        QSettings settings;
+        settings.setValue("tourDone", true);
+        if (finished) settings.remove("tourStep");
+    });
+}
+
+/// What was left behind the opened bench is taken up on a simulated one again.
+void WelcomeTour::begin() {
+    const int left = QSettings().value("tourStep", 0).toInt();
+    const auto open = controller_.open();
+    const bool simulated = open && open->source && open->simulated();
+    tour_->begin(simulated ? left : std::min(left, kOpenStep));
+}
+
+bool WelcomeTour::isReal() const {
+    const auto open = controller_.open();
+    return open && !open->simulated();
+}
+
+std::vector<TourStep> WelcomeTour::onTheBench() {
+    const auto toTouch = [this] {
+        window_.showWorkspace(kLivePage);
+        window_.findChild<TabbedPage*>("livePage")->setCurrentIndex(kTouchTab);
+    };
+    return {
+        {tr("First, how to stop"),
+         tr("This bench turns what a fingertip feels into pulse trains: texture into amplitude, pressure into the "
+            "interval. The tour runs on simulated devices alone: while a real one is open it points at nothing. Esc, "
+            "Pause and this button switch "
+            "the output off, at any time and in any window. Press Esc."),
+         {},
+         [this] { return TourTarget{window_.findChild<QWidget*>("safetyBar")->findChild<QWidget*>("stopButton")}; },
+         [this] { return controller_.stoppedSince(begun_); }},
+        {tr("Open the simulated bench"),
+         tr("A fingertip, a stimulator on 1 kΩ and an oscilloscope. Press the framed button, or Ctrl+B. From then on "
+            "everything is recorded."),
+         [this, toTouch] {
+             toTouch();
+             window_.showDock("deviceDock");
+         },
+         [this] { return TourTarget{named("openBench")}; },
+         [this] {
+             const auto open = controller_.open();
+             return controller_.activity() == Activity::Live && open && open->source && open->simulated();
+         }},
+        {tr("Put a surface under the finger"),
+         tr("Choose P120, a coarse sandpaper. Acceleration, force and taxels become roughness R and pressure P: the "
+            "point in the tactile plane."),
+         toTouch, [this] { return TourTarget{named("surface")}; }, [this] { return presented_ > 0; }},
+        {tr("Arm, in two steps"),
+         tr("The first opens a question, the second measures the load with one small pulse. The bars at the top show "
+            "how far each limit is."),
+         {},
+         [this] { return armTarget(); },
+         [this] { return state() == InterlockState::Armed || state() == InterlockState::Delivering; }},
+        {tr("Let the fingertip drive"),
+         tr("Nothing is delivered until something drives. Choose Fingertip: amplitude and interval then follow what is "
+            "felt."),
+         [this] { window_.showDock("driveDock"); }, [this] { return TourTarget{named("driveFingertip")}; },
+         [this] { return state() == InterlockState::Delivering && controller_.telemetry().trainsDelivered > 0; }},
+    };
+}
+
+std::vector<TourStep> WelcomeTour::toTheVerdict() {
+    return {
+        {tr("See a measured pulse"),
+         tr("Open the oscilloscope. What really came out is captured, and each pulse is measured: amplitude, phase "
+            "width, gap and charge stand under Measurements."),
+         [this] { window_.showDock("measurementDock"); }, [this] { return scopeTarget(); },
+         [this] { return showsScope() && captured_ > 0; }, kReadFor_ms},
+        {tr("Disarm"),
+         tr("Done with the output: the same button switches it off."),
+         {},
+         [this] { return TourTarget{named("armButton")}; },
+         [this] {
+             return state() != InterlockState::Armed && state() != InterlockState::Delivering &&
+                    state() != InterlockState::Paused;
+         }},
+        {tr("Run a protocol"),
+         tr("Separability asks whether an oscilloscope can tell four conditions apart. Open it and press Run: on "
+            "simulated devices it takes less than a minute, and ends with a verdict and a report."),
+         {},
+         [this] { return runTarget(); },
+         [this] { return judged_ > 0; },
+         kReadFor_ms},
+        {tr("Everything is kept"),
+         tr("The verdict stands at the top, and why below it. Each bench and each run is a session: find it, replay "
+            "it, "
+            "compare, export and verify it here. ? shows all keys, F1 explains what has the focus."),
+         {},
+         [this] { return workspaceButton(kSessionsPage); },
+         [this] { return window_.workspace() == kSessionsPage; },
+         kReadFor_ms},
+    };
+}
+
+QWidget* WelcomeTour::named(const char* name) const { return window_.findChild<QWidget*>(name); }
+
+InterlockState WelcomeTour::state() const { return controller_.telemetry().state; }
+
+TourTarget WelcomeTour::workspaceButton(int index) const {
+    return {window_.findChildren<QWidget*>("workspaceButton").value(index)};
+}
+
+/// The second step stands in a window of its own.
+TourTarget WelcomeTour::armTarget() const {
+    auto* second = named("armOutput");
+    return {second != nullptr && second->isVisible() ? second : named("armButton")};
+}
+
+bool WelcomeTour::showsScope() const {
+    return window_.workspace() == kLivePage && window_.findChild<TabbedPage*>("livePage")->currentIndex() == kScopeTab;
+}
+
+TourTarget WelcomeTour::scopeTarget() const {
+    if (window_.workspace() != kLivePage) return workspaceButton(kLivePage);
+    if (showsScope()) return {named("measurementDock")};
+    auto* bar = window_.findChild<TabbedPage*>("livePage")->findChild<QTabBar*>();
+    return {bar, bar->tabRect(kScopeTab)};
+}
+
+TourTarget WelcomeTour::runTarget() const {
+    if (window_.workspace() != kSeparabilityPage) return workspaceButton(kSeparabilityPage);
+    for (auto* run : window_.findChildren<QWidget*>("runButton")) {
+        if (run->isVisible()) return {run};
+    }
+    return {};
+}
+
+}  // namespace tacto::gui

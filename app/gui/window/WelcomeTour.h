@@ -1,0 +1,49 @@
+// WelcomeTour.h - the tour that a first start begins with: from nothing to a measured pulse and a verdict, on the
+// simulated bench, in five minutes.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QObject>
+
+#include "app/gui/controller/BenchController.h"
+#include "app/gui/window/Tour.h"
+
+namespace tacto::gui {
+
+class MainWindow;
+class TabbedPage;
+
+class WelcomeTour final : public QObject {
+    Q_OBJECT
+public:
+    /// The window owns it. What was left or finished is not begun again by itself ("tourDone" in the settings); where
+    /// it was left is kept as well ("tourStep").
+    explicit WelcomeTour(MainWindow& window);
+    /// Where it was left, else from the first step; behind the opened bench only while a simulated one is open.
+    void begin();
+
+private:
+    [[nodiscard]] std::vector<TourStep> onTheBench();
+    [[nodiscard]] std::vector<TourStep> toTheVerdict();
+    [[nodiscard]] QWidget* named(const char* name) const;
+    [[nodiscard]] TourTarget workspaceButton(int index) const;
+    [[nodiscard]] TourTarget armTarget() const;
+    [[nodiscard]] TourTarget scopeTarget() const;
+    [[nodiscard]] TourTarget runTarget() const;
+    [[nodiscard]] bool showsScope() const;
+    [[nodiscard]] InterlockState state() const;
+    /// Something is open that is not simulated.
+    [[nodiscard]] bool isReal() const;
+
+    MainWindow& window_;
+    BenchController& controller_;
+    Tour* tour_ = nullptr;
+    // Since the present step began:
+    StopMark begun_;
+    int presented_ = 0;
+    int captured_ = 0;
+    int judged_ = 0;
+};
+
+}  // namespace tacto::gui

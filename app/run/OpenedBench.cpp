@@ -1,0 +1,119 @@
+#include "app/run/OpenedBench.h"
+
+#include "app/run/KnownCalibration.h"
+#include "app/run/OpenDevices.h"
+#include "app/run/ScopeStatement.h"
+#include "core/bench/ProfileReach.h"
+#include "core/devices/ReplayedDevice.h"
+#include "core/safety/UnitFolders.h"
+#include "core/session/Origin.h"
+
+namespace tacto {
+
+namespace {
+
+std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
+    const Device* all[] = {devices.sensor.get(), devices.stimulator.get(), devices.oscilloscope.get(),
+                           devices.massager.get()};
+    for (const auto* device : all) {
+        const auto* replayed = dynamic_cast<const ReplayedDevice*>(device);
+        if (replayed == nullptr || !(device->identity() == identity)) continue;
+        switch (replayed->statedOrigin()) {
+            case StatedOrigin::Measured:
+                return origin::kReplayedMeasured;
+            case StatedOrigin::Simulated:
+                return origin::kReplayedSimulated;
+            case StatedOrigin::NotStated:
+                return origin::kReplayedUnknown;
+        }
+    }
+    return identity.simulated ? origin::kSimulated : origin::kHardware;
+}
+
+/// Notes in the session what of the profile does not fit the devices, and warns of it.
+Result<void> warnOfProfile(const Profile& profile, const DeviceSet& devices, OpenedBench& opened) {
+    const auto warn = [&opened](const char* kind, const std::optional<std::string>& text) -> Result<void> {
+        if (!text) return {};
+        opened.warnings.push_back(*text);
+        const auto kept = opened.session->event(opened.clock->now(), kind, {{"text", *text}});
+        if (!kept) return failure(kept);
+        return {};
+    };
+    if (const auto& stimulator = devices.stimulator) {
+        const auto beyond = beyondReach(profile, stimulator->traits(), stimulator->identity().name);
+        if (auto warned = warn("profile beyond reach", beyond); !warned) return warned;
+    }
+    if (!devices.sensor) return {};
+    return warn("profile of another fingertip", madeWithAnother(profile, devices.sensor->identity().serial));
+}
+
+}  // namespace
+
+SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
+    SessionAbout about = order.about;
+    about.programVersion = TACTOSCOPE_VERSION;
+    about.seed = order.seed;
+    for (const auto& device : devices.identities()) {
+        about.devices.push_back({device.uri, std::string(nameOf(device.role)), device.name, device.serial,
+                                 device.firmware, device.simulated, originOf(devices, device)});
+        about.simulated = about.simulated || device.simulated;
+    }
+    // Without a device nothing is measured: what such a protocol says is predicted.
+    about.simulated = about.simulated || (!about.protocol.empty() && devices.identities().empty());
+    about.profileJson = toJson(order.profile).dump();
+    const auto& limits = order.limits;
+    for (std::size_t i = 0; i < limits.sets.size(); ++i)
+        about.limitSets.push_back({limits.sets[i].id, limits.sha256[i], limits.from[i]});
+    about.mode = nameOf(OutputMode::BenchLoad);
+    about.wallStart = wallTimeUtc();
+    return about;
+}
+
+Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry& registry,
+                                               std::shared_ptr<BenchTap> tap) {
+    if (auto checked = checkNotes(order.notes); !checked) return failure(checked);
+    const auto allVirtual = registry.allVirtual(order.uris);
+    if (!allVirtual) return failure(allVirtual);
+    auto opened = std::make_shared<OpenedBench>();
+    opened->tap = std::move(tap);
+    if (*allVirtual && !order.realtime)
+        opened->clock = std::make_shared<VirtualClock>();
+    else
+        opened->clock = std::make_shared<SteadyClock>();
+    const OpenContext context{.clock = *opened->clock,
+                              .seed = order.seed,
+                              .declaredLoad = order.declaredLoad,
+                              .stops = order.stops.get(),
+                              .asked = order.asked};
+    auto devices = openDevices(registry, order.uris, order.needed, context);
+    if (!devices) return failure(devices);
+    const auto certificate = stateOscilloscope(*devices);
+    opened->about = aboutSession(*devices, order);
+    auto session = makeRunSession(order.out, order.about.protocol.empty() ? "live" : order.about.protocol,
+                                  opened->about, *opened->clock);
+    if (!session) return failure(session);
+    opened->files = std::move(session->files);
+    opened->session = std::move(session->writer);
+    if (auto warned = warnOfProfile(order.profile, *devices, *opened); !warned) return failure(warned);
+    if (auto kept = keepCertificate(certificate, *opened->session, opened->clock->now()); !kept) return failure(kept);
+    if (!certificate.used && !certificate.text.empty()) opened->warnings.push_back(certificate.text);
+    if (auto kept = keepNotes(order.notes, *opened->session, opened->clock->now()); !kept) return failure(kept);
+    BenchConfig config;
+    config.devices = std::move(*devices);
+    config.clock = opened->clock;
+    config.profile = order.profile;
+    config.limits = order.limits.sets;
+    config.session = opened->session.get();
+    config.tap = opened->tap.get();
+    config.stops = order.stops;
+    config.asked = order.asked;
+    config.watched = order.watched;
+    applyKnown(knownCalibration(config.devices), config);
+    config.units = unitFolders();
+    auto bench = Bench::create(std::move(config));
+    if (!bench) return failure(bench);
+    opened->bench = std::move(*bench);
+    return opened;
+}
+
+}  // namespace tacto

@@ -1,0 +1,64 @@
+// HostFunction.h - the host objects as data: every function a script can call, with the description that its arguments
+// are checked against and its reference is made from. A function without a description cannot be written down.
+//
+// Thread-safety: the tables are constant; calls come from the script's thread.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/scripting/engine/HostParameter.h"
+#include "core/base/Result.h"
+#include "core/devices/Device.h"
+
+namespace tacto {
+
+class Arguments;
+class ScriptSession;
+
+/// A host function: it runs with arguments that fit its parameters.
+using HostCall = Result<nlohmann::json>(ScriptSession& session, const Arguments& arguments);
+
+enum class HostKind {
+    Function,  ///< bench.wait(seconds)
+    Property,  ///< bench.conditions, computed when read
+};
+
+struct HostFunction {
+    std::string_view object = {};  ///< "bench"; empty for a global function; set by hostFunctions()
+    std::string_view name = {};
+    HostKind kind = HostKind::Function;
+    std::vector<HostParameter> parameters = {};
+    std::string_view text = {};      ///< what it does, one or two sentences
+    std::string_view returns = {};   ///< empty for nothing
+    std::string_view errors = {};    ///< when it throws; empty when it does so for wrong arguments only
+    std::optional<Role> needs = {};  ///< without a device of this role the call fails
+    bool failsDisarmed = false;      ///< a failure, of its arguments too, leaves the output disarmed
+    HostCall* call = nullptr;
+    /// For functions that must hand the script's own values back: an expression for the function, in which `native`
+    /// is the call above. Runs in strict mode before the script does.
+    std::string_view javascript = {};
+    std::vector<HostParameter> passes = {};  ///< what it passes to `native`, where that is not `parameters`
+
+    /// "bench.wait", "progress".
+    [[nodiscard]] std::string fullName() const;
+};
+
+/// All of them, grouped by object.
+[[nodiscard]] const std::vector<HostFunction>& hostFunctions();
+
+// The table of each object.
+[[nodiscard]] std::vector<HostFunction> generalFunctions();
+[[nodiscard]] std::vector<HostFunction> benchFunctions();
+[[nodiscard]] std::vector<HostFunction> operatorFunctions();
+[[nodiscard]] std::vector<HostFunction> recordFunctions();
+[[nodiscard]] std::vector<HostFunction> measureFunctions();
+[[nodiscard]] std::vector<HostFunction> analysisFunctions();
+[[nodiscard]] std::vector<HostFunction> plotFunctions();
+[[nodiscard]] std::vector<HostFunction> reportFunctions();
+[[nodiscard]] std::vector<HostFunction> randomFunctions();
+
+}  // namespace tacto

@@ -1,0 +1,82 @@
+#include "app/scripting/engine/HostFunction.h"
+#include "app/scripting/engine/ScriptRun.h"
+
+namespace tacto {
+
+std::string HostFunction::fullName() const {
+    return object.empty() ? std::string(name) : fmt::format("{}.{}", object, name);
+}
+
+const std::vector<HostFunction>& hostFunctions() {
+    static const std::vector<HostFunction> all = [] {
+        std::vector<HostFunction> out;
+        const auto add = [&out](std::string_view object, std::vector<HostFunction> table) {
+            for (auto& function : table) {
+                function.object = object;
+                out.push_back(std::move(function));
+            }
+        };
+        add("", generalFunctions());
+        add("random", randomFunctions());
+        add("bench", benchFunctions());
+        add("operator", operatorFunctions());
+        add("record", recordFunctions());
+        add("report", reportFunctions());
+        add("measure", measureFunctions());
+        add("analysis", analysisFunctions());
+        add("plot", plotFunctions());
+        return out;
+    }();
+    return all;
+}
+
+namespace {
+
+/// "bench.capture({ trains, rate_hz })": members of other arguments than the options are not written out.
+std::string heading(const HostFunction& function) {
+    if (function.kind == HostKind::Property) return function.fullName();
+    constexpr std::string_view kPrefix = "options.";
+    std::vector<std::string_view> arguments, members;
+    for (const auto& parameter : function.parameters) {
+        const bool option = parameter.name.starts_with(kPrefix);
+        const auto name = option ? parameter.name.substr(kPrefix.size()) : parameter.name;
+        if (name.find('.') == std::string_view::npos) (option ? members : arguments).push_back(name);
+    }
+    const std::string options = members.empty() ? "" : fmt::format("{{ {} }}", fmt::join(members, ", "));
+    return fmt::format("{}({}{}{})", function.fullName(), fmt::join(arguments, ", "),
+                       arguments.empty() || members.empty() ? "" : ", ", options);
+}
+
+std::string describe(const HostParameter& parameter) {
+    std::string out =
+        fmt::format("- `{}`{}: {}", parameter.name, parameter.mayBeLeftOut ? " (optional)" : "", parameter.accepted());
+    if (!parameter.unit.empty()) out += fmt::format(" in {}", parameter.unit);
+    if (!parameter.about.empty()) out += fmt::format("; {}", parameter.about);
+    if (const auto usual = parameter.defaultText(); !usual.empty()) out += fmt::format("; {} where left out", usual);
+    return out + '\n';
+}
+
+}  // namespace
+
+std::string scriptReference() {
+    std::string out =
+        "# What a protocol script can call\n\n"
+        "A script calls protocol() once at top level and defines run(p), where p holds the parameters. Everything here "
+        "may be used inside run(p) only. A function that fails throws an Error with a sentence for the operator; its "
+        "`limit` is true where a safety limit forbade what was asked for. Uncaught, it ends the run with the output "
+        "off. Arming that the operator did not confirm ends the run in any case.\n";
+    std::string_view object = "none yet";
+    for (const auto& function : hostFunctions()) {
+        if (function.object != object) {
+            object = function.object;
+            out += fmt::format("\n## {}\n", object.empty() ? "Functions by themselves" : object);
+        }
+        out += fmt::format("\n### `{}`\n\n{}\n", heading(function), function.text);
+        for (const auto& parameter : function.parameters) out += describe(parameter);
+        if (!function.returns.empty()) out += fmt::format("\nReturns: {}\n", function.returns);
+        if (!function.errors.empty()) out += fmt::format("\n{}\n", function.errors);
+    }
+    return out;
+}
+
+}  // namespace tacto

@@ -1,0 +1,74 @@
+// HostParameter.h - one argument of a host function, or one member of an argument: its type, unit, range and default.
+// The dispatcher checks what a script passes against it, and the reference is written from it.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tacto {
+
+enum class ValueType {
+    Number,  ///< NaN and infinities are always refused
+    Whole,
+    Text,
+    Flag,
+    List,
+    Object,
+    Load,  ///< ohms, or a text as parseLoad() reads it
+    Any,   ///< the function checks it itself
+};
+
+struct HostParameter {
+    /// "seconds"; "options.trains" for a member of the last argument, which may be left out and takes no other members
+    /// than those that are listed; "from.roughness" for a member of another argument.
+    std::string_view name;
+    ValueType type = ValueType::Any;
+    std::string_view unit = {};   ///< "s", "ohm"; empty for a number without one and for what is no number
+    std::string_view about = {};  ///< what it is
+    double min = std::numeric_limits<double>::lowest();
+    double max = std::numeric_limits<double>::max();
+    bool minOpen = false;                      ///< the value must be above `min`
+    ValueType items = ValueType::Any;          ///< type of a list's elements
+    std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
+    bool mayBeLeftOut = false;
+    bool mayBeEmpty = false;          ///< a text
+    bool mayBeNull = false;           ///< null and NaN: not known
+    nlohmann::json usual = {};        ///< the value where it is left out
+    std::string_view usualText = {};  ///< the same in words, where the function works it out
+
+    // How tables write it: number("seconds", "s", "on the bench's clock").range(0, 86'400).otherwise(1)
+    [[nodiscard]] HostParameter range(double from, double to) const;
+    [[nodiscard]] HostParameter atLeast(double from) const;
+    [[nodiscard]] HostParameter above(double from) const;
+    [[nodiscard]] HostParameter of(ValueType elements) const;
+    [[nodiscard]] HostParameter oneOf(std::vector<std::string_view> accepted) const;
+    [[nodiscard]] HostParameter orEmpty() const;
+    [[nodiscard]] HostParameter orNull() const;
+    [[nodiscard]] HostParameter otherwise(nlohmann::json value) const;
+    [[nodiscard]] HostParameter optional(std::string_view whereLeftOut = {}) const;
+
+    /// What is accepted, for errors and for the reference: "a whole number from 1 to 64".
+    [[nodiscard]] std::string accepted() const;
+    [[nodiscard]] bool accepts(const nlohmann::json& value) const;
+    /// What counts where it is left out, with its unit; empty where nothing does.
+    [[nodiscard]] std::string defaultText() const;
+};
+
+/// Parameters by their type, for the tables of host functions.
+namespace takes {
+[[nodiscard]] HostParameter number(std::string_view name, std::string_view unit, std::string_view about);
+[[nodiscard]] HostParameter whole(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter text(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter flag(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter list(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter object(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter load(std::string_view name, std::string_view about);
+[[nodiscard]] HostParameter any(std::string_view name, std::string_view about);
+}  // namespace takes
+
+}  // namespace tacto

@@ -1,0 +1,112 @@
+#include "app/scripting/engine/MemoryGuard.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace tacto {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{20};
+constexpr std::size_t kMost = std::size_t{2} << 30;
+
+/// Resident memory of this program in bytes; 0 where the system does not tell.
+std::size_t resident() noexcept {
+    std::FILE* file = std::fopen("/proc/self/statm", "re");
+    if (file == nullptr) return 0;
+    unsigned long all = 0, inMemory = 0;
+    const bool read = std::fscanf(file, "%lu %lu", &all, &inMemory) == 2;
+    static_cast<void>(std::fclose(file));
+    return read ? inMemory * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// Memory that programs can still be given, in bytes.
+std::size_t available() noexcept {
+    std::FILE* file = std::fopen("/proc/meminfo", "re");
+    if (file == nullptr) return kMost;
+    char line[128];
+    unsigned long kilobytes = 0;
+    while (std::fgets(line, sizeof line, file) != nullptr) {
+        if (std::sscanf(line, "MemAvailable: %lu kB", &kilobytes) == 1) break;
+    }
+    static_cast<void>(std::fclose(file));
+    return kilobytes == 0 ? kMost : std::size_t{1024} * kilobytes;
+}
+
+/// The first number in a file of the kernel's; nothing where there is none ("max").
+std::optional<std::size_t> numberIn(const std::string& path) {
+    std::ifstream file(path);
+    std::size_t value = 0;
+    if (!(file >> value)) return std::nullopt;
+    return value;
+}
+
+/// What the control group of this program leaves it, in bytes: of the group itself and of those around it.
+std::size_t leftByGroup() {
+    std::size_t left = std::numeric_limits<std::size_t>::max();
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        if (!line.starts_with("0::/")) continue;
+        for (auto group = line.substr(3);; group = group.substr(0, group.rfind('/'))) {
+            const auto folder = "/sys/fs/cgroup" + group;
+            const auto most = numberIn(folder + "/memory.max");
+            const auto used = numberIn(folder + "/memory.current");
+            if (most && used) left = std::min(left, *most > *used ? *most - *used : 0);
+            if (group.empty() || group == "/") break;
+        }
+    }
+    return left;
+}
+
+/// What a resource limit leaves of what this program has taken by that reckoning: the `field`th of /proc/self/statm.
+std::size_t leftByLimit(int resource, int field) {
+    rlimit limit{};
+    if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::numeric_limits<std::size_t>::max();
+    std::ifstream statm("/proc/self/statm");
+    std::size_t pages = 0;
+    for (int i = 0; i <= field; ++i) statm >> pages;
+    const std::size_t used = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    return limit.rlim_cur > used ? limit.rlim_cur - used : 0;
+}
+
+}  // namespace
+
+std::size_t MemoryGuard::usualLimit() {
+    constexpr int kAddressSpace = 0, kData = 5;
+    return std::min({kMost, available() / 2, leftByGroup() / 2, leftByLimit(RLIMIT_AS, kAddressSpace) / 2,
+                     leftByLimit(RLIMIT_DATA, kData) / 2});
+}
+
+MemoryGuard::MemoryGuard(std::function<void()> onExceeded, std::size_t most)
+    : onExceeded_(std::move(onExceeded)), thread_([this, most] { watch(most); }) {}
+
+MemoryGuard::~MemoryGuard() {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+    ending_.notify_all();
+    thread_.join();
+}
+
+void MemoryGuard::watch(std::size_t most) {
+    const std::size_t before = resident();
+    std::unique_lock lock(mutex_);
+    while (!ending_.wait_for(lock, kLook, [this] { return ended_; })) {
+        const std::size_t now = resident();
+        if (now <= before || now - before <= most) continue;
+        lock.unlock();
+        onExceeded_();
+        return;
+    }
+}
+
+}  // namespace tacto

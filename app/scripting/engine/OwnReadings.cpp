@@ -1,0 +1,78 @@
+#include "app/scripting/engine/OwnReadings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace tacto {
+
+namespace {
+
+/// As a script is given it: what is not finite is null.
+void noNaN(nlohmann::json& value) {
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
+    if (value.is_structured()) std::for_each(value.begin(), value.end(), noNaN);
+}
+
+}  // namespace
+
+std::int64_t OwnReadings::add(OwnReading reading) {
+    readings_.push_back(std::move(reading));
+    return static_cast<std::int64_t>(readings_.size());
+}
+
+std::int64_t OwnReadings::add(OwnCalibration calibration) {
+    calibrations_.push_back(std::move(calibration));
+    return static_cast<std::int64_t>(calibrations_.size());
+}
+
+Result<std::vector<const OwnReading*>> OwnReadings::readings(const std::vector<std::int64_t>& numbers) const {
+    std::vector<const OwnReading*> found;
+    std::set<std::int64_t> seen, captures;
+    for (const auto number : numbers) {
+        if (number < 1 || static_cast<std::size_t>(number) > readings_.size()) {
+            return fail(ErrorCode::InvalidArgument,
+                        "there is no reading {} in this run; the number that measure.pulse() gave is expected", number);
+        }
+        const auto& reading = readings_[static_cast<std::size_t>(number) - 1];
+        bool again = !seen.insert(number).second;
+        for (const auto capture : reading.captures) again = !captures.insert(capture).second || again;
+        if (again) {
+            return fail(ErrorCode::InvalidArgument,
+                        "reading {} was given before, or shares a capture with one that was; a reading counts once",
+                        number);
+        }
+        found.push_back(&reading);
+    }
+    return found;
+}
+
+void OwnReadings::note(nlohmann::json made) {
+    noNaN(made);
+    made_.push_back(std::move(made));
+}
+
+bool OwnReadings::noted(const nlohmann::json& said) const {
+    return std::find(made_.begin(), made_.end(), said) != made_.end();
+}
+
+const OwnCalibration* OwnReadings::calibration(const nlohmann::json& number) const noexcept {
+    if (!number.is_number_integer()) return nullptr;
+    const auto index = number.get<std::int64_t>();
+    if (index < 1 || static_cast<std::size_t>(index) > calibrations_.size()) return nullptr;
+    return &calibrations_[static_cast<std::size_t>(index) - 1];
+}
+
+const OwnQuantity* ownQuantity(std::string_view name) noexcept {
+    static constexpr std::array<OwnQuantity, 4> kQuantities{{{"amplitude", "amplitude", &CapturedCommand::amplitude},
+                                                             {"interval", "interval_s", &CapturedCommand::interval_s},
+                                                             {"width", "width_s", &CapturedCommand::width_s},
+                                                             {"gap", "gap_s", &CapturedCommand::gap_s}}};
+    for (const auto& quantity : kQuantities) {
+        if (quantity.name == name) return &quantity;
+    }
+    return nullptr;
+}
+
+}  // namespace tacto

@@ -1,0 +1,87 @@
+// OwnReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
+// number; what it says about them besides does not count (hazard H1: a script asks, it never vouches).
+//
+// Thread-safety: none; as ScriptSession, which holds it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/NaN.h"
+#include "core/base/Result.h"
+
+namespace tacto {
+
+/// What was commanded when a capture was taken: s, and V or mA by the source. NaN where it is not known.
+struct CapturedCommand {
+    double amplitude = 0;
+    double interval_s = 0;
+    double width_s = 0;
+    double gap_s = 0;
+    bool calibrationApplied = false;  ///< something else than the command was programmed
+    bool simulated = false;           ///< the capture is of a simulated instrument
+};
+
+/// One reading of measure.pulse().
+struct OwnReading {
+    std::vector<std::int64_t> captures;
+    std::vector<CapturedCommand> commands;  ///< of each capture
+    nlohmann::json read;                    ///< amplitude, interval_s, width_s, gap_s as measured; null: not measured
+    std::string unit;                       ///< of the amplitude: V or mA
+    // As the oscilloscope states it, in the amplitude's unit; NaN: not stated.
+    double gainTolerance = kNaN;
+    double probeTolerance = kNaN;
+    double linearityTolerance = 0;
+    double resolution = kNaN;
+    double timeBaseTolerance = kNaN;
+    double stampTolerance_s = kNaN;  ///< 0 where one record holds all of it
+    std::string statedBy{};
+    double samplingStep_s = 0;
+};
+
+/// One result of analysis.calibration() that rests on own readings alone.
+struct OwnCalibration {
+    std::string quantity;
+    nlohmann::json found;                ///< as the function returned it
+    std::vector<std::int64_t> readings;  ///< their numbers
+    bool simulated = false;
+    std::optional<double> gainTolerance;  ///< of the instrument, relative half-width; nothing: not stated
+    std::string statedBy;                 ///< "the instrument" or "the operator"
+    bool calibrationApplied = false;      ///< in one of the readings
+};
+
+class OwnReadings {
+public:
+    [[nodiscard]] std::int64_t add(OwnReading reading);
+    [[nodiscard]] std::int64_t add(OwnCalibration calibration);
+
+    /// The readings with these numbers, for one calibration. Errors: InvalidArgument for a number that is none, or a
+    /// reading or capture that comes twice.
+    [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
+    /// Remembers what a host function returned, where scripts hand on whole objects.
+    void note(nlohmann::json made);
+    /// True for what was noted, unchanged.
+    [[nodiscard]] bool noted(const nlohmann::json& said) const;
+
+    /// Nothing for a number that is none.
+    [[nodiscard]] const OwnCalibration* calibration(const nlohmann::json& number) const noexcept;
+
+private:
+    std::vector<OwnReading> readings_;
+    std::vector<OwnCalibration> calibrations_;
+    std::vector<nlohmann::json> made_;
+};
+
+/// The names by which a calibration's quantities are known: amplitude, interval, width, gap.
+struct OwnQuantity {
+    std::string_view name;
+    std::string_view key;  ///< of what was read
+    double CapturedCommand::*commanded;
+};
+/// Nothing for another name.
+[[nodiscard]] const OwnQuantity* ownQuantity(std::string_view name) noexcept;
+
+}  // namespace tacto

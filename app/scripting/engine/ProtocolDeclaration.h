@@ -1,0 +1,108 @@
+// ProtocolDeclaration.h - what a protocol script says about itself before it runs: title, purpose, the devices it
+// needs, its parameters with units and ranges, and the questions it may put to an operator.
+//
+// The declaration is read by running the script's top level in an engine without a bench and, unless the script comes
+// with the program, in a process of its own: nothing can be delivered, a top level that does not end is interrupted,
+// and one that makes the engine crash ends that process alone.
+//
+// Thread-safety: values; the functions are pure but for the thread that they run the script on.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/devices/Device.h"
+
+namespace tacto {
+
+/// A protocol script as text. `path` is what its errors name.
+struct ProtocolSource {
+    std::string name;            ///< "separability"
+    std::filesystem::path path;  ///< may be empty for a text that lies in no file
+    std::string text;
+    std::string sha256;    ///< of the text's bytes; filled in by the library
+    bool shipped = false;  ///< comes with the program: its bytes are those that the program was built with
+};
+
+/// Where a script comes from, for people: "shipped with the program", or its path.
+[[nodiscard]] std::string originOf(const ProtocolSource& source);
+
+/// A day is written as 2027-03-01, a file is its path; an empty text is neither.
+enum class ParameterType { Number, Integer, Choice, Text, Boolean, Date, File };
+/// "number", "integer", "choice", "text", "boolean", "date", "file"
+[[nodiscard]] std::string_view nameOf(ParameterType type) noexcept;
+
+struct ProtocolParameter {
+    std::string name;   ///< the key of --set and of `p` in run(p)
+    std::string label;  ///< for people; the name where the script gives none
+    std::string unit;   ///< "ohm", "s"; empty for a bare number
+    ParameterType type = ParameterType::Number;
+    std::optional<double> min;  ///< Number and Integer
+    std::optional<double> max;
+    std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
+    nlohmann::json value;                                      ///< the default, within the range
+    bool reference = false;  ///< of the known reference that is read first: `step: "reference"`
+    /// What is not known without it; 0 or nothing is no answer then, and a window asks for it first. May be empty.
+    std::string needed;
+    [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
+};
+
+struct ProtocolDeclaration {
+    std::string name;
+    std::string title;
+    std::string purpose;
+    /// What its results are: the `kind` of those that name none, and how they are shown while they come. May be empty.
+    std::string kind;
+    std::set<Role> needs;
+    std::vector<ProtocolParameter> parameters;  ///< as written
+    std::vector<std::string> questions;         ///< names the script's text passes to `operator`; "surface-*" and
+                                                ///< "fit-load" where it uses functions that may ask those
+    bool hasOtherQuestions = false;             ///< it also computes such names
+};
+
+/// What a run takes out of a list of KEY=VALUE settings.
+struct ProtocolSettings {
+    nlohmann::json parameters = nlohmann::json::object();  ///< every declared parameter, typed
+    std::map<std::string, std::string> answers;            ///< for `operator`, by question name
+    /// The parameters (choices apart) that are the operator's word and not the script's default.
+    std::set<std::string> given;
+};
+
+/// Runs the script's top level and reads what it declares.
+/// Errors: ParseError "file:line: reason" for a script error, a missing protocol(), a missing run(), an unknown key,
+/// type or role, a range upside down or a default outside it, a crash of the engine; Timeout when the top level does
+/// not end in `limit`; NotFound where the program tactoscope-declare is missing.
+[[nodiscard]] Result<ProtocolDeclaration> readDeclaration(const ProtocolSource& source,
+                                                          std::chrono::milliseconds limit = std::chrono::seconds(1));
+
+/// Reads what protocol() was given. `order` and `choiceOrder`: the parameters' names as written, and the keys of each
+/// one's choices. A title has at most 200 characters, a parameter's name too, any other text 2000; a whole number lies
+/// within ±2^53. Errors: InvalidArgument naming the parameter and the key.
+[[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
+                                                           const nlohmann::json& choiceOrder);
+
+/// What `now` declares otherwise than `before`, as "another purpose"; empty where they declare the same. Names and
+/// questions are not compared: a script does not declare those.
+[[nodiscard]] std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now);
+
+/// Checks one value as text against its parameter. Errors: InvalidArgument naming key, value and what is accepted.
+[[nodiscard]] Result<nlohmann::json> parseSetting(const ProtocolParameter& parameter, std::string_view text);
+
+/// Defaults overridden by `settings`; keys that are no parameter answer the script's questions.
+/// Errors: as parseSetting(); InvalidArgument for an unknown key, listing the known ones.
+[[nodiscard]] Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
+                                                     const std::map<std::string, std::string>& settings);
+
+/// An element of cli.md's `protocols`: name, title, purpose, kind, needs, parameters.
+[[nodiscard]] nlohmann::json toJson(const ProtocolDeclaration& declaration);
+
+}  // namespace tacto

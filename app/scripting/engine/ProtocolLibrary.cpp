@@ -1,0 +1,197 @@
+#include "app/scripting/engine/ProtocolLibrary.h"
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QStringDecoder>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "app/scripting/ShippedResources.h"
+#include "core/base/ProgramPath.h"
+
+#ifndef TACTOSCOPE_INSTALLED_RESOURCES
+#define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"
+#endif
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uintmax_t kLargestScript = 1'000'000;
+
+fs::path environmentPath(const char* name) {
+    const char* value = std::getenv(name);
+    return value == nullptr ? fs::path() : fs::path(value);
+}
+
+/// What the shipped protocol of that name was built with; null for another name.
+const ShippedProtocol* digestOfShipped(std::string_view name) {
+    const auto all = shippedProtocols();
+    const auto at = std::ranges::find(all, name, &ShippedProtocol::name);
+    return at == all.end() ? nullptr : &*at;
+}
+
+std::string nameIsTaken(const fs::path& path) {
+    return fmt::format("{}: {} is the name of a protocol that comes with the program; another file name is expected",
+                       path.string(), path.stem().string());
+}
+
+Result<ProtocolSource> readScript(const fs::path& path) {
+    std::error_code failed;
+    const auto size = fs::file_size(path, failed);
+    if (failed) return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), failed.message());
+    if (size > kLargestScript) {
+        return fail(ErrorCode::InvalidArgument, "{} has {} bytes, a script has at most {}", path.string(), size,
+                    kLargestScript);
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    if (!file) return fail(ErrorCode::Io, "{} cannot be read", path.string());
+    ProtocolSource source;
+    source.name = path.stem().string();
+    source.path = path;
+    source.text = content.str();
+    const QByteArray bytes = QByteArray::fromStdString(source.text);
+    source.sha256 = QCryptographicHash::hash(bytes, QCryptographicHash::Sha256).toHex().toStdString();
+    const auto* built = digestOfShipped(source.name);
+    source.shipped = built != nullptr && built->sha256 == source.sha256;
+    // Wherever it lies, also in the program's own folder: the name says what was reviewed.
+    if (built != nullptr && !source.shipped) return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(path));
+    QStringDecoder utf8(QStringDecoder::Utf8, QStringDecoder::Flag::Stateless);
+    const QString text = utf8(bytes);
+    if (utf8.hasError() || text.contains(QChar::Null)) {
+        return fail(ErrorCode::InvalidArgument, "{} is not UTF-8 text", path.string());
+    }
+    if (source.text.starts_with("\xEF\xBB\xBF")) source.text.erase(0, 3);
+    return source;
+}
+
+/// Scripts of a folder by name; what is not there or not readable is not listed.
+std::map<std::string, fs::path> scriptsIn(const fs::path& folder) {
+    std::map<std::string, fs::path> found;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+        if (entry->path().extension() == ".js" && entry->is_regular_file(failed)) {
+            found[entry->path().stem().string()] = entry->path();
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+Result<fs::path> resourcesFolder() {
+    std::vector<std::string> tried;
+    const auto usable = [&tried](const fs::path& folder) {
+        std::error_code failed;
+        if (!folder.empty()) tried.push_back(folder.string());
+        return !folder.empty() && fs::is_directory(folder / "protocols", failed);
+    };
+    if (const auto set = environmentPath("TACTOSCOPE_RESOURCES"); !set.empty()) {
+        // What was asked for explicitly is not silently replaced by something else.
+        if (usable(set)) return set;
+        return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
+                    set.string());
+    }
+    const fs::path start = programFolder();
+    if (usable(start / ".." / "share" / "tactoscope"))
+        return (start / ".." / "share" / "tactoscope").lexically_normal();
+    fs::path folder = start;
+    for (int up = 0; up < 5 && !folder.empty() && folder != folder.root_path(); ++up, folder = folder.parent_path()) {
+        if (usable(folder / "resources")) return folder / "resources";
+    }
+    if (usable(TACTOSCOPE_INSTALLED_RESOURCES)) return fs::path(TACTOSCOPE_INSTALLED_RESOURCES);
+    return fail(ErrorCode::NotFound, "the program's resources were not found in {}; set TACTOSCOPE_RESOURCES",
+                fmt::join(tried, ", "));
+}
+
+Result<fs::path> drawingFile(std::string_view name) {
+    const auto resources = resourcesFolder();
+    if (!resources) return failure(resources);
+    std::set<std::string> known;
+    std::error_code failed;
+    for (fs::directory_iterator entry(*resources / "drawings", failed), end; !failed && entry != end;
+         entry.increment(failed))
+        if (entry->path().extension() == ".svg") known.insert(entry->path().stem().string());
+    // Looked up, never joined: a script's word is no path.
+    if (const auto found = known.find(std::string(name)); found != known.end())
+        return *resources / "drawings" / (*found + ".svg");
+    return fail(ErrorCode::InvalidArgument, "there is no drawing \"{}\"; there are: {}", name, fmt::join(known, ", "));
+}
+
+fs::path userProtocolsFolder() {
+    fs::path base = environmentPath("XDG_DATA_HOME");
+    if (base.empty() || !base.is_absolute()) {
+        base = environmentPath("HOME");
+        if (base.empty()) return {};
+        base /= fs::path(".local") / "share";
+    }
+    return base / "tactoscope" / "protocols";
+}
+
+ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {
+    if (auto resources = resourcesFolder()) shipped_ = *resources / "protocols";
+}
+
+ProtocolLibrary::ProtocolLibrary(fs::path shipped, fs::path user)
+    : shipped_(std::move(shipped)), user_(std::move(user)) {}
+
+struct ProtocolLibrary::Listing {
+    std::vector<ProtocolSource> sources;  // by name
+    std::vector<RefusedScript> refused;
+};
+
+ProtocolLibrary::Listing ProtocolLibrary::listing() const {
+    Listing all;
+    const auto take = [&](const fs::path& path) {
+        if (auto source = readScript(path))
+            all.sources.push_back(std::move(*source));
+        else
+            all.refused.push_back({path, source.error().message});
+    };
+    const auto shipped = scriptsIn(shipped_);
+    for (const auto& [name, path] : shipped) take(path);
+    for (const auto& [name, path] : scriptsIn(user_)) {
+        if (shipped.contains(name) || digestOfShipped(name) != nullptr)
+            all.refused.push_back({path, nameIsTaken(path)});
+        else
+            take(path);
+    }
+    std::ranges::sort(all.sources, {}, &ProtocolSource::name);
+    return all;
+}
+
+std::vector<ProtocolSource> ProtocolLibrary::list() const { return listing().sources; }
+std::vector<RefusedScript> ProtocolLibrary::refused() const { return listing().refused; }
+
+Result<ProtocolSource> ProtocolLibrary::find(std::string_view nameOrPath) const {
+    const std::string wanted(nameOrPath);
+    const auto shipped = scriptsIn(shipped_), user = scriptsIn(user_);
+    std::error_code failed;
+    if (wanted.ends_with(".js") || wanted.find('/') != std::string::npos) {
+        if (!fs::is_regular_file(wanted, failed)) return fail(ErrorCode::NotFound, "there is no script {}", wanted);
+        auto source = readScript(fs::absolute(wanted, failed).lexically_normal());
+        if (!source || source->shipped) return source;
+        const auto taken = shipped.find(source->name);
+        const bool own = taken != shipped.end() && fs::equivalent(taken->second, wanted, failed);
+        if (own || (taken == shipped.end() && digestOfShipped(source->name) == nullptr)) return source;
+        return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(wanted));
+    }
+    if (const auto at = shipped.find(wanted); at != shipped.end()) return readScript(at->second);
+    if (const auto at = user.find(wanted); at != user.end()) {
+        if (digestOfShipped(wanted) == nullptr) return readScript(at->second);
+        return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(at->second));
+    }
+    std::set<std::string> known;
+    for (const auto& source : list()) known.insert(source.name);
+    return fail(ErrorCode::NotFound, "there is no protocol {}; there are {}", wanted,
+                known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
+}
+
+}  // namespace tacto

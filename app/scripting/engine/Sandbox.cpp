@@ -1,0 +1,281 @@
+#include "app/scripting/engine/Sandbox.h"
+
+#include <QRegularExpression>
+#include <QUrl>
+#include <new>
+
+#include "app/scripting/engine/HostBridge.h"
+#include "app/scripting/engine/JsValue.h"
+
+namespace tacto {
+
+namespace {
+
+/// What the engine compiles at run time cannot be unwound: std::bad_alloc from within it would abort the program, where
+/// interpreted code lets evaluate() catch it. Set before any engine exists.
+[[maybe_unused]] const bool kInterpreted = qputenv("QV4_FORCE_INTERPRETER", "1");
+
+const QString kHostFile = QStringLiteral("tactoscope:host");
+const QString kStartFile = QStringLiteral("tactoscope:start");
+
+/// Runs before the script: what it looks up here cannot have been tampered with, and what the functions do later
+/// looks nothing up that a script can change.
+const QString kInstall = QStringLiteral(R"js(
+(function (host, global, table, makers) {
+    "use strict";
+    const define = Object.defineProperty, freeze = Object.freeze;
+    const objects = {};
+    for (let i = 0; i < table.length; ++i) {
+        const entry = table[i];
+        const native = (...given) => host.call(i, given);
+        const made = makers[i] ? makers[i](native) : native;
+        define(made, "name", { value: entry.name });
+        freeze(made);
+        const what = entry.property ? { get: () => host.call(i, []), enumerable: true }
+                                    : { value: made, enumerable: true };
+        if (entry.object === "") { define(global, entry.name, what); continue; }
+        if (!objects[entry.object]) objects[entry.object] = Object.create(null);
+        define(objects[entry.object], entry.name, what);
+        if (entry.object === "random" && entry.name === "uniform") {
+            define(Math, "random", { value: freeze(() => host.call(i, [0, 1])), writable: false, configurable: false });
+        }
+    }
+    for (const name in objects) define(global, name, { value: freeze(objects[name]), enumerable: true });
+})
+)js");
+
+QString qtText(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
+
+QStringList hostNames() {
+    QStringList names;
+    for (const auto& function : hostFunctions()) {
+        const QString name = qtText(function.object.empty() ? function.name : function.object);
+        if (!names.contains(name)) names.push_back(name);
+    }
+    return names;
+}
+
+int findRunLine(const std::string& text) {
+    static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
+    const QString code = QString::fromStdString(text);
+    const auto match = run.match(code);
+    if (!match.hasMatch()) return 1;
+    return static_cast<int>(code.left(match.capturedStart()).count(QLatin1Char('\n'))) + 1;
+}
+
+/// The engine turns a path into a file URL, which is what its stack traces name.
+QString urlOf(const std::string& file) {
+    const QString name = QString::fromStdString(file);
+    return name.startsWith(QLatin1Char('/')) ? QUrl::fromLocalFile(name).toString() : name;
+}
+
+}  // namespace
+
+std::string ScriptError::text() const {
+    return line > 0 ? fmt::format("{}:{}: {}", file, line, reason) : fmt::format("{}: {}", file, reason);
+}
+
+struct Sandbox::Engine {
+    Engine(HostPort& port, const ProtocolSource& from)
+        : source(from),
+          file(from.path.empty() ? from.name + ".js" : from.path.string()),
+          bridge(std::make_unique<HostBridge>(js, port, urlOf(file))) {
+        removeForeignGlobals();
+        installHost();
+    }
+
+    void removeForeignGlobals();
+    void installHost();
+    [[nodiscard]] std::optional<ScriptError> evaluate(const QString& code, const QString& from,
+                                                      QJSValue* result = nullptr);
+    [[nodiscard]] ScriptError errorFrom(const QJSValue& thrown, const QStringList& trace) const;
+
+    QJSEngine js;
+    const ProtocolSource source;
+    const std::string file;  // as errors name it
+    std::unique_ptr<HostBridge> bridge;
+    bool ranOutOfMemory = false;
+};
+
+Sandbox::Sandbox(HostPort& port, const ProtocolSource& source)
+    : engine_(std::make_unique<Engine>(port, source)), runLine_(findRunLine(source.text)) {}
+
+Sandbox::~Sandbox() {
+    // Its insides were left in the middle of what they did: never touched again.
+    if (engine_->ranOutOfMemory) static_cast<void>(engine_.release());
+}
+
+void Sandbox::Engine::removeForeignGlobals() {
+    static const QSet<QString> kKept = {"Object",
+                                        "String",
+                                        "Symbol",
+                                        "Number",
+                                        "Boolean",
+                                        "Array",
+                                        "Function",
+                                        "Date",
+                                        "RegExp",
+                                        "Error",
+                                        "EvalError",
+                                        "RangeError",
+                                        "ReferenceError",
+                                        "SyntaxError",
+                                        "TypeError",
+                                        "URIError",
+                                        "ArrayBuffer",
+                                        "DataView",
+                                        "WeakSet",
+                                        "Set",
+                                        "WeakMap",
+                                        "Map",
+                                        "Int8Array",
+                                        "Uint8Array",
+                                        "Int16Array",
+                                        "Uint16Array",
+                                        "Int32Array",
+                                        "Uint32Array",
+                                        "Uint8ClampedArray",
+                                        "Float32Array",
+                                        "Float64Array",
+                                        "Math",
+                                        "JSON",
+                                        "Reflect",
+                                        "Proxy",
+                                        "undefined",
+                                        "NaN",
+                                        "Infinity",
+                                        "eval",
+                                        "parseInt",
+                                        "parseFloat",
+                                        "isNaN",
+                                        "isFinite",
+                                        "decodeURI",
+                                        "decodeURIComponent",
+                                        "encodeURI",
+                                        "encodeURIComponent",
+                                        "escape",
+                                        "unescape"};
+    QJSValue global = js.globalObject();
+    const QJSValue names = js.evaluate(QStringLiteral("Object.getOwnPropertyNames")).call({global});
+    const quint32 count = names.property(QStringLiteral("length")).toUInt();
+    for (quint32 i = 0; i < count; ++i) {
+        const QString name = names.property(i).toString();
+        if (!kKept.contains(name)) global.deleteProperty(name);
+    }
+}
+
+void Sandbox::Engine::installHost() {
+    const auto& functions = hostFunctions();
+    QJSValue table = js.newArray(static_cast<uint>(functions.size()));
+    QJSValue makers = js.newArray(static_cast<uint>(functions.size()));
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+        QJSValue entry = js.newObject();
+        entry.setProperty(QStringLiteral("object"), qtText(functions[i].object));
+        entry.setProperty(QStringLiteral("name"), qtText(functions[i].name));
+        entry.setProperty(QStringLiteral("property"), functions[i].kind == HostKind::Property);
+        table.setProperty(static_cast<quint32>(i), entry);
+        if (functions[i].javascript.empty()) continue;
+        const QString code = qtText(functions[i].javascript);
+        const QJSValue maker = js.evaluate(
+            QStringLiteral("(function (native) { \"use strict\"; return (") + code + QStringLiteral("); })"),
+            kHostFile);
+        Q_ASSERT_X(!maker.isError(), "Sandbox", qPrintable(maker.toString()));
+        makers.setProperty(static_cast<quint32>(i), maker);
+    }
+    QJSEngine::setObjectOwnership(bridge.get(), QJSEngine::CppOwnership);
+    const QJSValue install = js.evaluate(kInstall, kHostFile);
+    const QJSValue done = install.call({js.newQObject(bridge.get()), js.globalObject(), table, makers});
+    // Without its host objects a script would run against nothing, or against its own inventions.
+    if (done.isError()) qFatal("host objects could not be installed: %s", qPrintable(done.toString()));
+}
+
+std::optional<ScriptError> Sandbox::load() {
+    // A script's `let` and `const` are seen by its own text only, so the question what it defines is put at its end.
+    const QStringList names = hostNames();
+    const QString text = QStringLiteral("\"use strict\"; ") + QString::fromStdString(engine_->source.text) +
+                         QStringLiteral("\n;({ run: typeof run === 'function' ? run : null, held: [") +
+                         names.join(QLatin1Char(',')) + QStringLiteral("] })");
+    QJSValue end;
+    if (auto error = engine_->evaluate(text, QString::fromStdString(engine_->file), &end)) return error;
+
+    const QJSValue held = end.property(QStringLiteral("held"));
+    for (qsizetype i = 0; held.isArray() && i < names.size(); ++i) {
+        if (held.property(static_cast<quint32>(i)).strictlyEquals(engine_->js.globalObject().property(names[i])))
+            continue;
+        return ScriptError{ErrorCode::ParseError,
+                           fmt::format("the script defines {0}, but {0} belongs to the program; choose another name",
+                                       names[i].toStdString()),
+                           engine_->file, 1};
+    }
+    const QJSValue entry = end.property(QStringLiteral("run"));
+    if (!entry.isCallable()) {
+        return ScriptError{ErrorCode::ParseError, "the script has no function run(p)", engine_->file, 1};
+    }
+    engine_->js.globalObject().setProperty(QStringLiteral("run"), entry);
+    return std::nullopt;
+}
+
+std::optional<ScriptError> Sandbox::run(const nlohmann::json& parameters) {
+    const std::string given = parameters.dump(-1, ' ', true);  // ASCII: a JavaScript literal whatever it holds
+    return engine_->evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
+}
+
+void Sandbox::interrupt() noexcept { engine_->js.setInterrupted(true); }
+
+std::optional<ScriptError> Sandbox::Engine::evaluate(const QString& code, const QString& from, QJSValue* result) {
+    QStringList trace;
+    QJSValue value;
+    try {
+        value = js.evaluate(code, from, 1, &trace);
+    } catch (const std::bad_alloc&) {
+        ranOutOfMemory = true;
+        return ScriptError{ErrorCode::Stopped, "the script asked for more memory than there is; output is off", file,
+                           0};
+    }
+    if (result != nullptr) *result = value;
+    if (js.isInterrupted()) return ScriptError{ErrorCode::Stopped, "interrupted", file, 0};
+    if (trace.isEmpty() && !value.isError()) return std::nullopt;
+    if (trace.isEmpty() && from == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
+    return errorFrom(value, trace);
+}
+
+ScriptError Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
+    ScriptError error{ErrorCode::ParseError, {}, file, 0};
+    // "function:line:column:file", innermost first; the innermost line of the script itself is what its author can act
+    // on.
+    static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
+    const QString url = urlOf(file);
+    for (const QString& entry : trace) {
+        const auto match = frame.match(entry);
+        if (!match.hasMatch() || match.captured(4) != url) continue;
+        error.line = match.captured(2).toInt();
+        break;
+    }
+    if (error.line == 0) error.line = thrown.property(QStringLiteral("lineNumber")).toInt();
+
+    // Its code and sentence are the program's own, whatever the script wrote on the object.
+    if (auto failed = bridge->failureOf(thrown)) {
+        error.code = failed->code;
+        error.reason = std::move(failed->message);
+        return error;
+    }
+    if (!thrown.isError()) {
+        error.reason = thrown.toString().toStdString();
+        if (thrown.isObject() && !thrown.isCallable()) {
+            if (auto plain = toJson(thrown))
+                error.reason = plain->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        }
+        return error;
+    }
+    const QString name = thrown.property(QStringLiteral("name")).toString();
+    const QString message = thrown.property(QStringLiteral("message")).toString();
+    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // all the engine says
+        error.reason = "TypeError: something that belongs to the program, or is constant, was written or deleted";
+        return error;
+    }
+    error.reason = (name == QStringLiteral("Error") ? message : name + QStringLiteral(": ") + message).toStdString();
+    if (error.reason.empty()) error.reason = "an Error without a message";
+    return error;
+}
+
+}  // namespace tacto

@@ -1,0 +1,80 @@
+#include "app/scripting/engine/ScopeSeen.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/measure/InstrumentStatement.h"
+
+namespace tacto {
+
+namespace {
+
+/// NaN wins: what one capture does not state is not known of all.
+void widen(double& largest, double value) {
+    if (std::isnan(value) || value > largest) largest = value;
+}
+
+}  // namespace
+
+void ScopeSeen::add(const Capture& capture) {
+    for (const auto& channel : capture.channels) {
+        if (channel.unit != "V" && channel.unit != "A") continue;
+        auto& seen = channels_[channel.name];
+        seen.unit = channel.unit;
+        widen(seen.gain, channel.gainTolerance);
+        widen(seen.offset, channel.offsetTolerance);
+        widen(seen.lsb, channel.lsb > 0 ? channel.lsb : kNaN);
+        widen(seen.probe, channel.probeTolerance);
+        widen(seen.linearity, channel.linearityTolerance);
+        if (!channel.statedBy.empty()) seen.statedBy = channel.statedBy;
+    }
+    widen(timeBase_, capture.timeBaseTolerance);
+    widen(stamp_s_, capture.stampTolerance_s);
+    if (auto text = notStatedText(capture); !text.empty()) notStated_ = std::move(text);
+}
+
+nlohmann::json ScopeSeen::rows(const DeviceIdentity& scope) const {
+    auto out = nlohmann::json::array();
+    for (const auto& [name, channel] : channels_) {
+        out.push_back({{"role", nameOf(Role::Oscilloscope)},
+                       {"name", scope.name},
+                       {"serial", scope.serial},
+                       {"simulated", scope.simulated},
+                       {"channel", name},
+                       {"unit", channel.unit},
+                       {"gain_pct", numberOrNull(100 * channel.gain)},
+                       {"offset", numberOrNull(channel.offset)},
+                       {"lsb", numberOrNull(channel.lsb)},
+                       {"probe_pct", numberOrNull(100 * channel.probe)},
+                       {"linearity", numberOrNull(channel.linearity)},
+                       {"timebase_ppm", numberOrNull(1e6 * timeBase_)},
+                       {"stamp_s", numberOrNull(stamp_s_)},
+                       {"stated_by", channel.statedBy}});
+    }
+    return out;
+}
+
+std::vector<std::string> ScopeSeen::restsOn() const {
+    std::vector<std::string> out;
+    if (!absolute_.empty()) out.push_back("The absolute scale of the voltage was read: " + absolute_ + ".");
+    for (const auto& [name, channel] : channels_) {
+        if (!absolute_.empty() || channel.unit != "V" || !std::isfinite(channel.gain)) continue;
+        const auto by = channel.statedBy.empty() ? std::string("source not named") : channel.statedBy;
+        out.push_back(
+            channel.statedBy.find("certificate") != std::string::npos
+                ? fmt::format("The absolute scale of {} rests on a certificate ({}).", name, by)
+                : fmt::format(
+                      "No absolute reference was read: a gain error that voltage and current share does not show "
+                      "in a known load, and rests on the stated tolerance of ± {:.3g} % ({}).",
+                      100 * channel.gain, by));
+    }
+    if (!notStated_.empty()) {
+        std::string text = notStated_ + ": what needs it was not evaluated.";
+        text[0] = 'T';
+        out.push_back(std::move(text));
+    }
+    return out;
+}
+
+}  // namespace tacto

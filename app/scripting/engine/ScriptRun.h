@@ -1,0 +1,124 @@
+// ScriptRun.h - one run of a protocol script against a bench, on a thread of its own.
+//
+// Promise (hazard H10): a script reaches the world through the host objects alone. stop() reaches the bench's
+// outputs without the script's help; calls that wait come back with an error; the script ends at its next
+// statement, and one still running a second later is reported and abandoned: its thread and engine live on until it
+// ends, if ever, it can never touch the bench or the session again, and the outputs are off. Leaving run() by any door
+// disarms.
+//
+// Thread-safety: stop(), pause(), resume() from any thread, as often as wanted; wait functions have one caller.
+// Needs a QCoreApplication, but no event loop.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/scripting/engine/Operator.h"
+#include "app/scripting/engine/ProtocolDeclaration.h"
+#include "core/base/Result.h"
+#include "core/measure/Capture.h"
+#include "core/safety/StopCounter.h"
+
+namespace tacto {
+
+class Bench;
+class SessionWriter;
+
+/// How far a progress(list, label) loop is.
+struct ScriptProgress {
+    std::string label;
+    std::size_t done = 0;
+    std::size_t total = 0;
+};
+
+struct RunRequest {
+    ProtocolSource script;
+    /// What readDeclaration() gave and the operator saw: what the session says that the script is. A script that
+    /// declares something else when it runs is ended before run(p). Nothing where the script was not read before: its
+    /// own counts.
+    std::optional<ProtocolDeclaration> declaration = {};
+    nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
+    std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set on purpose
+    /// Bytes by which the program may grow while the script runs; the usual limit of MemoryGuard where nothing is said.
+    std::optional<std::size_t> memoryLimit;
+    std::uint64_t seed = 1;
+    Bench* bench = nullptr;            ///< not used elsewhere until the run is over, stop() apart
+    StopMark asked = {};               ///< of the bench's stops(): when the operator asked for the run
+    SessionWriter* session = nullptr;  ///< null records nothing
+    /// What owns the two, held for as long as the script's thread runs: an abandoned one may never end. Null: they
+    /// outlive the thread anyhow.
+    std::shared_ptr<void> owner = nullptr;
+    Operator* operatorDesk = nullptr;                       ///< not owned; null: every question fails with its name
+    std::filesystem::path captureFolder;                    ///< each capture as a CSV file there; empty writes none
+    std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
+    std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
+    /// A trial as record.trial() was given it, with `condition` and `trial`. On the script's thread; may be empty.
+    std::function<void(const nlohmann::json&)> onTrial;
+    std::function<void(const Capture&)> onCapture;  ///< every capture; on the script's thread; may be empty
+};
+
+enum class ScriptVerdict { None, Pass, Fail, Indeterminate, Stopped };
+/// "pass", "fail", "indeterminate", "stopped"; empty for None, which is null in JSON.
+[[nodiscard]] std::string_view nameOf(ScriptVerdict verdict) noexcept;
+
+struct ScriptOutcome {
+    ScriptVerdict verdict = ScriptVerdict::None;
+    std::vector<std::string> reasons;  ///< of the verdict, one sentence each
+    /// What the verdict was given; null without one. After an early end what record.partial() kept, with partial: true.
+    nlohmann::json results;
+    std::optional<Error> error;  ///< "file:line: reason" when run() did not return
+    std::string file;            ///< of the error
+    int line = 0;
+    std::uint64_t expectedFaults = 0;  ///< of the bench: provoked on purpose, found and reset by the script's trips
+    bool abandoned = false;            ///< still running when it was given up: end the process without unwinding
+    std::vector<std::string> log;      ///< what log() said
+};
+
+class ScriptRun {
+public:
+    /// Starts the thread. Errors: Stopped when a stop of the bench has come since `request.asked`; InvalidArgument
+    /// without a bench.
+    [[nodiscard]] static Result<std::unique_ptr<ScriptRun>> start(RunRequest request);
+    /// Stops, waits as wait() does.
+    ~ScriptRun();
+    ScriptRun(const ScriptRun&) = delete;
+    ScriptRun& operator=(const ScriptRun&) = delete;
+
+    /// Outputs off now; then the script is ended. Safe before, during and after the run. Not for a signal handler
+    /// itself: call it from the thread that the handler wakes.
+    void stop(const char* by) noexcept;
+    /// Bench paused; the script waits at its next host call.
+    void pause() noexcept;
+    void resume() noexcept;
+
+    /// Blocks until the script has ended or was abandoned. On return the bench is disarmed.
+    [[nodiscard]] ScriptOutcome wait();
+    /// The same, giving up after `time`: nothing then, and the script goes on.
+    [[nodiscard]] std::optional<ScriptOutcome> waitFor(std::chrono::milliseconds time);
+
+    /// Abandoned scripts of this process whose thread still runs. A program that ends while this is not 0 should
+    /// leave by std::_Exit, after it has closed its files.
+    [[nodiscard]] static int abandonedRunning() noexcept;
+
+private:
+    struct State;
+    explicit ScriptRun(std::shared_ptr<State> state);
+    std::shared_ptr<State> state_;
+};
+
+/// start() and wait() in one.
+[[nodiscard]] Result<ScriptOutcome> runProtocol(RunRequest request);
+
+/// Every host object and function: name, parameters, units, errors, as Markdown. The help's reference.
+[[nodiscard]] std::string scriptReference();
+
+}  // namespace tacto

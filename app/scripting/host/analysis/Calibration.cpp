@@ -1,0 +1,194 @@
+// The line through the readings of a calibration, and its uncertainty.
+#include <cmath>
+#include <optional>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/analysis/AnalysisObject.h"
+#include "core/analysis/calibration/CalibrationJson.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto::host::analysis {
+
+namespace {
+
+/// The numbers of the run's own readings that `rows` name; nothing where one of them names none.
+std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
+    std::vector<std::int64_t> numbers;
+    for (const auto& row : rows) {
+        const Json number = row.is_object() ? row.value("reading", Json()) : Json();
+        if (!number.is_number_integer()) return std::nullopt;
+        numbers.push_back(number.get<std::int64_t>());
+    }
+    return numbers;
+}
+
+/// Levels of a kept calibration are told apart at least this well, relative to the largest.
+constexpr double kWidestLevel = 0.05;
+
+/// A calibration of the run's own readings: commands, readings and what the instrument states come from the program,
+/// whatever the rows say beside. `errors` grow to what the instrument states, and never shrink.
+class OwnSeries {
+public:
+    OwnSeries(ScriptSession& session, const OwnQuantity& quantity, std::vector<std::int64_t> numbers,
+              std::vector<const OwnReading*> readings)
+        : session_(session), quantity_(quantity), readings_(std::move(readings)) {
+        made_.quantity = quantity.name;
+        made_.readings = std::move(numbers);
+        for (const auto* reading : readings_) {
+            for (const auto& command : reading->commands) {
+                made_.simulated = made_.simulated || command.simulated;
+                made_.calibrationApplied = made_.calibrationApplied || command.calibrationApplied;
+            }
+        }
+    }
+
+    /// Errors: InvalidArgument for a reading whose captures were commanded differently, or whose command is not known.
+    [[nodiscard]] Result<void> fill(std::vector<CalibrationReading>& rows) const {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto& commands = readings_[i]->commands;
+            const double commanded = commands.back().*quantity_.commanded;
+            for (const auto& command : commands) {
+                if (std::abs(command.*quantity_.commanded - commanded) <= 1e-9 * std::abs(commanded)) continue;
+                return fail(ErrorCode::InvalidArgument,
+                            "analysis.calibration: reading {} has captures of different commands of {}; one command is "
+                            "expected",
+                            made_.readings[i], quantity_.name);
+            }
+            const Json& measured = readings_[i]->read[quantity_.key];
+            rows[i].commanded = commanded;
+            rows[i].measured = measured.is_number() ? measured.get<double>() : std::nan("");
+        }
+        return {};
+    }
+
+    /// The captures carry what the operator or else the instrument states; what neither does is not known, whatever a
+    /// script says of it.
+    void widen(InstrumentErrors& errors) {
+        const bool amplitude = quantity_.name == "amplitude";
+        const double stated = worst(amplitude ? &OwnReading::gainTolerance : &OwnReading::timeBaseTolerance);
+        if (!std::isnan(stated)) {
+            const auto said = session_.operatorsNumber(amplitude ? "scope_gain_pct" : "timebase_ppm");
+            made_.statedBy = said && *said > 0 ? "the operator" : "the instrument";
+            made_.gainTolerance = stated;
+        }
+        widenTo(errors.gainTolerance, stated);
+        errors.offsetTolerance = 0;  // levels are read from their own baseline
+        if (amplitude) {
+            widenTo(errors.probeTolerance, worst(&OwnReading::probeTolerance));
+            widenTo(errors.linearityTolerance, worst(&OwnReading::linearityTolerance));
+            widenTo(errors.resolution, worst(&OwnReading::resolution));
+        } else {
+            errors.resolution = 0;
+            if (quantity_.name == "interval") widenTo(errors.stampTolerance, worst(&OwnReading::stampTolerance_s));
+            widenTo(errors.samplingStep, worst(&OwnReading::samplingStep_s));
+        }
+        errors.unit = amplitude ? readings_.front()->unit : "s";
+    }
+
+    [[nodiscard]] std::int64_t keep(const Json& found) {
+        made_.found = found;
+        return session_.own().add(std::move(made_));
+    }
+
+private:
+    /// The largest of the readings; NaN where one of them does not state it.
+    [[nodiscard]] double worst(double OwnReading::*member) const {
+        double most = 0;
+        for (const auto* reading : readings_) {
+            if (std::isnan(reading->*member)) return kNaN;
+            most = std::max(most, reading->*member);
+        }
+        return most;
+    }
+    /// A script's own figure may widen what is stated, and never stands for it.
+    static void widenTo(double& error, double stated) {
+        error = std::isnan(stated) || std::isnan(error) ? stated : std::max(error, stated);
+    }
+
+    ScriptSession& session_;
+    const OwnQuantity& quantity_;
+    std::vector<const OwnReading*> readings_;
+    OwnCalibration made_;
+};
+
+Result<std::optional<OwnSeries>> ownSeries(ScriptSession& session, const Json& rows, const std::string& quantity) {
+    auto numbers = ownNumbers(rows);
+    const auto* known = ownQuantity(quantity);
+    if (!numbers || known == nullptr || rows.empty()) return std::optional<OwnSeries>();
+    auto readings = session.own().readings(*numbers);
+    if (!readings) return fail(ErrorCode::InvalidArgument, "analysis.calibration: {}", readings.error().message);
+    return std::optional<OwnSeries>(std::in_place, session, *known, std::move(*numbers), std::move(*readings));
+}
+
+Result<std::vector<CalibrationReading>> readingsFrom(const Arguments& arguments, const Json& rows) {
+    std::vector<CalibrationReading> readings;
+    for (const auto& row : rows) {
+        if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
+            return arguments.wrong("a reading", row, "an object with commanded, measured and direction");
+        }
+        CalibrationReading reading;
+        reading.commanded = row["commanded"].get<double>();
+        const Json measured = row.value("measured", Json());
+        if (measured.is_number()) reading.measured = measured.get<double>();
+        const Json direction = row.value("direction", Json(""));
+        bool known = false;
+        for (const auto one : {SweepDirection::None, SweepDirection::Up, SweepDirection::Down}) {
+            if (direction != nameOf(one)) continue;
+            reading.direction = one;
+            known = true;
+        }
+        if (!known) return arguments.wrong("direction", direction, "\"up\", \"down\" or \"\"");
+        readings.push_back(reading);
+    }
+    return readings;
+}
+
+}  // namespace
+
+Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
+    const Json& rows = arguments.list("readings");
+    auto readings = readingsFrom(arguments, rows);
+    if (!readings) return failure(readings);
+    const auto quantity = arguments.text("options.quantity");
+    const auto unit = arguments.text("options.unit");
+    const auto stated = [&arguments](std::string_view name, double usual) {
+        return arguments.isNull(name) ? kNaN : arguments.number(name, usual);
+    };
+    const double tolerance = stated("options.tolerance_pct", 2);
+    CalibrationOptions fit;
+    fit.sameLevel = stated("options.same_level", fit.sameLevel);
+    InstrumentErrors errors;
+    errors.unit = unit;
+    errors.gainTolerance = stated("options.gain_tolerance", errors.gainTolerance);
+    errors.probeTolerance = stated("options.probe_tolerance", errors.probeTolerance);
+    errors.offsetTolerance = stated("options.offset_tolerance", errors.offsetTolerance);
+    errors.resolution = stated("options.resolution", errors.resolution);
+    errors.loadTolerance = stated("options.load_tolerance", errors.loadTolerance);
+    errors.loadSensitivity = stated("options.load_sensitivity", errors.loadSensitivity);
+    errors.samplingStep = stated("options.sampling_step", errors.samplingStep);
+    auto own = ownSeries(session, rows, quantity);
+    if (!own) return failure(own);
+    if (*own) {
+        if (fit.sameLevel > kWidestLevel) {
+            return arguments.wrong("same_level", fit.sameLevel, fmt::format("at most {}", kWidestLevel));
+        }
+        if (auto filled = (*own)->fill(*readings); !filled) return failure(filled);
+        (*own)->widen(errors);
+    }
+    fit.resolution = std::max(errors.samplingStep, std::isnan(errors.resolution) ? 0 : errors.resolution);
+    auto found = fitCalibration(*readings, fit);
+    if (!found) return failure(found);
+    BudgetOptions budget;
+    budget.seed = session.request().seed;
+    auto judged = judgeCalibration(std::move(*found), errors, tolerance, budget);
+    if (!judged) return failure(judged);
+    constexpr double kIec_pct = 20;  // IEC 60601-2-10: output within ± 20 % of what is set
+    Json out = toJson(*judged);
+    out["quantity"] = quantity;
+    out["unit"] = errors.unit;
+    out["verdict_iec"] = nameOf(verdictAt(*judged, kIec_pct));
+    out["calibration"] = *own ? Json((*own)->keep(out)) : Json();
+    return out;
+}
+
+}  // namespace tacto::host::analysis

@@ -1,0 +1,62 @@
+// Whether a stored calibration still holds: its line against levels that were read again.
+#include "app/scripting/host/analysis/AnalysisObject.h"
+#include "app/scripting/host/report/CalibrationTables.h"
+#include "app/scripting/host/report/Cells.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/analysis/statistics/Verdict.h"
+#include "core/base/QuantityText.h"
+
+namespace tacto::host::analysis {
+
+using report::numberIn;
+using report::textIn;
+
+namespace {
+
+std::string notHeld(const Json& row) {
+    const auto unit = textIn(row, "unit");
+    return fmt::format("{}: at {} the stored calibration expects {}, and {} was measured; ± {} is allowed",
+                       report::titleOfQuantity(textIn(row, "quantity")), scaledText(numberIn(row, "commanded"), unit),
+                       scaledText(numberIn(row, "expected"), unit),
+                       measuredText(numberIn(row, "measured"), numberIn(row, "expanded_uncertainty"), unit),
+                       scaledText(numberIn(row, "allowed"), unit));
+}
+
+}  // namespace
+
+/// Guard-banded, as at its making: within the tolerance, this run's uncertainty included.
+Result<Json> calibrationCheck(ScriptSession&, const Arguments& arguments) {
+    const Json &found = arguments.object("found"), &line = arguments.object("line");
+    const auto quantity = textIn(found, "quantity");
+    const bool isShort = quantity == "width" || quantity == "gap";
+    const double scale = isShort ? 1e6 : 1;  // as people read them
+    Json rows = Json::array(), reasons = Json::array();
+    const Json& levels = report::listIn(found, "levels");
+    Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
+    if (levels.empty()) reasons.push_back("No level was read: nothing was checked.");
+    for (const auto& level : levels) {
+        const double commanded = numberIn(level, "commanded"), mean = numberIn(level, "mean");
+        const double expected = numberIn(line, "gain") * commanded + numberIn(line, "offset");
+        const double off = mean - expected, u = numberIn(level, "expanded_uncertainty");
+        const double allowed = arguments.number("tolerance") / 100 * commanded;
+        // A current source is programmed to A / |Z|: that it comes back to the same levels is not sure. The line knows
+        // its own range.
+        const bool known =
+            commanded >= 0.98 * numberIn(line, "lowest") && commanded <= 1.02 * numberIn(line, "highest");
+        const Verdict judged = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
+        verdict = worseOf(verdict, judged);
+        rows.push_back({{"quantity", quantity},
+                        {"commanded", numberOrNull(commanded * scale)},
+                        {"expected", numberOrNull(expected * scale)},
+                        {"measured", numberOrNull(mean * scale)},
+                        {"off", numberOrNull(off * scale)},
+                        {"expanded_uncertainty", numberOrNull(u * scale)},
+                        {"allowed", numberOrNull(allowed * scale)},
+                        {"unit", isShort ? "us" : textIn(found, "unit")},
+                        {"verdict", nameOf(judged)}});
+        if (judged != Verdict::Pass) reasons.push_back(notHeld(rows.back()));
+    }
+    return Json{{"rows", std::move(rows)}, {"verdict", nameOf(verdict)}, {"reasons", std::move(reasons)}};
+}
+
+}  // namespace tacto::host::analysis

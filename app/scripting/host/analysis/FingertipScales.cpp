@@ -1,0 +1,143 @@
+// Weights on a fingertip become the scales of its force and its taxels.
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/analysis/AnalysisObject.h"
+#include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto::host::analysis {
+
+namespace {
+
+/// What the references are known to; nothing: not known, and neither is the uncertainty of what rests on it.
+struct Tolerances {
+    double weights = 0;
+    std::optional<double> gravity, area;
+    [[nodiscard]] std::optional<double> ofForce() const {
+        return gravity ? std::optional(std::hypot(weights, *gravity)) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<double> ofPressure() const {
+        const auto force = ofForce();
+        return force && area ? std::optional(std::hypot(*force, *area)) : std::nullopt;
+    }
+};
+
+/// One weight on the fingertip: a reading of bench.measureWeight() and the way it was reached.
+struct Weighed {
+    const Json* reading;
+    SweepDirection direction;
+};
+
+Json evaluate(std::span<const CalibrationReading> readings, std::optional<double> tolerance, std::string_view name) {
+    const auto found = fitSensorScale(readings, tolerance, name);
+    if (!found) return {{"scale", nullptr}, {"reason", found.error().message}};
+    return toJson(*found);
+}
+
+Json forceScale(const std::vector<Weighed>& weighed, const Tolerances& known) {
+    const auto none = [](const char* reason) { return Json{{"scale", nullptr}, {"reason", reason}}; };
+    if (weighed.empty()) return none("no weights were given; force was not evaluated");
+    if (!weighed.front().reading->contains("force_unit"))
+        return none("this fingertip has no force sensor; force was not evaluated");
+    std::vector<CalibrationReading> readings;
+    for (const auto& one : weighed) {
+        if (!one.reading->at("force").is_number()) {
+            auto missing = none("a weight's force was not read; force was not evaluated");
+            missing["asked"] = true;
+            return missing;
+        }
+        readings.push_back({one.reading->at("reference_n"), one.reading->at("force"), one.direction});
+    }
+    auto out = evaluate(readings, known.ofForce(), "force");
+    out["unit"] = weighed.front().reading->at("force_unit");
+    return out;
+}
+
+Json taxelScale(const std::vector<Weighed>& weighed, std::size_t taxel, double area_cm2, const Tolerances& known) {
+    const auto name = fmt::format("taxel {}", taxel + 1);
+    Json found = {{"scale", nullptr}, {"reason", "the contact area is not known; no pressure to compare with"}};
+    if (area_cm2 > 0) {
+        std::vector<CalibrationReading> readings;
+        for (const auto& one : weighed) {
+            const auto& read = one.reading->at("taxels").at(taxel);
+            constexpr double kSquareMetres = 1e-4;  // per cm²
+            readings.push_back({one.reading->at("reference_n").get<double>() / (area_cm2 * kSquareMetres),
+                                read.is_number() ? read.get<double>() : std::nan(""), one.direction});
+        }
+        found = evaluate(readings, known.ofPressure(), name);
+    }
+    const auto of = [&found](const char* key) { return found.value(key, Json()); };
+    return {{"taxel", taxel + 1},
+            {"unit", weighed.front().reading->at("taxel_unit")},
+            {"scale", of("scale")},
+            {"scale_expanded_uncertainty", of("scale_expanded_uncertainty")},
+            {"offset_pa", of("offset")},
+            {"offset_expanded_uncertainty_pa", of("offset_expanded_uncertainty")},
+            {"residual_max_pct_fs", of("residual_max_pct_fs")},
+            {"reason", of("reason")}};
+}
+
+bool isReading(const Json& one) {
+    return one.is_object() && one.value("reference_n", Json()).is_number() && one.contains("force") &&
+           one.value("taxels", Json()).is_array();
+}
+
+}  // namespace
+
+Result<Json> sensorScale(ScriptSession&, const Arguments& arguments) {
+    const Json& rows = arguments.list("readings");
+    const auto name = arguments.text("options.name");
+    const auto tolerance = arguments.number("options.tolerance_pct");
+    std::vector<CalibrationReading> readings;
+    for (const auto& row : rows) {
+        if (!row.is_object() || !row.value("commanded", Json()).is_number()) {
+            return arguments.wrong("a reading", row, "an object with commanded (the reference) and measured");
+        }
+        CalibrationReading reading;
+        reading.commanded = row["commanded"].get<double>();
+        const Json measured = row.value("measured", Json());
+        if (measured.is_number()) reading.measured = measured.get<double>();
+        const Json direction = row.value("direction", Json(""));
+        if (direction == "up") reading.direction = SweepDirection::Up;
+        if (direction == "down") reading.direction = SweepDirection::Down;
+        readings.push_back(reading);
+    }
+    auto found = fitSensorScale(readings, tolerance / 100, name);
+    if (!found) return failure(found);
+    return toJson(*found);
+}
+
+Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments) {
+    const Json& rows = arguments.list("weighed");
+    const auto known_pct = [&arguments](std::string_view name) -> std::optional<double> {
+        const double percent = arguments.number(name);
+        return percent > 0 ? std::optional(percent / 100) : std::nullopt;
+    };
+    const double area_cm2 = arguments.number("options.contact_area_cm2");
+    const Tolerances known{arguments.number("options.tolerance_pct") / 100, known_pct("options.gravity_tolerance_pct"),
+                           known_pct("options.contact_area_tolerance_pct")};
+
+    bool own = true;
+    std::vector<Weighed> weighed;
+    for (const auto& row : rows) {
+        if (!row.is_object() || !row.contains("reading") || !isReading(row["reading"]))
+            return arguments.wrong("a weighed row", row, "{ reading: from bench.measureWeight(), direction }");
+        const auto& reading = row["reading"];
+        const Json direction = row.value("direction", Json(""));
+        weighed.push_back({&reading, direction == "up"     ? SweepDirection::Up
+                                     : direction == "down" ? SweepDirection::Down
+                                                           : SweepDirection::None});
+        own = own && session.own().noted(reading);
+        if (reading["taxels"].size() != weighed.front().reading->at("taxels").size() ||
+            (!reading["taxels"].empty() && !reading.contains("taxel_unit")))
+            return arguments.wrong("a weighed row", reading, "readings of one fingertip");
+    }
+    Json out = {{"force", forceScale(weighed, known)}, {"taxels", Json::array()}};
+    const auto taxels = weighed.empty() ? 0 : weighed.front().reading->at("taxels").size();
+    for (std::size_t k = 0; k < taxels; ++k) out["taxels"].push_back(taxelScale(weighed, k, area_cm2, known));
+    if (own && !weighed.empty()) session.own().note(out);
+    return out;
+}
+
+}  // namespace tacto::host::analysis

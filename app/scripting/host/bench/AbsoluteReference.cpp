@@ -1,0 +1,141 @@
+// An absolute reference beside the known load: a gain error that voltage and current share cancels in V/I, and shows
+// only on a voltage of known size (science.md section 12).
+#include <cmath>
+#include <fmt/format.h>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/BenchObject.h"
+#include "core/analysis/load_safety/LoadReading.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/analysis/statistics/Verdict.h"
+#include "core/measure/CaptureFile.h"
+#include "core/measure/InstrumentStatement.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::bench {
+
+namespace {
+
+/// A level of the voltage channel: mean and noise, and the capture that shows it.
+struct Level {
+    double mean = kNaN, noise = kNaN;
+    std::size_t samples = 0;
+    Capture capture;
+};
+
+/// Puts `volts` of the reference source (0: its leads shorted) on the voltage input: by itself on a simulated bench,
+/// else by the operator's hands.
+Result<void> apply(ScriptSession& session, double volts) {
+    if (auto& source = session.bench().devices().reference) return source->applyVoltage(volts);
+    session.forgetConfirmed();
+    OperatorQuestion question;
+    question.name = volts > 0 ? "reference-source" : "reference-zero";
+    question.text = volts > 0 ? fmt::format(
+                                    "Connect the reference source at {:g} V to the oscilloscope's voltage input "
+                                    "in place of the load, then confirm",
+                                    volts)
+                              : "Short the oscilloscope's voltage input in place of the reference source, then confirm";
+    auto answer = session.ask(question);
+    if (!answer) return failure(answer);
+    return {};
+}
+
+/// Errors: Unsupported where the oscilloscope takes no record without a trigger; Timeout.
+Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
+    if (auto applied = apply(session, volts); !applied) return failure(applied);
+    Bench& bench = session.bench();
+    ScopeSettings settings;
+    settings.sampleRate = std::min(Hertz(1e5), bench.devices().oscilloscope->traits().maxRate);
+    settings.samples = 5000;
+    settings.voltageRange = Volts(range_V);
+    settings.triggerLevel = 0.98 * range_V;  // nothing reaches it
+    if (auto asked = bench.requestCaptures(1, settings, Seconds(0.2)); !asked) return failure(asked);
+    constexpr double kTimeout_s = 10, kLook_s = 0.05;
+    for (double waited = 0; waited < kTimeout_s; waited += kLook_s) {
+        if (auto passed = bench.wait(Seconds(kLook_s)); !passed) return failure(passed);
+        auto captures = bench.takeCaptures();
+        if (!captures) return failure(captures);
+        if (captures->empty()) continue;
+        bench.cancelCaptures();
+        Level level;
+        level.capture = std::move(captures->front());
+        const auto voltage = findChannel(level.capture, "voltage");
+        if (!voltage) return failure(voltage);
+        std::vector<double> samples(level.capture.channels[*voltage].samples.begin(),
+                                    level.capture.channels[*voltage].samples.end());
+        const auto statistics = statisticsOf(samples);
+        level.mean = statistics.mean;
+        level.noise = statistics.sd;
+        level.samples = statistics.n;
+        return level;
+    }
+    bench.cancelCaptures();
+    return fail(ErrorCode::Timeout, "bench.readReference: the oscilloscope gave no record in {} s", kTimeout_s);
+}
+
+/// The difference of both levels; an offset cancels in it.
+Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
+    const auto voltage = findChannel(high.capture, "voltage");
+    const auto& channel = high.capture.channels[*voltage];
+    const double value = high.mean - zero.mean;
+    const double step = channel.lsb > 0 ? channel.lsb : kNaN;
+    const double noise = std::hypot(high.noise, zero.noise) / std::sqrt(static_cast<double>(high.samples));
+    std::vector<Contribution> rows{
+        {"gain of voltage", Distribution::Rectangular, channel.gainTolerance, std::sqrt(3.0), value},
+        {"probe of voltage", Distribution::Rectangular, channel.probeTolerance, std::sqrt(3.0), value},
+        {"linearity of voltage", Distribution::Rectangular, channel.linearityTolerance, std::sqrt(3.0)},
+        {"resolution of voltage", Distribution::Rectangular, step, std::sqrt(6.0)},
+        {"noise of voltage", Distribution::Normal, noise},
+        {"reference source", Distribution::Normal, source_pct / 100 * value, 2}};
+    return readingOf(value, std::move(rows), {});
+}
+
+}  // namespace
+
+/// One rule everywhere: |reading - reference| + U ≤ tolerance.
+Result<Json> readReference(ScriptSession& session, const Arguments& arguments) {
+    const auto volts = arguments.number("volts");
+    const auto source_pct = arguments.number("uncertainty");
+    const auto tolerance_pct = arguments.number("tolerance");
+    Bench& bench = session.bench();
+    bench.disarm();
+    const double range_V = 1.25 * volts;
+    auto high = levelAt(session, volts, range_V);
+    if (!high) return failure(high);
+    auto zero = levelAt(session, 0, range_V);
+    if (!zero) return failure(zero);
+    const Reading reading = differenceOf(*high, *zero, source_pct);
+    const double scale = 100 / volts;
+    const double off_pct = scale * (reading.value - volts);
+    const Verdict verdict = guardBanded(off_pct, scale * reading.expanded, tolerance_pct);
+    const auto lacking = notStatedText(high->capture);
+    std::string text = fmt::format("{:.4g} V of a reference source read as {:.4g} V", volts, reading.value);
+    if (std::isfinite(reading.expanded)) text += fmt::format(" ± {:.2g} V", reading.expanded);
+    text +=
+        fmt::format("; ± {:.3g} % are allowed: {}", tolerance_pct,
+                    std::isnan(reading.expanded) ? "not evaluated, since " + lacking : std::string(nameOf(verdict)));
+    Json out = {{"reference_v", volts},
+                {"reference_u_pct", source_pct},
+                {"measured_v", numberOrNull(reading.value)},
+                {"expanded_v", numberOrNull(reading.expanded)},
+                {"deviation_pct", numberOrNull(off_pct)},
+                {"expanded_uncertainty_pct", numberOrNull(scale * reading.expanded)},
+                {"allowed_pct", tolerance_pct},
+                {"verdict", std::isnan(reading.expanded) ? "not evaluated" : nameOf(verdict)},
+                {"passed", verdict == Verdict::Pass},
+                {"text", text}};
+    session.scopeSeen().setAbsolute(text);
+    std::vector<Capture> shown;
+    shown.push_back(std::move(high->capture));
+    shown.push_back(std::move(zero->capture));
+    Json handles = session.hold(std::move(shown));
+    if (session.writer() != nullptr) {
+        if (auto kept = session.writer()->measurement(session.now(), "absolute reference", out); !kept) {
+            return failure(kept);
+        }
+    }
+    out["captures"] = std::move(handles);
+    return out;
+}
+
+}  // namespace tacto::host::bench

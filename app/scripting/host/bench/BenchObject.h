@@ -1,0 +1,26 @@
+// BenchObject.h - the functions of the object "bench"; BenchTable.cpp says what each takes and returns.
+//
+// Thread-safety: calls come from the script's thread.
+#pragma once
+
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/engine/HostFunction.h"
+
+namespace tacto::host::bench {
+
+using Json = nlohmann::json;
+
+HostCall arm, disarm, wait, drive, fitLoad;  // Output.cpp
+HostCall capture;                            // Captures.cpp
+HostCall loads, predict, attempt;            // Prediction.cpp
+HostCall setEncoding, setElectrodeArea, electrodeArea, storedCalibration, useCalibration,
+    useFingertipScales;                                                  // RunSettings.cpp
+HostCall conditions, live, exposure, finished, replayed, time, devices;  // State.cpp
+HostCall present, lift, measureReference, setReferences;                 // Surfaces.cpp
+HostCall streams, measureRest, measureSlide, measureWeight;              // Fingertip.cpp
+HostCall profilometer, surfaces, weights;                                // GivenSurfaces.cpp
+HostCall readReference;                                                  // AbsoluteReference.cpp
+HostCall step, traverse;                                                 // Steps.cpp
+HostCall inChecking, whileDelivering, bySilence;                         // Trips.cpp
+
+}  // namespace tacto::host::bench

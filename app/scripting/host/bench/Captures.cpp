@@ -1,0 +1,72 @@
+// Oscilloscope records of the trains that come next.
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/BenchObject.h"
+
+namespace tacto::host::bench {
+
+namespace {
+
+ScopeSettings scopeSettings(Bench& bench, const Arguments& arguments) {
+    const EncodingProfile& encoding = bench.profile().encoding;
+    const PulseTrain& train = encoding.train;
+    const Telemetry now = bench.telemetry();
+    const double expected_v = std::isfinite(now.amplitude_v) ? now.amplitude_v : encoding.amplitudeMax.value();
+    const double load_ohm = std::isfinite(now.impedance_ohm) && now.impedance_ohm > 0 ? now.impedance_ohm : 1000;
+    const double fastest_hz = bench.devices().oscilloscope->traits().maxRate.value();
+    const double rate_hz = arguments.number("options.rate_hz", std::min(1e6, fastest_hz));
+    // The whole train, with a tenth before it and a tail to see the charge run off.
+    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
+    const double wanted = std::max(1.0, std::ceil((1.4 * train_s + 3e-4) * rate_hz));
+
+    ScopeSettings settings;
+    settings.sampleRate = Hertz(rate_hz);
+    settings.samples = arguments.has("options.samples") ? static_cast<std::size_t>(arguments.whole("options.samples"))
+                                                        : static_cast<std::size_t>(wanted);
+    settings.preTrigger = 0.15;
+    settings.triggerLevel = arguments.number("options.trigger_v", std::max(0.05, 0.2 * expected_v));
+    settings.voltageRange = Volts(arguments.number("options.voltage_range_v", std::max(1.0, 1.3 * expected_v)));
+    settings.currentRange =
+        Milliamps(arguments.number("options.current_range_ma", std::max(1.0, 2e3 * expected_v / load_ohm)));
+    return settings;
+}
+
+constexpr int kTrainsInOne = 8;  // of a record that holds several
+
+/// One record that holds `trains` trains at the interval of now: from one record to another their distance is known
+/// only as well as the records' time stamps are (science.md section 12).
+Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
+    constexpr double kBefore = 0.05, kSpare = 0.1;  // of the record; of an interval
+    constexpr double kMaxSamples = 5e5, kLeastRate_hz = 1e5;
+    const double interval_s = bench.telemetry().interval_s;
+    if (!(interval_s > 0) || !std::isfinite(interval_s))
+        return fail(ErrorCode::InvalidArgument, "bench.capture: intervals are wanted and nothing is driven");
+    const double seconds = (trains - 1 + kSpare) * interval_s / (1 - kBefore);
+    const double rate_hz = std::min(settings.sampleRate.value(), std::max(kLeastRate_hz, kMaxSamples / seconds));
+    settings.sampleRate = Hertz(rate_hz);
+    settings.samples = static_cast<std::size_t>(std::ceil(rate_hz * seconds));
+    settings.preTrigger = kBefore;
+    return bench.capture(1, settings);
+}
+
+}  // namespace
+
+Result<Json> capture(ScriptSession& session, const Arguments& arguments) {
+    const auto intervals = arguments.flag("options.intervals");
+    const int trains = arguments.whole("options.trains", intervals ? 2 : 1);
+    if (intervals && (trains < 2 || trains > kTrainsInOne))
+        return arguments.wrong("trains", trains, fmt::format("a whole number from 2 to {}", kTrainsInOne));
+    const ScopeSettings settings = scopeSettings(session.bench(), arguments);
+    if (!intervals || session.scopeSeen().stampsStated()) {
+        auto captures = session.bench().capture(trains, settings);
+        if (!captures) return failure(captures);
+        if (!intervals || std::isfinite(captures->front().stampTolerance_s)) return session.hold(std::move(*captures));
+    }
+    auto captures = captureInOne(session.bench(), trains, settings);
+    if (!captures) return failure(captures);
+    return session.hold(std::move(*captures));
+}
+
+}  // namespace tacto::host::bench

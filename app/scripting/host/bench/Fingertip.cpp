@@ -1,0 +1,190 @@
+// Reading a fingertip: its rest, slides over surfaces and weights on it.
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/BenchObject.h"
+#include "app/scripting/host/bench/Surfaces.h"
+#include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto::host::bench {
+
+namespace {
+
+/// Takes the bench's samples as long as it lives.
+class Listening {
+public:
+    explicit Listening(Bench& bench) : bench_(bench), tap_(std::make_unique<BenchTap>()) { bench_.listen(tap_.get()); }
+    /// The finger drives nothing afterwards that it was not asked to.
+    ~Listening() {
+        bench_.listen(nullptr);
+        static_cast<void>(bench_.drive(DriveSource::Off));
+    }
+    Listening(const Listening&) = delete;
+    Listening& operator=(const Listening&) = delete;
+
+    void takeInto(SensorSamples& samples) {
+        while (const auto sample = tap_->samples.pop()) {
+            auto& block = samples.blocks[sample->stream];
+            block.t_s.push_back(sample->t_s);
+            for (std::uint32_t c = 0; c < sample->channels; ++c) {
+                block.values.push_back(static_cast<double>(sample->values[c]));
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint64_t dropped() const noexcept { return tap_->samples.dropped(); }
+
+private:
+    Bench& bench_;
+    std::unique_ptr<BenchTap> tap_;
+};
+
+/// Lets `duration_s` pass and returns what the fingertip said meanwhile.
+Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
+    constexpr double kStep_s = 0.1;  // a tap holds over half a second of a 20 kHz finger
+    Bench& bench = session.bench();
+    SensorSamples samples;
+    for (auto info : bench.devices().sensor->streams()) {
+        info.channels = std::min(info.channels, TapSample::kMaxChannels);
+        samples.streams.push_back(info);
+    }
+    samples.blocks.resize(samples.streams.size());
+    samples.serial = bench.devices().sensor->identity().serial;
+    if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
+    Listening listening(bench);
+    const double end = toSeconds(session.now()) + duration_s;
+    while (toSeconds(session.now()) < end) {
+        const double left = std::max(0.005, end - toSeconds(session.now()));
+        if (auto waited = bench.wait(Seconds(std::min(kStep_s, left))); !waited) return failure(waited);
+        listening.takeInto(samples);
+    }
+    if (listening.dropped() > 0) {
+        return fail(ErrorCode::Device,
+                    "{} samples of the fingertip were lost here: this computer was too busy; none may be",
+                    listening.dropped());
+    }
+    for (std::size_t s = 0; s < samples.streams.size(); ++s) {
+        const auto& info = samples.streams[s];
+        const double wanted = info.rate_hz * duration_s;
+        const auto came = static_cast<double>(samples.blocks[s].samples());
+        if (came < wanted / 2) {
+            return fail(ErrorCode::Device, "{} gave {} samples in {} s; about {:.0f} are expected", info.name, came,
+                        duration_s, wanted);
+        }
+    }
+    return samples;
+}
+
+/// The mean force as the profile in force turns it into N, and in which unit that is; null without a force sensor.
+Result<Json> forceInUse(ScriptSession& session, const SensorSamples& samples) {
+    auto chain = RoughnessChain::create(samples.streams, session.bench().profile().roughness, {}, samples.serial);
+    if (!chain) return failure(chain);
+    for (std::size_t s = 0; s < samples.streams.size(); ++s) {
+        if (samples.streams[s].kind != StreamKind::Force) continue;
+        const double mean = levelOf(samples, StreamKind::Force).mean;
+        return Json{{"mean", numberOrNull((*chain)->inUse(s, 0, mean))},
+                    {"unit", symbolOf((*chain)->streams()[s].unit)}};
+    }
+    return Json();
+}
+
+}  // namespace
+
+Result<Json> streams(ScriptSession& session, const Arguments&) {
+    Json out = Json::array();
+    for (const auto& info : session.bench().devices().sensor->streams()) {
+        out.push_back({{"kind", nameOf(info.kind)},
+                       {"unit", symbolOf(info.unit)},
+                       {"channels", info.channels},
+                       {"rate_hz", info.rate_hz}});
+    }
+    return out;
+}
+
+Result<Json> measureRest(ScriptSession& session, const Arguments& arguments) {
+    const auto duration = arguments.number("options.duration_s");
+    Bench& bench = session.bench();
+    bench.disarm();
+    if (auto& surface = bench.devices().surface) {
+        if (auto up = surface->present("", MillimetresPerSecond(0), Newtons(0)); !up) return failure(up);
+    } else {
+        OperatorQuestion question;
+        question.name = "rest";
+        question.text = "Lift the fingertip; nothing touches it";
+        if (auto answer = session.ask(question); !answer) return failure(answer);
+    }
+    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger leaves what it was on
+    auto samples = listenFor(session, duration);
+    if (!samples) return failure(samples);
+    auto rest = readRest(*samples, bench.profile().roughness);
+    if (!rest) return failure(rest);
+    Json out = toJson(*rest);
+    out["duration_s"] = duration;
+    out["force"] = toJson(levelOf(*samples, StreamKind::Force));
+    auto used = forceInUse(session, *samples);
+    if (!used) return failure(used);
+    out["force_in_use"] = std::move(*used);
+    session.own().note(out);
+    return out;
+}
+
+Result<Json> measureSlide(ScriptSession& session, const Arguments& arguments) {
+    const auto material = arguments.text("material");
+    const Json& rest = arguments.object("rest");
+    auto levels = sensorRestFrom(rest);
+    if (!levels) return failure(levels);
+    const auto duration = arguments.number("options.duration_s");
+    Bench& bench = session.bench();
+    bench.disarm();
+    if (auto slid = slide(session, slidingOver(material, arguments)); !slid) return failure(slid);
+    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger lands and speeds up
+    auto samples = listenFor(session, duration);
+    if (!samples) return failure(samples);
+    auto reading = readSlide(*samples, bench.profile().roughness, *levels);
+    if (!reading) return fail(reading.error().code, "{}: {}", material, reading.error().message);
+    Json out = toJson(*reading);
+    out["material"] = material;
+    if (session.own().noted(rest)) session.own().note(out);
+    return out;
+}
+
+Result<Json> measureWeight(ScriptSession& session, const Arguments& arguments) {
+    const auto mass = arguments.number("mass_g");
+    const auto gravity = arguments.number("options.gravity_m_s2");
+    const auto duration = arguments.number("options.duration_s");
+    const double force = mass / 1000 * gravity;
+    Bench& bench = session.bench();
+    bench.disarm();
+    if (auto& surface = bench.devices().surface) {
+        auto pressed = surface->present("glass", MillimetresPerSecond(0), Newtons(force));
+        if (!pressed) return failure(pressed);
+    } else {
+        OperatorQuestion question;
+        question.name = fmt::format("weight-{}g", mass);
+        question.text =
+            fmt::format("Rest the weight of {} g ({:.4g} N) on the fingertip and wait until it is still", mass, force);
+        if (auto answer = session.ask(question); !answer) return failure(answer);
+    }
+    if (auto waited = bench.wait(Seconds(1.5)); !waited) return failure(waited);
+    auto samples = listenFor(session, duration);
+    if (!samples) return failure(samples);
+    Json out = {{"mass_g", mass}, {"reference_n", force}, {"force", nullptr}, {"taxels", Json::array()}};
+    auto used = forceInUse(session, *samples);
+    if (!used) return failure(used);
+    out["force_in_use"] = std::move(*used);
+    if (const auto* info = streamOf(*samples, StreamKind::Force)) {
+        out["force"] = numberOrNull(levelOf(*samples, StreamKind::Force).mean);
+        out["force_unit"] = symbolOf(info->unit);
+    }
+    if (const auto* info = streamOf(*samples, StreamKind::Taxels)) {
+        out["taxel_unit"] = symbolOf(info->unit);
+        for (std::size_t c = 0; c < info->channels; ++c) {
+            out["taxels"].push_back(numberOrNull(levelOf(*samples, StreamKind::Taxels, c).mean));
+        }
+    }
+    session.own().note(out);
+    return out;
+}
+
+}  // namespace tacto::host::bench

@@ -1,0 +1,169 @@
+// What a command would do to a load before it is given, and asking for commands that must be refused.
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/bench/BenchObject.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
+#include "core/bench/TrainPlanner.h"
+#include "core/encoding/Encoder.h"
+#include "core/safety/TrainExposure.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::bench {
+
+namespace {
+
+constexpr double kRecordMargin_s = 3e-4;
+
+constexpr double kPreTrigger = 0.15;  // as bench.capture() sets it
+constexpr double kHeadroom = 1.5;     // of the range over the expected peak: an output that is too large still shows
+constexpr double kTimeConstants = 8;  // of tail: what is left is 0.03 %
+constexpr double kLongestTail_s = 0.02;
+
+/// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
+std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
+    for (const auto& row : exposureTable(setup, train, interval)) {
+        if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
+        return fmt::format("{} {} at {}, {} at worst within 20 % of it; {} {} are allowed ({})", titleOf(row.quantity),
+                           scaledText(nominal.at(row.quantity), row.unit, 3), setup.load.nominal.text(),
+                           scaledText(row.value, row.unit, 3), row.strict ? "less than" : "at most",
+                           exactText(row.limit, row.unit), row.set.view());
+    }
+    return {};
+}
+
+/// What forbids arming on this load: every arming gives an impedance check first.
+std::string forbidsCheck(const GateSetup& setup) {
+    const PulseTrain check = checkTrainOf(setup);
+    const auto why = forbids(setup, check, std::max(kCheckInterval, check.duration()));
+    if (why.empty()) return {};
+    return fmt::format("impedance check of {:.3g} {}: {}",
+                       siValue(check.amplitude) * (isCurrent(check.amplitude) ? 1e3 : 1),
+                       isCurrent(check.amplitude) ? "mA" : "V", why);
+}
+
+/// Settings that show the whole train with its tail, and twice the peak that is expected.
+Json captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load, bool opens) {
+    const auto* scope = bench.devices().oscilloscope.get();
+    double tail_s = 0;
+    if (load.kind == LoadKind::SkinEquivalent) {
+        const double ohm = opens ? load.parallel.value() : 1 / (1 / load.parallel.value() + 1 / load.series.value());
+        tail_s = std::min(kLongestTail_s, kTimeConstants * ohm * load.capacitance.value() * 1e-9);
+    }
+    const double train_s = (train.pulses - 1) / train.rate.value() + train.pulseDuration().count();
+    const double record_s = (train_s + tail_s + kRecordMargin_s) / (1 - kPreTrigger);
+    double rate = 10e6;
+    double depth = 1e6;
+    if (scope != nullptr) {
+        rate = std::min(rate, scope->traits().maxRate.value());
+        if (scope->traits().memoryDepth > 0) depth = static_cast<double>(scope->traits().memoryDepth);
+    }
+    if (record_s * rate > depth) rate = depth / record_s;
+    const double volts = kHeadroom * most.at(Quantity::PeakVoltage);
+    return {{"rate_hz", rate},
+            {"samples", std::floor(record_s * rate)},
+            {"voltage_range_v", volts},
+            {"current_range_ma", kHeadroom * most.at(Quantity::PeakCurrent)},
+            {"trigger_v", 0.2 * volts / kHeadroom}};
+}
+
+}  // namespace
+
+Result<Json> loads(ScriptSession&, const Arguments&) {
+    Json out = Json::array();
+    for (const auto& named : benchLoads()) {
+        const char* kind = named.load.kind == LoadKind::Resistor         ? "resistor"
+                           : named.load.kind == LoadKind::SkinEquivalent ? "skin"
+                           : named.load.kind == LoadKind::Open           ? "open"
+                                                                         : "short";
+        out.push_back({{"name", named.name}, {"kind", kind}});
+    }
+    return out;
+}
+
+Result<Json> predict(ScriptSession& session, const Arguments& arguments) {
+    const auto name = arguments.text("load");
+    const auto strength = arguments.number("strength");
+    Bench& bench = session.bench();
+    const auto load = parseLoad(name);
+    if (!load) return failure(load);
+    if (load->kind == LoadKind::Open || load->kind == LoadKind::Short) {
+        return arguments.wrong("load", name, "a resistor or a skin equivalent");
+    }
+    const auto& encoding = bench.profile().encoding;
+    const auto& source = bench.devices().stimulator->traits();
+    // The interval at its shortest, the amplitude as asked, whichever of R and P makes which.
+    const bool texture = encoding.assignment == Assignment::TextureToAmplitude;
+    const double R = texture ? strength : 1, P = texture ? 1 : strength;
+    const auto command = Encoder(encoding).encode(R, P);
+    if (!command) return failure(command);
+
+    PulseTrain unit = encoding.train;
+    if (source.drive == Drive::Current)
+        unit.amplitude = Milliamps(1);
+    else
+        unit.amplitude = Volts(1);
+    const Ohms ohms = effectiveImpedance(*load, segmentsOf(unit, source.gap).items[0]);
+    const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
+    if (!wanted) return failure(wanted);
+    Json out = {{"load", name},
+                {"roughness", R},
+                {"pressure", P},
+                {"command_v", command->amplitude.value()},
+                {"interval_s", command->interval.count()},
+                {"nominal_ohm", numberOrNull(ohms.value())},
+                {"forbidden", false},
+                {"predicted", ""},
+                {"not_applicable", nullptr}};
+    const GateSetup setup = bench.setupFor(*load);
+    out["check_forbidden"] = forbidsCheck(setup);
+    const auto rounded = roundToDevice(*wanted, gridOf(source));
+    if (!rounded) {
+        out["not_applicable"] = fmt::format("{} cannot be driven with {:.4g} V: {}", name, command->amplitude.value(),
+                                            rounded.error().message);
+        return out;
+    }
+    const auto& train = rounded->train;
+    const auto why = forbids(setup, train, command->interval);
+    out["forbidden"] = !why.empty();
+    out["predicted"] = why;
+    const double area = setup.electrodeArea ? setup.electrodeArea->value() : std::nan("");
+    const auto most = exposureOf(train, command->interval, *load, source, area);
+    out["amplitude"] = siValue(train.amplitude) * (isCurrent(train.amplitude) ? 1e3 : 1);
+    out["rms_5s_ma"] = numberOrNull(most.at(Quantity::RmsCurrent5s));
+    out["peak_ma"] = numberOrNull(most.at(Quantity::PeakCurrent));
+    // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
+    constexpr double kOverTheEnd = 5e3;  // mA per A
+    const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
+    out["fine_range_ma"] = spikes ? numberOrNull(kOverTheEnd * command->amplitude.value() / ohms.value()) : Json();
+    out["capture"] = captureFor(bench, train, most, *load, source.gap == GapState::HighImpedance);
+    return out;
+}
+
+/// Gives the command and sees whether the limits let it through; the drive is off again afterwards.
+Result<Json> attempt(ScriptSession& session, const Arguments& arguments) {
+    const auto R = arguments.number("command.roughness");
+    const auto P = arguments.number("command.pressure");
+    Bench& bench = session.bench();
+    const auto before = bench.telemetry().trainsDelivered;
+    if (auto driven = bench.drive(DriveSource::Manual, R, P); !driven) return failure(driven);
+    // Two intervals: the first train may be one interval away, its status a little more.
+    const Seconds longest = 2 * Seconds(bench.profile().encoding.intervalMax);
+    Result<void> waited;
+    double passed_s = 0;
+    constexpr double kLook_s = 0.05;
+    while (waited && passed_s < longest.count() && bench.telemetry().trainsDelivered == before) {
+        waited = bench.wait(Seconds(kLook_s));
+        passed_s += kLook_s;
+    }
+    if (auto off = bench.drive(DriveSource::Off); !off) return failure(off);
+    if (!waited && waited.error().code != ErrorCode::LimitExceeded) return failure(waited);
+    const bool delivered = bench.telemetry().trainsDelivered != before;
+    return Json{
+        {"refused", !waited && !delivered}, {"delivered", delivered}, {"reason", waited ? "" : waited.error().message}};
+}
+
+}  // namespace tacto::host::bench

@@ -1,0 +1,30 @@
+#include "app/scripting/host/measure/GivenCaptures.h"
+
+#include <cmath>
+
+namespace tacto::host::measure {
+
+Result<GivenCaptures> capturesGiven(ScriptSession& session, const nlohmann::json& handles) {
+    const auto held = session.held(handles);
+    if (!held) return failure(held);
+    GivenCaptures given;
+    for (const auto* capture : *held) given.captures.push_back(*capture);
+    for (const auto& handle : handles) given.ids.push_back(handle.is_object() ? handle["capture"] : handle);
+    return given;
+}
+
+MeasureOptions optionsFor(const PulseTrain& expected) {
+    MeasureOptions options;
+    if (expected.pulses > 1) options.intraTrainRate = expected.rate;
+    return options;
+}
+
+double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::*member) {
+    std::vector<double> readings;
+    for (const auto& train : channel.trains) {
+        if (std::isfinite(train.*member)) readings.push_back(train.*member);
+    }
+    return statisticsOf(readings).mean;
+}
+
+}  // namespace tacto::host::measure

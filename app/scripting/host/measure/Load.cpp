@@ -1,0 +1,57 @@
+// What trains did to a load, from captures.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "app/scripting/host/measure/GivenCaptures.h"
+#include "app/scripting/host/measure/MeasureObject.h"
+#include "core/analysis/load_safety/LoadSafetyJson.h"
+
+namespace tacto::host::measure {
+
+namespace {
+
+/// What the last trains were programmed to, one more than were captured, if all were programmed alike: an instrument
+/// whose time stamps are too coarse to tell trains apart has seen no other. NaN if not.
+double settledAt(const Telemetry& now, std::size_t captures) {
+    auto programmed = now.programmed;
+    std::ranges::sort(programmed, std::ranges::greater(), &ProgrammedTrain::onset);
+    const auto last = std::span(programmed).first(std::min(captures + 1, programmed.size()));
+    const bool same = captures < programmed.size() && std::ranges::all_of(last, [&](const auto& train) {
+                          return train.amplitude == last.front().amplitude;
+                      });
+    return same ? last.front().amplitude : std::nan("");
+}
+
+}  // namespace
+
+Result<Json> measureLoad(ScriptSession& session, const Arguments& arguments) {
+    const auto given = capturesGiven(session, arguments.list("captures"));
+    if (!given) return failure(given);
+    const auto fine = capturesGiven(session, arguments.list("fine"));
+    if (!fine) return failure(fine);
+    const auto rhythm = capturesGiven(session, arguments.list("rhythm"));
+    if (!rhythm) return failure(rhythm);
+    if (arguments.has("rhythm") && rhythm->captures.size() != 1)
+        return arguments.wrong("rhythm", arguments.list("rhythm"), "a list of one capture");
+    const auto& train = session.bench().profile().encoding.train;
+    ExpectedTrain expected{train.pulses, train.rate.value()};
+    if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
+    if (arguments.text("by") == "voltage") expected.drive = Drive::Voltage;
+    // A calibrated stimulator is programmed to something else than what it is to deliver.
+    const auto& calibration = session.bench().calibration();
+    const double settled = settledAt(session.bench().telemetry(), given->captures.size());
+    for (const auto& capture : given->captures) {
+        const double programmed = std::isnan(capture.programmed) ? settled : capture.programmed;
+        expected.programmed.push_back(calibration ? calibration->amplitude.delivered(programmed) : programmed);
+    }
+    expected.budget.seed = session.request().seed;
+    auto reading = readLoad(given->captures, expected, fine->captures,
+                            rhythm->captures.empty() ? nullptr : &rhythm->captures.front());
+    if (!reading) return failure(reading);
+    Json out = toJson(*reading);
+    out["captures"] = given->ids;
+    return out;
+}
+
+}  // namespace tacto::host::measure

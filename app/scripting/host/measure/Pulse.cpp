@@ -1,0 +1,108 @@
+// One reading for a calibration, from captures.
+#include <cmath>
+
+#include "app/scripting/host/measure/GivenCaptures.h"
+#include "app/scripting/host/measure/MeasureObject.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/measure/InstrumentStatement.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto::host::measure {
+
+namespace {
+
+const CaptureChannel* channelOf(const Capture& capture, std::string_view name) {
+    for (const auto& channel : capture.channels) {
+        if (channel.name == name) return &channel;
+    }
+    return nullptr;
+}
+
+/// What the data sheet of the channel that was read states, in the reading's unit (`scale`: mA per A).
+Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
+    const auto positive = [](double value) { return value > 0 ? Json(value) : Json(); };
+    return {{"gain_tolerance", numberOrNull(channel.gainTolerance)},
+            {"probe_tolerance", numberOrNull(channel.probeTolerance)},
+            {"linearity_tolerance", numberOrNull(channel.linearityTolerance * scale)},
+            {"offset_tolerance", numberOrNull(channel.offsetTolerance * scale)},
+            {"resolution", positive(channel.lsb * scale)},
+            {"timebase_tolerance", numberOrNull(capture.timeBaseTolerance)},
+            {"stamp_tolerance_s", numberOrNull(capture.stampTolerance_s)},
+            {"stated_by", channel.statedBy},
+            {"not_stated", notStatedText(capture)},
+            {"sampling_step_s", 1 / capture.rate_hz},
+            {"full_scale", positive(channel.high * scale)}};
+}
+
+/// What was asked of the stimulator when the capture was taken.
+Json commandJson(const CapturedCommand& command) {
+    return {{"amplitude", numberOrNull(command.amplitude)},
+            {"interval_s", numberOrNull(command.interval_s)},
+            {"width_s", numberOrNull(command.width_s)},
+            {"gap_s", numberOrNull(command.gap_s)}};
+}
+
+/// The load as V/I with its U, from what both channels state; null where they do not.
+void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltage, const ChannelMeasurement& current) {
+    const double volts = meanOfTrains(voltage, &TrainMeasurement::amplitude);
+    const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);
+    const auto* i = channelOf(capture, "current");
+    if (i == nullptr || !(volts > 0) || !(amps > 0)) return;
+    const double relative = std::hypot(voltage.uncertainty.amplitude / volts, current.uncertainty.amplitude / amps);
+    out["load_ohm"] = volts / amps;
+    out["load_expanded_ohm"] = numberOrNull(kCoverage * relative * volts / amps);
+    if (i->lsb > 0) out["current_lsb"] = amps / i->lsb;
+}
+
+}  // namespace
+
+Result<Json> pulse(ScriptSession& session, const Arguments& arguments) {
+    auto given = capturesGiven(session, arguments.list("captures"));
+    if (!given) return failure(given);
+    if (given->captures.empty()) return arguments.wrong("captures", arguments.list("captures"), "at least one capture");
+    const auto& captures = given->captures;
+    const auto commands = session.commandsOf(given->ids);
+    if (!commands) return failure(commands);
+    const auto& stimulator = session.bench().devices().stimulator;
+    const auto options = optionsFor(session.bench().profile().encoding.train);
+
+    auto voltage = measureTrains(captures, "voltage", options);
+    if (!voltage) return failure(voltage);
+    const auto current = measureTrains(captures, "current", options);
+    const bool drivesCurrent = stimulator->traits().drive == Drive::Current;
+    if (drivesCurrent && !current) return failure(current);
+    const ChannelMeasurement& read = drivesCurrent ? *current : *voltage;
+    const double scale = drivesCurrent ? 1e3 : 1;
+    const auto* channel = channelOf(captures.front(), read.name);
+
+    Json out = {{"unit", drivesCurrent ? "mA" : "V"},
+                {"amplitude", numberOrNull(scale * meanOfTrains(read, &TrainMeasurement::amplitude))},
+                {"interval_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::interval_s))},
+                {"width_s", numberOrNull(meanOfTrains(read, &TrainMeasurement::width_s))},
+                {"gap_s", numberOrNull(read.gap_s.mean)},
+                {"trains", read.trains.size()},
+                {"warnings", read.warnings},
+                {"commanded", commandJson(commands->back())},
+                {"instrument", instrumentOf(captures.front(), *channel, scale)},
+                {"captures", given->ids}};
+    if (current) {
+        addLoad(out, captures.front(), *voltage, *current);
+    }
+    OwnReading own;
+    for (const auto& id : given->ids) own.captures.push_back(id.get<std::int64_t>());
+    own.commands = *commands;
+    for (const char* key : {"amplitude", "interval_s", "width_s", "gap_s"}) own.read[key] = out[key];
+    own.unit = drivesCurrent ? "mA" : "V";
+    own.gainTolerance = channel->gainTolerance;
+    own.probeTolerance = channel->probeTolerance;
+    own.linearityTolerance = channel->linearityTolerance * scale;
+    if (channel->lsb > 0) own.resolution = channel->lsb * scale;
+    own.timeBaseTolerance = captures.front().timeBaseTolerance;
+    own.stampTolerance_s = captures.size() > 1 ? captures.front().stampTolerance_s : 0;
+    own.statedBy = channel->statedBy;
+    own.samplingStep_s = 1 / captures.front().rate_hz;
+    out["reading"] = session.own().add(std::move(own));
+    return out;
+}
+
+}  // namespace tacto::host::measure

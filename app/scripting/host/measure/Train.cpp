@@ -1,0 +1,61 @@
+// A train as delivered, for trials.
+#include <cmath>
+
+#include "app/scripting/host/measure/CaptureClock.h"
+#include "app/scripting/host/measure/GivenCaptures.h"
+#include "app/scripting/host/measure/MeasureObject.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/measure/PulseMeasurement.h"
+
+namespace tacto::host::measure {
+
+namespace {
+
+/// NaN when one of them is unknown.
+double worstTimeBase(const std::vector<Capture>& captures) {
+    double worst = 0;
+    for (const auto& capture : captures) {
+        const double u = timeBaseUncertainty(capture);
+        if (!(u <= worst)) worst = u;
+        if (std::isnan(worst)) break;
+    }
+    return worst;
+}
+
+/// The time base is handed on by itself: it is the same in all trials.
+double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBase) {
+    const double base = timeBase * channel.interval_s.mean, all = channel.uncertainty.interval_s;
+    const double rest = all * all - base * base;
+    return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
+}
+
+}  // namespace
+
+Result<Json> train(ScriptSession& session, const Arguments& arguments) {
+    auto given = capturesGiven(session, arguments.list("captures"));
+    if (!given) return failure(given);
+    if (given->captures.empty()) return arguments.wrong("captures", arguments.list("captures"), "at least one capture");
+    const auto& captures = given->captures;
+    const auto options = optionsFor(session.bench().profile().encoding.train);
+
+    auto voltage = measureTrains(captures, "voltage", options);
+    if (!voltage) return failure(voltage);
+    Json out = {{"amplitude_v", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::amplitude))},
+                {"amplitude_u_v", numberOrNull(voltage->uncertainty.amplitude)},
+                {"interval_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::interval_s))},
+                {"interval_u_s", numberOrNull(intervalWithoutTimeBase(*voltage, worstTimeBase(captures)))},
+                {"time_base_u", numberOrNull(worstTimeBase(captures))},
+                {"width_s", numberOrNull(meanOfTrains(*voltage, &TrainMeasurement::width_s))},
+                {"trains", voltage->trains.size()},
+                {"pulses", voltage->measuredPulses},
+                {"warnings", voltage->warnings},
+                {"captures", given->ids}};
+    if (auto current = measureTrains(captures, "current", options)) {
+        out["amplitude_ma"] = numberOrNull(1e3 * meanOfTrains(*current, &TrainMeasurement::amplitude));
+        out["charge_uc"] = numberOrNull(1e6 * meanOfTrains(*current, &TrainMeasurement::charge));
+        out["imbalance"] = numberOrNull(meanOfTrains(*current, &TrainMeasurement::imbalance));
+    }
+    return out;
+}
+
+}  // namespace tacto::host::measure

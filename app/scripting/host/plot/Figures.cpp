@@ -1,0 +1,196 @@
+// Figures of what was measured.
+#include <algorithm>
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/plot/CalibrationFigure.h"
+#include "app/scripting/host/plot/PlotObject.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto::host::plot {
+
+namespace {
+
+Result<Json> member(const Arguments& arguments, const Json& found, const char* key) {
+    if (!found.is_object() || !found.value(key, Json()).is_array())
+        return arguments.wrong("found", found, fmt::format("a result with {}", key));
+    return found[key];
+}
+
+Json samplesOf(const CaptureChannel& channel) {
+    Json out = Json::array();
+    for (const float sample : channel.samples) {
+        out.push_back(std::isfinite(sample) ? Json(static_cast<double>(sample)) : Json());
+    }
+    return out;
+}
+
+/// The condition as captured: where its trains begin and how far each reaches, and the samples of the first.
+void addLane(Json& condition, const std::vector<Capture>& captures) {
+    Json trains = Json::array();
+    double first_s = std::nan("");
+    for (const auto& capture : captures) {
+        const auto voltage = std::ranges::find(capture.channels, "V", &CaptureChannel::unit);
+        if (voltage == capture.channels.end() || !std::isfinite(capture.trigger_s)) continue;
+        double low = std::nan(""), high = std::nan("");
+        for (const float sample : voltage->samples) {
+            low = std::fmin(low, sample);
+            high = std::fmax(high, sample);
+        }
+        if (trains.empty()) {
+            first_s = capture.trigger_s;
+            condition["pulse"] = {{"rate_hz", capture.rate_hz},
+                                  {"start_s", capture.start_s - capture.trigger_s},
+                                  {"voltage_v", samplesOf(*voltage)}};
+        }
+        trains.push_back(
+            {{"onset_s", capture.trigger_s - first_s}, {"low_v", numberOrNull(low)}, {"high_v", numberOrNull(high)}});
+    }
+    condition["trains"] = std::move(trains);
+}
+
+Result<Json> figureOf(const Arguments& arguments, const char* view) {
+    const Json& found = arguments.object("found");
+    if (!found.value("levels", Json()).is_array()) {
+        return arguments.wrong("found", found, "what analysis.calibration() returned");
+    }
+    return calibrationFigure(found, view);
+}
+
+}  // namespace
+
+Result<Json> conditionsFigure(ScriptSession& session, const Arguments& arguments) {
+    auto found = member(arguments, arguments.object("found"), "conditions");
+    if (!found) return found;
+    if (!arguments.has("captures")) return Json{{"type", "conditions"}, {"conditions", *found}};
+    const Json& lanes = arguments.object("captures");
+    char letter = 'A';
+    for (auto& condition : *found) {
+        const std::string name = condition.value("name", "");
+        condition["letter"] = std::string(1, letter);
+        if (letter < 'Z') ++letter;
+        const Json handles = lanes.value(name, Json::array());
+        if (!handles.is_array()) return arguments.wrong("captures", handles, "from bench.capture()");
+        const auto held = session.held(handles);
+        if (!held) return failure(held);
+        std::vector<Capture> captures;
+        for (const auto* capture : *held) captures.push_back(*capture);
+        addLane(condition, captures);
+    }
+    return Json{{"type", "conditions"}, {"conditions", *found}};
+}
+
+Result<Json> plane(ScriptSession&, const Arguments& arguments) {
+    const Json& given = arguments.any("found");
+    auto trials = given.is_array() ? Result<Json>(given) : member(arguments, given, "trials");
+    if (!trials) return trials;
+    return Json{{"type", "plane"}, {"trials", *trials}};
+}
+
+Result<Json> confusion(ScriptSession&, const Arguments& arguments) {
+    auto counts = member(arguments, arguments.object("found"), "confusion");
+    if (!counts) return counts;
+    auto rows = member(arguments, arguments.object("found"), "conditions");
+    if (!rows) return rows;
+    Json labels = Json::array();
+    for (const auto& row : *rows) labels.push_back(row.value("name", ""));
+    return Json{{"type", "confusion"},
+                {"labels", labels},
+                {"confusion", *counts},
+                {"accuracy", arguments.object("found").value("accuracy", Json())}};
+}
+
+Result<Json> waveforms(ScriptSession& session, const Arguments&) {
+    Json captures = Json::array();
+    for (const auto& exemplar : session.exemplars()) {
+        Json entry = {{"condition", exemplar.condition}};
+        if (exemplar.row) {
+            entry["capture"] = *exemplar.row;
+        } else {
+            const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
+            entry["rate_hz"] = exemplar.capture.rate_hz;
+            entry["start_s"] = exemplar.capture.start_s - origin;
+            for (const auto& channel : exemplar.capture.channels) {
+                if (channel.unit == "V") entry["voltage_v"] = samplesOf(channel);
+                if (channel.unit == "A") entry["current_a"] = samplesOf(channel);
+            }
+        }
+        captures.push_back(std::move(entry));
+    }
+    return Json{{"type", "waveforms"}, {"captures", captures}};
+}
+
+Result<Json> exposureFigure(ScriptSession& session, const Arguments& arguments) {
+    return Json{{"type", "exposure"},
+                {"rows", arguments.has("rows") ? arguments.list("rows") : session.worstExposure()}};
+}
+
+Result<Json> timeline(ScriptSession&, const Arguments& arguments) {
+    const Json& states = arguments.list("states");
+    Json t = Json::array(), r = Json::array(), p = Json::array(), a = Json::array();
+    for (const auto& state : states) {
+        if (!state.is_object() || !state.value("time_s", Json()).is_number()) {
+            return arguments.wrong("a state", state, "what bench.live() returned");
+        }
+        t.push_back(state["time_s"]);
+        r.push_back(state.value("roughness", Json()));
+        p.push_back(state.value("pressure", Json()));
+        a.push_back(state.value("amplitude_v", Json()));
+    }
+    return Json{{"type", "timeline"}, {"t_s", t}, {"r", r}, {"p", p}, {"amplitude_v", a}};
+}
+
+Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
+    const Json& wanted = arguments.list("tracings");
+    Json captures = Json::array();
+    for (const auto& one : wanted) {
+        const Json condition = one.value("condition", Json("")), label = one.value("label", condition);
+        if (!condition.is_string()) return arguments.wrong("condition", condition, "a text");
+        if (!label.is_string()) return arguments.wrong("label", label, "a text");
+        for (const auto& exemplar : session.exemplars()) {
+            if (exemplar.condition != condition) continue;
+            Json entry = {{"label", label}};
+            if (exemplar.row) {
+                entry["capture"] = *exemplar.row;
+            } else {
+                const double origin = std::isfinite(exemplar.capture.trigger_s) ? exemplar.capture.trigger_s : 0;
+                entry["rate_hz"] = exemplar.capture.rate_hz;
+                entry["start_s"] = exemplar.capture.start_s - origin;
+                for (const auto& channel : exemplar.capture.channels) {
+                    if (channel.unit != "V" && channel.unit != "A") continue;
+                    entry[channel.unit == "V" ? "voltage_v" : "current_a"] = channel.samples;
+                }
+            }
+            captures.push_back(std::move(entry));
+        }
+    }
+    Json figure = {{"type", "waveforms"}, {"captures", captures}};
+    if (arguments.has("note")) figure["note"] = arguments.text("note");
+    return figure;
+}
+
+Result<Json> plotTransitions(ScriptSession&, const Arguments& arguments) {
+    const Json& found = arguments.object("found");
+    for (const char* key : {"amplitude_map", "interval_map", "gradual", "wanted_jnd"}) {
+        if (!found.contains(key)) return arguments.wrong("found", found, "what analysis.transitions() returned");
+    }
+    const Json& gradual = found["gradual"];
+    const auto place = [&gradual](const char* axis) {
+        const Json at = gradual.value(axis, Json::object());
+        return Json{{"roughness", at.value("roughness", Json())},
+                    {"pressure", at.value("pressure", Json())},
+                    {"jnd", at.value("jnd", Json())}};
+    };
+    return Json{{"type", "transitions"},
+                {"wanted_jnd", found["wanted_jnd"]},
+                {"amplitude", found["amplitude_map"]},
+                {"interval", found["interval_map"]},
+                {"largest_amplitude", place("amplitude")},
+                {"largest_interval", place("interval")}};
+}
+
+Result<Json> plotCalibration(ScriptSession&, const Arguments& arguments) { return figureOf(arguments, "measured"); }
+
+Result<Json> plotResiduals(ScriptSession&, const Arguments& arguments) { return figureOf(arguments, "errors"); }
+
+}  // namespace tacto::host::plot

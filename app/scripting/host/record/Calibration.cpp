@@ -1,0 +1,167 @@
+// Keeping a calibration for the stimulator that is connected.
+#include <chrono>
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/record/CalibratedOutput.h"
+#include "app/scripting/host/record/RecordObject.h"
+#include "core/calibration/CalibrationStore.h"
+#include "core/devices/DeviceUri.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::record {
+
+namespace {
+
+Result<std::optional<CalibrationDate>> dueDate(const Arguments& arguments) {
+    const auto text = arguments.text("options.scope_due");
+    if (text.empty()) return std::optional<CalibrationDate>();
+    const auto date = parseDate(text);
+    if (!date) return arguments.wrong("scope_due", text, "a day such as \"2027-03-01\"");
+    return date;
+}
+
+/// U over the command, at its worst; NaN where a level has none.
+double worstUncertainty_pct(const Json& levels) {
+    double worst = 0;
+    for (const auto& level : levels) {
+        const Json u = level.value("expanded_uncertainty", Json()), at = level.value("commanded", Json());
+        if (!u.is_number() || !at.is_number()) return std::nan("");
+        worst = std::max(worst, 100 * u.get<double>() / std::abs(at.get<double>()));
+    }
+    return worst;
+}
+
+/// The largest distance of a level's mean from the line; NaN where a level has none.
+double largestResidual(const Json& levels) {
+    double largest = 0;
+    for (const auto& level : levels) {
+        const Json residual = level.value("residual", Json());
+        if (!residual.is_number()) return std::nan("");
+        largest = std::max(largest, std::abs(residual.get<double>()));
+    }
+    return largest;
+}
+
+/// The run's own calibration of one quantity that `found` refers to: of what the script says, the number counts alone.
+Result<const OwnCalibration*> ownOf(ScriptSession& session, const Json& found, std::string_view quantity) {
+    const Json one = found.value(std::string(quantity), Json());
+    const auto* own = session.own().calibration(one.is_object() ? one.value("calibration", Json()) : one);
+    if (own == nullptr || own->quantity != quantity) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: {} was not computed from readings that this run took itself; what "
+                    "analysis.calibration() made of the readings of measure.pulse() is expected",
+                    quantity);
+    }
+    if (own->calibrationApplied) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: readings of {} were taken with the stored calibration applied; "
+                    "bench.useCalibration(false) before the first is expected",
+                    quantity);
+    }
+    return own;
+}
+
+/// The line of one quantity, from what the program itself found.
+Result<StoredLine> lineFound(const Arguments& arguments, const Json& one, std::string_view quantity) {
+    if (one.value("complete", Json()) != Json(true)) {
+        return arguments.wrong(quantity, one,
+                               fmt::format("a complete calibration of {}, from analysis.calibration(),", quantity));
+    }
+    if (one.value("expanded_uncertainty", Json()).is_null()) {
+        return fail(
+            ErrorCode::InvalidArgument,
+            "record.calibration: the {} has no uncertainty, since the oscilloscope does not state how good it is; "
+            "--set scope_gain_pct=... and timebase_ppm=..., from its data sheet, are expected",
+            quantity);
+    }
+    if (one.value("verdict_iec", "") != "pass") {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: the stimulator's {} is not within 20 % of what is programmed, uncertainty "
+                    "included (IEC 60601-2-10); a calibration is kept of one that is in order",
+                    quantity);
+    }
+    StoredLine line;
+    line.gain = one.value("gain", std::nan(""));
+    line.offset = one.value("offset", std::nan(""));
+    const Json& levels = one.at("levels");
+    line.uncertainty_pct = worstUncertainty_pct(levels);
+    line.residual = largestResidual(levels);
+    line.lowest = levels.front().value("commanded", std::nan(""));
+    line.highest = levels.back().value("commanded", std::nan(""));
+    return line;
+}
+
+}  // namespace
+
+Result<Json> keepCalibration(ScriptSession& session, const Arguments& arguments) {
+    const Json& found = arguments.object("found");
+    const auto days = arguments.whole("options.valid_days");
+    auto due = dueDate(arguments);
+    if (!due) return failure(due);
+    const auto& stimulator = *session.bench().devices().stimulator;
+    auto* writer = session.writer();
+    if (writer == nullptr) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.calibration: this run is not recorded; a session that holds the readings is expected");
+    }
+    StoredCalibration made;
+    const auto amplitude = ownOf(session, found, "amplitude");
+    if (!amplitude) return failure(amplitude);
+    std::vector<const OwnCalibration*> all{*amplitude};
+    const auto line = lineFound(arguments, (*amplitude)->found, "amplitude");
+    if (!line) return failure(line);
+    made.amplitude = *line;
+    for (const auto& time : kStoredTimes) {
+        const auto own = ownOf(session, found, time.key);
+        if (!own) return failure(own);
+        all.push_back(*own);
+        const auto one = lineFound(arguments, (*own)->found, time.key);
+        if (!one) return failure(one);
+        made.*time.line = *one;
+    }
+    const auto& device = stimulator.identity();
+    made.serial = calibratedOutput(device.serial, device.uri);
+    made.device = device.name;
+    made.unit = (*amplitude)->found.value("unit", "");
+    if (made.unit != unitOf(stimulator)) return arguments.wrong("unit", made.unit, unitOf(stimulator));
+    made.made = today();
+    made.validUntil = std::chrono::sys_days(made.made) + std::chrono::days(days);
+    for (const auto& each : session.bench().devices().identities()) {
+        made.simulated = made.simulated || each.simulated;
+        if (each.role != Role::Oscilloscope) continue;
+        if (each.uri.starts_with("capture:")) {
+            return fail(ErrorCode::InvalidArgument,
+                        "record.calibration: the readings were taken from files; an oscilloscope on the stimulator is "
+                        "expected");
+        }
+        if (!(*amplitude)->gainTolerance) {
+            return fail(
+                ErrorCode::InvalidArgument,
+                "record.calibration: the oscilloscope {} does not state its gain tolerance, so nothing is kept; "
+                "--set scope_gain_pct=..., from its data sheet, is expected",
+                each.name);
+        }
+        made.instruments.push_back({each.name, each.serial, *due, (*amplitude)->gainTolerance, (*amplitude)->statedBy});
+    }
+    Json evidence = Json::object();
+    for (const auto* own : all) {
+        made.simulated = made.simulated || own->simulated;
+        made.readings += own->readings.size();
+        evidence[own->quantity] = own->found;
+    }
+    // The readings are in the session, on disk, before a calibration refers to them.
+    if (auto kept = writer->measurement(session.now(), kCalibrationMeasurement, evidence); !kept) return failure(kept);
+    if (auto flushed = writer->flush(); !flushed) return failure(flushed);
+    made.session = writer->path().filename().string();
+    made.sessionHead = writer->chainHead();
+    auto store = CalibrationStore::open(calibrationFile());
+    if (!store) return failure(store);
+    const auto* before = store->latest(made.serial, made.unit);
+    const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
+    if (auto added = store->add(made); !added) return failure(added);
+    return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
+                {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
+}
+
+}  // namespace tacto::host::record

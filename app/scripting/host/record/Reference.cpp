@@ -1,0 +1,77 @@
+// Before anything is believed: a known load must read as what it is.
+#include <cmath>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/record/RecordObject.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/analysis/statistics/Verdict.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::record {
+
+namespace {
+
+/// What is wrong with a check that did not pass, as a sentence.
+std::string whyNot(Verdict verdict, const Json& check, double load, double tolerance_pct) {
+    const auto at = [&check](const char* key) { return check.value(key, Json()); };
+    const auto text = [&](const char* key, const char* missing) {
+        return at(key).is_number() ? fmt::format("{:.4g}", at(key).get<double>()) : std::string(missing);
+    };
+    if (at("measured_ohm").is_null()) {
+        return fmt::format("the known-reference check failed: nothing was measured where {:.4g} ohm is connected",
+                           load);
+    }
+    if (at("expanded_ohm").is_null()) {
+        return fmt::format(
+            "the known-reference check was not evaluated: {} ohm was measured on {:.4g} ohm, and how well the "
+            "oscilloscope knows that is not stated",
+            text("measured_ohm", ""), load);
+    }
+    return fmt::format(
+        "the known-reference check {}: {} ± {} ohm was measured where {:.4g} ohm is connected; {:.2g} % "
+        "of it is accepted, uncertainty included",
+        verdict == Verdict::Fail ? "failed" : "is indeterminate", text("measured_ohm", ""), text("expanded_ohm", ""),
+        load, tolerance_pct);
+}
+
+}  // namespace
+
+/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
+Result<Json> reference(ScriptSession& session, const Arguments& arguments) {
+    const Json& reading = arguments.object("reading");
+    const auto load = arguments.number("load");
+    const auto tolerance_pct = arguments.number("tolerance");
+    const auto load_pct = arguments.number("of the load");
+    const auto at = [&](const char* key) {
+        const Json value = reading.value(key, Json());
+        return value.is_number() ? value.get<double>() : std::nan("");
+    };
+    const double measured = at("load_ohm");
+    // 95 % of a rectangle of the resistor's own tolerance.
+    const double expanded = std::hypot(at("load_expanded_ohm"), 0.95 * load_pct / 100 * load);
+    const double off_pct = 100 * (measured / load - 1);
+    const Verdict verdict = guardBanded(off_pct, 100 * expanded / load, tolerance_pct);
+    const Json check = {{"load_ohm", load},
+                        {"measured_ohm", numberOrNull(measured)},
+                        {"expanded_ohm", numberOrNull(expanded)},
+                        {"deviation_pct", numberOrNull(off_pct)},
+                        {"expanded_uncertainty_pct", numberOrNull(100 * expanded / load)},
+                        {"allowed_pct", tolerance_pct},
+                        {"passed", verdict == Verdict::Pass}};
+    if (session.writer() != nullptr) {
+        auto& writer = *session.writer();
+        if (auto kept = writer.measurement(session.now(), "known-reference check", check); !kept) return failure(kept);
+        auto shown = writer.reportItem(session.now(), {{"kind", "table"},
+                                                       {"caption", "Known-reference check"},
+                                                       {"rows", Json::array({check})},
+                                                       {"columns",
+                                                        {"load_ohm", "measured_ohm", "expanded_ohm", "deviation_pct",
+                                                         "expanded_uncertainty_pct", "allowed_pct", "passed"}}});
+        if (!shown) return failure(shown);
+    }
+    Json out = check;
+    out["reason"] = verdict == Verdict::Pass ? Json() : Json(whyNot(verdict, check, load, tolerance_pct));
+    return out;
+}
+
+}  // namespace tacto::host::record

@@ -1,0 +1,91 @@
+// What a sensor calibration becomes: a profile.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/record/CalibratedOutput.h"
+#include "app/scripting/host/record/RecordObject.h"
+#include "core/calibration/CalibrationStore.h"
+
+namespace tacto::host::record {
+
+namespace {
+
+/// Letters, digits, '-' and '_': a serial may hold anything.
+std::string fileWord(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+        out += plain ? c : '-';
+    }
+    return out.empty() ? "unnamed" : out;
+}
+
+/// Writes a file that is not there yet: an older calibration is superseded, never overwritten.
+Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, const std::string& stem,
+                                       const std::string& text) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    constexpr int kMaxADay = 1000;
+    for (int i = 1; i < kMaxADay; ++i) {
+        const auto path = folder / (stem + (i == 1 ? "" : fmt::format("-{}", i)) + ".json");
+        std::FILE* file = std::fopen(path.c_str(), "wxe");
+        if (file == nullptr && errno == EEXIST) continue;
+        if (file == nullptr) {
+            return fail(ErrorCode::Io, "{} cannot be written: {}", path.string(), std::strerror(errno));
+        }
+        const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+        const bool closed = std::fclose(file) == 0;
+        if (written && closed) return path;
+        std::filesystem::remove(path, problem);
+        return fail(ErrorCode::Io, "{} cannot be written to its end; room on the disk is expected", path.string());
+    }
+    return fail(ErrorCode::Io, "{}: {} profiles of one day; fewer are expected", (folder / stem).string(), kMaxADay);
+}
+
+}  // namespace
+
+Result<Json> keepProfile(ScriptSession& session, const Arguments& arguments) {
+    const Json& found = arguments.object("found");
+    if (found.value("accepted", Json()) != Json(true) || !found.value("roughness", Json()).is_object()) {
+        return arguments.wrong("found", found, "an accepted result of analysis.sensorCalibration()");
+    }
+    if (!session.own().noted(found)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "record.sensorProfile: this result does not come from this run's own slides; what "
+                    "analysis.sensorCalibration() returned is expected, unchanged, made from what bench.measureRest() "
+                    "and bench.measureSlide() returned, each slide once and under its own surface");
+    }
+    auto roughness = roughnessSettingsFromJson(found["roughness"]);
+    if (!roughness) return failure(roughness);
+    const auto area = arguments.number("options.contact_area_cm2", roughness->contactArea.value());
+    roughness->contactArea = SquareCentimetres(area);
+    const auto& identity = session.bench().devices().sensor->identity();
+    // Scales of another fingertip, from the profile that was in force before, are not this one's.
+    if (!roughness->sensor || roughness->sensor->fingertip != identity.serial) {
+        roughness->sensor.emplace();
+        roughness->sensor->fingertip = identity.serial;
+    }
+    const auto day = dateText(today());
+
+    Profile inForce = session.bench().profile();
+    inForce.roughness = *roughness;
+    // What is kept is the operator's profile with other scales: encoding, area, loads and ceilings are not a script's
+    // to write (hazard H1).
+    Profile profile = session.chosenProfile();
+    profile.roughness = *roughness;
+    profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, day,
+                               identity.simulated ? " (simulated)" : "");
+    inForce.name = profile.name;
+    if (auto replaced = session.bench().setProfile(inForce, RBefore::Measuring); !replaced) return failure(replaced);
+    Json out = {{"name", profile.name}, {"file", nullptr}, {"profile", toJson(profile)}};
+    if (!arguments.flag("options.store")) return out;
+    const auto stem = "fingertip-" + fileWord(identity.serial.empty() ? identity.name : identity.serial) + "-" + day;
+    auto path = writeNew(calibrationFile().parent_path() / "profiles", stem, out["profile"].dump(2) + "\n");
+    if (!path) return failure(path);
+    out["file"] = path->string();
+    return out;
+}
+
+}  // namespace tacto::host::record

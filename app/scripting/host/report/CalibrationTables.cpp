@@ -1,0 +1,144 @@
+#include "app/scripting/host/report/CalibrationTables.h"
+
+#include <fmt/format.h>
+#include <map>
+
+#include "app/scripting/host/report/Cells.h"
+#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/base/QuantityText.h"
+
+namespace tacto::host::report {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json plain(double value, const std::string& unit) { return {{"value", numberOrNull(value)}, {"unit", unit}}; }
+
+Json withU(double value, double expanded, const std::string& unit) {
+    return {{"value", numberOrNull(value)}, {"expanded", numberOrNull(expanded)}, {"unit", unit}};
+}
+
+Json tableOf(const std::string& caption, Json rows, Json columns) {
+    return {{"kind", "table"}, {"caption", caption}, {"rows", std::move(rows)}, {"columns", std::move(columns)}};
+}
+
+Json levels(const Json& found, const std::string& title, const std::string& unit) {
+    Json rows = Json::array();
+    for (const auto& level : listIn(found, "levels")) {
+        const double commanded = numberIn(level, "commanded");
+        const double up = numberIn(level, "mean_up"), down = numberIn(level, "mean_down");
+        rows.push_back({{"commanded", scaledText(commanded, unit)},
+                        {"n", level.at("n")},
+                        {"error_going_up", plain(up - commanded, unit)},
+                        {"error_going_down", plain(down - commanded, unit)},
+                        {"hysteresis", plain(down - up, unit)},
+                        {"error judged ± U",
+                         withU(numberIn(level, "worst_error"), numberIn(level, "worst_expanded_uncertainty"), unit)},
+                        {"tolerance", "± " + measuredText(numberIn(level, "tolerance"), 0, unit)},
+                        {"verdict", level.at("verdict")}});
+    }
+    return tableOf(title + ": levels", std::move(rows),
+                   {"commanded", "n", "error_going_up", "error_going_down", "hysteresis", "error judged ± U",
+                    "tolerance", "verdict"});
+}
+
+/// What the uncertainty is made of, at both ends: what weighs at one need not at the other.
+Json budget(const Json& found, const std::string& title, const std::string& unit) {
+    const Json &largest = found.at("budget"), &smallest = found.at("budget_smallest");
+    std::map<std::string, double> small;
+    for (const auto& row : listIn(smallest, "rows")) small[textIn(row, "name")] = numberIn(row, "contribution");
+    Json rows = Json::array();
+    for (const auto& row : listIn(largest, "rows")) {
+        const auto name = textIn(row, "name");
+        const double freedom = numberIn(row, "degrees_of_freedom");
+        rows.push_back({{"contribution", name},
+                        {"distribution", row.at("distribution")},
+                        {"at_the_smallest", plain(small.contains(name) ? small[name] : std::nan(""), unit)},
+                        {"at_the_largest", plain(numberIn(row, "contribution"), unit)},
+                        {"degrees_of_freedom", std::isnan(freedom) ? "∞" : fmt::format("{:.0f}", freedom)}});
+    }
+    for (const auto& [name, key] :
+         {std::pair("combined, u", "combined"), std::pair("expanded, U (95 %)", "expanded_uncertainty")}) {
+        rows.push_back({{"contribution", name},
+                        {"distribution", ""},
+                        {"at_the_smallest", plain(numberIn(smallest, key), unit)},
+                        {"at_the_largest", plain(numberIn(largest, key), unit)},
+                        {"degrees_of_freedom", ""}});
+    }
+    return tableOf(title + ": uncertainty budget at the smallest and the largest command", std::move(rows),
+                   {"contribution", "distribution", "at_the_smallest", "at_the_largest", "degrees_of_freedom"});
+}
+
+std::string coverage(const Json& of) {
+    const double factor = numberIn(of, "coverage_factor");
+    return (std::isnan(factor) ? "" : fmt::format("k = {:.2f}, ", factor)) + textIn(of, "method");
+}
+
+}  // namespace
+
+std::string titleOfQuantity(const std::string& quantity) {
+    return quantity == "amplitude"  ? "Amplitude"
+           : quantity == "interval" ? "Interval"
+           : quantity == "width"    ? "Phase width"
+           : quantity == "gap"      ? "Inter-phase gap"
+                                    : quantity;
+}
+
+Json calibrationItems(const Json& found) {
+    const auto title = titleOfQuantity(textIn(found, "quantity")), unit = textIn(found, "unit");
+    const double outliers = numberIn(found, "outliers");
+    Json marked = Json::array();
+    for (const auto& reading : listIn(found, "readings")) {
+        if (reading.value("outlier", Json()) != Json(true)) continue;
+        marked.push_back({{"commanded", scaledText(numberIn(reading, "commanded"), unit)},
+                          {"measured", plain(numberIn(reading, "measured"), unit)},
+                          {"direction", reading.at("direction")}});
+    }
+    const auto text =
+        fmt::format("Coverage at the smallest: {}; at the largest: {}. {}", coverage(found.at("budget_smallest")),
+                    coverage(found.at("budget")),
+                    outliers == 0 ? "No reading stands out."
+                                  : fmt::format("{} readings stand out; they are marked and kept.", outliers));
+    Json items =
+        Json::array({levels(found, title, unit), budget(found, title, unit), {{"kind", "text"}, {"text", text}}});
+    if (!marked.empty())
+        items.push_back(
+            tableOf(title + ": marked readings", std::move(marked), {"commanded", "measured", "direction"}));
+    return items;
+}
+
+Json calibrationSummary(const Json& all) {
+    Json rows = Json::array();
+    for (const auto& found : all) {
+        const auto unit = textIn(found, "unit");
+        const auto brief = [&found](const char* key) { return scaledText(numberIn(found, key), "%", 2); };
+        rows.push_back(
+            {{"quantity", titleOfQuantity(textIn(found, "quantity"))},
+             {"gain", withU(numberIn(found, "gain"), numberIn(found, "gain_expanded_uncertainty"), "")},
+             {"offset", withU(numberIn(found, "offset"), numberIn(found, "offset_expanded_uncertainty"), unit)},
+             {"residual", brief("residual_max_pct_fs")},
+             {"repeatability", brief("repeatability_pct_fs")},
+             {"hysteresis", brief("hysteresis_pct_fs")},
+             {"verdict", found.at("verdict")}});
+    }
+    return tableOf("What was found, in % of the largest command where a % stands", std::move(rows),
+                   {"quantity", "gain", "offset", "residual", "repeatability", "hysteresis", "verdict"});
+}
+
+Json calibrationCheckTable(const Json& rows) {
+    Json out = Json::array();
+    for (const auto& row : rows) {
+        const auto unit = textIn(row, "unit");
+        out.push_back({{"commanded", scaledText(numberIn(row, "commanded"), unit)},
+                       {"expected", measuredText(numberIn(row, "expected"), 0, unit)},
+                       {"off ± U", withU(numberIn(row, "off"), numberIn(row, "expanded_uncertainty"), unit)},
+                       {"allowed", "± " + scaledText(numberIn(row, "allowed"), unit)},
+                       {"verdict", row.at("verdict")}});
+    }
+    const auto title = rows.empty() ? std::string() : titleOfQuantity(textIn(rows.front(), "quantity"));
+    return tableOf(title + ": check of the stored calibration", std::move(out),
+                   {"commanded", "expected", "off ± U", "allowed", "verdict"});
+}
+
+}  // namespace tacto::host::report

@@ -1,0 +1,23 @@
+// CalibrationTables.h - a stimulator's calibration as the tables and sentences of its report.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tacto::host::report {
+
+/// "Amplitude", "Phase width" of "amplitude", "width".
+[[nodiscard]] std::string titleOfQuantity(const std::string& quantity);
+
+// Items of a report, each { kind, caption, rows, columns } or { kind, text }.
+
+/// Of what analysis.calibration() returned: levels, budget, coverage, marked readings.
+[[nodiscard]] nlohmann::json calibrationItems(const nlohmann::json& found);
+/// Of the rows that analysis.calibrationCheck() returned.
+[[nodiscard]] nlohmann::json calibrationCheckTable(const nlohmann::json& rows);
+/// Several of them side by side.
+[[nodiscard]] nlohmann::json calibrationSummary(const nlohmann::json& all);
+
+}  // namespace tacto::host::report

@@ -1,0 +1,36 @@
+// Cells.h - what the tables of reports are made of, from results as analyses return them.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tacto::host::report {
+
+/// NaN where it is absent or no number.
+[[nodiscard]] inline double numberIn(const nlohmann::json& row, const char* key) {
+    const auto at = row.find(key);
+    return at != row.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
+
+/// Empty where it is absent or no text.
+[[nodiscard]] inline std::string textIn(const nlohmann::json& row, const char* key) {
+    const auto at = row.find(key);
+    return at != row.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+/// An empty list where it is absent or none.
+[[nodiscard]] inline const nlohmann::json& listIn(const nlohmann::json& row, const char* key) {
+    static const nlohmann::json kNone = nlohmann::json::array();
+    const auto at = row.find(key);
+    return at != row.end() && at->is_array() ? *at : kNone;
+}
+
+/// Takes `from`'s member over, if there is one.
+inline void copy(nlohmann::json& row, const char* key, const nlohmann::json& from, const char* fromKey) {
+    if (const auto at = from.find(fromKey); at != from.end()) row[key] = *at;
+}
+
+}  // namespace tacto::host::report

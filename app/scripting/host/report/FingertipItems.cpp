@@ -1,0 +1,161 @@
+#include "app/scripting/host/report/FingertipItems.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <string>
+
+#include "app/scripting/host/plot/CalibrationFigure.h"
+#include "app/scripting/host/report/Cells.h"
+
+namespace tacto::host::report {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// With so many significant digits, zeros at the end included; "–" for what is not known.
+std::string digitsOf(double value, int digits) {
+    if (!std::isfinite(value)) return "–";
+    const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
+    const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+    if (exponent < -6 || exponent >= digits)
+        return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
+    return fmt::format("{:.{}f}", value, digits - 1 - exponent);
+}
+
+Json paragraph(std::string text) { return {{"kind", "text"}, {"text", std::move(text)}}; }
+
+Json tableItem(std::string caption, Json rows, Json columns) {
+    return {
+        {"kind", "table"}, {"caption", std::move(caption)}, {"rows", std::move(rows)}, {"columns", std::move(columns)}};
+}
+
+void addForce(Json& items, const Json& force) {
+    if (std::isnan(numberIn(force, "scale"))) {
+        items.push_back(paragraph("Force: " + textIn(force, "reason") + "."));
+        return;
+    }
+    const auto unit = textIn(force, "unit");
+    if (unit == "N") {
+        Json shown = force;
+        shown["quantity"] = "force";
+        shown["offset"] = force.at("offset_reading");
+        items.push_back({{"kind", "figure"},
+                         {"caption", "Force against weights"},
+                         {"figure", plot::calibrationFigure(shown, "measured")}});
+    }
+    Json rows = Json::array();
+    for (const auto& level : listIn(force, "levels")) {
+        Json row = Json::object();
+        copy(row, "weight_n", level, "commanded");
+        for (const char* key : {"n", "mean", "mean_up", "mean_down", "s", "residual"}) copy(row, key, level, key);
+        rows.push_back(std::move(row));
+    }
+    items.push_back(tableItem("Force against weights (reading in " + unit + ")", std::move(rows),
+                              {"weight_n", "n", "mean", "mean_up", "mean_down", "s", "residual"}));
+    const auto digits = [&force](const char* key, int count) { return digitsOf(numberIn(force, key), count); };
+    items.push_back(paragraph(fmt::format(
+        "Force: {} ± {} N per {}, offset {} ± {} N (95 %); hysteresis {} % and repeatability {} % of the "
+        "largest weight.",
+        digits("scale", 5), digits("scale_expanded_uncertainty", 2), unit, digits("offset", 3),
+        digits("offset_expanded_uncertainty", 2), digits("hysteresis_pct_fs", 2), digits("repeatability_pct_fs", 2))));
+}
+
+void addTaxels(Json& items, const Json& taxels, const FingertipReferences& known) {
+    if (taxels.empty()) return;
+    const auto unit = textIn(taxels.front(), "unit");
+    Json rows = Json::array();
+    for (const auto& taxel : taxels) {
+        Json row = Json::object();
+        copy(row, "taxel", taxel, "taxel");
+        copy(row, "scale", taxel, "scale");
+        copy(row, "scale U", taxel, "scale_expanded_uncertainty");
+        copy(row, "offset_pa", taxel, "offset_pa");
+        copy(row, "U_pa", taxel, "offset_expanded_uncertainty_pa");
+        copy(row, "residual_max_pct_fs", taxel, "residual_max_pct_fs");
+        copy(row, "remark", taxel, "reason");
+        rows.push_back(std::move(row));
+    }
+    const auto caption = known.area_cm2 > 0
+                             ? fmt::format("Taxels against force over the contact area of {} cm² (scale in Pa per {})",
+                                           known.area_cm2, unit.empty() ? "unit" : unit)
+                             : std::string("Taxels");
+    items.push_back(tableItem(caption, std::move(rows),
+                              {"taxel", "scale", "scale U", "offset_pa", "U_pa", "residual_max_pct_fs", "remark"}));
+    const auto toleranceOf = [](double percent) {
+        return percent > 0 ? fmt::format("± {} %", percent) : std::string("not known");
+    };
+    items.push_back(paragraph(fmt::format(
+        "A taxel's scale takes the weight as spread evenly over the contact area; it holds for a contact of that "
+        "shape. Its U holds the tolerances of the weights (± {} %), of local gravity ({}) and of the contact area "
+        "({}); where one is not known there is no U.",
+        known.weight_pct, toleranceOf(known.gravity_pct), toleranceOf(known.area_pct))));
+}
+
+std::string rankText(const Json& rank) {
+    if (!rank.is_object())
+        return "Spearman's rank correlation of R against Ra: not evaluated; five or more surfaces of known Ra are "
+               "wanted.";
+    const auto digits = [&rank](const char* key) { return digitsOf(numberIn(rank, key), 3); };
+    const auto note = textIn(rank, "note");
+    return fmt::format("Spearman's rank correlation of R against Ra over {} surfaces: {} (95 %: {} to {}){}.{}",
+                       numberIn(rank, "n"), digits("value"), digits("low"), digits("high"),
+                       rank.value("ties", Json()) == Json(true) ? ", equal values sharing their ranks" : "",
+                       note.empty() ? "" : " Note: " + note + ".");
+}
+
+std::string uncertaintyText(const Json& u) {
+    if (!u.is_object()) return "The uncertainty of R was not evaluated.";
+    const auto digits = [&u](const char* key, int count) { return digitsOf(numberIn(u, key), count); };
+    return fmt::format(
+        "U of R for one slide (95 %, k = {}): {} at R 0, {} at R 0.5, {} at R 1, from the repeatability "
+        "of the slides (s = {}) and of the two references' means.",
+        digits("coverage_factor", 3), digits("smooth", 2), digits("middle", 2), digits("rough", 2),
+        digits("slide_sd", 2));
+}
+
+}  // namespace
+
+Json fingertipScaleItems(const Json& scales, const FingertipReferences& known) {
+    Json items = Json::array();
+    addForce(items, scales.at("force"));
+    addTaxels(items, listIn(scales, "taxels"), known);
+    return items;
+}
+
+Json sensorCalibrationItems(const Json& found, bool simulated) {
+    Json items = Json::array(
+        {tableItem("Surfaces, under the scale that was found", listIn(found, "surfaces"),
+                   {"name", "ra_um", "rz_um", "slides", "h", "v", "R", "R_sd", "R_expanded_uncertainty", "force_n"})});
+    const Json& distances = found.at("d_prime");
+    Json rows = Json::array();
+    const auto add = [&rows](const std::string& of, const Json& distance) {
+        if (!distance.is_object()) return;
+        Json row = distance;
+        row["of"] = of;
+        rows.push_back(std::move(row));
+    };
+    for (const char* key : {"h", "h_abs", "v_static", "v_dynamic"})
+        add(std::string("log10 ") + key, distances.at("all").value(key, Json()));
+    add("R", distances.value("R", Json()));
+    items.push_back(tableItem("Distance of the two references, in d′ with its 95 % interval", std::move(rows),
+                              {"of", "value", "low", "high", "told_apart"}));
+    items.push_back(paragraph(
+        "d′ is the difference of the means over the pooled standard deviation of single slides; the interval is from "
+        "the non-central t distribution. Two surfaces are told apart when its lower end is at least 1, the customary "
+        "threshold at which one slide over each names the rougher in 76 % of cases; otherwise the calibration is "
+        "refused."));
+    const Json rank = found.value("spearman", Json());
+    items.push_back(paragraph(rankText(rank)));
+    if (rank.is_object() && simulated)
+        items.push_back(
+            paragraph("On the simulated fingertip the ranking holds by construction: the relief of its "
+                      "surfaces follows their Ra."));
+    items.push_back(paragraph(textIn(found, "known_limit")));
+    items.push_back(paragraph(uncertaintyText(found.value("uncertainty_R", Json()))));
+    for (const auto& warning : listIn(found, "warnings"))
+        items.push_back(paragraph("Note: " + warning.get<std::string>() + "."));
+    return items;
+}
+
+}  // namespace tacto::host::report

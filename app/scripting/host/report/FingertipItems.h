@@ -1,0 +1,22 @@
+// FingertipItems.h - a fingertip's calibration as the tables, figures and sentences of its report.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace tacto::host::report {
+
+/// What the references of a fingertip's scales are known to, % and cm²; 0: not known.
+struct FingertipReferences {
+    double weight_pct = 0, gravity_pct = 0, area_cm2 = 0, area_pct = 0;
+};
+
+// Items of a report, each { kind, caption, rows, columns }, { kind, caption, figure } or { kind, text }.
+
+/// Of what analysis.fingertipScales() returned.
+[[nodiscard]] nlohmann::json fingertipScaleItems(const nlohmann::json& scales, const FingertipReferences& known);
+/// Of what analysis.sensorCalibration() returned; `simulated`: the fingertip and everything else are.
+[[nodiscard]] nlohmann::json sensorCalibrationItems(const nlohmann::json& found, bool simulated);
+
+}  // namespace tacto::host::report

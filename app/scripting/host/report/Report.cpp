@@ -1,0 +1,115 @@
+// The report of a run: figures, tables, sentences and numbers as they are written.
+#include <algorithm>
+
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/plot/CalibrationFigure.h"
+#include "app/scripting/host/report/CalibrationTables.h"
+#include "app/scripting/host/report/Cells.h"
+#include "app/scripting/host/report/FingertipItems.h"
+#include "app/scripting/host/report/LoadSafetyTables.h"
+#include "app/scripting/host/report/ReportObject.h"
+#include "core/base/QuantityText.h"
+#include "core/session/SessionWriter.h"
+
+namespace tacto::host::report {
+
+namespace {
+
+Result<Json> writeItem(ScriptSession& session, const Json& item) {
+    if (session.writer() == nullptr) return Json();
+    return done(session.writer()->reportItem(session.now(), item));
+}
+
+Result<Json> writeItems(ScriptSession& session, const Json& items) {
+    for (const auto& item : items) {
+        if (auto written = writeItem(session, item); !written) return written;
+    }
+    return Json();
+}
+
+}  // namespace
+
+Result<Json> figure(ScriptSession& session, const Arguments& arguments) {
+    const auto caption = arguments.text("caption");
+    const Json& figure = arguments.object("figure");
+    if (!figure.contains("type")) return arguments.wrong("figure", figure, "what a plot function returned");
+    return writeItem(session, {{"kind", "figure"}, {"caption", caption}, {"figure", figure}});
+}
+
+Result<Json> table(ScriptSession& session, const Arguments& arguments) {
+    const auto caption = arguments.text("caption");
+    const Json& rows = arguments.list("rows");
+    Json item = {{"kind", "table"}, {"caption", caption}, {"rows", rows}};
+    if (arguments.has("columns")) item["columns"] = arguments.list("columns");
+    return writeItem(session, item);
+}
+
+Result<Json> matrix(ScriptSession& session, const Arguments& arguments) {
+    const auto caption = arguments.text("caption");
+    const Json& columns = arguments.list("columns");
+    const Json& rows = arguments.list("rows");
+    for (const auto& row : rows) {
+        if (!row.value("cells", Json()).is_array())
+            return arguments.wrong("a row", row, "an object with a title and a list of cells");
+    }
+    return writeItem(session, {{"kind", "matrix"}, {"caption", caption}, {"columns", columns}, {"rows", rows}});
+}
+
+Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
+    const Json& found = arguments.object("found");
+    const auto caption = titleOfQuantity(textIn(found, "quantity")) + ": error, tolerance and the two sweep directions";
+    const Json figure = {
+        {"kind", "figure"}, {"caption", caption}, {"figure", plot::calibrationFigure(found, "errors")}};
+    if (auto written = writeItem(session, figure); !written) return written;
+    return writeItems(session, calibrationItems(found));
+}
+
+Result<Json> calibrations(ScriptSession& session, const Arguments& arguments) {
+    return writeItem(session, calibrationSummary(arguments.list("found")));
+}
+
+Result<Json> calibrationCheck(ScriptSession& session, const Arguments& arguments) {
+    return writeItem(session, calibrationCheckTable(listIn(arguments.object("check"), "rows")));
+}
+
+/// A table that has no rows is left out.
+Result<Json> loadSafety(ScriptSession& session, const Arguments& arguments) {
+    Json items = Json::array();
+    for (auto& item : loadSafetyTables(arguments.object("found"))) {
+        if (!item.contains("kind")) item["kind"] = "table";
+        if (item["kind"] == "matrix" || !item["rows"].empty()) items.push_back(std::move(item));
+    }
+    return writeItems(session, items);
+}
+
+Result<Json> fingertipScales(ScriptSession& session, const Arguments& arguments) {
+    const FingertipReferences known{.weight_pct = arguments.number("options.tolerance_pct"),
+                                    .gravity_pct = arguments.number("options.gravity_tolerance_pct"),
+                                    .area_cm2 = arguments.number("options.contact_area_cm2"),
+                                    .area_pct = arguments.number("options.contact_area_tolerance_pct")};
+    return writeItems(session, fingertipScaleItems(arguments.object("scales"), known));
+}
+
+Result<Json> sensorCalibration(ScriptSession& session, const Arguments& arguments) {
+    const auto devices = session.bench().devices().identities();
+    const bool simulated = std::ranges::all_of(devices, &DeviceIdentity::simulated);
+    return writeItems(session, sensorCalibrationItems(arguments.object("found"), simulated));
+}
+
+Result<Json> quantity(ScriptSession&, const Arguments& arguments) {
+    const double value = arguments.number("value");
+    const auto unit = arguments.text("unit");
+    if (arguments.all().size() < 3) return Json(scaledText(value, unit));
+    return Json(measuredText(value, arguments.number("expanded"), unit));
+}
+
+Result<Json> rounded(ScriptSession&, const Arguments& arguments) {
+    const double value = arguments.number("value");
+    return Json(scaledText(value, arguments.text("unit"), arguments.whole("digits")));
+}
+
+Result<Json> text(ScriptSession& session, const Arguments& arguments) {
+    return writeItem(session, {{"kind", "text"}, {"text", arguments.text("text")}});
+}
+
+}  // namespace tacto::host::report

@@ -1,0 +1,17 @@
+// ReportObject.h - the functions of the object "report"; ReportTable.cpp says what each takes and returns.
+//
+// Thread-safety: calls come from the script's thread.
+#pragma once
+
+#include "app/scripting/engine/Arguments.h"
+#include "app/scripting/engine/HostFunction.h"
+
+namespace tacto::host::report {
+
+using Json = nlohmann::json;
+
+HostCall figure, table, matrix, quantity, rounded, text, calibration, calibrations, calibrationCheck, loadSafety,
+    fingertipScales,
+    sensorCalibration;  // Report.cpp
+
+}  // namespace tacto::host::report

@@ -1,0 +1,96 @@
+// The object "report", what a protocol writes into its report: what scripts can call, and what each function takes and
+// returns.
+#include "app/scripting/host/report/ReportObject.h"
+
+namespace tacto {
+
+std::vector<HostFunction> reportFunctions() {
+    using namespace takes;
+    return {
+        {.name = "figure",
+         .parameters = {text("caption", "title of the figure"), object("figure", "from a plot function")},
+         .text = "Adds a figure to the report.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::figure},
+        {.name = "table",
+         .parameters =
+             {text("caption", "title of the table"),
+              list("rows",
+                   "their members are the columns and carry the unit; a member may be { value, expanded, unit }")
+                  .of(ValueType::Object),
+              list("columns", "names and order of the columns").optional("as in the rows")},
+         .text = "Adds a table to the report.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::table},
+        {.name = "matrix",
+         .parameters = {text("caption", "title of the matrix"), list("columns", "names, of loads or conditions"),
+                        list("rows",
+                             "{ title, note, unit, limit, compare, set, cells }; a cell per column: null, or { value, "
+                             "expanded_uncertainty, margin_pct, verdict, text }, as in the lines of "
+                             "analysis.loadSafety()'s matrix")
+                            .of(ValueType::Object)},
+         .text = "Adds rows against columns to the report: limits or quantities against loads.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::matrix},
+        {.name = "calibration",
+         .parameters = {object("found", "from analysis.calibration()")},
+         .text = "Adds a calibration to the report: errors against the tolerance, levels, uncertainty budget, coverage "
+                 "and the readings that stand out.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::calibration},
+        {.name = "calibrations",
+         .parameters = {list("found", "from analysis.calibration(), a quantity each").of(ValueType::Object)},
+         .text = "Adds several calibrations to the report, side by side in one table.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::calibrations},
+        {.name = "calibrationCheck",
+         .parameters = {object("check", "from analysis.calibrationCheck()")},
+         .text = "Adds the check of a stored calibration to the report.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::calibrationCheck},
+        {.name = "loadSafety",
+         .parameters = {object("found", "from analysis.loadSafety()")},
+         .text = "Adds a judged load-safety check to the report: limits against loads, what was measured into each, "
+                 "outputs, refusals, trips and where each limit comes from.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::loadSafety},
+        {.name = "fingertipScales",
+         .parameters =
+             {object("scales", "from analysis.fingertipScales()"),
+              number("options.tolerance_pct", "%", "of the weights").range(0, 50).otherwise(0),
+              number("options.gravity_tolerance_pct", "%", "of local gravity; 0: not known").range(0, 50).otherwise(0),
+              number("options.contact_area_cm2", "cm2", "area under a weight; 0: not known").range(0, 100).otherwise(0),
+              number("options.contact_area_tolerance_pct", "%", "of the area; 0: not known").range(0, 90).otherwise(0)},
+         .text = "Adds the scales of force and taxels to the report; the options are those they were found with.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::fingertipScales},
+        {.name = "sensorCalibration",
+         .parameters = {object("found", "from analysis.sensorCalibration()")},
+         .text = "Adds a sensor calibration to the report: surfaces, distances of the references, rank correlation, "
+                 "uncertainty of R.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::sensorCalibration},
+        {.name = "quantity",
+         .parameters =
+             {number("value", "", "null where it is not known").orNull(),
+              text("unit", "\"s\", \"mA\", \"ohm\", \"%\"; may be empty").orEmpty(),
+              number("expanded", "", "its expanded uncertainty U; null where that is not known").orNull().optional()},
+         .text = "Writes a number as reports do: a scaled unit, U with two digits and the value to the same place.",
+         .returns = "A text: \"40.12 ± 0.46 V\", \"16.8 µs\".",
+         .call = host::report::quantity},
+        {.name = "rounded",
+         .parameters = {number("value", "", "null where it is not known").orNull(),
+                        text("unit", "as for quantity(); may be empty").orEmpty(),
+                        whole("digits", "significant digits").range(1, 15)},
+         .text = "Writes a number that has no U with so many digits, in a scaled unit.",
+         .returns = "A text: \"0.26 %\".",
+         .call = host::report::rounded},
+        {.name = "text",
+         .parameters = {text("text", "a paragraph")},
+         .text = "Adds a paragraph to the report.",
+         .errors = "Throws when the session file cannot be written.",
+         .call = host::report::text},
+    };
+}
+
+}  // namespace tacto

@@ -1,0 +1,186 @@
+#include "core/analysis/calibration/CalibrationVerdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/base/QuantityText.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kHalfWidth = 1.7320508075688772;   // √3
+constexpr double kResolution = 3.4641016151377544;  // √12
+constexpr double kTwoEdges = 2.449489742783178;     // √6
+constexpr double kTwoStamps = 1.224744871391589;    // √(3/2)
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Rows that do not depend on how often was read. `value` is the reading's size.
+void addInstrument(std::vector<Contribution>& rows, const InstrumentErrors& errors, double value) {
+    rows.push_back({"instrument gain", Distribution::Rectangular, errors.gainTolerance, kHalfWidth, value, kInfinite});
+    const auto add = [&rows](const char* name, double halfWidth, double divisor, double sensitivity) {
+        if (halfWidth == 0) return;  // stated to be nothing
+        rows.push_back({name, Distribution::Rectangular, halfWidth, divisor, sensitivity, kInfinite});
+    };
+    add("probe or shunt", errors.probeTolerance, kHalfWidth, value);
+    add("instrument linearity", errors.linearityTolerance, kHalfWidth, 1);
+    add("instrument offset", errors.offsetTolerance, kHalfWidth, 1);
+    add("resolution", errors.resolution, kResolution, 1);
+    add("time stamps", errors.stampTolerance, kTwoStamps, 1);
+    add("load", errors.loadTolerance, kHalfWidth, errors.loadSensitivity * value);
+}
+
+/// The budget of a mean of `n` of the level's readings.
+Result<UncertaintyBudget> levelBudget(const CalibrationLevel& level, std::size_t n, const Calibration& found,
+                                      const InstrumentErrors& errors, const BudgetOptions& options) {
+    // A level that was read once per direction knows its scatter from the others only.
+    const bool own = level.degreesOfFreedom > 0;
+    const double s = own ? level.s : found.repeatability;
+    if (std::isnan(s)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "calibration: level {} was not repeated, nor was any other; at least two readings of a level and "
+                    "direction are needed for an uncertainty",
+                    level.commanded);
+    }
+    std::vector<Contribution> rows{{"repeatability", Distribution::Student, s, std::sqrt(static_cast<double>(n)), 1,
+                                    own ? level.degreesOfFreedom : found.degreesOfFreedom}};
+    addInstrument(rows, errors, level.mean);
+    if (const double sampling = errors.samplingStep / kTwoEdges; s < 0.5 * sampling) {
+        rows.push_back({"sampling", Distribution::Normal, errors.samplingStep, kTwoEdges, 1, kInfinite});
+    }
+    return combine(std::move(rows), options);
+}
+
+/// The line's two numbers: the instrument's gain error scales both, its offset shifts the offset alone.
+Result<void> judgeLine(JudgedCalibration& judged, const InstrumentErrors& errors, const BudgetOptions& options) {
+    const auto& found = judged.calibration;
+    const auto line = [&](const char* name, double standardError, double value, double offsetTolerance) {
+        std::vector<Contribution> rows{
+            {name, Distribution::Student, standardError, 1, 1, std::max(1.0, found.degreesOfFreedom)}};
+        InstrumentErrors here = errors;
+        here.offsetTolerance = offsetTolerance;
+        here.resolution = here.linearityTolerance = here.stampTolerance = 0;  // averaged over the levels
+        addInstrument(rows, here, value);
+        return combine(std::move(rows), options);
+    };
+    auto gain = line("fit of the gain", found.gainStandardError, found.gain, 0);
+    if (!gain) return failure(gain);
+    auto offset = line("fit of the offset", found.offsetStandardError, found.offset, errors.offsetTolerance);
+    if (!offset) return failure(offset);
+    judged.gain = std::move(*gain);
+    judged.offset = std::move(*offset);
+    return {};
+}
+
+double worstErrorOf(const CalibrationLevel& level) {
+    double worst = level.mean - level.commanded;
+    for (const double mean : {level.meanUp, level.meanDown}) {
+        if (std::abs(mean - level.commanded) > std::abs(worst)) worst = mean - level.commanded;
+    }
+    return worst;
+}
+
+void decide(JudgedCalibration& judged, const std::string& unitOfReadings) {
+    const auto& found = judged.calibration;
+    const auto& unit = unitOfReadings;
+    const auto used = [](const JudgedLevel& level) {
+        return (std::abs(level.worstError) + level.worstBudget.expanded) / level.tolerance;
+    };
+    const auto at = [&](const JudgedLevel& level) {
+        const auto where = fmt::format("{} ({}, tolerance ± {})", exactText(level.commanded, unit),
+                                       measuredText(level.worstError, level.worstBudget.expanded, unit),
+                                       exactText(level.tolerance, unit));
+        return std::isfinite(used(level))
+                   ? fmt::format("uses {} of its tolerance at {}", scaledText(100 * used(level), "%", 2), where)
+                   : "error at " + where;
+    };
+    judged.verdict = Verdict::Pass;
+    for (const auto& level : judged.levels) judged.verdict = worseOf(judged.verdict, level.verdict);
+    const bool unknown = std::any_of(judged.levels.begin(), judged.levels.end(), [](const auto& level) {
+        return !level.worstBudget.rows.empty() && std::isnan(level.worstBudget.expanded);
+    });
+    if (unknown) {
+        std::string lacking;
+        for (const auto& row : judged.fullScale().worstBudget.rows) {
+            if (std::isnan(row.value)) lacking += (lacking.empty() ? "" : ", ") + row.name;
+        }
+        judged.reasons.push_back(
+            fmt::format("not evaluated: the instrument does not state its part of the uncertainty ({})", lacking));
+    }
+    for (const auto& level : judged.levels) {
+        if (unknown || judged.verdict == Verdict::Pass || level.verdict != judged.verdict) continue;
+        judged.reasons.push_back(at(level));
+    }
+    if (judged.verdict == Verdict::Pass) {
+        const auto tightest = std::max_element(judged.levels.begin(), judged.levels.end(),
+                                               [&](const auto& a, const auto& b) { return used(a) < used(b); });
+        judged.reasons.push_back(at(*tightest));
+    }
+    if (!found.complete && judged.verdict == Verdict::Pass) judged.verdict = Verdict::Indeterminate;
+    judged.reasons.insert(judged.reasons.end(), found.warnings.begin(), found.warnings.end());
+}
+
+}  // namespace
+
+const JudgedLevel& JudgedCalibration::fullScale() const noexcept {
+    return *std::max_element(levels.begin(), levels.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.commanded) < std::abs(b.commanded);
+    });
+}
+
+const JudgedLevel& JudgedCalibration::smallest() const noexcept {
+    return *std::min_element(levels.begin(), levels.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.commanded) < std::abs(b.commanded);
+    });
+}
+
+Result<JudgedCalibration> judgeCalibration(Calibration calibration, const InstrumentErrors& errors,
+                                           double tolerance_pct, const BudgetOptions& options) {
+    if (!(tolerance_pct > 0) || !std::isfinite(tolerance_pct)) {
+        return fail(ErrorCode::InvalidArgument, "calibration tolerance {} %; above 0 was expected", tolerance_pct);
+    }
+    JudgedCalibration judged;
+    judged.calibration = std::move(calibration);
+    judged.tolerance_pct = tolerance_pct;
+    for (const auto& level : judged.calibration.levels) {
+        if (level.n == 0) {
+            JudgedLevel unknown;
+            unknown.commanded = level.commanded;
+            unknown.error = unknown.worstError = unknown.budget.expanded = unknown.worstBudget.expanded = kNaN;
+            unknown.tolerance = tolerance_pct / 100 * std::abs(level.commanded);
+            judged.levels.push_back(std::move(unknown));
+            continue;
+        }
+        auto budget = levelBudget(level, level.n, judged.calibration, errors, options);
+        if (!budget) return failure(budget);
+        const bool bothWays = std::isfinite(level.meanUp) && std::isfinite(level.meanDown);
+        auto worst =
+            bothWays ? levelBudget(level, std::max<std::size_t>(1, level.n / 2), judged.calibration, errors, options)
+                     : budget;
+        if (!worst) return failure(worst);
+        JudgedLevel out;
+        out.commanded = level.commanded;
+        out.error = level.mean - level.commanded;
+        out.worstError = worstErrorOf(level);
+        out.budget = std::move(*budget);
+        out.worstBudget = std::move(*worst);
+        out.tolerance = tolerance_pct / 100 * std::abs(level.commanded);
+        out.verdict = guardBanded(out.worstError, out.worstBudget.expanded, out.tolerance);
+        judged.levels.push_back(std::move(out));
+    }
+    if (auto line = judgeLine(judged, errors, options); !line) return failure(line);
+    decide(judged, errors.unit);
+    return judged;
+}
+
+Verdict verdictAt(const JudgedCalibration& judged, double tolerance_pct) noexcept {
+    Verdict verdict = judged.calibration.complete ? Verdict::Pass : Verdict::Indeterminate;
+    for (const auto& level : judged.levels) {
+        verdict = worseOf(verdict, guardBanded(level.worstError, level.worstBudget.expanded,
+                                               tolerance_pct / 100 * std::abs(level.commanded)));
+    }
+    return verdict;
+}
+
+}  // namespace tacto

@@ -1,0 +1,73 @@
+// CalibrationVerdict.h - a calibration with its uncertainty, judged against a tolerance. science.md section 9.
+//
+// The measurand at a level is the device's mean delivered value there, up and down sweep taken together; its error is
+// that value less the command. Type A is s/√n of the level's own readings, s pooled within direction (readings at
+// different levels need not scatter alike). Type B is what the instruments' data sheets state, in InstrumentErrors.
+// The error that is judged is that of the worse direction, so hysteresis cannot hide in the mean.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "core/analysis/calibration/Calibration.h"
+#include "core/analysis/statistics/UncertaintyBudget.h"
+#include "core/analysis/statistics/Verdict.h"
+#include "core/base/NaN.h"
+
+namespace tacto {
+
+/// What the measuring instrument and the load may contribute; each constant over the calibration, and unknown within
+/// limits. Half-widths of rectangular distributions unless said otherwise. NaN: not stated; the budget then has no U
+/// and the verdict is at best indeterminate (hazard H9).
+struct InstrumentErrors {
+    double gainTolerance = kNaN;    ///< relative (0.005 = 0.5 %): vertical gain, or the time base
+    double probeTolerance = 0;      ///< relative, of the probe or shunt
+    double linearityTolerance = 0;  ///< in the readings' unit, beside the gain
+    double offsetTolerance = 0;     ///< in the readings' unit; 0 where levels are read from their own baseline
+    double resolution = kNaN;       ///< one step (LSB) in the readings' unit; 0 for times
+    double stampTolerance = 0;      ///< s, of two records against each other; 0 within one record
+    double loadTolerance = 0;       ///< relative, of the resistor
+    /// Relative change of the reading per relative change of the load: 0 where the voltage across the load of a
+    /// voltage source is read (or any time), -1 where a current is computed from the voltage across it.
+    double loadSensitivity = 0;
+    /// Sampling step, for widths and intervals: two edges, each anywhere within a step, make a triangle (step/√6).
+    /// A clock that runs freely shows it in the scatter of the readings already; it is a row of its own only where s
+    /// is under half of step/√6, which means that every reading met the same sampling phase.
+    double samplingStep = 0;
+    std::string unit{};  ///< of the readings, for sentences; empty where it is not known
+};
+
+struct JudgedLevel {
+    double commanded = 0;
+    double error = 0;               ///< of the level's mean
+    double worstError = 0;          ///< of the worse direction: what is judged
+    UncertaintyBudget budget;       ///< of the level's mean
+    UncertaintyBudget worstBudget;  ///< of the worse direction's mean, which has fewer readings: what is judged
+    double tolerance = 0;           ///< in the readings' unit
+    Verdict verdict = Verdict::Indeterminate;
+};
+
+struct JudgedCalibration {
+    Calibration calibration;
+    std::vector<JudgedLevel> levels;  ///< as calibration.levels
+    UncertaintyBudget gain;           ///< of the fitted line
+    UncertaintyBudget offset;
+    double tolerance_pct = 0;
+    Verdict verdict = Verdict::Indeterminate;
+    std::vector<std::string> reasons;  ///< what decided the verdict comes first
+    /// The level of the largest command.
+    [[nodiscard]] const JudgedLevel& fullScale() const noexcept;
+    /// The level of the smallest.
+    [[nodiscard]] const JudgedLevel& smallest() const noexcept;
+};
+
+/// `tolerance_pct`: in % of the command at each level. The verdict is the worst level's; fewer than 11 levels or 5
+/// repeats, a level that was not met both ways or a reading that was not measured cannot pass.
+/// A level without a measured reading is indeterminate, its budget empty and its U NaN.
+/// Errors: as combine(); InvalidArgument for a tolerance that is not above 0, or where nothing was repeated.
+[[nodiscard]] Result<JudgedCalibration> judgeCalibration(Calibration calibration, const InstrumentErrors& errors,
+                                                         double tolerance_pct, const BudgetOptions& options = {});
+
+/// The same readings against another tolerance; cheap. `tolerance_pct` > 0, else every level is indeterminate.
+[[nodiscard]] Verdict verdictAt(const JudgedCalibration& judged, double tolerance_pct) noexcept;
+
+}  // namespace tacto

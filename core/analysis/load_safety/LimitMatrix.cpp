@@ -1,0 +1,148 @@
+#include "core/analysis/load_safety/LimitMatrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto {
+
+namespace {
+
+using nlohmann::json;
+
+bool isOfALimit(const SafetyRow& row) {
+    return std::isfinite(row.limit) && row.limit > 0 && !row.load.empty() && row.item != "reference" &&
+           row.item != "time_reference";
+}
+
+LimitCell cellOf(const SafetyRow& row) {
+    LimitCell cell{row.value, row.expanded, std::nan(""), row.verdict, row.note};
+    if (row.basis == RowBasis::Commanded) cell.expanded = 0;  // a command is what it was
+    if (std::isfinite(cell.value) && cell.expanded >= 0)
+        cell.margin_pct = 100 * (row.limit - cell.value - cell.expanded) / row.limit;
+    return cell;
+}
+
+/// What its limit set says of it; the laboratory's own limits are in none.
+void describe(LimitLine& line, const std::vector<LimitSet>& sets) {
+    const auto set = std::find_if(sets.begin(), sets.end(), [&](const LimitSet& each) { return each.id == line.set; });
+    if (set == sets.end()) return;
+    for (const auto& row : set->rows) {
+        if (keyOf(row.quantity) != line.item || row.max != line.limit || row.source != line.source) continue;
+        line.strict = row.strict;
+        line.confidence = nameOf(row.confidence);
+        return;
+    }
+    for (const auto& asked : set->accuracy) {
+        if (asked.parameter + "_accuracy" == line.item) line.confidence = nameOf(asked.confidence);
+    }
+}
+
+void summarise(LimitLine& line) {
+    std::vector<RowVerdict> verdicts;
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+        if (!line.cells[i]) continue;
+        const auto& cell = *line.cells[i];
+        verdicts.push_back(cell.verdict);
+        // Net charge that is reported and not judged has no margin to lose.
+        if (cell.verdict == RowVerdict::NotApplicable || !std::isfinite(cell.margin_pct)) continue;
+        if (!(line.margin_pct <= cell.margin_pct)) line.margin_pct = cell.margin_pct, line.worst = i;
+    }
+    line.verdict = summaryOf(verdicts);
+    const bool warned = std::find(verdicts.begin(), verdicts.end(), RowVerdict::Attention) != verdicts.end();
+    if (line.verdict == RowVerdict::Pass && warned) line.verdict = RowVerdict::Attention;
+}
+
+int rankOf(RowVerdict verdict) {
+    switch (verdict) {
+        case RowVerdict::Fail:
+            return 0;
+        case RowVerdict::Indeterminate:
+            return 1;
+        case RowVerdict::Pass:
+        case RowVerdict::Attention:
+        case RowVerdict::RefusedAsExpected:
+            return 2;
+        case RowVerdict::NotEvaluated:
+            return 3;
+        case RowVerdict::NotApplicable:
+            return 4;
+    }
+    return 3;
+}
+
+}  // namespace
+
+LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& sets) {
+    LimitMatrix matrix;
+    const auto columnOf = [&](const std::string& load) {
+        const auto at = std::find(matrix.loads.begin(), matrix.loads.end(), load);
+        if (at != matrix.loads.end()) return static_cast<std::size_t>(at - matrix.loads.begin());
+        matrix.loads.push_back(load);
+        return matrix.loads.size() - 1;
+    };
+    const auto add = [&](const SafetyRow& row, const std::string& load) {
+        if (!isOfALimit(row)) return;
+        const auto column = columnOf(load);
+        const auto same = [&](const LimitLine& line) {
+            return line.item == row.item && line.set == row.set && line.limit == row.limit && line.source == row.source;
+        };
+        auto line = std::find_if(matrix.lines.begin(), matrix.lines.end(), same);
+        if (line == matrix.lines.end()) {
+            LimitLine begun;
+            begun.item = row.item, begun.title = row.title, begun.unit = row.unit, begun.set = row.set;
+            begun.limit = row.limit, begun.source = row.source;
+            line = matrix.lines.insert(matrix.lines.end(), std::move(begun));
+        }
+        if (line->cells.size() <= column) line->cells.resize(column + 1);
+        line->cells[column] = cellOf(row);
+    };
+    for (const auto& row : found.rows) add(row, row.load);
+    for (const auto& row : found.worstCase.rows) add(row, kExtrapolatedColumn);
+    for (auto& line : matrix.lines) {
+        line.cells.resize(matrix.loads.size());
+        describe(line, sets);
+        summarise(line);
+    }
+    const auto order = [](const LimitLine& line) {
+        return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : 1e9);
+    };
+    std::stable_sort(matrix.lines.begin(), matrix.lines.end(),
+                     [&](const LimitLine& a, const LimitLine& b) { return order(a) < order(b); });
+    return matrix;
+}
+
+json toJson(const LimitMatrix& matrix) {
+    json lines = json::array();
+    for (const auto& line : matrix.lines) {
+        json cells = json::array();
+        for (std::size_t i = 0; i < line.cells.size(); ++i) {
+            const auto& cell = line.cells[i];
+            cells.push_back(cell ? json{{"load", matrix.loads[i]},
+                                        {"value", numberOrNull(cell->value)},
+                                        {"expanded_uncertainty", numberOrNull(cell->expanded)},
+                                        {"margin_pct", numberOrNull(cell->margin_pct)},
+                                        {"note", cell->note.empty() ? json() : json(cell->note)},
+                                        {"verdict", nameOf(cell->verdict)}}
+                                 : json());
+        }
+        const bool known = std::isfinite(line.margin_pct);
+        lines.push_back({{"item", line.item},
+                         {"title", line.title},
+                         {"unit", line.unit},
+                         {"set", line.set},
+                         {"limit", line.limit},
+                         {"compare", line.strict ? "<" : "<="},
+                         {"source", line.source},
+                         {"confidence", line.confidence.empty() ? json() : json(line.confidence)},
+                         {"margin_pct", numberOrNull(line.margin_pct)},
+                         {"worst_load", known ? json(matrix.loads[line.worst]) : json()},
+                         {"verdict", nameOf(line.verdict)},
+                         {"cells", std::move(cells)}});
+    }
+    return {{"loads", matrix.loads}, {"lines", std::move(lines)}};
+}
+
+}  // namespace tacto

@@ -1,0 +1,50 @@
+// LimitMatrix.h - limits x loads: every limit once, what was measured against it on each load, and how much of the
+// limit is left. Made from the rows of a load-safety check, so that it can say nothing that they do not.
+//
+// Thread-safety: plain data and pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/analysis/load_safety/LoadSafety.h"
+
+namespace tacto {
+
+/// The column of what is extrapolated over the permitted loads.
+inline constexpr const char* kExtrapolatedColumn = "worst case";
+
+struct LimitCell {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double expanded = std::numeric_limits<double>::quiet_NaN();    ///< U, in the value's unit
+    double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< (limit - value - U) / limit; below 0: not kept
+    RowVerdict verdict = RowVerdict::NotEvaluated;
+    std::string note{};  ///< of the row: what was measured beside a command
+};
+
+struct LimitLine {
+    std::string item, title, unit, set;
+    double limit = std::numeric_limits<double>::quiet_NaN();
+    bool strict = false;     ///< "<" and not "≤"
+    std::string source;      ///< document and clause
+    std::string confidence;  ///< in that source, as its limit set states it; empty for this program's own
+    double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest of the cells
+    std::size_t worst = 0;                                         ///< the cell that has it, an index into the loads
+    RowVerdict verdict = RowVerdict::NotEvaluated;                 ///< summaryOf() the cells; attention where one is
+    std::vector<std::optional<LimitCell>> cells;                   ///< as LimitMatrix::loads; empty: asks nothing there
+};
+
+struct LimitMatrix {
+    std::vector<std::string> loads;  ///< in the order of the rows; kExtrapolatedColumn last
+    /// What failed first, then what is indeterminate, then by the margin left; what was not evaluated stands last.
+    std::vector<LimitLine> lines;
+};
+
+/// `sets`: those that `found` was judged by; they say what kind of limit it is and how sure its source.
+[[nodiscard]] LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& sets);
+
+/// {"loads": [...], "lines": [{"item","title","unit","set","limit","compare","source","confidence","margin_pct",
+/// "worst_load","verdict","cells": [null or {"load","value","expanded_uncertainty","margin_pct","note","verdict"}]}]}
+[[nodiscard]] nlohmann::json toJson(const LimitMatrix& matrix);
+
+}  // namespace tacto

@@ -1,0 +1,242 @@
+#include "core/analysis/load_safety/LoadFigures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tacto {
+
+namespace {
+
+/// An onset may jitter against the window's edge; a hundredth of a train is no further train.
+constexpr double kWindowEdge = 0.01;
+/// For a straight line that is followed from there to the end: the noise of its value over that of the mean, and the
+/// share of the way that a bend may be worth.
+constexpr double kLineNoise = 2.6, kLineDoubt = 0.2;
+
+Reading rootOf(const Reading& squares, double seconds, double scale) {
+    if (std::isnan(squares.value) || std::isnan(seconds)) return {};
+    if (!(squares.value > 0)) return {0, 0, 0};
+    const double rms = std::sqrt(squares.value / seconds) * scale;
+    const double half = rms * 0.5 / squares.value;
+    return {rms, half * squares.u, half * squares.expanded};
+}
+
+/// Trains that the worst window of `seconds` holds at `interval_s`, which may be long by `slack_s`; NaN without one.
+double trainsIn(double seconds, double interval_s, double slack_s) {
+    if (std::isnan(interval_s)) return kNaN;
+    const double trains = seconds / interval_s;
+    return std::max(1.0, std::ceil(trains - std::max(kWindowEdge, trains * slack_s / interval_s)));
+}
+
+/// A whole number of trains, the most that `seconds` can hold at this interval. Where the interval's U leaves open
+/// whether there is one more, that one is in the window's own; without that U nothing is known.
+Reading windowOf(double seconds, const Reading& perTrain, const Reading& interval_s) {
+    const double T = interval_s.value, slack_s = interval_s.measured() ? interval_s.expanded : 0;
+    const double trains = trainsIn(seconds, T, slack_s);
+    auto out = times(trains, perTrain);
+    const double more = (trainsIn(seconds, T - slack_s, 0) - trains) * perTrain.value;
+    out.u = interval_s.measured() ? std::hypot(out.u, more / kSqrt3) : kNaN;
+    out.expanded = interval_s.measured() ? std::hypot(out.expanded, more) : kNaN;
+    return out;
+}
+
+/// The shortest from onset to onset in one record. NaN where it does not hold two trains.
+double shortestIn(const Capture& rhythm, const ExpectedTrain& expected) {
+    MeasureOptions options;
+    if (expected.pulses > 1) options.intraTrainRate = Hertz(expected.rate_hz);
+    const auto measured = measureTrains({&rhythm, 1}, drivenBy(expected), options);
+    return measured && measured->interval_s.n > 0 ? measured->interval_s.min : kNaN;
+}
+
+}  // namespace
+
+Reading times(double factor, const Reading& reading) {
+    return {factor * reading.value, std::abs(factor) * reading.u, std::abs(factor) * reading.expanded};
+}
+
+Reading LoadFigures::figure(double value, BudgetRows rows) const {
+    return readingOf(value, std::move(rows), expected_.budget);
+}
+
+void LoadFigures::addTimeBase(BudgetRows& rows, double sensitivity) const {
+    rows.push_back({"time base", Distribution::Rectangular, timeBase_, kSqrt3, sensitivity});
+}
+
+/// The uncertainty of a width, relative: what it adds to charges, energies and squares. The time base is in all of
+/// them alike.
+void LoadFigures::addWidth(BudgetRows& rows, double sensitivity) const {
+    addTimeBase(rows, sensitivity);
+    addNormal(rows, "sampling of the edges", dt_ / std::sqrt(6.0) / meanOver(trains_, &TrainFigures::width_s),
+              sensitivity);
+}
+
+/// The uncertainty of the voltage at the end of a phase: noise, and the way there; `samples` were averaged.
+void LoadFigures::addEnd(BudgetRows& rows, const LoadTrains& trains, double samples, double sensitivity) const {
+    const double line = meanOver(trains, &TrainFigures::line_v);
+    addNormal(rows, "noise of voltage", (line > 0 ? kLineNoise : 1) * trains.front().noise_v / std::sqrt(samples),
+              sensitivity);
+    if (line > 0) {
+        rows.push_back({"way to the phase's end", Distribution::Rectangular, kLineDoubt * line, kSqrt3, sensitivity});
+    }
+}
+
+Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
+                                 double currentLsb) const {
+    const double volts = meanOver(trains, &TrainFigures::end_v), amps = meanOver(trains, &TrainFigures::end_a);
+    if (!(currentLsb > 0) || !(amps >= kFewestLsb * currentLsb)) return {};
+    const double samples = trains.front().endSamples * static_cast<double>(trains.size());
+    const double ohms = volts / amps;
+    BudgetRows rows;
+    v.addGain(rows, ohms);
+    i.addGain(rows, ohms);
+    v.addLevel(rows, 1 / amps);
+    i.addLevel(rows, ohms / amps);
+    addEnd(rows, trains, samples, 1 / amps);
+    addNormal(rows, "noise of current", trains.front().noise_a / std::sqrt(samples), ohms / amps);
+    addSpread(rows, trains, &TrainFigures::impedance);
+    return figure(ohms, std::move(rows));
+}
+
+/// The mean of the trains, each in doubt by `rows`: their spread is that of what was programmed as well.
+void LoadFigures::addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member,
+                               const BudgetRows& rows, bool driven) const {
+    const double mean = meanOver(trains_, member);
+    BudgetRows all = rows;
+    addSpread(all, trains_, member);
+    amplitude = figure(mean, std::move(all));
+    if (!driven) return;
+    const double ratio = meanOver(trains_, &TrainFigures::delivered);
+    all = rows;
+    for (auto& row : all) row.sensitivity *= ratio / mean;
+    addSpread(all, trains_, &TrainFigures::delivered);
+    out.delivered = figure(ratio, std::move(all));
+}
+
+void LoadFigures::addVoltage(LoadReading& out) const {
+    const double v = meanOver(trains_, &TrainFigures::plateau_v);
+    BudgetRows rows;
+    v_.addGain(rows, v);
+    v_.addLevel(rows, 1);
+    addEnd(rows, trains_, trains_.front().endSamples, 1);
+    addAmplitude(out, out.amplitude_v, &TrainFigures::plateau_v, rows, expected_.drive == Drive::Voltage);
+    // The train with the most counts: what the trains differ by is no doubt about it.
+    const double highest = largestOf(trains_, &TrainFigures::plateau_v);
+    for (auto& row : rows) row.sensitivity *= highest / v;
+    out.highest_v = figure(highest, std::move(rows));
+
+    const double w = meanOver(trains_, &TrainFigures::width_s);
+    BudgetRows width;
+    addWidth(width, w);
+    // Where the samples fall moves a width as well, and is in it already: what the trains differ by beyond that counts.
+    constexpr double kBeyond = 2;
+    const double sampling = dt_ / std::sqrt(6.0);
+    if (statisticsOver(trains_, &TrainFigures::width_s).sd > kBeyond * sampling) {
+        addSpread(width, trains_, &TrainFigures::width_s);
+    }
+    out.width_s = figure(w, std::move(width));
+
+    const double peak = largestOf(trains_, &TrainFigures::peak_v);
+    BudgetRows top;
+    v_.addGain(top, peak);
+    v_.addLevel(top, 1);
+    addNormal(top, "noise of voltage", trains_.front().noise_v);
+    addNormal(top, "between two samples", largestOf(trains_, &TrainFigures::step_v) / kSqrt12);
+    out.peak_v = figure(peak, std::move(top));
+}
+
+void LoadFigures::addInterval(LoadReading& out, const Capture* rhythm) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    BudgetRows rows;
+    if (rhythm != nullptr) {
+        shortest = shortestIn(*rhythm, expected_);
+        if (std::isnan(shortest)) {
+            out.warnings.emplace_back("the record for the interval does not hold two trains");
+            return;
+        }
+        addNormal(rows, "sampling of the onsets", 1 / rhythm->rate_hz / std::sqrt(6.0));
+        rows.push_back({"time base", Distribution::Rectangular, rhythm->timeBaseTolerance, kSqrt3, shortest});
+    } else {
+        for (std::size_t k = 1; k < trains_.size(); ++k) {
+            shortest = std::min(shortest, trains_[k].onset_s - trains_[k - 1].onset_s);
+        }
+        addNormal(rows, "sampling of the onsets", dt_ / std::sqrt(6.0));
+        addTimeBase(rows, shortest);
+        rows.push_back({"time stamps", Distribution::Rectangular, stamp_s_, kSqrt3 / kSqrt2, 1});
+    }
+    if (!std::isfinite(shortest) || !(shortest > 0)) return;
+    out.interval_s = figure(shortest, std::move(rows));
+}
+
+void LoadFigures::addVoltageWindows(LoadReading& out) const {
+    const double squares = largestOf(trains_, &TrainFigures::squares_v);
+    BudgetRows rows;
+    v_.addGain(rows, 2 * squares);
+    v_.addLevel(rows, 2 * largestOf(trains_, &TrainFigures::magnitude_v));
+    addWidth(rows, squares);
+    out.rms_5s_v = rootOf(windowOf(5, figure(squares, std::move(rows)), out.interval_s), 5, 1);
+}
+
+void LoadFigures::addCurrent(LoadReading& out) const {
+    const double amps = meanOver(trains_, &TrainFigures::end_a);
+    const double noise = trains_.front().noise_a;
+    BudgetRows end;
+    i_.addGain(end, amps);
+    i_.addLevel(end, 1);
+    addAmplitude(out, out.amplitude_ma, &TrainFigures::end_a, end, expected_.drive == Drive::Current);
+    out.amplitude_ma = times(1e3, out.amplitude_ma);
+    out.impedance_ohm = impedanceOf(trains_, v_, i_, out.currentLsb);
+
+    const double peak = largestOf(trains_, &TrainFigures::peak_a);
+    BudgetRows top;
+    i_.addGain(top, peak);
+    i_.addLevel(top, 1);
+    addNormal(top, "noise of current", noise);
+    addNormal(top, "between two samples", largestOf(trains_, &TrainFigures::step_a) / kSqrt12);
+    out.peak_ma = times(1e3, figure(peak, std::move(top)));
+
+    const double w = out.width_s.value, pulses = expected_.pulses;
+    const double phase = largestOf(trains_, &TrainFigures::phase_C);
+    BudgetRows charge;
+    i_.addGain(charge, phase);
+    i_.addLevel(charge, w);
+    addWidth(charge, phase);
+    out.charge_uc = times(1e6, figure(phase, std::move(charge)));
+
+    // Gain is common to both phases and leaves their balance alone; what the converter's steps hide in two plateaus
+    // and in the baseline under them does not.
+    const double net = largestOf(trains_, &TrainFigures::net_C);
+    BudgetRows balance;
+    i_.addLevel(balance, w * kSqrt3);
+    addNormal(balance, "noise of current", noise * std::sqrt(record_s_ * dt_));
+    addSpread(balance, trains_, &TrainFigures::net_C);
+    out.imbalance = times(1 / phase, figure(net, balance));
+    i_.addGain(balance, net);
+    out.net_charge_uc = times(1e6, figure(net, std::move(balance)));
+
+    // The gains of one instrument add up in a product: they may be off together.
+    const double energy = largestOf(trains_, &TrainFigures::energy_J);
+    BudgetRows work;
+    work.push_back({"gains of voltage and current", Distribution::Rectangular, v_.gain() + i_.gain(), kSqrt3, energy});
+    v_.addProbe(work, energy);
+    i_.addProbe(work, energy);
+    addWidth(work, energy);
+    v_.addLevel(work, largestOf(trains_, &TrainFigures::magnitude_a) / pulses);
+    i_.addLevel(work, largestOf(trains_, &TrainFigures::magnitude_v) / pulses);
+    out.energy_mj = times(1e3, figure(energy, std::move(work)));
+
+    const double squares = largestOf(trains_, &TrainFigures::squares_a);
+    BudgetRows heat;
+    i_.addGain(heat, 2 * squares);
+    i_.addLevel(heat, 2 * largestOf(trains_, &TrainFigures::magnitude_a));
+    addWidth(heat, squares);
+    const Reading train = figure(squares, std::move(heat));
+    out.rms_train_ma = rootOf(train, pulses / expected_.rate_hz, 1e3);
+    out.rms_1s_ma = rootOf(windowOf(1, train, out.interval_s), 1, 1e3);
+    out.rms_5s_ma = rootOf(windowOf(5, train, out.interval_s), 5, 1e3);
+    out.dc_ma = times(pulses / 5 * 1e-3, windowOf(5, out.net_charge_uc, out.interval_s));
+    out.power_1s_w = times(pulses * 1e-3, windowOf(1, out.energy_mj, out.interval_s));
+}
+
+}  // namespace tacto

@@ -1,0 +1,56 @@
+// LoadFigures.h - the figures of the trains of one load, each with its uncertainty (LoadReading.h says what they are).
+// Private to core/analysis.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "core/analysis/load_safety/ChannelDoubt.h"
+#include "core/analysis/load_safety/LoadReading.h"
+
+namespace tacto {
+
+/// A current below that many steps of its converter says nothing.
+constexpr double kFewestLsb = 10;
+
+/// In another unit, or of a part.
+[[nodiscard]] Reading times(double factor, const Reading& reading);
+
+class LoadFigures {
+public:
+    /// At least one train; `capture` is the first one's. All outlive this.
+    LoadFigures(const LoadTrains& trains, const ExpectedTrain& expected, const Capture& capture)
+        : trains_(trains),
+          expected_(expected),
+          v_(channelOf(capture, "voltage")),
+          i_(channelOf(capture, "current")),
+          dt_(1 / capture.rate_hz),
+          record_s_(static_cast<double>(capture.samples()) * dt_),
+          timeBase_(capture.timeBaseTolerance),
+          stamp_s_(capture.stampTolerance_s) {}
+
+    /// Amplitude, width and peak.
+    void addVoltage(LoadReading& out) const;
+    /// `rhythm`: readLoad()'s, where the interval is taken from it.
+    void addInterval(LoadReading& out, const Capture* rhythm) const;
+    /// After addInterval().
+    void addVoltageWindows(LoadReading& out) const;
+    /// All that rests on the current; after the others.
+    void addCurrent(LoadReading& out) const;
+    [[nodiscard]] Reading impedanceOf(const LoadTrains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
+                                      double currentLsb) const;
+    [[nodiscard]] Reading figure(double value, BudgetRows rows) const;
+
+private:
+    void addTimeBase(BudgetRows& rows, double sensitivity) const;
+    void addWidth(BudgetRows& rows, double sensitivity) const;
+    void addEnd(BudgetRows& rows, const LoadTrains& trains, double samples, double sensitivity) const;
+    void addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member, const BudgetRows& rows,
+                      bool driven) const;
+
+    const LoadTrains& trains_;
+    const ExpectedTrain& expected_;
+    const ChannelDoubt v_, i_;
+    const double dt_, record_s_, timeBase_, stamp_s_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,217 @@
+#include "core/analysis/sensor_calibration/SensorCalibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
+
+namespace tacto {
+
+namespace {
+
+ReferenceScale& scaleOf(RoughnessSettings& settings, SensorFeature feature) {
+    switch (feature) {
+        case SensorFeature::H:
+            return settings.h;
+        case SensorFeature::HAbs:
+            return settings.hAbs;
+        case SensorFeature::VStatic:
+            return settings.vStatic;
+        case SensorFeature::VDynamic:
+            break;
+    }
+    return settings.vDynamic;
+}
+
+/// log10 per slide; nothing where one slide lacks the feature: a mean over those that have it would be of others.
+std::optional<std::vector<double>> logarithms(const SlidSurface& surface, SensorFeature feature) {
+    std::vector<double> out;
+    for (const auto& slide : surface.slides) {
+        const double value = valueOf(slide, feature);
+        if (!(value > 0) || !std::isfinite(value)) return std::nullopt;
+        out.push_back(std::log10(value));
+    }
+    return out;
+}
+
+Result<void> check(const std::vector<SlidSurface>& surfaces) {
+    if (surfaces.size() < 2) {
+        return fail(ErrorCode::InvalidArgument,
+                    "sensor calibration: {} surfaces; a smooth and a rough reference at least are expected",
+                    surfaces.size());
+    }
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (surfaces[i].name == surfaces[k].name) {
+                return fail(ErrorCode::InvalidArgument,
+                            "sensor calibration: {} appears twice; each surface once is "
+                            "expected",
+                            surfaces[i].name);
+            }
+        }
+        const std::size_t least = i < 2 ? kFewestSlides : 1;
+        if (surfaces[i].slides.size() < least) {
+            return fail(ErrorCode::InvalidArgument, "sensor calibration: {} slides over {}; at least {} are expected",
+                        surfaces[i].slides.size(), surfaces[i].name, least);
+        }
+    }
+    const auto& smooth = surfaces[0];
+    const auto& rough = surfaces[1];
+    if (!(smooth.ra_um > 0) || !(rough.ra_um > smooth.ra_um) || !std::isfinite(rough.ra_um)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "sensor calibration: Ra of the rough reference {} is {} µm, and of the smooth {} {} µm; a larger "
+                    "one, and both above 0, is expected",
+                    rough.name, rough.ra_um, smooth.name, smooth.ra_um);
+    }
+    return {};
+}
+
+std::string apart(std::string_view what, const SurfaceDistance& distance) {
+    const auto shown = distance.magnitude();
+    return fmt::format(
+        "{} of the two references is d′ = {:.3g} apart, 95 % interval {:.3g} to {:.3g}; a lower end of "
+        "at least {} is expected to tell them apart",
+        what, shown.value, shown.low, shown.high, kToldApart);
+}
+
+std::vector<double> roughnesses(const SlidSurface& surface, const RoughnessSettings& settings) {
+    std::vector<double> out;
+    for (const auto& slide : surface.slides) out.push_back(roughnessOf(slide, settings));
+    return out;
+}
+
+ReferenceSurface certificate(const SlidSurface& surface) {
+    // A profile writes 0 for an Rz that was not stated.
+    return {surface.name, Micrometres(surface.ra_um), Micrometres(surface.rz_um > 0 ? surface.rz_um : 0)};
+}
+
+/// Every feature's distance and its new scale; what is in use and not told apart becomes a reason.
+void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& found, RoughnessSettings& scaled) {
+    const auto used = featuresInUse(scaled);
+    std::size_t present = 0;
+    for (std::size_t f = 0; f < kSensorFeatures.size(); ++f) {
+        const auto feature = kSensorFeatures[f];
+        const bool inUse = std::find(used.begin(), used.end(), feature) != used.end();
+        const auto smooth = logarithms(surfaces[0], feature), rough = logarithms(surfaces[1], feature);
+        if (!smooth || !rough) {
+            if (inUse) found.warnings.push_back(fmt::format("{} was absent; R stands on what is left", keyOf(feature)));
+            continue;
+        }
+        const auto distance = surfaceDistance(*smooth, *rough);
+        if (!distance) continue;  // check() has seen to the number of slides
+        found.distances[f] = *distance;
+        if (!distance->toldApart()) {
+            (inUse ? found.reasons : found.warnings)
+                .push_back(apart(keyOf(feature), *distance) + (inUse ? "" : "; its scale stays as it was"));
+            continue;
+        }
+        scaleOf(scaled, feature) = {std::pow(10, statisticsOf(*smooth).mean), std::pow(10, statisticsOf(*rough).mean)};
+        present += inUse ? 1 : 0;
+    }
+    if (present == 0 && found.reasons.empty()) {
+        found.reasons.emplace_back("neither reference gave a feature that R stands on; sliding contact is expected");
+    }
+}
+
+void rank(const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
+    std::vector<double> ra, r;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (!(surfaces[i].ra_um > 0) || !std::isfinite(found.surfaces[i].R.mean)) continue;
+        ra.push_back(surfaces[i].ra_um);
+        r.push_back(found.surfaces[i].R.mean);
+    }
+    if (ra.size() < kFewestRanked) return;
+    if (auto ranking = spearman(ra, r)) {
+        found.ranking = *std::move(ranking);
+    } else {
+        found.warnings.push_back(ranking.error().message);
+    }
+}
+
+}  // namespace
+
+std::string_view keyOf(SensorFeature feature) noexcept {
+    switch (feature) {
+        case SensorFeature::H:
+            return "h";
+        case SensorFeature::HAbs:
+            return "h_abs";
+        case SensorFeature::VStatic:
+            return "v_static";
+        case SensorFeature::VDynamic:
+            break;
+    }
+    return "v_dynamic";
+}
+
+double valueOf(const SlideReading& slide, SensorFeature feature) noexcept {
+    switch (feature) {
+        case SensorFeature::H:
+            return slide.h;
+        case SensorFeature::HAbs:
+            return slide.hAbs;
+        case SensorFeature::VStatic:
+            return slide.vStatic;
+        case SensorFeature::VDynamic:
+            break;
+    }
+    return slide.vDynamic;
+}
+
+std::vector<SensorFeature> featuresInUse(const RoughnessSettings& settings) {
+    std::vector<SensorFeature> out;
+    const bool relative = settings.spectral == SpectralFeature::Relative;
+    const bool fixed = settings.taxel == TaxelFeature::Static;
+    if (settings.spectralWeight > 0) out.push_back(relative ? SensorFeature::H : SensorFeature::HAbs);
+    if (settings.taxelWeight > 0) out.push_back(fixed ? SensorFeature::VStatic : SensorFeature::VDynamic);
+    return out;
+}
+
+Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfaces, const RoughnessSettings& settings,
+                                          const SensorRest& rest) {
+    if (auto fine = check(surfaces); !fine) return failure(fine);
+    SensorCalibration found;
+    found.settings = settings;
+    RoughnessSettings scaled = settings;
+    setScales(surfaces, found, scaled);
+    scaled.calibrated = true;
+    scaled.uncertainty = roughnessRepeatability(surfaces, scaled);
+    found.uncertainty = scaled.uncertainty;
+    if (!scaled.uncertainty)
+        found.warnings.emplace_back("the uncertainty of R was not evaluated: a feature was absent");
+    scaled.smoothSurface = certificate(surfaces[0]);
+    scaled.roughSurface = certificate(surfaces[1]);
+    if (rest.levels.slidingMeanSquare > 0) {
+        scaled.restMeanSquare = rest.levels.slidingMeanSquare;
+        scaled.restUnit = rest.restUnit;
+    }
+    if (auto valid = validate(scaled); !valid) return failure(valid);
+
+    for (const auto& surface : surfaces) {
+        SurfaceResult row{surface.name, surface.ra_um, surface.rz_um, surface.slides.size(), {}, {}, {}};
+        for (std::size_t f = 0; f < kSensorFeatures.size(); ++f) {
+            const auto values = logarithms(surface, kSensorFeatures[f]);
+            row.features[f] = values ? std::pow(10, statisticsOf(*values).mean) : std::nan("");
+        }
+        row.R = statisticsOf(roughnesses(surface, scaled));
+        std::vector<double> forces;
+        for (const auto& slide : surface.slides) forces.push_back(slide.force_n);
+        row.force_n = statisticsOf(forces);
+        found.surfaces.push_back(std::move(row));
+    }
+    if (found.reasons.empty()) {
+        // R stands on scales of this run only where every feature in use has one.
+        if (auto distance = surfaceDistance(roughnesses(surfaces[0], scaled), roughnesses(surfaces[1], scaled))) {
+            found.distanceR = *distance;
+            if (!(distance->difference > 0) || !distance->toldApart()) found.reasons.push_back(apart("R", *distance));
+        } else {
+            found.reasons.push_back(distance.error().message);
+        }
+        rank(surfaces, found);
+    }
+    found.accepted = found.reasons.empty();
+    if (found.accepted) found.settings = scaled;
+    return found;
+}
+
+}  // namespace tacto

@@ -1,0 +1,34 @@
+// SensorCalibrationJson.h - the sensor calibration in the shapes of the command line's contract, and the readings that
+// a script carries from call to call. Absent values (NaN) are null; an end that is infinite is null too.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/sensor_calibration/SensorCalibration.h"
+#include "core/analysis/sensor_calibration/SensorScale.h"
+
+namespace tacto {
+
+/// {"surfaces": [{"name","ra_um","rz_um","slides","h","h_abs","v","v_static","v_dynamic","R" (mean),"R_sd",
+///  "R_expanded_uncertainty" (of one slide),"force_n"}],
+///  "d_prime": {"h","v","R": {"value","low","high","told_apart"}|null, "all": {"h","h_abs","v_static","v_dynamic"}},
+///  "uncertainty_R": {a profile's "uncertainty", "smooth","middle","rough": U at R 0, 0.5 and 1}|null,
+///  "spearman": {"value","low","high","n","ties","note"}|null, "accepted","verdict" ("pass"|"fail"),"reasons",
+///  "warnings","roughness" (a profile's section)}; "h" and "v" are the variants that the settings choose.
+[[nodiscard]] nlohmann::json toJson(const SensorCalibration& found);
+/// {"scale","scale_expanded_uncertainty","offset","offset_expanded_uncertainty", "gain","residual_max_pct_fs",
+/// "repeatability_pct_fs","hysteresis_pct_fs","levels","readings","warnings", ...}, as Calibration's.
+[[nodiscard]] nlohmann::json toJson(const SensorScale& found);
+
+/// {"taxel_baseline","taxel_floor","taxel_unit","mean_square","unit"}
+[[nodiscard]] nlohmann::json toJson(const SensorRest& rest);
+/// {"h","h_abs","v_static","v_dynamic","force_n","sliding_frames","track": {"period_s","t_s","contact","sliding","h",
+/// "v"}}
+[[nodiscard]] nlohmann::json toJson(const SlideReading& slide);
+/// Reads what the two above wrote. Errors: InvalidArgument naming what is missing or has another type.
+[[nodiscard]] Result<SensorRest> sensorRestFrom(const nlohmann::json& json);
+[[nodiscard]] Result<SlideReading> slideReadingFrom(const nlohmann::json& json);
+
+}  // namespace tacto

@@ -1,0 +1,20 @@
+// StatisticsJson.h - statistics in the shapes of the command line's contract: the same for `analyze`, for scripts and
+// for the session's rows. Absent values (NaN) are null.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/statistics/Estimate.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+[[nodiscard]] nlohmann::json numberOrNull(double value);
+/// {"mean","sd","median","min","max","n"}
+[[nodiscard]] nlohmann::json toJson(const Statistics& statistics);
+/// {"value","low","high"}, 95 %
+[[nodiscard]] nlohmann::json toJson(const Estimate& estimate);
+
+}  // namespace tacto

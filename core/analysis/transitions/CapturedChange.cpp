@@ -1,0 +1,197 @@
+#include "core/analysis/transitions/CapturedChange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/analysis/transitions/NamedGroups.h"
+#include "core/base/JustNoticeable.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kCoverageFactor = 2;
+
+/// Scatter of the trains of one command, relative: what a capture leaves open of a ratio of two amplitudes.
+double scatterOf(std::span<const CapturedChange> changes) {
+    double squares = 0, freedom = 0;
+    for (const auto& change : changes) {
+        std::vector<double> same;
+        for (const double one : change.before_v) {
+            if (!std::isnan(one)) same.push_back(one);
+        }
+        if (same.size() < 2) continue;
+        const Statistics s = statisticsOf(same);
+        const double freedomOfOne = static_cast<double>(same.size()) - 1;
+        squares += freedomOfOne * (s.sd / s.mean) * (s.sd / s.mean);
+        freedom += freedomOfOne;
+    }
+    return freedom > 0 ? std::sqrt(squares / freedom) : kNaN;
+}
+
+void takeStep(LargestStep& axis, double jnd, double from, double to) {
+    if (std::isnan(jnd)) {
+        ++axis.unmeasured;
+    } else if (!(jnd <= axis.jnd)) {
+        axis.jnd = jnd;
+        axis.from = from;
+        axis.to = to;
+    }
+}
+
+void addTrains(ChangeGroup& group, const CapturedChange& change) {
+    double last_v = kNaN, last_s = kNaN;
+    if (!change.before_v.empty() && !std::isnan(change.before_v.back())) {
+        last_v = change.before_v.back();
+        last_s = change.from_s;
+    }
+    for (std::size_t k = 0; k < change.trains.size(); ++k) {
+        const auto& train = change.trains[k];
+        ++group.captured;
+        // The first trains of a movement have none before them to be compared with.
+        if (!change.movement || k >= 1) takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
+        if (!change.movement || k >= 2) {
+            takeStep(group.interval, train.interval_jnd, last_s, train.interval_s);
+            // Two intervals share the stamp between them: u² of ln(T2/T1) is at most 2 (2 u / T)².
+            const double shorter_s = std::min(train.interval_s, std::isnan(last_s) ? train.interval_s : last_s);
+            const double u = kCoverageFactor * std::sqrt(8.0) * train.onsetUncertainty_s / shorter_s /
+                             std::log1p(kIntervalWeberFraction);
+            if (!(u <= group.interval.uncertainty)) group.interval.uncertainty = u;
+        }
+        last_v = train.amplitude_v;
+        last_s = train.interval_s;
+    }
+}
+
+void addChange(ChangeGroup& group, const CapturedChange& change, const ChangeLimits& limits) {
+    ++group.changes;
+    addTrains(group, change);
+    if (change.movement) {
+        group.completes = false;
+        return;
+    }
+    group.from_v = change.from_v;
+    group.to_v = change.to_v;
+    group.from_s = change.from_s;
+    group.to_s = change.to_s;
+    if (std::isfinite(change.complete_s)) group.complete_s.push_back(change.complete_s);
+    if (std::isfinite(change.fastest_s)) group.fastest_s.push_back(change.fastest_s);
+    if (std::isfinite(change.trainsTaken)) group.trains.push_back(change.trainsTaken);
+    if (std::isfinite(change.fewestTrains)) group.fewest.push_back(change.fewestTrains);
+    if (change.complete_s <= limits.complete_s || std::isnan(change.complete_s)) return;
+    if (limits.secondsAlone || !(change.fastest_s > limits.complete_s)) {
+        ++group.late;
+        return;
+    }
+    ++group.outOfReach;
+    if (!(change.trainsTaken <= change.fewestTrains)) ++group.tooMany;
+}
+
+/// What speaks against a pass, in sentences.
+struct Findings {
+    std::vector<std::string> failures, open, notes;
+    [[nodiscard]] Verdict verdict() const {
+        return !failures.empty() ? Verdict::Fail : !open.empty() ? Verdict::Indeterminate : Verdict::Pass;
+    }
+};
+
+void judgeAxis(const ChangeGroup& group, const LargestStep& axis, const char* name, const char* unit,
+               const ChangeLimits& limits, Findings& findings) {
+    const auto step = [&] {
+        return fmt::format("{}: {} goes from {:.3g} to {:.3g} {} in one train, {:.2f} just-noticeable differences",
+                           group.name, name, axis.from, axis.to, unit, axis.jnd);
+    };
+    if (axis.unmeasured > 0) {
+        findings.open.push_back(fmt::format("{}: {} of {} steps of {} were not measured", group.name, axis.unmeasured,
+                                            group.captured, name));
+    }
+    if (std::isnan(axis.jnd)) {
+        if (axis.unmeasured == 0)
+            findings.open.push_back(fmt::format("{}: no step of {} was captured", group.name, name));
+    } else if (std::isnan(axis.uncertainty)) {
+        findings.open.push_back(fmt::format("{}; its uncertainty is unknown", step()));
+    } else if (axis.jnd - axis.uncertainty > limits.perTrain_jnd) {
+        findings.failures.push_back(fmt::format("{}; at most {:g} are wanted", step(), limits.perTrain_jnd));
+    } else if (!(axis.jnd + axis.uncertainty <= limits.perTrain_jnd)) {
+        findings.open.push_back(fmt::format("{} ± {:.2f}; whether at most {:g}, as wanted, is open", step(),
+                                            axis.uncertainty, limits.perTrain_jnd));
+    }
+}
+
+std::string endsOf(const ChangeGroup& group) {
+    std::string ends;
+    if (group.from_v != group.to_v) ends += fmt::format("{:.3g} to {:.3g} V", group.from_v, group.to_v);
+    if (group.from_s != group.to_s) {
+        ends += fmt::format("{}{:.3g} to {:.3g} s", ends.empty() ? "" : ", ", group.from_s, group.to_s);
+    } else {
+        ends += fmt::format(" at one train every {:.3g} s", group.from_s);
+    }
+    return ends;
+}
+
+void judgeCompletion(const ChangeGroup& group, const ChangeLimits& limits, Findings& findings) {
+    if (!group.completes) return;
+    const Statistics complete = statisticsOf(group.complete_s), fastest = statisticsOf(group.fastest_s);
+    const Statistics trains = statisticsOf(group.trains), fewest = statisticsOf(group.fewest);
+    if (group.complete_s.size() < group.changes) {
+        findings.open.push_back(fmt::format("{}: {} of {} changes were not seen to be complete", group.name,
+                                            group.changes - group.complete_s.size(), group.changes));
+    }
+    if (group.late > 0) {
+        findings.failures.push_back(
+            fmt::format("{}: {} of {} changes were complete later than {:g} s, after {:.2f} s at most", group.name,
+                        group.late, group.changes, limits.complete_s, complete.max));
+    }
+    if (group.tooMany > 0) {
+        findings.failures.push_back(
+            fmt::format("{}: {} of {} changes took more trains, {:.0f} at most, than steps of {:g} differences need, "
+                        "{:.0f}",
+                        group.name, group.tooMany, group.changes, trains.max, limits.perTrain_jnd, fewest.max));
+    }
+    if (group.outOfReach > 0) {
+        findings.notes.push_back(fmt::format(
+            "{}, {}: complete after {:.2f} to {:.2f} s. {:g} s are out of reach: in steps of at most {:g} differences "
+            "it takes {:.0f} trains and {:.2f} s at least; this one took {:.0f} trains",
+            group.name, endsOf(group), complete.min, complete.max, limits.complete_s, limits.perTrain_jnd, fewest.max,
+            fastest.min, trains.max));
+    }
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+ChangeJudgement judgeChanges(std::span<const CapturedChange> changes, const std::vector<std::string>& names,
+                             const ChangeLimits& limits) {
+    ChangeJudgement out{.limits = limits, .groups = groupsOf<ChangeGroup>(names)};
+    for (const auto& change : changes) addChange(groupNamed(out.groups, change.name), change, limits);
+    const double scatter_jnd =
+        kCoverageFactor * std::sqrt(2.0) * scatterOf(changes) / std::log1p(kAmplitudeWeberFraction);
+    Findings all;
+    for (auto& group : out.groups) {
+        group.amplitude.uncertainty = scatter_jnd;
+        Findings own;
+        if (group.changes == 0) {
+            own.open.push_back(fmt::format("{}: no change was captured", group.name));
+        } else {
+            judgeAxis(group, group.amplitude, "the amplitude", "V", limits, own);
+            judgeAxis(group, group.interval, "the interval", "s", limits, own);
+            judgeCompletion(group, limits, own);
+        }
+        group.verdict = own.verdict();
+        append(all.failures, own.failures);
+        append(all.open, own.open);
+        append(all.notes, own.notes);
+    }
+    if (out.groups.empty()) all.open.emplace_back("no change was captured");
+    out.verdict = all.verdict();
+    out.reasons = std::move(all.failures);
+    append(out.reasons, all.open);
+    out.notes = std::move(all.notes);
+    return out;
+}
+
+}  // namespace tacto

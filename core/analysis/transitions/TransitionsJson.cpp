@@ -1,0 +1,104 @@
+#include "core/analysis/transitions/TransitionsJson.h"
+
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto {
+
+namespace {
+
+double measuredIn(const nlohmann::json& row, const char* key) {
+    const auto at = row.is_object() ? row.find(key) : row.end();
+    return at != row.end() && at->is_number() ? at->get<double>() : kNaN;
+}
+
+nlohmann::json toJson(const LatencyGroup& group) {
+    return {{"name", group.name},
+            {"n", group.latency_s.n},
+            {"not_measured", group.steps - group.latency_s.n},
+            {"latency_s", toJson(group.latency_s)},
+            {"designed_latency_s", toJson(group.designed_s)},
+            {"difference_s", toJson(group.difference_s)},
+            {"trains", toJson(group.trains)},
+            {"designed_trains", toJson(group.designedTrains)},
+            {"verdict", nameOf(group.verdict)}};
+}
+
+nlohmann::json toJson(const ChangeGroup& group) {
+    return {{"name", group.name},
+            {"n", group.changes},
+            {"trains_captured", group.captured},
+            {"amplitude_jnd", numberOrNull(group.amplitude.jnd)},
+            {"amplitude_u_jnd", numberOrNull(group.amplitude.uncertainty)},
+            {"interval_jnd", numberOrNull(group.interval.jnd)},
+            {"interval_u_jnd", numberOrNull(group.interval.uncertainty)},
+            {"completes", group.completes},
+            {"complete_s", toJson(statisticsOf(group.complete_s))},
+            {"fastest_complete_s", toJson(statisticsOf(group.fastest_s))},
+            {"trains", toJson(statisticsOf(group.trains))},
+            {"fewest_trains", toJson(statisticsOf(group.fewest))},
+            {"late", group.late},
+            {"out_of_reach", group.outOfReach},
+            {"verdict", nameOf(group.verdict)}};
+}
+
+template <class Group>
+nlohmann::json rowsOf(const std::vector<Group>& groups) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const auto& group : groups) rows.push_back(toJson(group));
+    return rows;
+}
+
+}  // namespace
+
+StepLatency stepLatencyFrom(const nlohmann::json& row) {
+    return {.name = row.at("name").get<std::string>(),
+            .latency_s = measuredIn(row, "latency_s"),
+            .designed_s = measuredIn(row, "designed_latency_s"),
+            .designedLow_s = measuredIn(row, "designed_latency_low_s"),
+            .designedHigh_s = measuredIn(row, "designed_latency_high_s"),
+            .trains = measuredIn(row, "trains"),
+            .designedTrains = measuredIn(row, "designed_trains"),
+            .designedTrainsHigh = measuredIn(row, "designed_trains_high")};
+}
+
+CapturedChange capturedChangeFrom(const nlohmann::json& row) {
+    CapturedChange change{.name = row.at("name").get<std::string>(),
+                          .movement = !row.contains("complete_s"),
+                          .from_v = measuredIn(row, "from_v"),
+                          .to_v = measuredIn(row, "to_v"),
+                          .from_s = measuredIn(row, "from_s"),
+                          .to_s = measuredIn(row, "to_s"),
+                          .complete_s = measuredIn(row, "complete_s"),
+                          .trainsTaken = measuredIn(row, "trains"),
+                          .fastest_s = measuredIn(row, "fastest_complete_s"),
+                          .fewestTrains = measuredIn(row, "fewest_trains")};
+    for (const auto& one : row.value("before_v", nlohmann::json::array()))
+        change.before_v.push_back(one.is_number() ? one.get<double>() : kNaN);
+    for (const auto& train : row.at("onsets")) {
+        change.trains.push_back({.amplitude_v = measuredIn(train, "amplitude_v"),
+                                 .interval_s = measuredIn(train, "interval_s"),
+                                 .onsetUncertainty_s = measuredIn(train, "onset_u_s"),
+                                 .amplitude_jnd = measuredIn(train, "amplitude_jnd"),
+                                 .interval_jnd = measuredIn(train, "interval_jnd")});
+    }
+    return change;
+}
+
+nlohmann::json toJson(const LatencyJudgement& judgement) {
+    return {{"tolerance_s", judgement.tolerance_s},
+            {"groups", rowsOf(judgement.groups)},
+            {"verdict", nameOf(judgement.verdict)},
+            {"reasons", judgement.reasons}};
+}
+
+nlohmann::json toJson(const ChangeJudgement& judgement) {
+    return {{"wanted_jnd", judgement.limits.perTrain_jnd},
+            {"complete_limit_s", judgement.limits.complete_s},
+            {"seconds_alone", judgement.limits.secondsAlone},
+            {"groups", rowsOf(judgement.groups)},
+            {"notes", judgement.notes},
+            {"verdict", nameOf(judgement.verdict)},
+            {"reasons", judgement.reasons}};
+}
+
+}  // namespace tacto

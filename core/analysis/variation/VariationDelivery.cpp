@@ -1,0 +1,201 @@
+#include "core/analysis/variation/VariationDelivery.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/Words.h"
+#include "core/electrode/LoadResponse.h"
+#include "core/encoding/Rounding.h"
+#include "core/safety/TrainExposure.h"
+
+namespace tacto {
+
+namespace {
+
+/// One pulse into the participant's skin.
+struct PulseIntoSkin {
+    Milliamps mean{0};  ///< of the leading phase
+    Volts end{0};
+};
+
+PulseIntoSkin pulseInto(const Load& skin, const PulseTrain& train, const SourceTraits& source) {
+    SourceLimits limits;
+    if (source.compliance.value() > 0) limits.compliance_V = source.compliance.value();
+    if (source.currentLimit.value() > 0) limits.current_A = source.currentLimit.value() / 1e3;
+    const auto rest = restOf(source.gap, train.pulses > 1 ? restBetweenPulses(train) : Seconds(1 / train.rate.value()));
+    const auto totals = pulseTotals(circuitAt(skin, 0), segmentsOf(train, source.gap), rest, limits);
+    return {Milliamps(1e3 * std::abs(totals.leadingCharge_C) / Seconds(train.phaseWidth).count()),
+            Volts(std::abs(totals.leadingEndVoltage_V))};
+}
+
+PulseTrain unitTrain(const VirtualStimulation& stimulation) {
+    PulseTrain unit = stimulation.encoding.train;
+    if (stimulation.source.drive == Drive::Current) {
+        unit.amplitude = Milliamps(1);
+    } else {
+        unit.amplitude = Volts(1);
+    }
+    return unit;
+}
+
+DeviceGrid gridOf(const SourceTraits& source) {
+    return {source.amplitudeStep, source.amplitudeMax, source.widthStep,
+            source.widthMin,      source.widthMax,     source.pulsesMax};
+}
+
+/// The profile's amplitudes as far as the participant feels them and they are not too strong; nothing when none do.
+/// Skin is taken as linear: the current per volt of command is the same at every amplitude.
+std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, const VirtualStimulation& stimulation,
+                                             double milliampsPerVolt) {
+    EncodingProfile personal = stimulation.encoding;
+    const double low = stimulation.aboveDetection * who.detection.value() / milliampsPerVolt;
+    const double high = stimulation.belowDiscomfort * who.discomfort.value() / milliampsPerVolt;
+    personal.amplitudeMin = Volts(std::max(personal.amplitudeMin.value(), low));
+    personal.amplitudeMax = Volts(std::min(personal.amplitudeMax.value(), high));
+    if (!(personal.amplitudeMin < personal.amplitudeMax)) return std::nullopt;
+    return personal;
+}
+
+/// The first row that forbids it, by its name; empty when none does.
+std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
+    for (const auto& row : exposureTable(setup, train, interval)) {
+        if (!row.evaluated || row.within || row.action != LimitAction::Refuse) continue;
+        return fmt::format("{} ({})", titleOf(row.quantity), row.set.view());
+    }
+    return {};
+}
+
+GateSetup setupFor(const VirtualParticipant& who, const VirtualStimulation& stimulation, Ohms impedance) {
+    GateSetup setup;
+    setup.source = stimulation.source;
+    // A person's gate knows |Z| alone; a voltage source, which it refuses for people, is judged as on the bench.
+    if (stimulation.source.drive == Drive::Current) {
+        setup.mode = OutputMode::Person;
+        setup.load = LoadRange::measured(impedance);
+    } else {
+        setup.load = LoadRange::declared(who.skin);
+    }
+    setup.limits = stimulation.limits;
+    setup.ceilings = stimulation.ceilings;
+    setup.electrodeArea = stimulation.electrodeArea;
+    setup.check = stimulation.encoding.train;
+    return setup;
+}
+
+/// Everything after the command: rounding, delivery, and whether it is withheld.
+void follow(PredictedStimulus& stimulus, const VirtualParticipant& who, const VirtualStimulation& stimulation,
+            Ohms impedance, const GateSetup& setup) {
+    const auto withhold = [&stimulus](DeliveryOutcome outcome, std::string reason) {
+        stimulus.outcome = outcome;
+        stimulus.reason = std::move(reason);
+    };
+    const auto wanted = trainFor(stimulation.source.drive, stimulation.encoding, stimulus.command, impedance);
+    if (!wanted) return withhold(DeliveryOutcome::NotSettable, "no train of this amplitude");
+    const auto rounded = roundToDevice(*wanted, gridOf(stimulation.source));
+    if (!rounded) return withhold(DeliveryOutcome::NotSettable, "the device's step or range");
+    const auto pulse = pulseInto(who.skin, rounded->train, stimulation.source);
+    stimulus.current = pulse.mean;
+    stimulus.voltage = pulse.end;
+    if (auto why = forbiddenBy(setup, rounded->train, stimulus.interval); !why.empty()) {
+        return withhold(DeliveryOutcome::RefusedByLimits, std::move(why));
+    }
+    if (stimulus.current > who.discomfort)
+        return withhold(DeliveryOutcome::Uncomfortable, "too strong for the participant");
+    stimulus.outcome = DeliveryOutcome::Presented;
+    stimulus.felt = stimulus.current >= who.detection;
+}
+
+constexpr Word<AmplitudeLevels> kAmplitudeLevels[] = {{"profile", AmplitudeLevels::Profile},
+                                                      {"personal", AmplitudeLevels::Personal}};
+constexpr Word<DeliveryOutcome> kDeliveryOutcomeWords[] = {
+    {"presented", DeliveryOutcome::Presented},         {"impedance out of range", DeliveryOutcome::ImpedanceOutOfRange},
+    {"not settable", DeliveryOutcome::NotSettable},    {"refused by limits", DeliveryOutcome::RefusedByLimits},
+    {"uncomfortable", DeliveryOutcome::Uncomfortable}, {"no range", DeliveryOutcome::NoRange}};
+
+}  // namespace
+
+std::string_view nameOf(AmplitudeLevels levels) noexcept { return wordFor(kAmplitudeLevels, levels); }
+
+Result<AmplitudeLevels> amplitudeLevelsFrom(std::string_view name) {
+    if (const auto known = valueFor(kAmplitudeLevels, name)) return *known;
+    return fail(ErrorCode::InvalidArgument, "the amplitude levels are \"{}\"; profile or personal is accepted", name);
+}
+
+std::string_view nameOf(DeliveryOutcome outcome) noexcept { return wordFor(kDeliveryOutcomeWords, outcome); }
+
+SourceTraits idealSource(Drive drive) noexcept {
+    constexpr double kFarAway = 1000;  // V and mA: ten times what 40 V into the permitted loads ask for
+    SourceTraits source;
+    source.drive = drive;
+    source.amplitudeMax = kFarAway;
+    source.compliance = Volts(kFarAway);
+    source.widthMax = Micros(100'000);
+    source.accuracy = StatedAccuracy::exact();
+    return source;
+}
+
+Result<void> validate(const VirtualStimulation& stimulation) {
+    if (auto valid = validate(stimulation.encoding); !valid) return failure(valid);
+    if (stimulation.encoding.conditions.size() < 2) {
+        return fail(ErrorCode::InvalidArgument, "{} conditions; two or more can be told apart",
+                    stimulation.encoding.conditions.size());
+    }
+    if (stimulation.limits.empty()) {
+        return fail(ErrorCode::InvalidArgument, "no limit set is given; what would be refused cannot be told");
+    }
+    if (const auto area = stimulation.electrodeArea; area && !(area->value() > 0 && area->value() <= 1e4)) {
+        return fail(ErrorCode::InvalidArgument, "an electrode of {} cm2; above 0 to 10000 is accepted", area->value());
+    }
+    if (stimulation.source.drive == Drive::HighImpedance) {
+        return fail(ErrorCode::InvalidArgument,
+                    "a source of high impedance; a voltage or a current source is accepted");
+    }
+    if (!(stimulation.loadLow.value() > 0 && stimulation.loadLow < stimulation.loadHigh)) {
+        return fail(ErrorCode::InvalidArgument, "loads of {} to {} ohm; a range above 0 is accepted",
+                    stimulation.loadLow.value(), stimulation.loadHigh.value());
+    }
+    if (!(stimulation.aboveDetection >= 1 && stimulation.aboveDetection <= 10)) {
+        return fail(ErrorCode::InvalidArgument, "the lower level is {} times detection; 1 to 10 is accepted",
+                    stimulation.aboveDetection);
+    }
+    if (!(stimulation.belowDiscomfort > 0 && stimulation.belowDiscomfort <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "the upper level is {} times discomfort; above 0 to 1 is accepted",
+                    stimulation.belowDiscomfort);
+    }
+    return {};
+}
+
+Delivery deliverTo(const VirtualParticipant& who, const VirtualStimulation& stimulation) {
+    Delivery out;
+    const PulseTrain unit = unitTrain(stimulation);
+    out.impedance = effectiveImpedance(who.skin, segmentsOf(unit, stimulation.source.gap).items[0]);
+    const bool drivesCurrent = stimulation.source.drive == Drive::Current;
+    const double perVolt =
+        drivesCurrent ? 1e3 / out.impedance.value() : pulseInto(who.skin, unit, stimulation.source).mean.value();
+    const bool personal = stimulation.levels == AmplitudeLevels::Personal;
+    const auto encoding = personal ? personalRange(who, stimulation, perVolt) : stimulation.encoding;
+    const bool inRange = out.impedance >= stimulation.loadLow && out.impedance <= stimulation.loadHigh;
+    const auto setup = setupFor(who, stimulation, out.impedance);
+    for (const auto& condition : stimulation.encoding.conditions) {
+        PredictedStimulus stimulus;
+        if (!encoding) {
+            stimulus.reason = "no amplitude of the profile between felt and too strong";
+        } else if (const auto command = Encoder(*encoding).encode(condition.R, condition.P); command) {
+            stimulus.command = command->amplitude;
+            stimulus.interval = command->interval;
+            if (drivesCurrent && !inRange) {
+                stimulus.outcome = DeliveryOutcome::ImpedanceOutOfRange;
+                stimulus.reason = "impedance outside the profile's range";
+            } else {
+                follow(stimulus, who, stimulation, out.impedance, setup);
+            }
+        } else {
+            stimulus.outcome = DeliveryOutcome::NotSettable;
+            stimulus.reason = "the encoder";
+        }
+        out.stimuli.push_back(std::move(stimulus));
+    }
+    return out;
+}
+
+}  // namespace tacto

@@ -1,0 +1,233 @@
+#include "core/analysis/variation/VariationTrials.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tacto {
+
+namespace {
+
+double widthOf(std::size_t k, std::size_t n) noexcept {
+    const auto interval = wilsonInterval(k, n);
+    return interval.high - interval.low;
+}
+
+/// Smallest k from n/2 up whose interval is narrow enough, n + 1 if none is: the interval is the widest in the
+/// middle and the same for k and n - k.
+std::size_t narrowFrom(std::size_t n, double width) noexcept {
+    std::size_t low = (n + 1) / 2, high = n + 1;
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (widthOf(middle, n) <= width) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+/// The mean over people of a probability that depends on their accuracy.
+template <class Probability>
+double over(std::span<const double> accuracies, Probability&& probability) {
+    double sum = 0;
+    for (const double p : accuracies) sum += probability(p);
+    return sum / static_cast<double>(accuracies.size());
+}
+
+/// At most this many accuracies go through the search: more people become equally large groups of similar ones.
+constexpr std::size_t kGroups = 100;
+
+std::vector<double> grouped(std::vector<double> sorted) {
+    if (sorted.size() <= kGroups) return sorted;
+    std::vector<double> out;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        const std::size_t from = g * sorted.size() / kGroups, to = (g + 1) * sorted.size() / kGroups;
+        double sum = 0;
+        for (std::size_t i = from; i < to; ++i) sum += sorted[i];
+        out.push_back(sum / static_cast<double>(to - from));
+    }
+    return out;
+}
+
+/// The smallest multiple of `step` that is enough together with every larger one up to `enoughFrom`; nothing when
+/// even that is not. Searched from above: with n the probability rises in a saw-tooth.
+template <class Reached>
+std::optional<std::size_t> fewest(std::size_t step, std::size_t enoughFrom, double assurance, Reached&& reached) {
+    std::size_t n = (enoughFrom + step - 1) / step * step;
+    if (!(reached(n) >= assurance)) return std::nullopt;
+    while (n > step && reached(n - step) >= assurance) n -= step;
+    return n;
+}
+
+/// At this many trials every outcome is narrow enough, or `most`.
+std::size_t alwaysNarrow(double width, std::size_t most) noexcept {
+    std::size_t low = 1, high = most;
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (widthOf((middle + 1) / 2, middle) <= width) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+/// Trials that are enough for certain, in the sense that more cannot spoil it, found by doubling.
+template <class Reached>
+std::size_t doubledUntil(std::size_t most, double assurance, Reached&& reached) {
+    std::size_t n = 64;
+    while (n < most && !(reached(n) >= assurance)) n *= 2;
+    return std::min(4 * n, most);
+}
+
+PooledTrials pooled(std::optional<std::size_t> independent, double rho, const TrialsWanted& wanted) {
+    PooledTrials out;
+    out.designEffect = std::nan("");
+    if (!independent) return out;
+    const auto need = static_cast<double>(*independent);
+    out.participantsLeast = static_cast<std::size_t>(std::floor(need * rho)) + 1;
+    const auto people = static_cast<double>(wanted.participants);
+    if (!(people > need * rho)) return out;
+    // people·m / (1 + (m - 1)·rho) ≥ need, solved for m
+    const double trials = need * (1 - rho) / (people - need * rho);
+    if (!(trials <= static_cast<double>(wanted.most))) return out;
+    const auto block = static_cast<double>(wanted.conditions);
+    const double whole = std::max(1.0, std::ceil(trials / block)) * block;
+    out.perParticipant = static_cast<std::size_t>(whole);
+    out.total = *out.perParticipant * wanted.participants;
+    out.designEffect = 1 + (whole - 1) * rho;
+    return out;
+}
+
+/// P(X = k) for k = 0..n, the mean over people: for every outcome at once far cheaper than one tail after the other.
+std::vector<double> outcomes(std::span<const double> accuracies, std::size_t n) {
+    std::vector<double> logFactorial(n + 1, 0.0), out(n + 1, 0.0);
+    for (std::size_t k = 1; k <= n; ++k) logFactorial[k] = logFactorial[k - 1] + std::log(static_cast<double>(k));
+    const double share = 1 / static_cast<double>(accuracies.size());
+    for (const double p : accuracies) {
+        if (p <= 0 || p >= 1) {
+            out[p <= 0 ? 0 : n] += share;
+            continue;
+        }
+        const double right = std::log(p), wrong = std::log1p(-p);
+        for (std::size_t k = 0; k <= n; ++k) {
+            const double ways = logFactorial[n] - logFactorial[k] - logFactorial[n - k];
+            out[k] += share * std::exp(ways + static_cast<double>(k) * right + static_cast<double>(n - k) * wrong);
+        }
+    }
+    return out;
+}
+
+/// Quantiles of the width: the mass of each outcome, gathered in order of width.
+Estimate widthsAt(std::span<const double> accuracies, std::size_t n) {
+    std::vector<std::pair<double, double>> mass;
+    const auto shares = outcomes(accuracies, n);
+    for (std::size_t k = 0; k <= n; ++k) mass.emplace_back(widthOf(k, n), shares[k]);
+    std::ranges::stable_sort(mass, {}, &std::pair<double, double>::first);
+    const auto quantile = [&mass](double q) {
+        double sum = 0;
+        for (const auto& [width, share] : mass) {
+            sum += share;
+            if (sum >= q) return width;
+        }
+        return mass.back().first;
+    };
+    return {quantile(0.5), quantile(0.05), quantile(0.95)};
+}
+
+}  // namespace
+
+Result<void> validate(const TrialsWanted& wanted) {
+    if (!(wanted.width >= 0.02 && wanted.width <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "the wanted width of the interval is {}; 0.02 to 1 is accepted",
+                    wanted.width);
+    }
+    if (!(wanted.chance > 0 && wanted.chance < 1)) {
+        return fail(ErrorCode::InvalidArgument, "the chance level is {}; above 0 and below 1 is accepted",
+                    wanted.chance);
+    }
+    if (!(wanted.assurance >= 0.5 && wanted.assurance <= 0.999)) {
+        return fail(ErrorCode::InvalidArgument, "the assurance is {}; 0.5 to 0.999 is accepted", wanted.assurance);
+    }
+    if (wanted.conditions < 1 || wanted.participants < 1) {
+        return fail(ErrorCode::InvalidArgument, "a pilot with {} conditions and {} participants; 1 or more is accepted",
+                    wanted.conditions, wanted.participants);
+    }
+    if (wanted.most < wanted.conditions || wanted.most > 1'000'000) {
+        return fail(ErrorCode::InvalidArgument, "the most trials searched are {}; {} to 1000000 is accepted",
+                    wanted.most, wanted.conditions);
+    }
+    return {};
+}
+
+double widthReached(std::span<const double> accuracies, std::size_t n, double width) noexcept {
+    const std::size_t from = narrowFrom(n, width);
+    if (from > n) return 0;
+    if (2 * from <= n + 1) return 1;
+    return over(accuracies,
+                [&](double p) { return binomialAtLeast(from, n, p) + 1 - binomialAtLeast(n - from + 1, n, p); });
+}
+
+double chanceExceeded(std::span<const double> accuracies, std::size_t n, double chance) noexcept {
+    std::size_t low = 0, high = n + 1;  // the lower end rises with k
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (wilsonInterval(middle, n).low > chance) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    if (low > n) return 0;
+    return over(accuracies, [&](double p) { return binomialAtLeast(low, n, p); });
+}
+
+Estimate intervalWidths(std::span<const double> accuracies, std::size_t n) {
+    std::vector<double> sorted(accuracies.begin(), accuracies.end());
+    std::ranges::sort(sorted);
+    return widthsAt(grouped(std::move(sorted)), n);
+}
+
+Result<TrialsNeeded> trialsNeeded(std::span<const double> accuracies, const TrialsWanted& wanted) {
+    if (auto valid = validate(wanted); !valid) return failure(valid);
+    if (accuracies.empty()) return fail(ErrorCode::InvalidArgument, "no accuracy is given; at least one is needed");
+    double sum = 0;
+    for (const double p : accuracies) {
+        if (!(p >= 0 && p <= 1)) return fail(ErrorCode::InvalidArgument, "an accuracy is {}; 0 to 1 is accepted", p);
+        sum += p;
+    }
+    const double mean = sum / static_cast<double>(accuracies.size());
+    double variance = 0;
+    for (const double p : accuracies) variance += (p - mean) * (p - mean) / static_cast<double>(accuracies.size());
+
+    TrialsNeeded out;
+    if (mean > 0 && mean < 1) out.rho = std::clamp(variance / (mean * (1 - mean)), 0.0, 1.0);
+    std::vector<double> sorted(accuracies.begin(), accuracies.end());
+    std::ranges::sort(sorted);
+    const auto people = grouped(std::move(sorted));
+    const double one[] = {mean};
+
+    const auto narrow = [&](std::span<const double> of) {
+        return [&wanted, of](std::size_t n) { return widthReached(of, n, wanted.width); };
+    };
+    const auto clear = [&](std::span<const double> of) {
+        return [&wanted, of](std::size_t n) { return chanceExceeded(of, n, wanted.chance); };
+    };
+    const std::size_t certain = alwaysNarrow(wanted.width, wanted.most);
+    out.forWidth = fewest(wanted.conditions, certain, wanted.assurance, narrow(people));
+    out.aboveChance = fewest(wanted.conditions, doubledUntil(wanted.most, wanted.assurance, clear(people)),
+                             wanted.assurance, clear(people));
+    out.pooledForWidth = pooled(fewest(1, certain, wanted.assurance, narrow(one)), out.rho, wanted);
+    out.pooledAboveChance =
+        pooled(fewest(1, doubledUntil(wanted.most, wanted.assurance, clear(one)), wanted.assurance, clear(one)),
+               out.rho, wanted);
+    for (std::size_t blocks : {2U, 4U, 6U, 8U, 10U, 15U, 20U, 25U, 35U, 50U, 75U, 100U}) {
+        const std::size_t n = blocks * wanted.conditions;
+        out.curve.push_back({n, widthsAt(people, n)});
+    }
+    return out;
+}
+
+}  // namespace tacto

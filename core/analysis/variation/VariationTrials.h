@@ -1,0 +1,77 @@
+// VariationTrials.h - how many trials a pilot needs before its accuracy says something.
+//
+// Accuracies are those that a prediction gave its participants. Assumptions, to be said wherever a number of trials
+// is shown: a participant's trials are independent with one probability of being right, and whole blocks are given
+// (each condition equally often). Over several participants the counts are pooled in one Wilson interval; that people
+// differ is taken into account by the design effect 1 + (m - 1)·rho with m trials per participant and
+// rho = Var(accuracy) / (mean·(1 - mean)), by which the trials count less.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/analysis/statistics/Estimate.h"
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct TrialsWanted {
+    double width = 0.1;            ///< of the 95 % interval, upper end less lower; 0.02 to 1
+    double chance = 0.25;          ///< which the lower end must exceed; above 0, below 1
+    double assurance = 0.8;        ///< probability with which a pilot reaches what is wanted; 0.5 to 0.999
+    std::size_t conditions = 4;    ///< trials of a participant are a multiple of this
+    std::size_t participants = 5;  ///< of the pilot, for the pooled figures: the paper plans 3 to 5
+    std::size_t most = 20'000;     ///< trials beyond which the search ends
+};
+/// Errors: InvalidArgument naming the field, its value and what is accepted.
+[[nodiscard]] Result<void> validate(const TrialsWanted& wanted);
+
+/// P(X ≥ k) for X ~ Binomial(n, p).
+[[nodiscard]] double binomialAtLeast(std::size_t k, std::size_t n, double p) noexcept;
+
+/// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.
+[[nodiscard]] double truncatedBetaQuantile(double a, double b, double from, double q) noexcept;
+
+/// Probability, over the `accuracies`, that the Wilson interval of n trials is at most `width` wide.
+[[nodiscard]] double widthReached(std::span<const double> accuracies, std::size_t n, double width) noexcept;
+/// ... that its lower end lies above `chance`.
+[[nodiscard]] double chanceExceeded(std::span<const double> accuracies, std::size_t n, double chance) noexcept;
+
+/// Width of the Wilson interval of n trials: median and 5 to 95 % over the `accuracies` (not empty) and their outcomes.
+/// Where there are more than 100, groups of similar ones.
+[[nodiscard]] Estimate intervalWidths(std::span<const double> accuracies, std::size_t n);
+
+/// One aim of a pilot that pools its participants.
+struct PooledTrials {
+    std::optional<std::size_t> total;           ///< of all participants; nothing when no number is enough
+    std::optional<std::size_t> perParticipant;  ///< whole blocks
+    double designEffect = 1;                    ///< at that many per participant; NaN when no number is enough
+    /// Fewest participants with whom it can be reached at all, whatever each of them does.
+    std::optional<std::size_t> participantsLeast;
+};
+
+struct TrialsNeeded {
+    /// From this many on every larger number of whole blocks is enough too; nothing when `most` is not.
+    std::optional<std::size_t> forWidth;
+    std::optional<std::size_t> aboveChance;
+    PooledTrials pooledForWidth;
+    PooledTrials pooledAboveChance;
+    double rho = 0;  ///< how alike a participant's trials are, 0 to 1
+
+    /// Width of one participant's interval against the number of trials: median and 5 to 95 % over accuracies and
+    /// outcomes.
+    struct Point {
+        std::size_t trials = 0;
+        Estimate width;
+    };
+    std::vector<Point> curve;
+};
+
+/// Errors: as validate(); InvalidArgument without accuracies, or for one outside 0 to 1.
+[[nodiscard]] Result<TrialsNeeded> trialsNeeded(std::span<const double> accuracies, const TrialsWanted& wanted);
+
+}  // namespace tacto

@@ -1,0 +1,42 @@
+// Words.h - the word that stands for each value of an enumeration, in files, messages and scripts.
+//
+//   constexpr Word<Hold> kHolds[] = {{"voltage", Hold::Voltage}, {"charge", Hold::Charge}};
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace tacto {
+
+template <class Value>
+struct Word {
+    std::string_view text;
+    Value value;
+};
+template <class Value>
+using Words = std::span<const Word<Value>>;
+
+/// "unknown" for a value that has no word.
+template <class Value>
+[[nodiscard]] constexpr std::string_view wordFor(std::type_identity_t<Words<Value>> words, Value value) noexcept {
+    for (const auto& word : words) {
+        if (word.value == value) return word.text;
+    }
+    return "unknown";
+}
+
+/// Nothing for a text that is none of the words.
+template <class Value, std::size_t count>
+[[nodiscard]] constexpr std::optional<Value> valueFor(const Word<Value> (&words)[count],
+                                                      std::string_view text) noexcept {
+    for (const auto& word : words) {
+        if (word.text == text) return word.value;
+    }
+    return std::nullopt;
+}
+
+}  // namespace tacto

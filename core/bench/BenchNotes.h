@@ -1,0 +1,37 @@
+// BenchNotes.h - what a bench itself writes into the session, past the recorder, whose only caller is the control loop:
+// by the file alone it must be known what each train was made of and judged by.
+//
+// Without a session it is a null object: nothing is written, and nothing fails.
+//
+// Thread-safety: one caller, the bench's.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/Clock.h"
+#include "core/bench/Bench.h"
+
+namespace tacto {
+
+class BenchNotes {
+public:
+    /// Both outlive the notes; `session` may be null.
+    BenchNotes(SessionWriter* session, const Clock& clock) noexcept : session_(session), clock_(clock) {}
+
+    /// The lines that are applied; `text`: which calibration that is, or why there is none. Empty notes nothing.
+    void calibration(const KnownLines& applied, const std::string& text) const;
+    /// What of the profile is different. Errors: as SessionWriter::event().
+    [[nodiscard]] Result<void> profile(const Profile& before, const Profile& next) const;
+    /// Load range, area, limits and calibration that every train of this arming is judged by. Errors: the same.
+    [[nodiscard]] Result<void> arming(const ArmRequest& request, const GateSetup& setup, const Profile& profile) const;
+    /// Last of all, since counts grow until the end. Without this event the marks of a session are not known.
+    /// `calibrated`: of the stimulator, if there is one.
+    void marks(const RoughnessFlags& flags, std::optional<bool> calibrated, const Profile& profile) const noexcept;
+
+private:
+    SessionWriter* session_;
+    const Clock& clock_;
+};
+
+}  // namespace tacto

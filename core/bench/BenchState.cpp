@@ -1,0 +1,203 @@
+#include "core/bench/BenchState.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/bench/ReportRecord.h"
+#include "core/devices/DeviceUri.h"
+
+namespace tacto {
+
+namespace {
+
+/// What was programmed for the train that begins at the trigger; NaN where none does.
+ProgrammedTrain programmedFor(const Capture& capture, const Telemetry& now) {
+    constexpr double kNear_s = 0.05;
+    double nearest_s = kNear_s;
+    ProgrammedTrain programmed;
+    for (const auto& train : now.programmed) {
+        const double off_s = std::abs(capture.trigger_s - toSeconds(train.onset));
+        if (std::isnan(train.amplitude) || !(off_s < nearest_s)) continue;
+        nearest_s = off_s;
+        programmed = train;
+    }
+    return programmed;
+}
+
+}  // namespace
+
+Bench::State::State(BenchConfig given)
+    : config(std::move(given)),
+      notes(config.session, *config.clock),
+      gate(*config.clock),
+      order(config.stops, config.asked) {}
+
+Bench::State::~State() {
+    off("the bench closes");
+    time.endLoop();
+    heartbeat.end();
+    off("the bench closes");  // whatever the loop's last step may have handed over
+    time.endDevices();
+    output.off();
+    if (loop) loop->noteState(config.clock->now());
+    const auto* stimulator = output.stimulator();
+    if (recorder && stimulator != nullptr && stimulator->longestKeepAliveGap() > Instant(0)) {
+        recorder->event(config.clock->now(), "keep-alive",
+                        {{"longest_gap_s", toSeconds(stimulator->longestKeepAliveGap())}},
+                        "the longest time between two keep-alives of the stimulator's dead-man switch");
+    }
+    if (const auto* reporting = recorder ? reportingDevice(Role::Sensor) : nullptr) {
+        recordReport(*recorder, config.clock->now(), reporting->deviceReport(),
+                     "what the fingertip sensor and its line were like, when the bench closed");
+    }
+    recorder.reset();
+    if (loop) {
+        notes.marks(loop->flags(), stimulator != nullptr ? std::optional(calibration.held()) : std::nullopt,
+                    config.profile);
+    }
+}
+
+Result<void> Bench::State::open() {
+    if (const auto valid = validate(config.profile.encoding); !valid) return valid;
+    if (const auto taken = takeUpRecord(); !taken) return taken;
+    if (config.devices.sensor) {
+        auto made = SensorSession::create(*config.devices.sensor);
+        if (!made) return failure(made);
+        sensor = std::move(*made);
+    }
+    auto finger = makeFinger(config.profile);
+    if (!finger) return failure(finger);
+
+    ControlLoop::Parts parts{*config.clock, gate,    interlock, heartbeat, config.mode,
+                             nullptr,       nullptr, 0,         {},        config.tap};
+    parts.stops = &order.stops();
+    if (const auto opened = openRecorder(parts); !opened) return opened;
+    output.open(gate, heartbeat, *config.clock, [this] { time.wakeOutput(); });
+    parts.stimulator = output.stimulator();
+    parts.massager = output.massager();
+    openScope();
+    parts.sensorReport = reportingDevice(Role::Sensor);
+    loop = std::make_unique<ControlLoop>(std::move(parts), std::move(*finger), makePlanner(config.profile));
+    const bool rests = record && !record->whyQuiet().empty();
+    const auto* note = rests ? "arming waits until 8 s after opening: what this unit delivered last is not known" : "";
+    if (const auto connected = interlock.connect(note); !connected) return connected;
+    if (record) interlock.keepFaultsIn(*record);
+    calibration.note(notes);
+    time.start(*loop, sensor.get(), scope.get(), recorder.get(), [this]() -> Result<void> {
+        if (const auto well = health(); !well) return well;
+        attend(kAttended);
+        return {};
+    });
+    return {};
+}
+
+/// The stimulator goes on from what it delivered before, and no other process drives it meanwhile.
+Result<void> Bench::State::takeUpRecord() {
+    const auto& stimulating = config.devices.stimulator;
+    if (!stimulating || stimulating->identity().simulated || config.units.records.empty()) return {};
+    const auto& identity = stimulating->identity();
+    auto opened = UnitRecord::open(config.units, unitOf(identity.serial, identity.uri), *config.clock,
+                                   config.systemTime != nullptr ? *config.systemTime : SystemTime::real());
+    if (!opened) return failure(opened);
+    record = std::move(*opened);
+    gate.continueFrom(*record);
+    return {};
+}
+
+Result<void> Bench::State::openRecorder(ControlLoop::Parts& parts) {
+    if (config.session == nullptr) return {};
+    if (sensor) {
+        for (const auto& stream : sensor->device().streams()) {
+            const auto id = config.session->addStream(stream);
+            if (!id) return failure(id);
+            parts.sensorStreams.push_back(*id);
+        }
+        const auto id = config.session->addStream(SessionStream{
+            "roughness frames", "frames", "", {"contact", "sliding", "h", "v", "R", "pressure_pa", "P"}, 0});
+        if (!id) return failure(id);
+        parts.frameStream = *id;
+    }
+    recorder =
+        std::make_unique<SessionRecorder>(*config.session, SessionRecorder::Settings{.ownThread = !time.isVirtual()});
+    parts.recorder = recorder.get();
+    return {};
+}
+
+void Bench::State::openScope() {
+    if (!config.devices.oscilloscope) return;
+    scope = std::make_unique<ScopeSession>(*config.devices.oscilloscope,
+                                           [this](Capture& capture) { noteCapture(capture); });
+}
+
+/// Beside the capture stands what was programmed, and the loop judges what came out of it.
+void Bench::State::noteCapture(Capture& capture) {
+    applyStatement(capture, config.devices.scopeStatement);
+    const auto programmed = programmedFor(capture, loop->telemetry());
+    capture.programmed = programmed.amplitude;
+    if (output.stimulator() == nullptr) return;
+    if (auto seen = amplitudeSeenIn(capture, output.source().drive); seen && !std::isnan(programmed.expected)) {
+        seen->expected = programmed.expected;
+        seen->onset = programmed.onset;
+        loop->noteAmplitude(*seen);
+    }
+    if (output.source().readsBack) return;
+    if (const auto seen = loadSeenIn(capture)) loop->noteLoad(*seen);
+}
+
+void Bench::State::off(const char* why) noexcept {
+    interlock.disarm(why);
+    gate.latchStop();
+    output.off();
+    if (loop) loop->drive({});
+    driving.store(DriveSource::Off, std::memory_order_release);
+}
+
+Result<void> Bench::State::health() const {
+    if (order.stopped()) {
+        const auto why = loop->endedBecause();
+        if (why.empty()) return fail(ErrorCode::Stopped, "stopped. Output is off.");
+        return fail(ErrorCode::Stopped, "stopped: {}. Output is off.", why.view());
+    }
+    if (interlock.state() == InterlockState::Faulted) {
+        return fail(ErrorCode::Device, "fault: {}. Output is off.", interlock.reason().view());
+    }
+    if (driving == DriveSource::Sensor && sensor && sensor->failed()) {
+        return fail(ErrorCode::Device, "the fingertip sensor failed: {}. No trains are sent.", sensor->error().view());
+    }
+    if (recorder && recorder->failed()) {
+        const auto why = recorder->error();
+        return fail(ErrorCode::Io, "recording failed: {}", why ? why->message : "the session file cannot be written");
+    }
+    return {};
+}
+
+Result<void> Bench::State::rest() {
+    if (!record) return {};
+    const auto rested = time.advance(record->quietUntil(), [] { return false; });
+    return rested ? Result<void>{} : failure(rested);
+}
+
+Result<void> Bench::State::refusal() {
+    refusalsSeen = loop->refusals();
+    return fail(ErrorCode::LimitExceeded, "{}", loop->telemetry().lastRefusal.view());
+}
+
+Result<std::unique_ptr<FingerInput>> Bench::State::makeFinger(const Profile& profile) {
+    if (!sensor) return std::unique_ptr<FingerInput>();
+    return FingerInput::create(*sensor, profile.roughness);
+}
+
+std::unique_ptr<TrainPlanner> Bench::State::makePlanner(const Profile& profile) {
+    return std::make_unique<TrainPlanner>(profile.encoding, output.source(), gate, calibration.applied());
+}
+
+const ReportingDevice* Bench::State::reportingDevice(Role role) const noexcept {
+    const auto& devices = config.devices;
+    const Device* device = role == Role::Sensor         ? static_cast<const Device*>(devices.sensor.get())
+                           : role == Role::Stimulator   ? static_cast<const Device*>(devices.stimulator.get())
+                           : role == Role::Oscilloscope ? static_cast<const Device*>(devices.oscilloscope.get())
+                                                        : static_cast<const Device*>(devices.massager.get());
+    return dynamic_cast<const ReportingDevice*>(device);
+}
+
+}  // namespace tacto

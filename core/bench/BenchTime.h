@@ -1,0 +1,80 @@
+// BenchTime.h - how time passes on a bench. On the virtual clock it moves only in here, on the caller's thread, which
+// serves the devices and steps the control loop in the order of time; on the steady clock each of them has a thread of
+// its own, and the caller waits. The step code is the same.
+//
+// Thread-safety: wakeOutput() any thread; the rest has one caller, the bench's.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "core/bench/BenchOrder.h"
+#include "core/bench/BenchOutput.h"
+#include "core/bench/ControlLoop.h"
+#include "core/bench/DeviceThread.h"
+#include "core/bench/ScopeSession.h"
+#include "core/bench/SensorSession.h"
+
+namespace tacto {
+
+class BenchTime {
+public:
+    /// All outlive this.
+    BenchTime(Clock& clock, BenchOutput& output, BenchOrder& order) noexcept
+        : clock_(clock), virtual_(dynamic_cast<VirtualClock*>(&clock)), output_(output), order_(order) {}
+
+    [[nodiscard]] bool isVirtual() const noexcept { return virtual_ != nullptr; }
+    [[nodiscard]] Instant now() const noexcept { return clock_.now(); }
+    /// Asked at each look of advance().
+    void onProgress(void (*callback)(void* context), void* context) noexcept;
+
+    /// Time begins to pass for these; all outlive this, and all but the loop may be null. `watch` comes first at each
+    /// look of advance(): its error ends the wait.
+    void start(ControlLoop& loop, SensorSession* sensor, ScopeSession* scope, SessionRecorder* recorder,
+               std::function<Result<void>()> watch);
+    /// On return the loop takes no further step.
+    void endLoop() noexcept { loopThread_.reset(); }
+    /// On return nothing is served any more. The loop is ended first.
+    void endDevices() noexcept;
+
+    /// Lets time pass until `done` or `until`; the value says whether it was done. On the virtual clock a pause holds
+    /// it up. Errors: those of `watch`.
+    [[nodiscard]] Result<bool> advance(Instant until, const std::function<bool()>& done);
+    /// Lets a turn pass, or on the steady clock up to `longest`; at most to `until`, whatever the order's state.
+    void pass(Instant until, Instant longest) noexcept;
+    /// Until then, or a stop, the loop takes no step, as in a hang; the devices go on.
+    void withholdLoop(Instant until);
+    /// Serves the output or the sensor once, out of turn; on the steady clock its thread does, within a millisecond.
+    void prompt(Role role) noexcept;
+    /// The output has something to do before its time.
+    void wakeOutput() noexcept {
+        if (outputThread_) outputThread_->wake();
+    }
+
+private:
+    void turn(Instant until) noexcept;
+    void startThreads();
+
+    Clock& clock_;
+    VirtualClock* const virtual_;  // null on the steady clock
+    BenchOutput& output_;
+    BenchOrder& order_;
+    ControlLoop* loop_ = nullptr;
+    SensorSession* sensor_ = nullptr;
+    ScopeSession* scope_ = nullptr;
+    SessionRecorder* recorder_ = nullptr;
+    std::function<Result<void>()> watch_;
+    void (*progress_)(void*) = nullptr;
+    void* progressContext_ = nullptr;
+
+    // Virtual clock only:
+    Instant nextTick_{0};
+    Instant outputDue_{0};
+
+    // Steady clock only. Last: they end first.
+    std::atomic<bool> withheld_{false};  // the loop's thread does nothing
+    std::unique_ptr<DeviceThread> outputThread_, sensorThread_, scopeThread_, loopThread_;
+};
+
+}  // namespace tacto

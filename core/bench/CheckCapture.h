@@ -1,0 +1,38 @@
+// CheckCapture.h - the look of an oscilloscope at the check pulse of a source that does not read back: what it shows of
+// the load confirms the arming, or ends it.
+//
+// Thread-safety: one caller, the bench's.
+#pragma once
+
+#include "core/bench/ArmingSequence.h"
+#include "core/bench/BenchTime.h"
+#include "core/bench/ControlLoop.h"
+#include "core/bench/ScopeSession.h"
+
+namespace tacto {
+
+class CheckCapture {
+public:
+    /// An oscilloscope may be slow to arm, and as slow to read.
+    static constexpr Seconds kWithin{5};
+
+    /// The pulse that `command` begins with. All but it outlive this.
+    CheckCapture(ScopeSession& scope, BenchTime& time, ControlLoop& loop, const ArmCommand& command);
+
+    /// Arms the oscilloscope, and waits until it takes a trigger. Errors: NotArmed, saying that it failed or is not
+    /// ready; those of BenchTime::advance().
+    [[nodiscard]] Result<void> begin();
+    /// Hands over to the control loop what the oscilloscope shows; true when it was handed over.
+    [[nodiscard]] bool passOn();
+
+private:
+    [[nodiscard]] ScopeSettings settings() const;
+
+    ScopeSession& scope_;
+    BenchTime& time_;
+    ControlLoop& loop_;
+    const PulseTrain check_;
+    const double ohm_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,57 @@
+// DeliveryJudge.h - judges what the stimulator and the oscilloscope say about a train that was delivered: its status,
+// its amplitude, its load. The control loop acts on the fault that is found.
+//
+// Thread-safety: none; the control loop owns it. Allocates for a fault alone.
+#pragma once
+
+#include <optional>
+
+#include "core/bench/ArmingSequence.h"
+#include "core/bench/CaptureLoad.h"
+#include "core/bench/TrainReport.h"
+#include "core/safety/FixedText.h"
+#include "core/safety/TrainCheck.h"
+
+namespace tacto {
+
+/// What ends delivery, and why.
+struct LoopFault {
+    FaultCause cause;
+    FixedText<255> reason;  ///< no heap before the output is off
+};
+
+class DeliveryJudge {
+public:
+    /// All outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
+    DeliveryJudge(OutputMode mode, SafetyGate& gate, const Interlock& interlock, ArmedLoad& load,
+                  const SourceTraits& source)
+        : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {}
+
+    /// The amplitude that the train that was posted last should come out with, V or mA.
+    void expect(double amplitude) noexcept { expected_ = amplitude; }
+
+    /// What a train or a check pulse says; `permitted`: trains like it may still be posted, so its reading counts.
+    [[nodiscard]] std::optional<LoopFault> delivered(const TrainReport& report, bool permitted);
+    /// What its status says.
+    [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
+    /// Whether what is read back is the amplitude that was commanded.
+    [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report) const;
+    /// The same from a capture.
+    [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen) const;
+    /// Where the stimulator does not read back: what a capture shows of the load.
+    [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
+    /// A train that ended at `trainEnd` and whose status has not come by `now`.
+    [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, Instant now) const;
+
+private:
+    [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);
+
+    OutputMode mode_;
+    SafetyGate& gate_;
+    const Interlock& interlock_;
+    ArmedLoad& load_;
+    const SourceTraits& source_;
+    double expected_ = NAN;
+};
+
+}  // namespace tacto

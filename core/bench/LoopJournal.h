@@ -1,0 +1,60 @@
+// LoopJournal.h - what the control loop writes into the session, one function for each kind of record.
+//
+// Without a recorder it is a null object: nothing is written, and nothing need be asked before.
+//
+// Thread-safety: one caller, the control loop. Never blocks; allocates at a change of the interlock alone.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/bench/FingerInput.h"
+#include "core/bench/Telemetry.h"
+#include "core/bench/TrainPlanner.h"
+#include "core/bench/TrainReport.h"
+#include "core/devices/DeviceReport.h"
+#include "core/session/SessionRecorder.h"
+
+namespace tacto {
+
+class LoopJournal {
+public:
+    /// `recorder` may be null and outlives the journal. The streams are its own: roughness frames, and one for each
+    /// stream of the sensor.
+    LoopJournal(SessionRecorder* recorder, int frameStream, std::vector<int> sensorStreams)
+        : recorder_(recorder), frameStream_(frameStream), sensorStreams_(std::move(sensorStreams)) {}
+
+    /// For how long the disk has stood still; 0 without a recorder.
+    [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
+
+    /// The samples and frames of the finger's last update.
+    void finger(const FingerInput& finger) noexcept;
+    void sensorLost(Instant at, const DeviceReport& report) noexcept;
+    void sensorStale(Instant at, double age_s) noexcept;
+    void flag(Instant at, RoughnessFlag flag) noexcept;
+
+    void drive(Instant at, const DriveCommand& command) noexcept;
+    void interlock(Instant at, InterlockState state, std::string_view reason) noexcept;
+    void refused(Instant at, std::string_view why) noexcept;
+    void fault(Instant at, std::string_view reason) noexcept;
+    /// `kind`, a literal: what ended the operator's order.
+    void orderEnded(Instant at, const char* kind, std::string_view why) noexcept;
+
+    /// What was planned from R and P, before it is handed over.
+    void planned(const PlannedTrain& train, double roughness, double pressure) noexcept;
+    void planned(const PlannedBurst& burst, double roughness, double pressure) noexcept;
+    /// One row for each train: what was programmed, by which approval, and what was read back. `name`: a literal.
+    void train(const TrainReport& report, const char* name) noexcept;
+    void burst(const TrainReport& report, const char* name) noexcept;
+
+private:
+    void event(Instant at, const char* kind, std::initializer_list<RecordField> fields, std::string_view text) noexcept;
+    void command(Instant at, const char* name, std::initializer_list<RecordField> fields,
+                 std::string_view text = {}) noexcept;
+
+    SessionRecorder* recorder_;
+    int frameStream_;
+    std::vector<int> sensorStreams_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,53 @@
+// CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", "C1 in V", "t / s", "CH2V", and
+// lines of units below them; and what lines of keys say.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "core/formats/csv/CsvLayout.h"
+
+namespace tacto {
+
+struct CsvColumn {
+    std::string name;  ///< without its unit
+    std::string unit;  ///< "s", "V", "A" or ""
+    double factor = 1;
+    std::string unknownUnit;  ///< a bracketed unit that is not understood
+};
+
+[[nodiscard]] CsvColumn columnNamed(std::string_view text);
+
+[[nodiscard]] bool isTimeColumn(const CsvColumn& column);
+
+/// Whether every field is a unit, in brackets or spelled out, and there is at least one: the second of two header
+/// lines.
+[[nodiscard]] bool isLineOfUnits(const CsvLine& line);
+
+/// The unit in a field of such a line.
+[[nodiscard]] std::optional<SpelledUnit> unitField(std::string_view field);
+
+/// Whether a column counts rows: "index", "Sample".
+[[nodiscard]] bool isIndexColumn(const CsvColumn& column);
+
+/// The header line whose first field is `key`, capitals and a colon or equals sign at its end ignored.
+[[nodiscard]] const CsvLine* lineCalled(const CsvHead& head, std::string_view key);
+/// The second field of that line; empty where there is none.
+[[nodiscard]] std::string_view wordCalled(const CsvHead& head, std::string_view key);
+/// The number in it, also behind a colon ("Analog:2e-9").
+[[nodiscard]] std::optional<double> numberCalled(const CsvHead& head, std::string_view key);
+/// What stands behind `key` and a colon or equals sign in one of the comments.
+[[nodiscard]] std::optional<std::string_view> remarkCalled(const CsvHead& head, std::string_view key);
+
+/// "20.0uS", "-25 s" or a bare number, in seconds; nothing for another unit.
+[[nodiscard]] std::optional<double> secondsIn(std::string_view text, char point);
+/// "50 MHz", "1e+06Hz", "2.5 GSa/s" or a bare number, in Hz.
+[[nodiscard]] std::optional<double> hertzIn(std::string_view text, char point);
+
+/// How many fields a line has without the empty ones at its end.
+[[nodiscard]] std::size_t filled(const CsvLine& line);
+
+/// The names that end a header, without empty ones at the end.
+/// Errors: ParseError where a column has no name or two have the same.
+[[nodiscard]] Result<std::vector<std::string>> namesIn(const CsvLine& line, std::string_view file);
+
+}  // namespace tacto

@@ -1,0 +1,148 @@
+#include "core/formats/csv/CsvHead.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <span>
+
+#include "core/base/Csv.h"
+#include "core/base/Text.h"
+#include "core/formats/Utf16.h"
+#include "core/formats/csv/CsvNumber.h"
+
+namespace tacto {
+
+namespace {
+
+/// Whether every comma stands between digits, as a decimal comma does.
+bool commasAreDecimal(std::string_view line) {
+    const auto isDigit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
+    for (auto at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
+        if (at == 0 || !isDigit(at - 1) || !isDigit(at + 1)) return false;
+    }
+    return true;
+}
+
+/// What most of the first lines hold: a title line in front of a table may hold anything. A semicolon or a tab goes
+/// before a comma, which beside it is the decimal point of another country.
+char separatorOf(const std::vector<std::string_view>& lines) {
+    constexpr std::size_t kLooked = 40;
+    std::size_t tabs = 0;
+    std::size_t semicolons = 0;
+    const auto seen = std::min(lines.size(), kLooked);
+    for (const auto line : std::span(lines).first(seen)) {
+        tabs += line.find('\t') != std::string_view::npos && commasAreDecimal(line) ? 1U : 0U;
+        semicolons += line.find(';') != std::string_view::npos ? 1U : 0U;
+    }
+    if (2 * tabs > seen) return '\t';
+    return 2 * semicolons > seen ? ';' : ',';
+}
+
+/// The same of the lines that a `;` may not make a comment.
+char separatorWithout(const std::vector<std::string_view>& lines) {
+    std::vector<std::string_view> others;
+    std::ranges::copy_if(lines, std::back_inserter(others), [](auto line) { return !line.starts_with(';'); });
+    return separatorOf(others.empty() ? lines : others);
+}
+
+struct Remark {
+    std::size_t number;  // of its line
+    std::string_view words;
+};
+
+bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
+    bool any = false;
+    for (const auto& field : fields) {
+        if (field.empty()) continue;
+        if (!fieldNumber(field, point)) return false;
+        any = true;
+    }
+    return any;
+}
+
+}  // namespace
+
+std::optional<double> fieldNumber(std::string_view field, char point) {
+    const bool negative = field.starts_with('-');
+    if (field.ends_with("∞") && field.size() <= std::string_view("-∞").size()) {
+        return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+    }
+    double value = 0;
+    const char* const end = field.data() + field.size();
+    return takeNumber(field.data(), end, point, value) == end ? std::optional(value) : std::nullopt;
+}
+
+CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
+    struct Seen {
+        std::size_t number;
+        std::size_t offset;
+        std::size_t behind;
+    };
+    std::vector<Seen> seen;
+    std::vector<std::string_view> lines;
+    std::size_t number = 0;
+    std::vector<Remark> remarks;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        const auto behind = std::min(end + 1, text.size());
+        const auto line = text.substr(at, end - at);
+        ++number;
+        if (number > skipRows) {
+            if (!isBlankOrComment(line)) {
+                seen.push_back({number, at, behind});
+                lines.push_back(line);
+            } else if (const auto words = trimmed(line); !words.empty()) {
+                remarks.push_back({number, words});
+            }
+        }
+        at = behind;
+    }
+    CsvHead head;
+    head.separator = separatorWithout(lines);
+    if (head.separator != ';') {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (lines[i].starts_with(';')) {
+                remarks.push_back({seen[i].number, trimmed(lines[i])});
+            } else {
+                lines[kept] = lines[i];
+                seen[kept++] = seen[i];
+            }
+        }
+        lines.resize(kept);
+        seen.resize(kept);
+    }
+    std::vector<std::string_view> fields;
+    const auto lineAt = [&](std::size_t i) {
+        cutLine(lines[i], head.separator, fields);
+        CsvLine line{seen[i].number, seen[i].offset, seen[i].behind, {}};
+        for (const auto field : fields) line.fields.push_back(latin1AsUtf8(field));
+        return line;
+    };
+    const auto firstRow = [&](char point) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (isRowOfNumbers(lineAt(i).fields, point)) return i;
+        }
+        return std::nullopt;
+    };
+    auto row = firstRow('.');
+    if (head.separator != ',') {
+        // The last line looked at may be cut off in the middle; anything before it settles the matter.
+        const auto withComma = firstRow(',');
+        if (withComma && (!row || *withComma < *row)) {
+            head.point = ',';
+            row = withComma;
+        }
+    }
+    for (std::size_t i = 0; i < row.value_or(lines.size()); ++i) head.header.push_back(lineAt(i));
+    if (row) head.firstRow = lineAt(*row);
+    std::ranges::sort(remarks, {}, &Remark::number);
+    for (auto [line, words] : remarks) {
+        if (row && line > seen[*row].number) break;
+        while (!words.empty() && (words.front() == '#' || words.front() == ';')) words.remove_prefix(1);
+        head.remarks.push_back(latin1AsUtf8(trimmed(words)));
+    }
+    return head;
+}
+
+}  // namespace tacto

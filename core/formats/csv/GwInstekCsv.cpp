@@ -1,0 +1,65 @@
+// The tables of GW Instek's oscilloscopes. Each trace has two fields in every line of keys (`Source,CH1,Source,CH2,`)
+// and in every row: time and volts (Detail), or the value and nothing (Fast). Fast values are steps of a 25th of a
+// division.
+#include "core/formats/csv/CsvColumns.h"
+#include "core/formats/csv/CsvMakers.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kStepsPerDivision = 25;
+
+/// What line `key` says of trace `k`.
+std::string_view ofTrace(const CsvHead& head, std::string_view key, std::size_t k) {
+    const auto* line = lineCalled(head, key);
+    const auto at = 2 * k + 1;
+    return line != nullptr && at < line->fields.size() ? std::string_view(line->fields[at]) : std::string_view();
+}
+
+bool isGwInstek(const CsvHead& head) {
+    return head.firstRow && !head.header.empty() && lineCalled(head, "Memory Length") != nullptr &&
+           lineCalled(head, "Sampling Period") != nullptr &&
+           folded(head.header.back().fields.front()) == "waveform data";
+}
+
+Result<CsvDraft> gwInstek(const CsvHead& head, std::string_view file) {
+    const auto traces = filled(*lineCalled(head, "Memory Length")) / 2;
+    const auto mode = folded(wordCalled(head, "Mode"));
+    if (mode != "detail" && mode != "fast") {
+        return fail(ErrorCode::ParseError, "{}: the mode of saving is '{}'; Detail or Fast was expected", file,
+                    wordCalled(head, "Mode"));
+    }
+    CsvDraft draft(*lineCalled(head, "Memory Length"), head.header.back());
+    for (std::size_t k = 0; k < traces; ++k) {
+        std::string name(ofTrace(head, "Source", k));
+        if (name.empty()) name = fmt::format("CH{}", k + 1);
+        if (mode == "detail") draft.addOther(k == 0 ? "time" : fmt::format("time of {}", name));
+        draft.addChannel(std::move(name), ofTrace(head, "Vertical Units", k));
+        if (mode == "detail") continue;
+        const auto scale = fieldNumber(ofTrace(head, "Vertical Scale", k), head.point);
+        if (!scale || !(*scale > 0)) {
+            return fail(ErrorCode::ParseError, "{}: the vertical scale of '{}' is '{}'; a number above 0 was expected",
+                        file, draft.columns.back().name, ofTrace(head, "Vertical Scale", k));
+        }
+        draft.columns.back().factor *= *scale / kStepsPerDivision;
+        if (k + 1 < traces) draft.addOther("");
+    }
+    draft.layout.rows = numberCalled(head, "Memory Length");
+    if (mode == "detail") {
+        draft.layout.interval_s = numberCalled(head, "Sampling Period");
+        return draft;
+    }
+    const double middle_s = numberCalled(head, "Horizontal Position").value_or(0);
+    const double half_s = 5 * numberCalled(head, "Horizontal Scale").value_or(0);
+    auto counted = draft.countRows(numberCalled(head, "Sampling Period"), middle_s - half_s,
+                                   wordCalled(head, "Sampling Period"), file);
+    if (!counted) return failure(counted);
+    return draft;
+}
+
+}  // namespace
+
+const CsvMaker kGwInstekCsv{CsvDialect::GwInstek, "csv-gwinstek", "GW Instek CSV", isGwInstek, gwInstek};
+
+}  // namespace tacto

@@ -1,0 +1,170 @@
+// The tables of Rigol's oscilloscopes, which differ from series to series.
+#include <algorithm>
+#include <fmt/ranges.h>
+
+#include "core/formats/csv/CsvColumns.h"
+#include "core/formats/csv/CsvMakers.h"
+
+namespace tacto {
+
+namespace {
+
+std::string fieldAt(const CsvLine& line, std::size_t index) {
+    return index < line.fields.size() ? folded(line.fields[index]) : std::string();
+}
+
+std::string withoutBlanks(std::string_view text) {
+    auto word = folded(text);
+    std::erase(word, ' ');
+    return word;
+}
+
+/// "t0 = -25s" or "tInc = 2e-06s" of the line: index of the field; the line's width where there is none.
+std::size_t fieldGiving(const CsvLine& line, std::string_view key) {
+    const auto found = std::ranges::find_if(
+        line.fields, [&](const std::string& field) { return withoutBlanks(field).starts_with(key); });
+    return static_cast<std::size_t>(found - line.fields.begin());
+}
+
+bool hasIndexAndIncrement(const CsvHead& head) {
+    return head.header.size() > 1 && fieldAt(head.header[0], 0) == "x" && fieldAt(head.header[1], 0) == "sequence" &&
+           std::ranges::any_of(head.header[0].fields, [](const auto& name) { return folded(name) == "start"; });
+}
+
+bool hasSeconds(const CsvHead& head) {
+    if (head.header.size() < 2 || fieldAt(head.header[1], 0) != "second") return false;
+    const auto first = fieldAt(head.header[0], 0);
+    return first == "x" || first.empty() || (first == "time" && fieldAt(head.header[0], 1).starts_with("x("));
+}
+
+bool hasMemoryTimes(const CsvHead& head) {
+    const auto& line = head.header.front();
+    return head.header.size() == 1 && fieldGiving(line, "t0=") > 0 && fieldGiving(line, "tinc=") < line.fields.size() &&
+           fieldGiving(line, "t0=") < line.fields.size();
+}
+
+/// X without a unit beside columns that have theirs: seconds (DS1000D).
+bool hasUnitsInNames(const CsvHead& head) {
+    const auto& line = head.header.front();
+    const auto width = filled(line);
+    if (head.header.size() != 1 || width < 2 || fieldAt(line, 0) != "x") return false;
+    return std::all_of(line.fields.begin() + 1, line.fields.begin() + static_cast<std::ptrdiff_t>(width),
+                       [](const auto& field) { return !columnNamed(field).unit.empty(); });
+}
+
+bool isUltraScope(const CsvHead& head) {
+    return lineCalled(head, "Number of Data points") != nullptr && lineCalled(head, "Channel Data") != nullptr &&
+           isTimeColumn(columnNamed(head.header.back().fields.front()));
+}
+
+bool isRigol(const CsvHead& head) {
+    return !head.header.empty() && (hasIndexAndIncrement(head) || hasSeconds(head) || hasMemoryTimes(head) ||
+                                    hasUnitsInNames(head) || isUltraScope(head));
+}
+
+Result<CsvDraft> indexAndIncrement(const CsvHead& head, std::string_view file) {
+    const auto& names = head.header[0];
+    const auto& units = head.header[1];
+    const auto start =
+        std::ranges::find_if(names.fields, [](const std::string& name) { return folded(name) == "start"; });
+    const auto width = static_cast<std::size_t>(start - names.fields.begin());
+    auto draft = twoLineDraft(names, units, width);
+    const auto number = [&](std::size_t column) {
+        return column < units.fields.size() ? fieldNumber(units.fields[column], head.point) : std::nullopt;
+    };
+    const auto start_s = number(width);
+    const auto interval_s = number(width + 1);
+    if (!start_s || !interval_s || !(*interval_s > 0)) {
+        return fail(ErrorCode::ParseError,
+                    "{}:{}: start and increment are '{}'; two numbers, the increment above 0, were expected", file,
+                    units.number,
+                    fmt::join(units.fields.begin() + static_cast<std::ptrdiff_t>(std::min(width, units.fields.size())),
+                              units.fields.end(), ","));
+    }
+    draft.layout.times = RowTimes::Index;
+    draft.layout.start_s = *start_s;
+    draft.layout.interval_s = *interval_s;
+    return draft;
+}
+
+/// The channel of "X(CH1)" stands in the brackets.
+CsvDraft seconds(const CsvHead& head) {
+    auto names = head.header[0];
+    for (auto& name : names.fields) {
+        if (folded(name).starts_with("x(") && name.ends_with(')')) name = name.substr(2, name.size() - 3);
+    }
+    return twoLineDraft(names, head.header[1], filled(names));
+}
+
+Result<CsvDraft> memoryTimes(const CsvHead& head, std::string_view file) {
+    const auto& line = head.header.front();
+    const auto first = std::min(fieldGiving(line, "t0="), fieldGiving(line, "tinc="));
+    const auto width = filled(line);
+    if (width != first + 2) {
+        return fail(ErrorCode::ParseError,
+                    "{}:{}: the header is '{}'; all channels before one t0 and one tInc were "
+                    "expected, as in CH1(V),CH2(V),t0 = 0s, tInc = 1e-06s",
+                    file, line.number, fmt::join(line.fields, ","));
+    }
+    const auto valueOf = [&](std::string_view key) {
+        const std::string_view field = line.fields[fieldGiving(line, key)];
+        return secondsIn(field.substr(field.find('=') + 1), head.point);
+    };
+    CsvDraft draft(line, line);
+    for (std::size_t c = 0; c < first; ++c) {
+        auto column = columnNamed(line.fields[c]);
+        draft.addOther(line.fields[c]);
+        draft.columns.push_back({column.name, c + 1, column.unit, column.factor, column.unknownUnit});
+    }
+    const auto start_s = valueOf("t0=");
+    auto counted = draft.countRows(start_s ? valueOf("tinc=") : std::nullopt, start_s.value_or(0),
+                                   fmt::format("{}, {}", line.fields[first], line.fields[first + 1]), file);
+    if (!counted) return failure(counted);
+    return draft;
+}
+
+CsvDraft unitsInNames(const CsvHead& head) {
+    const auto& line = head.header.front();
+    CsvDraft draft(line, line);
+    draft.addOther(line.fields.front());
+    for (std::size_t c = 1; c < filled(line); ++c) {
+        const auto column = columnNamed(line.fields[c]);
+        draft.addOther(line.fields[c]);
+        draft.columns.push_back({column.name, c + 1, column.unit, column.factor, ""});
+    }
+    return draft;
+}
+
+/// Rigol's program for the PC: names in the line of "Channel Data", time and units in the last one.
+CsvDraft ultraScope(const CsvHead& head) {
+    const auto& last = head.header.back();
+    const auto& names = *lineCalled(head, "Channel Data");
+    CsvDraft draft(last, last);
+    draft.layout.timeFactor = columnNamed(last.fields.front()).factor;
+    draft.addOther("time");
+    for (std::size_t c = 1; c < filled(last); ++c) {
+        const auto column = columnNamed(last.fields[c]);
+        auto name = c < filled(names) ? names.fields[c] : fmt::format("CH{}", c);
+        draft.addOther(name);
+        draft.columns.push_back({std::move(name), c + 1, column.unit, column.factor, column.unknownUnit});
+    }
+    if (const auto rate = numberCalled(head, "Sampling Frequency (Hz)"); rate && *rate > 0) {
+        draft.layout.interval_s = 1 / *rate;
+    }
+    draft.layout.rows = numberCalled(head, "Number of Data points");
+    return draft;
+}
+
+Result<CsvDraft> rigol(const CsvHead& head, std::string_view file) {
+    if (hasIndexAndIncrement(head)) return indexAndIncrement(head, file);
+    if (hasSeconds(head)) return seconds(head);
+    if (hasMemoryTimes(head)) return memoryTimes(head, file);
+    if (hasUnitsInNames(head)) return unitsInNames(head);
+    return ultraScope(head);
+}
+
+}  // namespace
+
+const CsvMaker kRigolCsv{CsvDialect::Rigol, "csv-rigol", "Rigol CSV", isRigol, rigol};
+
+}  // namespace tacto

@@ -1,0 +1,118 @@
+#include <cmath>
+#include <limits>
+
+#include "core/safety/GateState.h"
+#include "core/safety/Rules.h"
+
+namespace tacto::gate {
+
+namespace {
+/// A train beside one limit.
+struct TrainAtLimit {
+    const State& state;
+    const JudgedTrain& train;
+    const ActiveLimit& limit;
+    const ExposureMeter::Sums* window = nullptr;  // of the limit's length, the train in it; null: the train alone
+
+    [[nodiscard]] bool judged() const noexcept {
+        if (limit.row.action != LimitAction::Refuse) return false;
+        return !(needsArea(limit.row.quantity) && std::isnan(state.area));  // Reads "not evaluated"
+    }
+    [[nodiscard]] double valueAlone() const noexcept {
+        const bool into500 = limit.row.judged == JudgedAt::Ohm500;
+        return (into500 ? train.at500 : train.overRange).at(limit.row.quantity);
+    }
+    [[nodiscard]] double valueInWindow() const noexcept {
+        const bool into500 = limit.row.judged == JudgedAt::Ohm500;
+        return windowedValue(limit.row.quantity, into500 ? window->at500 : window->overRange, state.area);
+    }
+};
+
+tl::unexpected<Error> refused(const ActiveLimit& limit, double value, const std::string& aside) {
+    return fail(ErrorCode::LimitExceeded, "{} would be {:.4g} {}{}; {} allows {} {:.6g} {} ({})",
+                titleOf(limit.row.quantity), value, unitOf(limit.row.quantity), aside, limit.set.view(),
+                limit.row.strict ? "less than" : "at most", limit.row.max, unitOf(limit.row.quantity),
+                limit.row.source);
+}
+
+bool breaksAlone(const TrainAtLimit& t) {
+    return t.judged() && t.train.fallsUnder(t.limit.row) &&
+           !keepsLimit(t.limit.row, t.valueAlone(), t.state.commandIsComputed());
+}
+
+tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
+    const LimitRow& row = t.limit.row;
+    std::string aside;
+    if (row.judged == JudgedAt::Ohm500) {
+        aside = " into 500 ohm";
+    } else if (row.quantity != Quantity::CommandVoltage) {  // which is the same in any case
+        const State& s = t.state;
+        const Load& usual = s.person() ? s.load.nominal : s.setup->load.nominal;
+        const auto there =
+            exposureOf(t.train.command, t.train.interval, usual, s.setup->source, s.area, {t.train.carried_V});
+        aside = fmt::format(" in the worst case ({:.4g} {} into {})", there.at(row.quantity), unitOf(row.quantity),
+                            usual.text());
+    }
+    return refused(t.limit, t.valueAlone(), aside);
+}
+
+bool breaksInWindow(const TrainAtLimit& t) {
+    // Trains of different rates share the window: every band that one of them belongs to holds.
+    const bool holds = t.train.fallsUnder(t.limit.row) || t.limit.row.holdsAt(t.window->lowestHz);
+    return t.judged() && holds && !keepsLimit(t.limit.row, t.valueInWindow(), false);
+}
+
+tl::unexpected<Error> refusedInWindow(const TrainAtLimit& t) {
+    return refused(t.limit, t.valueInWindow(), fmt::format(" with the {} trains before it", t.window->trains));
+}
+}  // namespace
+
+bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept {
+    const bool computed = row.quantity == Quantity::CommandVoltage && commandComputed;
+    return row.keeps(computed ? value * (1 - 1e-12) : value);
+}
+
+double areaOf(const GateSetup& setup) noexcept {
+    return setup.electrodeArea ? setup.electrodeArea->value() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<ActiveLimit> activeLimits(const GateSetup& setup) {
+    std::vector<ActiveLimit> limits;
+    for (const auto& set : setup.limits) {
+        for (const auto& row : set.rows) limits.push_back({row, std::string_view(set.id), false});
+    }
+    for (const auto& ceiling : setup.ceilings) {
+        LimitRow row;
+        row.quantity = ceiling.quantity;
+        row.max = ceiling.max;
+        row.source = "the profile's ceiling";
+        row.confidence = Confidence::High;
+        limits.push_back({row, "profile", true});
+    }
+    return limits;
+}
+
+Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now) {
+    for (const ActiveLimit& limit : state.limits) {
+        const int id = limitCheck(limit.ceiling ? RequestCeiling : RequestLimit, limit.row.quantity);
+        const Rule<TrainAtLimit> rule[] = {{id, breaksAlone, refusedAlone}};
+        if (auto kept = judge(rule, TrainAtLimit{state, train, limit}); !kept) return kept;
+    }
+    auto second = state.meter.couldShare(Seconds(1), now, train.stretch);
+    auto five = state.meter.couldShare(Seconds(5), now, train.stretch);
+    second.overRange += train.overRange.in1s;
+    second.at500 += train.at500.in1s;
+    five.overRange += train.overRange.in5s;
+    five.at500 += train.at500.in5s;
+    for (const ActiveLimit& limit : state.limits) {
+        const double window_s = windowOf(limit.row.quantity);
+        if (window_s == 0) continue;
+        const int id = limitCheck(limit.ceiling ? MeterCeiling : MeterLimit, limit.row.quantity);
+        const Rule<TrainAtLimit> rule[] = {{id, breaksInWindow, refusedInWindow}};
+        if (auto kept = judge(rule, TrainAtLimit{state, train, limit, window_s == 1 ? &second : &five}); !kept)
+            return kept;
+    }
+    return {};
+}
+
+}  // namespace tacto::gate

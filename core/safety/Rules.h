@@ -1,0 +1,190 @@
+// Rules.h - internal: every rule of the gate, the interlock, the heartbeat and the train's read-back by name, and how
+// tables of rules are evaluated.
+//
+// What may be refused stands in constexpr tables, in the order in which it is refused: a rule's name, what breaks it,
+// and what is said then. firstBroken() goes through a table; no other code asks whether a rule is in force. The
+// mutation test takes one rule at a time out of force and sees a test fail; in the product inForce() is the constant
+// true and leaves no trace.
+//
+// A new rule gets a name here; the tests do not build until it stands in their table (tests/safety/CheckNames.h), and
+// fail until there is a case that only it refuses. A refusal outside a table fails EveryRefusalHasItsRule.
+//
+// Thread-safety: pure functions. Nothing allocates while no rule is broken.
+#pragma once
+
+#ifdef TACTO_GATE_MUTATION
+#include <atomic>
+#endif
+
+#include "core/base/Result.h"
+#include "core/safety/Quantity.h"
+
+namespace tacto::gate {
+
+enum Check : int {
+    // configure()
+    NoLimitSet,
+    BadLimitRow,
+    BadCeiling,
+    LoosenedCeiling,
+    SourceDrive,
+    SourceAmplitudeMax,
+    SourceAmplitudeStep,
+    SourceWidths,
+    SourcePulses,
+    SourceCompliance,
+    SourceCurrentLimit,
+    SourceNoCompliance,
+    SourceAccuracy,
+    BadLoad,
+    BadArea,
+    BadCheckTrain,
+    PersonMissing,
+    PersonConsent,
+    PersonPseudonym,
+    PersonArea,
+    PersonDiscomfort,
+    PersonRampStep,
+    PersonImpedanceBounds,
+    PersonVoltageSource,
+    PersonMonophasicCheck,
+    PersonCalibration,
+    BadCalibration,
+    // updateImpedance()
+    ImpedanceValue,
+    ImpedanceFromFuture,
+    ImpedanceOutOfRange,
+    ImpedanceJump,
+    // approve()
+    MoreThanProgrammed,
+    Uncertainty,
+    PulseBeyondPeriod,
+    LongWithoutDeadMan,
+    PastUnknown,
+    MeterFull,
+    MeterBooking,
+    RecordBooking,
+    MalformedTrain,
+    SourceKind,
+    AmplitudeMax,
+    AmplitudeGrid,
+    WidthRange,
+    WidthGrid,
+    GapGrid,
+    PulsesMax,
+    IntervalValue,
+    IntervalBelowTrain,
+    OnsetAhead,
+    ImpedanceRejected,
+    PersonMonophasic,
+    PersonNoImpedance,
+    PersonStaleImpedance,
+    PersonBeyondCalibration,
+    PersonLevel,
+    CheckDiscomfort,
+    // Accepted levels
+    LevelOfPerson,
+    LevelMalformed,
+    LevelInVolts,
+    LevelDiscomfort,
+    LevelRamp,
+    LevelAccept,
+    DiscomfortValue,
+    // approve() of a vibration
+    BurstIntensity,
+    BurstDuration,
+    // isCurrent()
+    Epoch,
+    Expiry,
+    // Interlock
+    InterlockMove,
+    ArmRequestState,
+    ArmConfirmState,
+    ArmTicket,
+    ArmState,
+    ArmLimits,
+    ArmIdentity,
+    ArmOperator,
+    ArmImpedanceMissing,
+    ArmImpedanceRange,
+    ArmImpedanceAge,
+    ResetState,
+    ResetCause,
+    // Train check
+    TrainNoStatus,
+    TrainGarbage,
+    TrainOpen,
+    TrainShort,
+    TrainNetCharge,
+    TrainStuckOn,
+    TrainStatusLate,
+    TrainReadEarly,
+    // Heartbeat
+    HeartSilent,
+    HeartNever,
+    HeartLate,
+    kNamedChecks,
+    // One per quantity from here: a limit set's row or a ceiling, on the request alone and with the meter
+    RequestLimit = 200,
+    RequestCeiling = 220,
+    MeterLimit = 240,
+    MeterCeiling = 260,
+};
+static_assert(kNamedChecks < RequestLimit && kQuantityCount <= 20);
+
+[[nodiscard]] constexpr int limitCheck(Check base, Quantity q) noexcept { return base + static_cast<int>(q); }
+
+#ifdef TACTO_GATE_MUTATION
+inline std::atomic<int> removedRule{-1};
+[[nodiscard]] inline bool inForce(int id) noexcept { return id != removedRule.load(); }
+#else
+[[nodiscard]] constexpr bool inForce(int) noexcept { return true; }
+#endif
+
+/// Refuses `Input` with a sentence.
+template <class Input>
+struct Rule {
+    int id;
+    bool (*broken)(const Input&);
+    tl::unexpected<Error> (*sentence)(const Input&);
+};
+
+/// Refuses `Input` without a word.
+template <class Input>
+struct Condition {
+    int id;
+    bool (*broken)(const Input&) noexcept;
+};
+
+/// Something that must be done, where a limit depends on it.
+template <class Input>
+struct Duty {
+    int id;
+    void (*fulfil)(Input&) noexcept;
+};
+
+/// The first rule of a table that `input` breaks; null when it keeps them all. A table is an array of anything that has
+/// an id and a predicate `broken`.
+template <class AnyRule, std::size_t N, class Input>
+[[nodiscard]] constexpr const AnyRule* firstBroken(const AnyRule (&rules)[N], const Input& input) {
+    for (const AnyRule& rule : rules) {
+        if (inForce(rule.id) && rule.broken(input)) return &rule;
+    }
+    return nullptr;
+}
+
+/// Success, or what the first broken rule says.
+template <std::size_t N, class Input>
+[[nodiscard]] Result<void> judge(const Rule<Input> (&rules)[N], const Input& input) {
+    if (const auto* broken = firstBroken(rules, input)) return broken->sentence(input);
+    return {};
+}
+
+template <std::size_t N, class Input>
+void fulfil(const Duty<Input> (&duties)[N], Input& input) noexcept {
+    for (const auto& duty : duties) {
+        if (inForce(duty.id)) duty.fulfil(input);
+    }
+}
+
+}  // namespace tacto::gate

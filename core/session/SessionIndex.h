@@ -1,0 +1,42 @@
+// SessionIndex.h - summaries of sessions that were read before, so that thousands are listed at once.
+//
+// A cache and nothing else. A summary counts as long as its session has the size and the time of change that it had
+// when it was read, journal included; a row that was altered is read anew; an index that is missing, damaged or of
+// another version is made anew, and without one every session is read. What a session says is asked of the session:
+// read() corrects the index.
+//
+// Thread-safety: any thread, several programs; each call opens the index for itself.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "core/session/SessionSummary.h"
+
+namespace tacto {
+
+struct ListedSession {
+    std::filesystem::path path;
+    std::uintmax_t bytes = 0;  ///< journal included
+    SessionSummary summary;
+    std::string problem;  ///< why it cannot be read; empty when it can
+};
+
+class SessionIndex {
+public:
+    /// `file` need not be there; its folder is made when needed.
+    explicit SessionIndex(std::filesystem::path file) : file_(std::move(file)) {}
+
+    /// The sessions in the order of `sessions`; those that are not there are left out. `going`, called after each one
+    /// that had to be read with how many are done, says whether to go on: what was read until then is kept.
+    [[nodiscard]] std::vector<ListedSession> list(const std::vector<std::filesystem::path>& sessions,
+                                                  const std::function<bool(std::size_t done)>& going) const;
+    /// Reads the session itself, whatever the index says, and corrects it.
+    [[nodiscard]] ListedSession read(const std::filesystem::path& session) const;
+
+private:
+    std::filesystem::path file_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,44 @@
+// SessionLabels.h - what people say of a session, entered or changed after it ended: operator, sample, tags, a note.
+//
+// A change is a row of its own behind the end mark, on the same hash chain, and the recording before it stays as it is:
+// its head, which the report prints, is the hash of the end mark. The row is added to a copy, which takes the file's
+// place when it is whole: whatever happens in between, the file is what it was before or has the change.
+//
+//   {"wall": "2026-11-20T14:03:05Z", "operator": "...", "sample": "...", "note": "...", "tags": ["...", ...]}
+//
+// Only what was changed is in it.
+//
+// Thread-safety: any thread, several programs: the second to change a session is refused while the first is at it.
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/Result.h"
+#include "core/session/SessionTypes.h"
+
+namespace tacto {
+
+class SessionReader;
+
+inline constexpr std::size_t kLabelLimit = 200;  ///< characters of operator and sample
+inline constexpr std::size_t kSessionNoteLimit = 1000;
+inline constexpr std::size_t kTagLimit = 40;
+inline constexpr std::size_t kMaxTags = 20;
+
+/// Errors: InvalidArgument naming what is too long, is no UTF-8 or holds a control character; a tag that is empty,
+/// holds a comma or stands twice; too many of them.
+[[nodiscard]] Result<void> checkLabels(const SessionLabels& labels);
+
+/// Whether `session`, which `reader` reads, takes changes. Errors: Unsupported for one that has no end mark (it is
+/// being recorded, or was broken off); Io for a read-only one.
+[[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
+
+/// Keeps `labels` in the session; nothing is written where it has them already. Blocks while the file is copied.
+/// Errors: as checkLabels(), SessionReader and takesLabels(); Io when it is locked by another program or cannot be
+/// written. The session is as it was then.
+[[nodiscard]] Result<void> saveLabels(const std::filesystem::path& session, const SessionLabels& labels);
+
+/// Takes over what the body of a row says: of an annotation, or of the report's notes.
+void applyLabels(const nlohmann::json& body, SessionLabels& labels);
+
+}  // namespace tacto

@@ -1,0 +1,34 @@
+// ConfigValues.h - libsigrok's configuration keys as plain values.
+//
+// Every read gives what is not there as an empty list or nothing: a device that does not answer a question does not
+// offer that setting.
+//
+// Thread-safety: the instrument's thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/sigrok/protocol/Abilities.h"
+#include "drivers/sigrok/transport/SigrokLibrary.h"
+
+namespace tacto::sigrok_driver {
+
+[[nodiscard]] bool canSet(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexcept;
+[[nodiscard]] std::vector<Fraction> fractionsOf(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexcept;
+[[nodiscard]] std::vector<std::uint64_t> numbersOf(const sigrok::Configurable& on,
+                                                   const sigrok::ConfigKey* key) noexcept;
+[[nodiscard]] std::vector<std::string> textsOf(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexcept;
+[[nodiscard]] std::optional<std::uint64_t> numberOf(const sigrok::Configurable& on,
+                                                    const sigrok::ConfigKey* key) noexcept;
+/// Fills the sampling rates of `into`.
+void readRates(const sigrok::Configurable& on, Abilities& into) noexcept;
+
+/// For config_set(). These throw as libsigrok does.
+[[nodiscard]] Glib::VariantBase valueOf(const Fraction& fraction);
+[[nodiscard]] Glib::VariantBase valueOf(std::uint64_t number);
+[[nodiscard]] Glib::VariantBase valueOf(double number);
+[[nodiscard]] Glib::VariantBase valueOf(const std::string& text);
+
+}  // namespace tacto::sigrok_driver

@@ -1,0 +1,88 @@
+// LoadCaptures.h - captures of a train into a resistor, of known truth, as an ideal instrument would make them.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/analysis/load_safety/LoadReading.h"
+#include "core/base/Random.h"
+
+namespace tacto::test {
+
+struct LoadTruth {
+    double volts = 40;
+    double ohms = 500;
+    double width_s = 200e-6;
+    double gap_s = 100e-6;
+    double interval_s = 0.5;
+    double second = 1;  ///< of the leading phase's amplitude
+    double rate_hz = 10e6;
+    double gain_v = 1, gain_i = 1;      ///< of the instrument
+    double offset_v = 0, offset_a = 0;  ///< of the instrument
+    double gainTolerance = 0.005;
+    double shuntTolerance = 0;
+    double timeBaseTolerance = 0;
+    double timeBase = 1;     ///< what the instrument makes of a second
+    double noise = 0;        ///< of the range, r.m.s.
+    double scatter = 0;      ///< relative, of the trains' amplitudes
+    std::uint64_t seed = 1;  ///< of noise and scatter
+    int bits = 12;           ///< of a range of 1.5 times the peak
+};
+
+/// `trains` captures, one per train. Edges last 100 ns, as a fast source's do.
+[[nodiscard]] inline std::vector<Capture> loadCaptures(const LoadTruth& truth, int trains = 2) {
+    std::vector<Capture> out;
+    const double edge = 100e-9, before = 120e-6;
+    const double end = before + 2 * truth.width_s + truth.gap_s + 150e-6;
+    Random random(truth.seed, "load captures");
+    double shift = 0;  // of the train against the samples
+    const auto level = [&](double stated) {
+        const double t = stated / truth.timeBase - shift;
+        // A trapezoid whose width at half height is the phase's.
+        const auto phase = [&](double from) {
+            const double x = t - from;
+            if (x < 0 || x > truth.width_s + edge) return 0.0;
+            if (x < edge) return x / edge;
+            return x > truth.width_s ? 1 - (x - truth.width_s) / edge : 1.0;
+        };
+        return truth.volts * (phase(before) - truth.second * phase(before + truth.width_s + truth.gap_s));
+    };
+    for (int k = 0; k < trains; ++k) {
+        Capture capture;
+        capture.rate_hz = truth.rate_hz;
+        capture.start_s = k * truth.interval_s * truth.timeBase;
+        capture.timeBaseTolerance = truth.timeBaseTolerance;
+        capture.stampTolerance_s = 0;
+        const double strength = 1 + truth.scatter * random.normal();
+        if (truth.noise > 0) shift = random.uniform() / truth.rate_hz;
+        capture.trigger_s = capture.start_s + before;
+        CaptureChannel v, i;
+        v.name = "voltage";
+        v.unit = "V";
+        i.name = "current";
+        i.unit = "A";
+        v.high = 1.5 * truth.volts;
+        i.high = 1.5 * truth.volts / truth.ohms;
+        for (auto* channel : {&v, &i}) {
+            channel->low = -channel->high;
+            channel->lsb = 2 * channel->high / std::ldexp(1, truth.bits);
+            channel->gainTolerance = truth.gainTolerance;
+            channel->probeTolerance = channel == &i ? truth.shuntTolerance : 0;
+        }
+        const auto read = [&](double x, const CaptureChannel& channel) {
+            if (truth.noise > 0) x += truth.noise * channel.high * random.normal();
+            return static_cast<float>(std::round(x / channel.lsb) * channel.lsb);
+        };
+        for (double t = 0; t < end; t += 1 / truth.rate_hz) {
+            const double volts = strength * level(t);
+            v.samples.push_back(read(truth.gain_v * volts + truth.offset_v, v));
+            i.samples.push_back(read(truth.gain_i * volts / truth.ohms + truth.offset_a, i));
+        }
+        capture.channels = {v, i};
+        out.push_back(std::move(capture));
+    }
+    return out;
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "core/analysis/load_safety/LoadSafety.h"
+#include "core/analysis/load_safety/LoadSafetyJson.h"
+#include "tests/analysis/load_safety/LoadCaptures.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+using test::loadCaptures;
+using test::LoadTruth;
+
+/// A check in which nothing is wrong: every load of the set (the skin equivalent as the resistor it settles to), every
+/// trip, the paper's strongest command where it is allowed.
+class LoadSafetyCheck : public testing::Test {
+protected:
+    void SetUp() override {
+        input.limits = loadLimitSets(test::sourceDir() / "resources" / "limits").value();
+        input.source.amplitudeMax = 100;
+        input.source.compliance = Volts(100);
+        input.area_cm2 = 3.0;
+        for (const auto& named : benchLoads()) {
+            LoadRecord record;
+            record.name = named.name;
+            record.load = named.load;
+            const bool skin = named.load.kind == LoadKind::SkinEquivalent;
+            if (named.load.kind == LoadKind::Resistor || skin) {
+                LoadTruth truth;
+                truth.ohms = skin ? 10'200 : named.load.series.value();
+                truth.volts = truth.ohms < 200 ? 20 : 40;
+                record.steps.push_back(step(truth));
+            }
+            input.loads.push_back(record);
+        }
+        for (const auto name : kRequiredTrips) input.trips.push_back({std::string(name), true, true, 0.1, "tripped"});
+        input.reference = judgeReference(input.loads[2], input);
+        input.openCircuit = step({});
+    }
+
+    static LoadStep step(const LoadTruth& truth, double command = 0) {
+        LoadStep out;
+        out.command_v = command > 0 ? command : truth.volts;
+        out.interval_s = 0.5;
+        out.reading =
+            readLoad(loadCaptures(truth), ExpectedTrain{.programmed = {out.command_v, out.command_v}}).value();
+        return out;
+    }
+    LoadRecord& at(std::string_view name) {
+        return *std::find_if(input.loads.begin(), input.loads.end(), [&](const auto& r) { return r.name == name; });
+    }
+    static const SafetyRow& rowOf(const LoadSafety& found, std::string_view load, std::string_view item) {
+        const auto row = std::find_if(found.rows.begin(), found.rows.end(),
+                                      [&](const auto& r) { return r.load == load && r.item == item; });
+        if (row == found.rows.end()) throw std::runtime_error("no such row");
+        return *row;
+    }
+
+    LoadSafetyInput input;
+};
+
+TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Pass) << found.reasons.front();
+    const auto passed = std::count_if(found.rows.begin(), found.rows.end(),
+                                      [](const SafetyRow& row) { return row.verdict == RowVerdict::Pass; });
+    ASSERT_EQ(found.reasons.size(), 1U);
+    EXPECT_TRUE(found.reasons.front().starts_with(fmt::format(
+        "{} checks on {} loads passed, each with its uncertainty inside its limit", passed, benchLoads().size())))
+        << found.reasons.front();
+    EXPECT_EQ(found.loads.size(), benchLoads().size());
+    for (const auto& line : found.loads) EXPECT_EQ(line.verdict, RowVerdict::Pass) << line.name;
+    EXPECT_EQ(found.worstCase.verdict, RowVerdict::Pass);
+    EXPECT_GE(found.worstCase.amplitudeFactor.value, 1.0);
+    EXPECT_LE(found.worstCase.amplitudeFactor.value, 1.01);
+}
+
+TEST_F(LoadSafetyCheck, WithoutAnElectrodeAreaIsNoPassAndSaysSoOnce) {
+    RecordProperty("hazard", "H9");
+    input.area_cm2.reset();
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Indeterminate);
+    EXPECT_EQ(rowOf(found, "500 ohm", "power_density").verdict, RowVerdict::NotEvaluated);
+    EXPECT_EQ(found.reasons.size(), 1U) << found.reasons.back();
+}
+
+TEST_F(LoadSafetyCheck, AnythingLeftOutIsNoPass) {
+    RecordProperty("hazard", "H9");
+    const LoadSafetyInput whole = input;
+    for (std::size_t k = 0; k < whole.loads.size(); ++k) {
+        input = whole;
+        input.loads.erase(input.loads.begin() + static_cast<std::ptrdiff_t>(k));
+        EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << whole.loads[k].name;
+        input = whole;
+        if (!input.loads[k].steps.empty()) {
+            input.loads[k].steps.clear();
+            EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << whole.loads[k].name;
+        }
+        input = whole;
+        if (!input.loads[k].steps.empty()) {
+            input.loads[k].problem = "the device was unplugged";
+            EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << whole.loads[k].name;
+        }
+    }
+    for (std::size_t k = 0; k < whole.trips.size(); ++k) {
+        input = whole;
+        input.trips.erase(input.trips.begin() + static_cast<std::ptrdiff_t>(k));
+        EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << whole.trips[k].name;
+        input = whole;
+        input.trips[k].evaluated = false;
+        EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate) << whole.trips[k].name;
+        input = whole;
+        input.trips[k].tripped = false;
+        EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Fail) << whole.trips[k].name;
+    }
+    input = whole;
+    input.reference.reset();
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate);
+    input = whole;
+    input.limits.clear();
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate);
+    input = LoadSafetyInput{};
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate);
+}
+
+TEST_F(LoadSafetyCheck, AnyFigureThatWasNotMeasuredIsNoPass) {
+    RecordProperty("hazard", "H9");
+    const LoadSafetyInput whole = input;
+    for (const auto member :
+         {&LoadReading::delivered, &LoadReading::width_s, &LoadReading::interval_s, &LoadReading::impedance_ohm,
+          &LoadReading::imbalance, &LoadReading::rms_5s_ma, &LoadReading::peak_v, &LoadReading::rms_5s_v,
+          &LoadReading::power_1s_w, &LoadReading::energy_mj, &LoadReading::dc_ma}) {
+        input = whole;
+        at("500 ohm").steps[0].reading.*member = {};
+        EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate);
+    }
+}
+
+TEST_F(LoadSafetyCheck, MoreThanTenMilliampsRmsFailsWithItsNumbers) {
+    RecordProperty("hazard", "H1");
+    LoadTruth truth;
+    truth.ohms = 100;
+    at("100 ohm").steps.push_back(step(truth));  // 40 V every 0.5 s: 11.3 mA
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Fail);
+    const auto& row = rowOf(found, "100 ohm", "rms_current_5s");
+    EXPECT_NEAR(row.value, 400 * std::sqrt(10 * 400e-6 / 5), 0.02);
+    const bool named = std::any_of(found.reasons.begin(), found.reasons.end(),
+                                   [](const auto& text) { return text.find("11.31") != std::string::npos; });
+    EXPECT_TRUE(named);
+}
+
+TEST_F(LoadSafetyCheck, OfACurrentSourceTheVoltageIsJudgedToo) {
+    RecordProperty("hazard", "H1");
+    // A |Z| that was read a tenth too low: the current is as programmed, and 10 % more than A stands on the load.
+    input.source.drive = Drive::Current;
+    LoadTruth truth;
+    truth.volts = 44;
+    auto& wrong = at("500 ohm").steps[0];
+    wrong = step(truth, 40);
+    wrong.reading.delivered = {1, 0.003};
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Fail);
+    EXPECT_EQ(rowOf(found, "500 ohm", "voltage_over").verdict, RowVerdict::Fail);
+    EXPECT_NEAR(rowOf(found, "500 ohm", "voltage_over").value, 10, 0.1);
+    EXPECT_EQ(rowOf(found, "1 kohm", "voltage_over").verdict, RowVerdict::Pass);
+}
+
+TEST_F(LoadSafetyCheck, WhatTheLimitsForbidMustHaveBeenRefused) {
+    RecordProperty("hazard", "H1");
+    at("100 ohm").refusals.push_back({40, 0.5, true, true, "11.3 mA", "refused: 11.3 mA"});
+    auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Pass);
+    EXPECT_EQ(rowOf(found, "100 ohm", "refusal").verdict, RowVerdict::RefusedAsExpected);
+    at("100 ohm").refusals.back().refused = false;
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Fail);
+    at("100 ohm").refusals.back() = {10, 0.5, false, true, "", "refused"};
+    EXPECT_EQ(judgeLoadSafety(input).verdict, Verdict::Indeterminate);
+}
+
+TEST_F(LoadSafetyCheck, ALoadTheDeviceCannotDriveIsNamedAndHoldsUpNoPass) {
+    at("100 kohm").steps.clear();
+    at("100 kohm").notApplicable = "100 kohm cannot be driven by one step of 0.5 mA";
+    const auto found = judgeLoadSafety(input);
+    EXPECT_EQ(found.verdict, Verdict::Pass);
+    ASSERT_EQ(found.reasons.size(), 2U);
+    EXPECT_EQ(found.reasons.back(), "100 kohm cannot be driven by one step of 0.5 mA");
+}
+
+TEST_F(LoadSafetyCheck, AWrongResistorIsFoundBeforeAnythingIsBelieved) {
+    LoadTruth truth;
+    truth.ohms = 465;
+    at("500 ohm").steps = {step(truth)};
+    EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Fail);
+    at("500 ohm").dmm_ohm = {465, 0.5, 1};  // it is what the multimeter says
+    EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Pass);
+}
+
+TEST_F(LoadSafetyCheck, StatesTheOutputsOfTheGuidance) {
+    const auto found = judgeLoadSafety(input);
+    const struct {
+        const char* output;
+        const char* load;
+        double value;
+    } expected[] = {{"maximum output voltage", "500 ohm", 40},
+                    {"maximum output voltage", "2 kohm", 40},
+                    {"maximum output voltage", "10 kohm", 40},
+                    {"maximum output current", "500 ohm", 80},
+                    {"maximum output current", "2 kohm", 20},
+                    {"maximum output current", "10 kohm", 4},
+                    {"maximum phase charge", "500 ohm", 16},
+                    {"net charge per pulse", "500 ohm", 0},
+                    {"maximum current density (RMS over 5 s)", "500 ohm", 80 * std::sqrt(10 * 400e-6 / 5) / 3},
+                    {"maximum power density (over 1 s)", "500 ohm", 2 * 1.28e-3 / 3}};
+    ASSERT_EQ(found.disclosed.size(), std::size(expected));
+    for (std::size_t k = 0; k < std::size(expected); ++k) {
+        const auto& row = found.disclosed[k];
+        EXPECT_EQ(row.output, expected[k].output);
+        EXPECT_EQ(row.load, expected[k].load);
+        EXPECT_NEAR(row.value, expected[k].value, std::max(0.005 * expected[k].value, 0.01)) << row.output;
+        EXPECT_LE(row.expanded, std::max(0.02 * expected[k].value, 0.05)) << row.output;
+    }
+}
+
+/// The check's promise: whatever lies at a limit + 2U or beyond is never passed; what lies well within always is.
+TEST_F(LoadSafetyCheck, MissesNoViolationFromLimitPlusTwiceTheUncertainty) {
+    RecordProperty("hazard", "H9");
+    const LoadSafetyInput whole = input;
+    std::size_t tried = 0, failed = 0;
+    const auto inject = [&](const LoadTruth& truth, double command, const std::string& what) {
+        input = whole;
+        at("500 ohm").steps.push_back(step(truth, command));
+        const auto verdict = judgeLoadSafety(input).verdict;
+        EXPECT_NE(verdict, Verdict::Pass) << what;
+        ++tried;
+        if (verdict == Verdict::Fail) ++failed;
+    };
+    const auto reading = [&] { return step(LoadTruth{}).reading; }();
+    const double u_amplitude = 2 * reading.amplitude_v.expanded / 40;
+    const double u_width = 2 * reading.width_s.expanded / 200e-6;
+    const double u_net = 2 * reading.imbalance.expanded;
+    for (const double instrument : {0.9955, 1.0, 1.0045}) {
+        for (const double more : {0.0, 0.001, 0.01, 0.05, 0.2, 1.0}) {
+            LoadTruth truth;
+            truth.gain_v = truth.gain_i = instrument;
+            truth.volts = 40 * (1.02 + u_amplitude + more);
+            inject(truth, 40, fmt::format("gain {} at {}", truth.volts / 40, instrument));
+            truth.volts = 10 * (1.02 + u_amplitude + more);
+            inject(truth, 10, fmt::format("offset {} at {}", truth.volts - 10, instrument));
+            truth.volts = 40;
+            truth.width_s = 200e-6 * (1.01 + u_width + more / 2);
+            inject(truth, 40, fmt::format("width {} at {}", truth.width_s, instrument));
+            truth.width_s = 200e-6;
+            truth.interval_s = 0.5 * (1 - (0.01 + 1e-6 + more / 3));
+            inject(truth, 40, fmt::format("interval {} at {}", truth.interval_s, instrument));
+            truth.interval_s = 0.5;
+            for (const double sign : {-1.0, 1.0}) {
+                truth.second = sign > 0 ? 1 - (0.01 + u_net + more / 2) : 1 / (1 - (0.01 + u_net + more / 2));
+                inject(truth, 40, fmt::format("net charge {} at {}", truth.second, instrument));
+            }
+        }
+    }
+    EXPECT_EQ(tried, 108U);
+    RecordProperty("failed_of_108", static_cast<int>(failed));
+    EXPECT_GE(failed, 100U) << "a violation beyond limit + 2U should fail, not merely be undecided";
+}
+
+TEST(JudgeUpper, HasAGuardBandOnEitherSide) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(judgeUpper(9.8, 0.2, 10, false), RowVerdict::Pass);
+    EXPECT_EQ(judgeUpper(9.8, 0.2, 10, true), RowVerdict::Indeterminate);
+    EXPECT_EQ(judgeUpper(9.9, 0.2, 10, false), RowVerdict::Indeterminate);
+    EXPECT_EQ(judgeUpper(10.1, 0.2, 10, false), RowVerdict::Indeterminate);
+    EXPECT_EQ(judgeUpper(10.3, 0.2, 10, false), RowVerdict::Fail);
+    EXPECT_EQ(judgeUpper(std::nan(""), 0.2, 10, false), RowVerdict::NotEvaluated);
+    EXPECT_EQ(judgeUpper(1, std::nan(""), 10, false), RowVerdict::NotEvaluated);
+    EXPECT_EQ(judgeUpper(1, 0.1, std::nan(""), false), RowVerdict::NotEvaluated);
+}
+
+TEST(LoadSafetyJson, ReadsBackWhatAScriptCarries) {
+    const auto reading = readLoad(loadCaptures({}), ExpectedTrain{}).value();
+    const auto back = loadReadingFrom(toJson(reading)).value();
+    EXPECT_EQ(toJson(back)["rms_5s_ma"], toJson(reading)["rms_5s_ma"]);
+    EXPECT_EQ(toJson(back)["imbalance_u"], toJson(reading)["imbalance_u"]);
+    EXPECT_FALSE(loadReadingFrom({{"peak_v", "much"}}));
+    EXPECT_FALSE(loadRecordFrom({{"name", "a banana"}}));
+    EXPECT_FALSE(loadRecordFrom({{"name", "1 kohm"}, {"steps", 3}}));
+    EXPECT_FALSE(tripTrialFrom({{"name", "open"}, {"tripped", "yes"}}));
+    EXPECT_FALSE(tripTrialFrom(nlohmann::json::array()));
+}
+
+}  // namespace
+}  // namespace tacto

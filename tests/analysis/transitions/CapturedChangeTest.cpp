@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/analysis/transitions/CapturedChange.h"
+
+namespace tacto {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const ChangeLimits kLimits{.perTrain_jnd = 2, .complete_s = 2, .secondsAlone = false};
+
+CapturedTrain trainOf(double amplitude_jnd) {
+    return {.amplitude_v = 20,
+            .interval_s = 0.5,
+            .onsetUncertainty_s = 1e-6,
+            .amplitude_jnd = amplitude_jnd,
+            .interval_jnd = 0};
+}
+
+CapturedChange changeOf(double amplitude_jnd, double complete_s) {
+    return {.name = "up",
+            .before_v = {10, 10.01},
+            .trains = {trainOf(amplitude_jnd), trainOf(0)},
+            .from_v = 10,
+            .to_v = 20,
+            .from_s = 0.5,
+            .to_s = 0.5,
+            .complete_s = complete_s,
+            .trainsTaken = 2,
+            .fastest_s = 1,
+            .fewestTrains = 2};
+}
+
+TEST(CapturedChange, PassesForSmallStepsThatAreCompleteInTime) {
+    const auto judged = judgeChanges(std::vector{changeOf(1.5, 1.2)}, {"up"}, kLimits);
+    EXPECT_EQ(judged.verdict, Verdict::Pass);
+    EXPECT_THAT(judged.reasons, IsEmpty());
+}
+
+TEST(CapturedChange, FailsForAStepThatIsTooLargeAndForOneThatIsLate) {
+    const auto large = judgeChanges(std::vector{changeOf(4, 1.2)}, {}, kLimits);
+    EXPECT_EQ(large.verdict, Verdict::Fail);
+    EXPECT_THAT(large.reasons, Contains(HasSubstr("4.00 just-noticeable differences; at most 2 are wanted")));
+    const auto late = judgeChanges(std::vector{changeOf(1, 2.5)}, {}, kLimits);
+    EXPECT_EQ(late.verdict, Verdict::Fail);
+    EXPECT_EQ(late.groups.at(0).late, 1U);
+}
+
+TEST(CapturedChange, NotesWhatCannotBeCompleteInTimeAndPassesIt) {
+    auto change = changeOf(1.5, 2.5);
+    change.fastest_s = 2.4;
+    const auto judged = judgeChanges(std::vector{change}, {}, kLimits);
+    EXPECT_EQ(judged.verdict, Verdict::Pass);
+    EXPECT_THAT(judged.notes, Contains(HasSubstr("2 s are out of reach")));
+    auto alone = kLimits;
+    alone.secondsAlone = true;
+    EXPECT_EQ(judgeChanges(std::vector{change}, {}, alone).verdict, Verdict::Fail);
+}
+
+TEST(CapturedChange, AMovementHasNoEndToWaitFor) {
+    auto movement = changeOf(kNaN, kNaN);
+    movement.movement = true;
+    movement.trains.push_back(trainOf(1));
+    movement.trains.push_back(trainOf(1));
+    movement.trains.erase(movement.trains.begin() + 1);
+    movement.trains.at(0).interval_jnd = kNaN;
+    const auto judged = judgeChanges(std::vector{movement}, {}, kLimits);
+    EXPECT_FALSE(judged.groups.at(0).completes);
+    EXPECT_EQ(judged.verdict, Verdict::Pass);
+}
+
+TEST(CapturedChange, IsIndeterminateForWhatWasNotMeasured) {
+    EXPECT_EQ(judgeChanges({}, {}, kLimits).verdict, Verdict::Indeterminate);
+    EXPECT_EQ(judgeChanges({}, {"up"}, kLimits).verdict, Verdict::Indeterminate);
+    EXPECT_EQ(judgeChanges(std::vector{changeOf(kNaN, 1)}, {}, kLimits).verdict, Verdict::Indeterminate);
+    auto alone = changeOf(1, 1);
+    alone.before_v.clear();  // no trains of one command: their scatter is unknown
+    EXPECT_EQ(judgeChanges(std::vector{alone}, {}, kLimits).verdict, Verdict::Indeterminate);
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,30 @@
+// CaptureCheck.h - what measuring relies on in a capture that was read, whatever the format.
+//
+// Thread-safety: pure function.
+#pragma once
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/formats/CaptureFormat.h"
+
+namespace tacto::fuzz {
+
+/// Aborts unless `reading` is refused with a sentence, or has a rate, a start, 2 to `maxSamples` samples, and channels
+/// of one length in known units.
+inline void checkCapture(const Result<CaptureReading>& reading, std::size_t maxSamples) {
+    if (!reading) {
+        if (reading.error().message.empty()) std::abort();
+        return;
+    }
+    const auto& capture = reading->capture;
+    if (!(capture.rate_hz > 0) || !std::isfinite(capture.rate_hz) || !std::isfinite(capture.start_s)) std::abort();
+    if (capture.samples() < 2 || capture.samples() > maxSamples) std::abort();
+    for (const auto& channel : capture.channels) {
+        if (channel.samples.size() != capture.samples()) std::abort();
+        if (!channel.unit.empty() && channel.unit != "V" && channel.unit != "A") std::abort();
+        if (std::isnan(channel.low) || !(channel.low <= channel.high)) std::abort();
+    }
+}
+
+}  // namespace tacto::fuzz

@@ -1,0 +1,34 @@
+// InputFile.h - an input as a file, for readers that take a path.
+//
+// Thread-safety: none; a target has one thread.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <unistd.h>
+
+namespace tacto::fuzz {
+
+/// A folder of this process, made at its first use and left to the system.
+inline const std::filesystem::path& scratchFolder() {
+    static const auto folder = [] {
+        auto made = std::filesystem::temp_directory_path() / ("tactoscope-fuzz-" + std::to_string(getpid()));
+        std::filesystem::create_directories(made);
+        return made;
+    }();
+    return folder;
+}
+
+/// Writes `bytes` as `name` below the folder, in place of what was there.
+inline std::filesystem::path inputFile(const char* name, std::span<const std::uint8_t> bytes) {
+    const auto path = scratchFolder() / name;
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) std::abort();
+    return path;
+}
+
+}  // namespace tacto::fuzz

@@ -1,0 +1,21 @@
+// Any text as a profile: read or refused with a sentence; what was read is written and reads back as the same text
+// (hazard H10).
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "core/bench/Profile.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto profile = tacto::parseProfile({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+    if (!profile) {
+        if (profile.error().message.empty()) std::abort();
+        return 0;
+    }
+    const auto text = tacto::toJson(*profile).dump();
+    const auto again = tacto::parseProfile(text, "again.json");
+    if (!again || tacto::toJson(*again).dump() != text) std::abort();
+    return 0;
+}

@@ -1,0 +1,32 @@
+// Any text as recording.json, beside tables that are sound: opened or refused with a sentence, and never a stream that
+// contradicts itself (hazard H10).
+#include <cstdlib>
+#include <string_view>
+
+#include "core/acquisition/Recording.h"
+#include "tests/fuzz/InputFile.h"
+
+namespace {
+
+std::span<const std::uint8_t> bytesOf(std::string_view text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto tables = [] {
+        tacto::fuzz::inputFile("a.csv", bytesOf("time,X,Y,Z\n0,0,0,1\n0.001,0,0.1,1\n0.002,0.2,0,1\n0.003,0,0,1\n"));
+        return tacto::fuzz::inputFile("f.csv", bytesOf("time,force\n0,0.1\n5,0.2\n10,0.3\n"));
+    }();
+    const auto recording = tacto::Recording::open(tacto::fuzz::inputFile("recording.json", {data, size}));
+    if (!recording) {
+        if (recording.error().message.empty()) std::abort();
+        return 0;
+    }
+    const auto blocks = recording->blocks();
+    if (blocks.size() != recording->streams.size()) std::abort();
+    const auto extent = recording->extent();
+    if (!recording->streams.empty() && !(extent.begin_s <= extent.end_s)) std::abort();
+    return 0;
+}

@@ -1,0 +1,55 @@
+// Any text as a table of results: trials, readings of a calibration, what a profilometer exports. Read or refused with
+// a sentence that names the file; nothing is read that is infinite (hazard H10). The first byte says which.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/analysis/calibration/CalibrationFile.h"
+#include "core/analysis/sensor_calibration/ProfilometerFile.h"
+#include "core/analysis/separability/Separability.h"
+#include "core/analysis/separability/TrialFile.h"
+
+namespace {
+
+using namespace tacto;
+
+template <class T>
+bool refusedByName(const Result<T>& read) {
+    if (read) return false;
+    if (read.error().message.find("fuzz.csv") == std::string::npos) std::abort();
+    return true;
+}
+
+void checkTrials(std::string_view text) {
+    const auto trials = parseSeparabilityTrials(text, "fuzz.csv");
+    if (refusedByName(trials)) return;
+    const auto judged = judgeSeparability(*trials);
+    if (!judged && judged.error().message.empty()) std::abort();
+}
+
+void checkReadings(std::string_view text) {
+    const auto readings = parseCalibrationReadings(text, "fuzz.csv");
+    if (refusedByName(readings)) return;
+    for (const auto& reading : *readings) {
+        if (!std::isfinite(reading.commanded) || std::isinf(reading.measured)) std::abort();
+    }
+}
+
+void checkProfilometer(std::string_view text) {
+    const auto reading = parseProfilometer(text, "fuzz.csv");
+    if (refusedByName(reading)) return;
+    if (!(reading->ra_um > 0) || !std::isfinite(reading->ra_um) || reading->raValues == 0) std::abort();
+    if (reading->rz_um < reading->ra_um) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
+    if (data[0] % 3 == 0) checkTrials(text);
+    if (data[0] % 3 == 1) checkReadings(text);
+    if (data[0] % 3 == 2) checkProfilometer(text);
+    return 0;
+}

@@ -1,0 +1,11 @@
+// Whatever bytes call themselves a sigrok session (.sr): read or refused with a sentence, in memory that the input
+// bounds (hazard H10). What deflate can make of a byte is 1032 bytes.
+#include "drivers/sigrok/session_file/SigrokFormat.h"
+#include "tests/fuzz/CaptureCheck.h"
+#include "tests/fuzz/InputFile.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto path = tacto::fuzz::inputFile("input.sr", {data, size});
+    tacto::fuzz::checkCapture(tacto::SigrokFormat().read(path, {}, {}), 1032 * size);
+    return 0;
+}

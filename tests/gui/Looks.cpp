@@ -1,0 +1,145 @@
+#include "tests/gui/Looks.h"
+
+#include <QAbstractButton>
+#include <QLabel>
+#include <QLayout>
+#include <QTextDocument>
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/theme/ElidedLabel.h"
+
+namespace tacto::test {
+
+namespace {
+
+double luminance(const QColor& colour) {
+    const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
+}
+
+QString textOf(const QWidget& widget) {
+    if (const auto* label = qobject_cast<const QLabel*>(&widget)) return label->text();
+    if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) return button->text();
+    return {};
+}
+
+QString nameOf(const QWidget& widget) {
+    const auto text = textOf(widget);
+    return QString("%1 %2 \"%3\"").arg(widget.metaObject()->className(), widget.objectName(), text);
+}
+
+QSize neededFor(const QWidget& widget) {
+    const auto* label = qobject_cast<const QLabel*>(&widget);
+    if (label != nullptr && label->wordWrap()) return {0, label->heightForWidth(label->width())};
+    if (label != nullptr) return label->sizeHint();
+    return widget.minimumSizeHint();
+}
+
+std::vector<const QWidget*> textsIn(const QWidget& in) {
+    std::vector<const QWidget*> found;
+    for (const auto* widget : in.findChildren<QWidget*>()) {
+        if (widget->isVisible() && widget->window() == in.window() && !textOf(*widget).isEmpty())
+            found.push_back(widget);
+    }
+    return found;
+}
+
+}  // namespace
+
+double contrast(const QColor& a, const QColor& b) {
+    const auto [darker, lighter] = std::minmax({luminance(a), luminance(b)});
+    return (lighter + 0.05) / (darker + 0.05);
+}
+
+int pixelsOf(const QImage& picture, const QColor& colour) {
+    int found = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) found += picture.pixelColor(x, y).rgb() == colour.rgb();
+    }
+    return found;
+}
+
+QStringList cutTexts(const QWidget& in) {
+    QStringList cut;
+    for (const auto* widget : textsIn(in)) {
+        const bool elides = dynamic_cast<const gui::ElidedLabel*>(widget) != nullptr ||
+                            widget->sizePolicy().horizontalPolicy() == QSizePolicy::Ignored;
+        if (elides) continue;
+        const auto needed = neededFor(*widget);
+        if (widget->width() + 1 < needed.width() || widget->height() + 1 < needed.height()) {
+            cut << QString("%1: %2x%3 of %4x%5")
+                       .arg(nameOf(*widget))
+                       .arg(widget->width())
+                       .arg(widget->height())
+                       .arg(needed.width())
+                       .arg(needed.height());
+        }
+    }
+    return cut;
+}
+
+namespace {
+
+/// Whether the widget paints its whole ground itself.
+bool fills(const QWidget& widget) {
+    if (widget.palette().color(widget.backgroundRole()).alpha() < 255) return false;
+    return qobject_cast<const QAbstractButton*>(&widget) != nullptr || widget.autoFillBackground() ||
+           widget.testAttribute(Qt::WA_StyledBackground);
+}
+
+}  // namespace
+
+QStringList paleTexts(const QWidget& in) {
+    QStringList pale;
+    for (const auto* widget : textsIn(in)) {
+        if (!widget->isEnabled()) continue;
+        // As drawn: the ground is that of the nearest ancestor that fills its own.
+        const auto* ground = widget;
+        while (!fills(*ground) && !ground->isWindow() && ground->parentWidget() != nullptr)
+            ground = ground->parentWidget();
+        const auto ink = widget->palette().color(widget->foregroundRole());
+        const auto paper = ground->palette().color(ground->backgroundRole());
+        if (contrast(ink, paper) < 4.5)
+            pale << QString("%1: %2 on %3, the ground of %4")
+                        .arg(nameOf(*widget), ink.name(), paper.name(QColor::HexArgb), nameOf(*ground));
+    }
+    return pale;
+}
+
+QStringList overlaps(const QWidget& in) {
+    QStringList found;
+    QList<const QWidget*> parents{&in};
+    for (const auto* child : in.findChildren<QWidget*>()) parents << child;
+    for (const auto* parent : parents) {
+        const auto* layout = parent->layout();
+        if (layout == nullptr || !parent->isVisible() || parent->window() != in.window()) continue;
+        std::vector<const QWidget*> placed;
+        for (const auto* child : parent->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+            // Of a layout within the layout too: what indexOf() knows is only its own.
+            if (child->isVisible() && !child->isWindow() && child->objectName() != "qt_qmainwindow_extended_splitter")
+                placed.push_back(child);
+        }
+        for (std::size_t a = 0; a < placed.size(); ++a) {
+            for (std::size_t b = a + 1; b < placed.size(); ++b) {
+                const auto both = placed[a]->geometry().intersected(placed[b]->geometry());
+                if (both.width() > 1 && both.height() > 1)
+                    found << QString("%1 and %2 in %3: %4x%5")
+                                 .arg(nameOf(*placed[a]), nameOf(*placed[b]), nameOf(*parent))
+                                 .arg(both.width())
+                                 .arg(both.height());
+            }
+        }
+    }
+    return found;
+}
+
+std::string faultsOf(const QWidget& in) {
+    QStringList all;
+    for (const auto& text : cutTexts(in)) all << "cut: " + text;
+    for (const auto& text : paleTexts(in)) all << "pale: " + text;
+    for (const auto& text : overlaps(in)) all << "over each other: " + text;
+    return all.join('\n').toStdString();
+}
+
+}  // namespace tacto::test

@@ -1,0 +1,25 @@
+// Looks.h - what can be judged of how a window looks: contrast, text that is cut, widgets that overlap.
+#pragma once
+
+#include <QColor>
+#include <QImage>
+#include <QStringList>
+#include <QWidget>
+
+namespace tacto::test {
+
+/// WCAG 2: 1 to 21.
+[[nodiscard]] double contrast(const QColor& a, const QColor& b);
+/// How many pixels of the picture have just this colour.
+[[nodiscard]] int pixelsOf(const QImage& picture, const QColor& colour);
+
+/// Visible labels and buttons whose text has no room, each with its text. A label that elides by design is left out.
+[[nodiscard]] QStringList cutTexts(const QWidget& in);
+/// Visible enabled texts with a contrast below 4.5:1, by the colours of their palettes.
+[[nodiscard]] QStringList paleTexts(const QWidget& in);
+/// Pairs of visible widgets that lie over each other though a layout places them.
+[[nodiscard]] QStringList overlaps(const QWidget& in);
+/// All three, a line each; empty where the widget looks right.
+[[nodiscard]] std::string faultsOf(const QWidget& in);
+
+}  // namespace tacto::test

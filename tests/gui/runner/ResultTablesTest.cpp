@@ -1,0 +1,128 @@
+// Results as tables: every shipped protocol is run, and nothing that is shown of its result is a key.
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QScrollArea>
+#include <QTableWidget>
+#include <QTreeWidget>
+#include <gmock/gmock.h>
+
+#include "app/gui/runner/NextSteps.h"
+#include "app/gui/runner/ResultTables.h"
+#include "tests/gui/runner/Lab.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::NextStep;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// What a reader sees of the tables: headers, cells, words.
+std::vector<QString> textsIn(const gui::ResultTables& tables) {
+    std::vector<QString> texts;
+    for (const auto* table : tables.findChildren<QTableWidget*>()) {
+        for (int c = 0; c < table->columnCount(); ++c) {
+            texts.push_back(table->horizontalHeaderItem(c)->text());
+            for (int r = 0; r < table->rowCount(); ++r)
+                if (table->item(r, c) != nullptr) texts.push_back(table->item(r, c)->text());
+        }
+    }
+    for (const auto* label : tables.findChildren<QLabel*>()) texts.push_back(label->text());
+    return texts;
+}
+
+bool looksLikeAKey(const QString& text) {
+    static const QRegularExpression key("[a-z0-9]_[a-z0-9]", QRegularExpression::CaseInsensitiveOption);
+    return key.match(text).hasMatch();
+}
+
+class Results : public Lab, public testing::WithParamInterface<const char*> {};
+
+TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
+    open("", {1150, 600});  // the workspace in a window of 1280 x 720
+    choose(GetParam());
+    type("devices", "sim:");  // the form is there
+    const std::pair<const char*, const char*> quick[] = {{"area", "4"},   {"steps", "2"},   {"warm_up_s", "0"},
+                                                         {"levels", "3"}, {"repeats", "2"}, {"participants", "20"}};
+    for (const auto& [field, text] : quick) {
+        if (workspace->findChild<QLineEdit*>(field) != nullptr) workspace->set(field, text);
+    }
+    ASSERT_TRUE(ready()) << says("runObstacle").toStdString();
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends(120'000));
+    ASSERT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
+    click(the<QPushButton>("Tables"));
+    auto& tables = the<gui::ResultTables>("resultTables");
+    ASSERT_FALSE(tables.empty());
+    shot(*workspace, QString("tables_%1").arg(GetParam()));
+    EXPECT_TRUE(tables.findChildren<QTreeWidget*>().isEmpty());
+    const auto texts = textsIn(tables);
+    EXPECT_GT(texts.size(), 5U);
+    for (const auto& text : texts) EXPECT_FALSE(looksLikeAKey(text)) << text.toStdString();
+    for (const auto* table : tables.findChildren<QTableWidget*>()) {
+        EXPECT_LE(table->horizontalHeader()->length(), table->viewport()->width())
+            << table->accessibleName().toStdString();
+    }
+    EXPECT_LE(tables.minimumSizeHint().width(), tables.parentWidget()->width());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Results,
+                         testing::Values("encoding-comparison", "live", "load-safety", "massager", "sensor-calibration",
+                                         "separability", "stimulator-calibration", "transitions", "variation"),
+                         [](const auto& one) { return QString(one.param).replace('-', '_').toStdString(); });
+
+TEST(ResultTables, OfALabsOwnKindHaveTheWordsOfTheirKeysAndNoTree) {
+    gui::ResultTables tables;
+    tables.show({{"verdict", "pass"},
+                 {"peak_ma", 3.5},
+                 {"deep", {{"inside_v", {{"more", 1}}}}},
+                 {"readings", nlohmann::json::array({{{"load_ohm", 500}, {"name", "first"}}})}});
+    const auto* table = tables.findChild<QTableWidget*>();
+    ASSERT_NE(table, nullptr);
+    EXPECT_EQ(table->horizontalHeaderItem(0)->text(), "Name");
+    EXPECT_EQ(table->horizontalHeaderItem(1)->text(), "Load\n(Ω)");
+    for (const auto& text : textsIn(tables)) EXPECT_FALSE(looksLikeAKey(text)) << text.toStdString();
+    EXPECT_TRUE(tables.findChildren<QTreeWidget*>().isEmpty());
+}
+
+gui::FinishedRun finished(const nlohmann::json& results, ScriptVerdict verdict) {
+    gui::FinishedRun run;
+    run.result.outcome.results = results;
+    run.result.outcome.verdict = verdict;
+    run.result.session = "/lab/run.tacto";
+    return run;
+}
+
+TEST(NextSteps, FollowFromWhatWasFound) {
+    const auto pass = ScriptVerdict::Pass;
+    EXPECT_THAT(gui::nextStepsAfter(
+                    finished({{"kind", "sensor-calibration"}, {"profile", {{"profile", {{"name", "x"}}}}}}, pass)),
+                ElementsAre(NextStep::UseProfile, NextStep::Sign, NextStep::Session));
+    EXPECT_THAT(
+        gui::nextStepsAfter(finished({{"kind", "stimulator-calibration"}, {"stored", {{"serial", "S"}}}}, pass)),
+        ElementsAre(NextStep::Sign, NextStep::SafetyCheck, NextStep::Check, NextStep::Session));
+    const nlohmann::json check = {{"kind", "stimulator-calibration"}, {"check", nlohmann::json::array()}};
+    EXPECT_THAT(gui::nextStepsAfter(finished(check, ScriptVerdict::Fail)),
+                ElementsAre(NextStep::Calibrate, NextStep::Sign, NextStep::Session));
+    EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "load-safety"}}, pass)),
+                ElementsAre(NextStep::Sign, NextStep::Live, NextStep::Session));
+    EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "load-safety"}}, ScriptVerdict::Indeterminate)),
+                ElementsAre(NextStep::ChangeSettings, NextStep::Sign, NextStep::Session));
+    EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "live"}}, ScriptVerdict::None)),
+                ElementsAre(NextStep::Sign, NextStep::Session));
+}
+
+TEST(NextSteps, AProfileOfAResultThatDidNotPassIsNotOffered) {
+    RecordProperty("hazard", "H9");
+    auto run =
+        finished({{"kind", "sensor-calibration"}, {"profile", {{"profile", {{"name", "x"}}}}}}, ScriptVerdict::Fail);
+    EXPECT_THAT(gui::nextStepsAfter(run), testing::Not(testing::Contains(NextStep::UseProfile)));
+    run.result.outcome.verdict = ScriptVerdict::Stopped;
+    run.result.outcome.error = Error{ErrorCode::Stopped, "stopped"};
+    run.result.session.clear();
+    EXPECT_THAT(gui::nextStepsAfter(run), ElementsAre(NextStep::ChangeSettings));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,176 @@
+// What the oscilloscope shows, by itself: no widget is made here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/gui/scope/ScopeModel.h"
+#include "tests/gui/scope/Captures.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Model : public testing::Test {
+protected:
+    Model() { model.show(prepared(twoPulses())); }
+    gui::LaneScale scaleOf(const QString& key) { return model.scaleOf(*model.lane(key)); }
+
+    gui::ScopeModel model;
+    const QString volts = "channel/voltage";
+    const QString amps = "channel/current";
+};
+
+TEST_F(Model, ShowsTheWholeRecordOfTheFirstCaptureWithItsLanesBelowEachOther) {
+    ASSERT_EQ(model.lanes().size(), 2U);
+    EXPECT_EQ(model.activeLane(), volts);
+    EXPECT_EQ(model.lane(volts)->letter, "V");
+    EXPECT_EQ(model.lane(amps)->letter, "I");
+    EXPECT_NEAR(model.viewport().left_s, -1e-3, 1e-5) << "time 0 is the trigger";
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 1e-3);
+    EXPECT_GT(scaleOf(volts).position, scaleOf(amps).position);
+    ASSERT_EQ(model.lane(volts)->spans.size(), 1U);
+    EXPECT_NEAR(model.lane(volts)->spans.front().key_s, -1e-3, 1e-9);
+}
+
+TEST_F(Model, GrowsWithTheSignalUntilTheUserChoosesAScale) {
+    const double before = scaleOf(volts).perDivision;
+    model.show(prepared(twoPulses(100.099, 49)));
+    const double grown = scaleOf(volts).heightOf(49);
+    EXPECT_LE(grown, 4.0) << "the louder signal is on the screen";
+    model.setLaneScale(volts, before / 10);
+    model.show(prepared(twoPulses(100.199, 49)));
+    EXPECT_DOUBLE_EQ(scaleOf(volts).perDivision, before / 10) << "what the user chose stays";
+}
+
+TEST_F(Model, EveryZoomCanBeUndone) {
+    const auto whole = model.viewport();
+    model.zoomTime(-1, 0, "wheel");
+    model.zoomTime(-1, 0, "wheel");
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 0.2e-3);
+    model.zoomToBox(0, 0.5e-3, -1, 1);
+    EXPECT_LT(model.viewport().perDivision_s, 0.2e-3);
+    EXPECT_TRUE(model.undoZoom());
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 0.2e-3);
+    EXPECT_TRUE(model.undoZoom()) << "one turn of the wheel, undone whole";
+    EXPECT_EQ(model.viewport(), whole);
+    EXPECT_FALSE(model.canUndo());
+    EXPECT_FALSE(model.undoZoom());
+}
+
+TEST_F(Model, RefusesScalesThatAreNone) {
+    const auto before = model.viewport();
+    for (const double wrong : {0.0, -1.0, double(NAN)}) {
+        model.setTimePerDivision(wrong);
+        model.setLaneScale(volts, wrong);
+    }
+    model.setTimeCentre(NAN);
+    model.setLanePosition(volts, INFINITY);
+    model.setLaneScale("channel/none", 1);
+    EXPECT_EQ(model.viewport(), before);
+}
+
+TEST_F(Model, ATimeCursorSnapsToAnEdgeWithinReach) {
+    model.dragTimeCursor(0, 0, 1e-3);
+    EXPECT_FALSE(model.cursors().time_s()) << "there is none to drag";
+    model.setTimeCursors(true);
+    model.dragTimeCursor(0, 0.02e-3, 0.05e-3);
+    EXPECT_NEAR(model.readout().x1_s, 0, 1e-7) << "the first onset";
+    model.dragTimeCursor(0, 0.02e-3, 0.01e-3);
+    EXPECT_NEAR(model.readout().x1_s, 0.02e-3, 1e-9) << "out of reach";
+    model.focusCursor(0);
+    EXPECT_TRUE(model.jumpTimeCursor(1));
+    EXPECT_NEAR(model.readout().x1_s, 0.2e-3, 1e-7) << "end of the first phase";
+    EXPECT_FALSE(model.nudgeLevelCursor(1)) << "a time cursor has the focus";
+}
+
+TEST_F(Model, LevelCursorsStayOnTheScreenWhenAnotherLaneIsChosen) {
+    model.setLevelCursors(true);
+    const auto heights = [this](const QString& lane) {
+        return std::pair{scaleOf(lane).heightOf(model.readout().y1), scaleOf(lane).heightOf(model.readout().y2)};
+    };
+    const auto before = heights(volts);
+    model.setActiveLane(amps);
+    EXPECT_EQ(model.readout().unit, "A");
+    EXPECT_NEAR(heights(amps).first, before.first, 1e-9);
+    EXPECT_NEAR(heights(amps).second, before.second, 1e-9);
+}
+
+TEST_F(Model, ReadsWidthAndIntervalWhereItIsHoveredOver) {
+    int told = 0;
+    QObject::connect(&model, &gui::ScopeModel::overlayChanged, [&] { ++told; });
+    model.hover(0.1e-3);
+    ASSERT_TRUE(model.hovered());
+    EXPECT_THAT(model.hovered()->text.toStdString(), HasSubstr("Width 200.0"));
+    model.hover(0.15e-3);
+    EXPECT_EQ(told, 1) << "the same edges are not drawn again";
+    model.hover({});
+    EXPECT_FALSE(model.hovered());
+}
+
+TEST_F(Model, TheTriggerIsDraggedUnlessItFollowsTheCommand) {
+    double level = 0, fraction = 0;
+    QObject::connect(&model, &gui::ScopeModel::triggerLevelChosen, [&](double l) { level = l; });
+    QObject::connect(&model, &gui::ScopeModel::preTriggerChosen, [&](double f) { fraction = f; });
+    model.setTrigger(volts, 8, true);
+    model.dragTriggerLevel(scaleOf(volts).heightOf(20));
+    EXPECT_EQ(level, 0) << "held";
+    model.setTrigger(volts, 8, false);
+    model.dragTriggerLevel(scaleOf(volts).heightOf(20));
+    EXPECT_NEAR(level, 20, 0.1);
+    EXPECT_THAT(model.trigger().text().toStdString(), HasSubstr("Trigger at 20.0"));
+    model.setTrigger(volts, 8, false);
+    EXPECT_NEAR(model.trigger().level(), 20, 0.1) << "the hand on it knows better";
+    model.dropTrigger();
+    model.setTrigger(volts, 8, false);
+    EXPECT_EQ(model.trigger().level(), 8);
+
+    model.dragTriggerMoment(2e-3);
+    model.dropTrigger();
+    EXPECT_EQ(fraction, 0) << "a record that cannot be set";
+    model.setPreTrigger(0.1);
+    model.dragTriggerMoment(2e-3);
+    model.dropTrigger();
+    EXPECT_NEAR(fraction, 0.3, 1e-6) << "of 10 ms";
+    EXPECT_FALSE(model.trigger().moment_s());
+}
+
+TEST_F(Model, PersistenceRollAndReferences) {
+    model.setPersistence(2);
+    for (int i = 1; i <= 3; ++i) model.show(prepared(twoPulses(99.999 + 0.1 * i)));
+    EXPECT_EQ(model.lane(volts)->behind.size(), 2U);
+    EXPECT_EQ(model.lane(volts)->spans.size(), 1U);
+    model.setRoll(true);
+    EXPECT_TRUE(model.lane(volts)->behind.empty());
+    EXPECT_EQ(model.lane(volts)->spans.size(), 4U);
+    EXPECT_NEAR(model.lane(volts)->spans[1].key_s - model.lane(volts)->spans[0].key_s, 0.1, 1e-9);
+    EXPECT_DOUBLE_EQ(model.zero_s(), 0) << "the session's time";
+    model.setRoll(false);
+
+    const auto key = model.storeReference();
+    ASSERT_NE(model.lane(key), nullptr);
+    EXPECT_TRUE(model.lane(key)->reference());
+    EXPECT_EQ(scaleOf(key), scaleOf(volts));
+    model.setActiveLane(key);
+    EXPECT_TRUE(model.storeReference().isEmpty()) << "a reference is not stored again";
+    model.removeReference(volts);
+    EXPECT_NE(model.lane(volts), nullptr) << "a channel is no reference";
+    model.removeReference(key);
+    EXPECT_EQ(model.lane(key), nullptr);
+    EXPECT_EQ(model.activeLane(), volts) << "some lane is always worked with";
+}
+
+TEST_F(Model, RemembersTheViewOfTheBenchWhileAFileIsLookedAt) {
+    model.setTimePerDivision(0.2e-3);
+    model.setTimeCentre(0);
+    const auto chosen = model.viewport();
+    auto file = std::make_shared<gui::ShownCapture>(*prepared(twoPulses(5, 10)));
+    file->source = "file.csv";
+    model.show(file);
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 1e-3) << "the file is seen whole";
+    model.show(prepared(twoPulses(100.099)));
+    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, chosen.perDivision_s);
+    EXPECT_DOUBLE_EQ(model.viewport().left_s, chosen.left_s);
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,131 @@
+// The promises of the design about colour: told apart by dash as well, legible, and red for STOP and faults alone.
+#include <QTest>
+#include <gtest/gtest.h>
+
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+
+namespace tacto::test {
+namespace {
+
+using gui::Theme;
+
+class InTheme : public testing::TestWithParam<Theme> {
+protected:
+    InTheme() { gui::applyTheme(GetParam()); }
+    ~InTheme() override { gui::applyTheme(Theme::Light); }
+};
+INSTANTIATE_TEST_SUITE_P(Both, InTheme, testing::Values(Theme::Light, Theme::Dark),
+                         [](const auto& theme) { return theme.param == Theme::Dark ? "Dark" : "Light"; });
+
+/// A hue that a person calls red, as that of STOP: vermilion (#D55E00) and purple (#CC79A7) are none.
+bool isRed(const QColor& colour) {
+    return colour.hsvSaturationF() > 0.4 && (colour.hsvHue() >= 345 || (colour.hsvHue() >= 0 && colour.hsvHue() <= 12));
+}
+
+TEST(Looks, AreFoundWrongWhereTheyAre) {
+    gui::applyTheme(Theme::Light);
+    QWidget window;
+    auto* layout = new QVBoxLayout(&window);
+    auto* label = new QLabel("a long sentence that has no room", &window);
+    auto* button = new QPushButton("Press", &window);
+    layout->addWidget(label);
+    layout->addWidget(button);
+    window.show();
+    EXPECT_TRUE(cutTexts(window).isEmpty() && paleTexts(window).isEmpty() && overlaps(window).isEmpty());
+    label->setFixedWidth(20);
+    auto pale = label->palette();
+    pale.setColor(QPalette::WindowText, QColor("#b0b0b0"));
+    label->setPalette(pale);
+    QCoreApplication::processEvents();
+    button->move(label->pos());
+    EXPECT_EQ(cutTexts(window).size(), 1);
+    EXPECT_EQ(paleTexts(window).size(), 1);
+    EXPECT_EQ(overlaps(window).size(), 1);
+}
+
+TEST(Conditions, HaveTheColoursOfTheSetAndADashEach) {
+    gui::applyTheme(Theme::Light);
+    const std::tuple<const char*, const char*, Qt::PenStyle> all[] = {{"smooth-low", "#56b4e9", Qt::DotLine},
+                                                                      {"smooth-high", "#0072b2", Qt::DashLine},
+                                                                      {"rough-low", "#e69f00", Qt::DashDotLine},
+                                                                      {"rough-high", "#d55e00", Qt::SolidLine}};
+    std::set<int> markers;
+    for (const auto& [name, colour, dash] : all) {
+        const auto style = gui::conditionInTheme(name);
+        EXPECT_EQ(style.color.name().toStdString(), colour) << name;
+        EXPECT_EQ(style.dash, dash) << name;
+        markers.insert(style.marker);
+    }
+    EXPECT_EQ(markers.size(), 4U) << "points are told apart by shape";
+    EXPECT_EQ(gui::colours().voltage.name().toStdString(), "#0072b2");
+    EXPECT_EQ(gui::colours().current.name().toStdString(), "#009e73");
+}
+
+TEST_P(InTheme, ConditionsAndChannelsStandOutFromThePlot) {
+    for (const auto* name : {"smooth-low", "smooth-high", "rough-low", "rough-high"})
+        EXPECT_GE(contrast(gui::conditionInTheme(name).color, gui::colours().base), 2) << name;
+    for (const auto& channel : {gui::colours().voltage, gui::colours().current, gui::colours().third})
+        EXPECT_GE(contrast(channel, gui::colours().base), 3) << channel.name().toStdString();
+}
+
+TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
+    const auto& c = gui::colours();
+    for (const auto& words : {c.text, c.quiet, c.amberText, c.fault, c.passText, c.currentText})
+        EXPECT_GE(contrast(words, c.base), 4.5) << words.name().toStdString();
+    const auto palette = QApplication::palette();
+    using P = QPalette;
+    const std::pair<P::ColorRole, P::ColorRole> pairs[] = {
+        {P::WindowText, P::Window},         {P::PlaceholderText, P::Window},  {P::Text, P::Base},
+        {P::Text, P::AlternateBase},        {P::PlaceholderText, P::Base},    {P::ButtonText, P::Button},
+        {P::HighlightedText, P::Highlight}, {P::ToolTipText, P::ToolTipBase}, {P::Link, P::Base}};
+    for (const auto& [ink, paper] : pairs)
+        EXPECT_GE(contrast(palette.color(ink), palette.color(paper)), 4.5) << int(ink) << " on " << int(paper);
+    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
+        const auto style = gui::stateStyle(InterlockState(state));
+        EXPECT_GE(contrast(style.ink, style.ground), 4.5) << style.word.toStdString();
+    }
+}
+
+TEST_P(InTheme, StatesDifferInWordAndShape) {
+    std::set<QString> words, shapes;
+    for (int state = 0; state <= int(InterlockState::Faulted); ++state) {
+        words.insert(gui::stateStyle(InterlockState(state)).word);
+        shapes.insert(gui::stateStyle(InterlockState(state)).shape);
+    }
+    EXPECT_EQ(words.size(), 7U);
+    EXPECT_EQ(shapes.size(), 7U);
+}
+
+TEST_P(InTheme, RedIsForStopAndFaultsAndNothingElse) {
+    const auto& c = gui::colours();
+    EXPECT_TRUE(isRed(c.fault));
+    for (const auto& other :
+         {c.window,     c.base,    c.sunken,   c.selection, c.line, c.edge,  c.text,  c.quiet,     c.primary,
+          c.voltage,    c.current, c.third,    c.grid,      c.zero, c.frame, c.amber, c.amberText, c.amberCell,
+          c.delivering, c.pass,    c.passText, c.passCell,  c.fail, c.hatch, c.bar})
+        EXPECT_FALSE(isRed(other)) << other.name().toStdString();
+    for (int state = 0; state < int(InterlockState::Faulted); ++state) {
+        const auto style = gui::stateStyle(InterlockState(state));
+        EXPECT_FALSE(isRed(style.ground) || isRed(style.ink)) << style.word.toStdString();
+    }
+    EXPECT_TRUE(isRed(gui::stateStyle(InterlockState::Faulted).ground));
+    for (int index = 0; index < 8; ++index) EXPECT_FALSE(isRed(gui::conditionInTheme({}, index).color)) << index;
+    for (const auto* name : {"smooth-low", "smooth-high", "rough-low", "rough-high"})
+        EXPECT_FALSE(isRed(gui::conditionInTheme(name).color)) << name;
+}
+
+TEST(Mnemonics, AreUnderlinedOnlyWhileAltIsHeld) {
+    gui::applyTheme(Theme::Light);
+    QPushButton button("&Press");
+    button.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&button));
+    const auto plain = button.grab().toImage();
+    QTest::keyPress(&button, Qt::Key_Alt);
+    EXPECT_NE(button.grab().toImage(), plain);
+    QTest::keyRelease(&button, Qt::Key_Alt);
+    EXPECT_EQ(button.grab().toImage(), plain);
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,189 @@
+// Where things stand in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
+#include <QAbstractSpinBox>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <gmock/gmock.h>
+
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/FoldingDock.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Layout : public Window {
+protected:
+    ~Layout() override { QSettings().clear(); }
+    gui::FoldingDock& dock(const char* name) { return *window.findChild<gui::FoldingDock*>(name); }
+    QToolBar& bar(const char* name) { return *window.findChild<QToolBar*>(name); }
+    /// Of the whole window, with what is written around the plot.
+    double shareOf(const QWidget& plot) const {
+        const auto area = [](const QSize& size) { return double(size.width()) * size.height(); };
+        return area(plot.size()) / area(window.size());
+    }
+};
+
+TEST_F(Layout, TheOscilloscopesScreenHasTheRoomWithTheDocksOpen) {
+    open();
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto* screen = window.findChild<gui::ScopeScreen*>();
+    ASSERT_IN_TIME(comesTrue([&] { return screen->isVisible(); }));
+    for (const auto& [size, share] : {std::pair(QSize(1280, 720), 0.55), {QSize(1920, 1080), 0.70}}) {
+        window.resize(size);
+        QTest::qWait(100);
+        ASSERT_TRUE(dock("driveDock").isVisible());
+        auto* around = screen->parentWidget()->parentWidget();  // with the line that says what is shown
+        EXPECT_GE(shareOf(*around), share) << size.width();
+        EXPECT_GE(shareOf(*screen), share - 0.04) << size.width();
+    }
+}
+
+TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
+    RecordProperty("hazard", "H2");
+    open();
+    const auto* stop = window.findChild<QPushButton*>("stopButton");
+    const auto before = window.centralWidget()->size();
+    key(Qt::Key_F11);
+    QTest::qWait(60);
+    EXPECT_FALSE(bar("workspaces").isVisible());
+    EXPECT_FALSE(dock("driveDock").isVisible());
+    EXPECT_FALSE(window.statusBar()->isVisible());
+    EXPECT_TRUE(stop->isVisible());
+    EXPECT_GT(window.centralWidget()->width(), before.width() + 200);
+    window.showWorkspace(5);
+    EXPECT_FALSE(bar("dockStrip").isVisible()) << "also in another workspace";
+    key(Qt::Key_F11);
+    QTest::qWait(60);
+    EXPECT_TRUE(bar("workspaces").isVisible());
+    EXPECT_TRUE(window.statusBar()->isVisible());
+}
+
+TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
+    open();
+    ASSERT_TRUE(dock("driveDock").isVisible());
+    key(Qt::Key_D, Qt::ControlModifier);
+    QTest::qWait(80);
+    for (const auto* name : {"driveDock", "measurementDock", "exposureDock", "deviceDock"})
+        EXPECT_FALSE(dock(name).isVisible()) << name;
+    ASSERT_TRUE(bar("dockStrip").isVisible());
+    auto* drive = find<QToolButton>(bar("dockStrip"), "Drive");
+    ASSERT_NE(drive, nullptr);
+    EXPECT_IN_TIME(comesTrue([&] { return drive->accessibleDescription() == "Off"; }));
+    click(*drive);
+    EXPECT_TRUE(dock("driveDock").isVisible());
+    EXPECT_FALSE(bar("dockStrip").isVisible());
+    window.showWorkspace(5);
+    EXPECT_TRUE(bar("dockStrip").isVisible()) << "elsewhere the plot has the room";
+    window.showWorkspace(0);
+    EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
+}
+
+TEST_F(Layout, ADockFoldsToItsHeader) {
+    auto& exposure = dock("exposureDock");
+    auto* fold = find<QToolButton>(exposure, "Fold Exposure");
+    ASSERT_NE(fold, nullptr);
+    click(*fold);
+    QTest::qWait(60);
+    EXPECT_LE(exposure.height(), 40);
+    EXPECT_FALSE(exposure.widget()->isVisible());
+    click(*find<QToolButton>(exposure, "Unfold Exposure"));
+    EXPECT_TRUE(exposure.widget()->isVisible());
+}
+
+TEST_F(Layout, AKeyThatShowsAWorkspaceTakesTheFocusThereAndNotIntoAText) {
+    RecordProperty("hazard", "H2");
+    open();
+    for (int page = 6; page >= 0; --page) {
+        key(static_cast<Qt::Key>(Qt::Key_1 + page), Qt::ControlModifier);
+        QTest::qWait(40);
+        const auto* at = QApplication::focusWidget();
+        ASSERT_NE(at, nullptr) << page;
+        const auto* pages = window.centralWidget()->findChild<QStackedWidget*>();
+        const bool empty = page == 4;  // what is not built yet has nothing to focus
+        EXPECT_TRUE(empty || pages->currentWidget()->isAncestorOf(at)) << page << at->metaObject()->className();
+        EXPECT_FALSE(qobject_cast<const QLineEdit*>(at) || qobject_cast<const QAbstractSpinBox*>(at))
+            << page << ": Space would not stop";
+    }
+}
+
+TEST_F(Layout, NoMnemonicTakesAMenusKey) {
+    open();
+    const auto mnemonicOf = [](const QString& text) { return QKeySequence::mnemonic(text).toString(); };
+    std::set<QString> menus;
+    for (const auto* action : window.menuBar()->actions()) menus.insert(mnemonicOf(action->text()));
+    ASSERT_EQ(menus.size(), 4U);
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        QTest::qWait(60);
+        for (const auto* button : window.findChildren<QAbstractButton*>()) {
+            if (!button->isVisible()) continue;
+            EXPECT_FALSE(menus.contains(mnemonicOf(button->text()))) << page << button->text().toStdString();
+        }
+        for (const auto* label : window.findChildren<QLabel*>()) {
+            if (!label->isVisible() || label->buddy() == nullptr) continue;
+            EXPECT_FALSE(menus.contains(mnemonicOf(label->text()))) << page << label->text().toStdString();
+        }
+    }
+}
+
+TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(openAndUnplugAfter2s());
+    arm();
+    const auto stopAt = window.findChild<QPushButton*>("stopButton")->geometry();
+    const auto resetAt = window.findChild<QPushButton*>("armButton")->geometry();
+    const auto pagesAt = window.centralWidget()->geometry();
+    window.controller().drive(DriveSource::Manual, 1, 1);
+    ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
+    ASSERT_IN_TIME(comesTrue([this] { return banner().startsWith("Fault: "); }));
+    const auto says = banner().toStdString();
+    EXPECT_THAT(says, HasSubstr("unplugged."));
+    EXPECT_THAT(says, HasSubstr("Output is off and stays off."));
+    EXPECT_THAT(says, HasSubstr("then reset"));
+    EXPECT_EQ(window.findChild<QPushButton*>("stopButton")->geometry(), stopAt);
+    EXPECT_EQ(window.findChild<QPushButton*>("armButton")->geometry().size(), resetAt.size());
+    EXPECT_EQ(window.centralWidget()->geometry(), pagesAt);
+}
+
+TEST_F(Layout, ArmingSaysWhatTheFirstTrainIs) {
+    RecordProperty("hazard", "H12");
+    open();
+    const auto says = [this] {
+        click(*window.findChild<QPushButton*>("armButton"));
+        const auto* first = window.findChild<QLabel*>("firstOutput");
+        return first == nullptr ? std::string() : first->text().toStdString();
+    };
+    EXPECT_EQ(says(), "Drive is off: no train follows until you choose one.");
+    window.controller().drive(DriveSource::Manual, 0.69, 0.8);
+    EXPECT_IN_TIME(comesTrue([this] {
+        return window.findChild<QLabel*>("firstOutput")->text().startsWith("Drive is by hand: the first train follows");
+    }));
+    EXPECT_THAT(window.findChild<QLabel*>("firstOutput")->text().toStdString(), HasSubstr("30.7"));
+    window.controller().drive(DriveSource::Sensor);
+    EXPECT_IN_TIME(comesTrue(
+        [this] { return window.findChild<QLabel*>("firstOutput")->text().startsWith("The fingertip drives"); }));
+}
+
+TEST_F(Layout, ResetPutsEverythingBack) {
+    auto& drive = dock("driveDock");
+    drive.fold(true);
+    drive.setFloating(true);
+    key(Qt::Key_D, Qt::ControlModifier);
+    window.resetLayout();
+    QTest::qWait(60);
+    EXPECT_FALSE(drive.isFloating());
+    EXPECT_FALSE(drive.folded());
+    EXPECT_TRUE(drive.isVisible());
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,254 @@
+// What the design promises of the whole window: it is legible, says what is simulated, explains itself, is worked
+// without a mouse, and is red where STOP and faults are.
+#include <QDialog>
+#include <QDockWidget>
+#include <QPlainTextEdit>
+#include <QTabWidget>
+#include <QToolButton>
+#include <gmock/gmock.h>
+
+#include "app/gui/scope/MeasurementTable.h"
+#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/ScopeWorkspace.h"
+#include "app/gui/sessions/SessionsWorkspace.h"
+#include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Theme.h"
+#include "app/gui/window/LimitBar.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/InTime.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(Window, LooksRightInBothThemesAndSizes) {
+    open();
+    window.controller().present("P120", 50, 1);
+    QTest::qWait(1500);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto size : {QSize(1920, 1080), QSize(1280, 720), QSize(1024, 640)}) {
+            window.resize(size);
+            for (int page = 0; page < 7; ++page) {
+                window.showWorkspace(page);
+                QTest::qWait(120);
+                const auto name = QString("window-%1-%2-%3")
+                                      .arg(theme == gui::Theme::Dark ? "dark" : "light")
+                                      .arg(size.width())
+                                      .arg(page);
+                shot(window, name);
+                EXPECT_EQ(faultsOf(window), "") << name.toStdString();
+            }
+            EXPECT_LE(window.width(), size.width()) << "everything fits a small screen";
+        }
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(Window, TheOscilloscopeLooksRightWithWhatItReads) {
+    open();
+    arm();
+    window.controller().drive(DriveSource::Manual, 0.5, 0.8);
+    window.showWorkspace(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    auto& scope = *window.findChild<gui::ScopeWorkspace*>();
+    ASSERT_IN_TIME(comesTrue([&] { return scope.table().statistics().captures() >= 5; }));
+    auto& model = scope.model();
+    const double width = model.viewport().width_s();
+    EXPECT_NEAR(500e-6 / width, 1.0 / 3, 0.05) << "the first train is what one sees";
+    window.activateWindow();  // the arming dialog had the keys
+    QTest::qWait(100);
+    key(Qt::Key_T);
+    ASSERT_TRUE(model.cursors().time_s());
+    model.dragTimeCursor(0, 0, width / 50);
+    model.dragTimeCursor(1, 200e-6, width / 50);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto size : {QSize(1280, 720), QSize(1920, 1080)}) {
+            window.resize(size);
+            QTest::qWait(200);
+            shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
+            EXPECT_EQ(faultsOf(window), "");
+        }
+    }
+    gui::applyTheme(gui::Theme::Light);
+    const auto before = window.controller().telemetry().driving;
+    key(Qt::Key_D);
+    const auto* drive = window.findChild<QDockWidget*>("driveDock");
+    EXPECT_TRUE(drive->isAncestorOf(QApplication::focusWidget())) << "the key leads to the drive";
+    EXPECT_EQ(window.controller().telemetry().driving, before) << "and changes nothing there";
+    EXPECT_EQ(state(), InterlockState::Delivering);
+}
+
+TEST_F(Window, NothingIsRedButStop) {
+    open();
+    arm();
+    deliver();
+    const auto red = gui::stateStyle(InterlockState::Faulted).ground;
+    auto* stop = window.findChild<QPushButton*>("stopButton");
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        QTest::qWait(120);
+        const auto all = pixelsOf(window.grab().toImage(), red);
+        EXPECT_GT(all, 1000) << "STOP is there";
+        EXPECT_EQ(all, pixelsOf(stop->grab().toImage(), red)) << "on page " << page;
+    }
+}
+
+TEST(LimitBarColour, IsAmberFromEightyPercent) {
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        const auto amberAt = [](double share) {
+            gui::LimitBar bar("5 s RMS");
+            bar.resize(bar.sizeHint());
+            ExposureRow row;
+            row.quantity = Quantity::RmsCurrent5s;
+            row.value = 10 * share;
+            row.limit = 10;
+            row.unit = "mA";
+            row.evaluated = row.within = true;
+            bar.show(row);
+            return pixelsOf(bar.grab().toImage(), gui::colours().amber);
+        };
+        EXPECT_EQ(amberAt(0.79), 0);
+        EXPECT_GT(amberAt(0.80), 100);
+        EXPECT_GT(amberAt(0.99), amberAt(0.80)) << "it fills towards the limit";
+    }
+    gui::applyTheme(gui::Theme::Light);
+}
+
+TEST_F(Window, EveryPlotOfSimulatedDataSaysSo) {
+    RecordProperty("hazard", "H9");
+    open();
+    window.controller().present("P120", 50, 1);
+    arm();
+    deliver();
+    auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().telemetry().trainsDelivered >= 2; }));
+    int plots = 0;
+    for (int tab = 0; tab < 2; ++tab) {
+        window.showWorkspace(0);
+        tabs->setCurrentIndex(tab);
+        if (tab == 1) {
+            auto* scope = window.findChild<gui::ScopeWorkspace*>();
+            ASSERT_IN_TIME(comesTrue([&] { return scope->model().shown() != nullptr; }));
+        }
+        QTest::qWait(200);
+        for (auto* plot : window.findChildren<QCustomPlot*>()) {
+            if (!plot->isVisible()) continue;
+            ++plots;
+            int marked = 0;
+            for (int i = 0; i < plot->itemCount(); ++i)
+                marked += plot->item(i)->objectName() == "watermark" && plot->item(i)->visible();
+            EXPECT_GE(marked, 1) << plot->metaObject()->className();
+        }
+    }
+    EXPECT_GE(plots, 3) << "strips, plane and oscilloscope";
+}
+
+TEST_F(Window, F1ExplainsWhatHasTheFocus) {
+    const auto explained = [] {
+        for (auto* widget : QApplication::topLevelWidgets()) {
+            if (widget->isVisible() && widget->inherits("QWhatsThat")) return true;
+        }
+        return false;
+    };
+    open();
+    window.findChild<QPushButton*>("armButton")->setFocus();
+    EXPECT_FALSE(explained());
+    key(Qt::Key_F1);
+    EXPECT_IN_TIME(comesTrue(explained));
+    QWhatsThis::hideText();
+}
+
+TEST_F(Window, TheLastMessageOpensTheLogOfAllOfThem) {
+    open();
+    arm();
+    window.controller().disarm();
+    ASSERT_IN_TIME(
+        comesTrue([this] { return find<QToolButton>(window, "Disarmed: operator (Disarm). Output is off."); }));
+    click(*find<QToolButton>(window, "Disarmed: operator (Disarm). Output is off."));
+    QDialog* log = nullptr;
+    ASSERT_IN_TIME(comesTrue([&] {
+        for (auto* dialog : window.findChildren<QDialog*>()) {
+            if (dialog->isVisible() && dialog->windowTitle() == "Messages") log = dialog;
+        }
+        return log != nullptr;
+    }));
+    const auto text = log->findChild<QPlainTextEdit*>()->toPlainText().toStdString();
+    for (const auto* said : {"Open. Recording to", "Armed.", "Disarmed: operator (Disarm). Output is off."})
+        EXPECT_THAT(text, HasSubstr(said));
+    log->close();
+}
+
+TEST_F(Window, TabReachesEveryControlOfEveryWorkspaceAndComesRound) {
+    open();
+    for (int page = 0; page < 7; ++page) {
+        window.showWorkspace(page);
+        QTest::qWait(100);
+        auto* first = window.findChild<QPushButton*>("stopButton");
+        first->setFocus(Qt::TabFocusReason);
+        std::set<const QWidget*> reached;
+        for (int i = 0; i < 200; ++i) {
+            auto* at = QApplication::focusWidget();
+            ASSERT_NE(at, nullptr) << "page " << page;
+            if (reached.contains(at)) {
+                EXPECT_EQ(at, first) << "page " << page << ": Tab does not leave " << at->metaObject()->className()
+                                     << " " << at->objectName().toStdString();
+                break;
+            }
+            reached.insert(at);
+            EXPECT_TRUE(at->isVisible() && at->isEnabled());
+            QTest::keyClick(at, Qt::Key_Tab);
+        }
+        for (const auto* control : window.findChildren<QWidget*>()) {
+            const bool works = qobject_cast<const QAbstractButton*>(control) ||
+                               qobject_cast<const QComboBox*>(control) || qobject_cast<const QLineEdit*>(control) ||
+                               qobject_cast<const QAbstractSpinBox*>(control);
+            if (!works || !control->isVisible() || !control->isEnabled()) continue;
+            if ((control->focusPolicy() & Qt::TabFocus) == 0) continue;
+            // Of radio buttons the group is reached; a box's own field has its focus.
+            if (qobject_cast<const QRadioButton*>(control) || control->focusProxy() != nullptr ||
+                qobject_cast<const QAbstractSpinBox*>(control->parentWidget()) ||
+                qobject_cast<const QComboBox*>(control->parentWidget()))
+                continue;
+            EXPECT_TRUE(reached.contains(control))
+                << "page " << page << ": " << control->metaObject()->className() << " "
+                << control->objectName().toStdString() << " " << control->accessibleName().toStdString();
+        }
+    }
+}
+
+TEST_F(Window, EscStopsWhileASessionIsExported) {
+    RecordProperty("hazard", "H2");
+    open();
+    const auto session = window.controller().open()->session;
+    window.controller().setSpeed(20);
+    ASSERT_IN_TIME(
+        comesTrue([this] { return window.controller().telemetry().at > Instant(std::chrono::seconds(20)); }));
+    window.controller().close();
+    ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
+    open();
+    arm();
+    deliver();
+    window.showWorkspace(5);
+    window.openFile(QString::fromStdString(session.string()));
+    auto* sessions = window.findChild<gui::SessionsWorkspace*>();
+    auto* verify = find<QPushButton>(*sessions, "Verify");
+    ASSERT_NE(verify, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return verify->isEnabled(); }));
+    const ScratchDir folder;
+    const auto target = folder.path() / "csv";
+    sessions->exportTo(QString::fromStdString(target.string()));
+    EXPECT_FALSE(std::filesystem::exists(target)) << "it is at work";
+    ASSERT_EQ(state(), InterlockState::Delivering);
+    key(Qt::Key_Escape);
+    EXPECT_EQ(state(), InterlockState::Disarmed) << "before the key event returned";
+    EXPECT_IN_TIME(comesTrue([&] { return std::filesystem::exists(target); })) << "the export goes on to its end";
+}
+
+}  // namespace
+}  // namespace tacto::test

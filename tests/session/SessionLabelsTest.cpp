@@ -1,0 +1,145 @@
+// What people say of a session after it ended: kept in it without touching what was recorded, or refused with a reason.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "core/session/SessionLabels.h"
+#include "tests/session/SessionSupport.h"
+
+namespace tacto {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+class Labels : public testing::Test {
+protected:
+    Labels() {
+        RecordProperty("hazard", "H8");
+        test::writeSession(path);
+    }
+    [[nodiscard]] SessionLabels kept() const { return SessionReader::open(path)->labels().value(); }
+    [[nodiscard]] std::string refusal(const SessionLabels& wanted) const {
+        const auto before = test::bytesOf(path);
+        const auto saved = saveLabels(path, wanted);
+        EXPECT_FALSE(saved);
+        EXPECT_EQ(test::bytesOf(path), before) << "the session is as it was";
+        EXPECT_EQ(filesBeside(), 1) << "and nothing stays beside it";
+        return saved ? std::string() : saved.error().message;
+    }
+    [[nodiscard]] std::ptrdiff_t filesBeside() const {
+        return std::distance(std::filesystem::directory_iterator(dir.path()), std::filesystem::directory_iterator());
+    }
+    test::ScratchDir dir;
+    std::filesystem::path path = dir.path() / "run.tacto";
+    SessionLabels labels{"A. Weber", "S-014", "table bumped once", {"P60", "P120"}};
+};
+
+TEST_F(Labels, AreKeptBehindTheEndAndTheRecordingStaysAsItIs) {
+    const auto before = SessionReader::open(path);
+    const auto text = before->reproducibleText().value();
+    ASSERT_TRUE(saveLabels(path, labels));
+    EXPECT_EQ(kept(), labels);
+    EXPECT_EQ(filesBeside(), 1);
+    const auto after = SessionReader::open(path);
+    EXPECT_TRUE(after->closed());
+    EXPECT_EQ(after->chainHead(), before->chainHead()) << "the head that the report prints";
+    EXPECT_EQ(after->reproducibleText().value(), text);
+    EXPECT_EQ(after->lastAt(), before->lastAt());
+    const auto verified = verifySession(path);
+    EXPECT_EQ(verified->status, SessionStatus::Intact) << testing::PrintToString(verified->problems);
+    EXPECT_EQ(verified->head, before->chainHead());
+    EXPECT_THAT(verified->notes, Contains(HasSubstr("were changed 1 time after")));
+}
+
+TEST_F(Labels, AreChangedOneByOneAndOnlyChangesAreWritten) {
+    ASSERT_TRUE(saveLabels(path, labels));
+    const auto once = verifySession(path)->rows;
+    ASSERT_TRUE(saveLabels(path, labels));
+    EXPECT_EQ(verifySession(path)->rows, once) << "nothing was changed";
+    labels.note.clear();
+    ASSERT_TRUE(saveLabels(path, labels));
+    EXPECT_EQ(kept(), labels);
+    EXPECT_EQ(verifySession(path)->rows, once + 1);
+}
+
+TEST_F(Labels, BeginWithWhatWasEnteredBeforeTheRun) {
+    std::filesystem::remove(path);
+    test::HandClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    ASSERT_TRUE(writer->reportItem(clock.now(), {{"kind", "notes"}, {"operator", "B. Ott"}, {"sample", "S-1"}}));
+    ASSERT_TRUE(writer->close());
+    EXPECT_EQ(kept(), (SessionLabels{"B. Ott", "S-1", "", {}}));
+    ASSERT_TRUE(saveLabels(path, {"B. Ott", "S-2", "", {}}));
+    EXPECT_EQ(kept(), (SessionLabels{"B. Ott", "S-2", "", {}}));
+}
+
+TEST_F(Labels, ThatWereForgedAreFound) {
+    ASSERT_TRUE(saveLabels(path, labels));
+    test::forge(path, "UPDATE entries SET body=replace(body, 'S-014', 'S-015') WHERE kind='annotation'");
+    EXPECT_THAT(verifySession(path)->problems, Contains(HasSubstr("was altered")));
+}
+
+TEST_F(Labels, AreTheOnlyRowsBehindTheEnd) {
+    ASSERT_TRUE(saveLabels(path, labels));
+    test::forge(path, "UPDATE entries SET kind='event' WHERE kind='annotation'");
+    EXPECT_THAT(verifySession(path)->problems, Contains(HasSubstr("comes after the end mark")));
+    EXPECT_FALSE(SessionReader::open(path)->closed());
+}
+
+TEST_F(Labels, OfAReadOnlySessionAreRefusedWithTheReason) {
+    std::filesystem::permissions(path, std::filesystem::perms::owner_read);
+    EXPECT_THAT(refusal(labels), HasSubstr("run.tacto is read-only"));
+}
+
+TEST_F(Labels, OfALockedSessionAreRefusedWithTheReason) {
+    const int other = ::open(path.c_str(), O_RDONLY);  // as another program holds it: locks are of an opened file
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    EXPECT_THAT(refusal(labels), HasSubstr("run.tacto is locked"));
+    ::close(other);
+    EXPECT_TRUE(saveLabels(path, labels));
+}
+
+TEST_F(Labels, OfASessionThatIsBeingRecordedAreRefused) {
+    std::filesystem::remove(path);
+    test::HandClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    ASSERT_TRUE(writer->event(clock.now(), "armed", {}));
+    const auto saved = saveLabels(path, labels);
+    ASSERT_FALSE(saved);
+    EXPECT_THAT(saved.error().message, HasSubstr("has no end mark"));
+    ASSERT_TRUE(writer->event(clock.now(), "stop", {})) << "and the recording goes on";
+    ASSERT_TRUE(writer->close());
+    EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
+}
+
+TEST_F(Labels, ThatDoNotFitOnTheDiskLeaveTheSessionAsItWas) {
+    signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit now{std::filesystem::file_size(path) / 2, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &now), 0);
+    const auto saved = saveLabels(path, labels);
+    setrlimit(RLIMIT_FSIZE, &before);
+    ASSERT_FALSE(saved);
+    EXPECT_THAT(saved.error().message, HasSubstr("could not be changed and is as it was"));
+    EXPECT_EQ(filesBeside(), 1);
+    EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
+    EXPECT_EQ(kept(), SessionLabels{});
+    signal(SIGXFSZ, SIG_DFL);
+}
+
+TEST_F(Labels, ThatAreNotAcceptedAreNamedWithTheirValue) {
+    EXPECT_THAT(refusal({"", "", "two\nlines", {}}), HasSubstr("the note is \"two\\x0alines\""));
+    EXPECT_THAT(refusal({std::string(201, 'x'), "", "", {}}),
+                HasSubstr("the operator has 201 characters; at most 200"));
+    EXPECT_THAT(refusal({"", "", "", {"a", "a"}}), HasSubstr("the tag \"a\" stands twice"));
+    EXPECT_THAT(refusal({"", "", "", {"a,b"}}), HasSubstr("a text without a comma"));
+    EXPECT_TRUE(checkLabels({"", "", "µ Ω", {"µ"}}));
+}
+
+}  // namespace
+}  // namespace tacto
