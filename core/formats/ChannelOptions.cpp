@@ -97,13 +97,18 @@ std::optional<SpelledUnit> spelledUnit(std::string_view text) {
     return found == kUnits.end() ? std::nullopt : std::optional(found->means);
 }
 
+std::optional<SpelledUnit> channelUnit(std::string_view text) {
+    const auto unit = spelledUnit(text);
+    return unit && unit->unit == "s" ? std::nullopt : unit;
+}
+
 Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels, const ReadOptions& options,
                                               std::string_view file) {
     for (const auto& [name, spelled] : options.units) {
         const auto index = indexOf(channels, name);
         if (!index) return noChannel(channels, "the unit", name, file);
-        const auto unit = spelledUnit(spelled);
-        if (!unit || unit->unit == "s") {
+        const auto unit = channelUnit(spelled);
+        if (!unit) {
             return fail(ErrorCode::InvalidArgument,
                         "the unit '{}' of channel '{}' is unknown; V or A with k, m, u or n were expected", spelled,
                         name);

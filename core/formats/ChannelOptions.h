@@ -14,6 +14,8 @@ struct SpelledUnit {
 };
 /// Capitals ignored: no oscilloscope writes megavolts. Nothing for an unknown one.
 [[nodiscard]] std::optional<SpelledUnit> spelledUnit(std::string_view text);
+/// The same for what a channel measures: no unit of time is one.
+[[nodiscard]] std::optional<SpelledUnit> channelUnit(std::string_view text);
 
 /// One channel as the file has it, and then as it will be read.
 struct ChannelPlan {

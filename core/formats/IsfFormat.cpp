@@ -151,7 +151,7 @@ Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const 
         return fail(ErrorCode::ParseError, "{}: {} point(s) in the file; at least 2 were expected", file->name(),
                     channel.samples.size());
     }
-    const auto unit = spelledUnit(pre->unit);
+    const auto unit = channelUnit(pre->unit);
     const double factor = unit ? unit->factor : 1;
     channel.unit = unit ? unit->unit : "";
     for (float& sample : channel.samples) sample = static_cast<float>(static_cast<double>(sample) * factor);

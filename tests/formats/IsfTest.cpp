@@ -80,6 +80,17 @@ TEST(Isf, ShortKeysOtherBytesAndText) {
     EXPECT_THAT(text->capture.channels[0].samples, ElementsAre(0.002F, -0.004F, 0.006F, 0.008F));
 }
 
+TEST(Isf, ATimeIsNoUnitOfItsChannel) {
+    RecordProperty("hazard", "H10");
+    for (const std::string unit : {"s", "ms", "second"}) {
+        const auto read = readIsf(isf("ENCDG ASCII;NR_PT 2;XINCR 0.5;YMULT 2;YUNIT \"" + unit + "\"", "1,2\n"));
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->capture.channels[0].unit, "");
+        EXPECT_THAT(read->capture.channels[0].samples, ElementsAre(2, 4));
+        EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("the unit '" + unit + "'")));
+    }
+}
+
 TEST(Isf, OptionsApplyToItsChannel) {
     const auto bytes = isf(kKeys, std::string("#16\x00\x02\x00\x04\xFF\xFE", 9));
     const auto read = readIsf(bytes, {.units = {{"1", "mA"}}, .probeFactors = {{"CH2", 10.0}}, .rate = Hertz(5)});
