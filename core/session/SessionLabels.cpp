@@ -138,22 +138,32 @@ Result<void> takesLabels(const std::filesystem::path& session, const SessionRead
     return {};
 }
 
-Result<void> saveLabels(const std::filesystem::path& session, const SessionLabels& labels) {
-    if (auto checked = checkLabels(labels); !checked) return checked;
+void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLabels& onto) {
+    applyLabels(changesFrom(shown, edited), onto);
+}
+
+Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
+                                 const SessionLabels& edited) {
+    SessionLabels changed;
+    takeEdit(shown, edited, changed);
+    if (auto checked = checkLabels(changed); !checked) return failure(checked);
     const auto name = session.filename().string();
+    const FileLock lock(session);
+    const bool held = lock.take(session);  // before reading: what another program kept until here is read, and stays
     const auto reader = SessionReader::open(session);
     if (!reader) return failure(reader);
     const auto before = reader->labels();
     if (!before) return failure(before);
-    auto body = changesFrom(*before, labels);
-    if (body.empty()) return {};
-    if (auto takes = takesLabels(session, *reader); !takes) return takes;
-    std::error_code error;
-    const FileLock lock(session);
-    if (!lock.take(session)) {
+    auto now = *before;
+    takeEdit(shown, edited, now);
+    auto body = changesFrom(*before, now);
+    if (body.empty()) return now;
+    if (auto takes = takesLabels(session, *reader); !takes) return failure(takes);
+    if (!held) {
         return fail(ErrorCode::Io,
                     "session {} is locked: another program is changing it. Nothing was changed; try again", name);
     }
+    std::error_code error;
     const auto because = [&](std::string_view why) {
         return fail(ErrorCode::Io, "session {} could not be changed and is as it was: {}", name, why);
     };
@@ -170,7 +180,7 @@ Result<void> saveLabels(const std::filesystem::path& session, const SessionLabel
     std::filesystem::rename(copy.path(), session, error);
     if (error) return because(error.message());
     syncFolderOf(session);
-    return {};
+    return now;
 }
 
 }  // namespace tacto

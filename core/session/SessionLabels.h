@@ -6,7 +6,8 @@
 //
 //   {"wall": "2026-11-20T14:03:05Z", "operator": "...", "sample": "...", "note": "...", "tags": ["...", ...]}
 //
-// Only what was changed is in it.
+// Only what was changed is in it, and only what the person changed: a field that another program changed meanwhile
+// stays as that program left it.
 //
 // Thread-safety: any thread, several programs: the second to change a session is refused while the first is at it.
 #pragma once
@@ -33,10 +34,15 @@ inline constexpr std::size_t kMaxTags = 20;
 /// being recorded, or was broken off); Io for a read-only one.
 [[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
 
-/// Keeps `labels` in the session; nothing is written where it has them already. Blocks while the file is copied.
-/// Errors: as checkLabels(), SessionReader and takesLabels(); Io when it is locked by another program or cannot be
-/// written. The session is as it was then.
-[[nodiscard]] Result<void> saveLabels(const std::filesystem::path& session, const SessionLabels& labels);
+/// Takes over into `onto` each field in which `edited` differs from `shown`. The list of tags is one field.
+void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLabels& onto);
+
+/// Keeps in the session what a person who was shown `shown` made of it; nothing is written where it has that already.
+/// Returns the labels that the session has then. Blocks while the file is copied. Errors: as checkLabels(),
+/// SessionReader and takesLabels(); Io when it is locked by another program or cannot be written. The session is as it
+/// was then.
+[[nodiscard]] Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
+                                               const SessionLabels& edited);
 
 /// Takes over what the body of a row says: of an annotation, or of the report's notes.
 void applyLabels(const nlohmann::json& body, SessionLabels& labels);

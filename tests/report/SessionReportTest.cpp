@@ -193,7 +193,7 @@ TEST_F(SessionReport, TellsWhatWasSaidAfterwardsFromWhatWasEnteredBefore) {
     const auto before = closedAndRead();
     EXPECT_EQ(before.basis.operatorName, "A. Weber");
     EXPECT_EQ(before.basis.sample, "S-1");
-    ASSERT_TRUE(saveLabels(path_, {"A. Weber", "S-2", "the wrong load", {"P60", "repeat"}}));
+    ASSERT_TRUE(saveLabels(path_, {}, {"A. Weber", "S-2", "the wrong load", {"P60", "repeat"}}));
     const auto model = read();
     EXPECT_EQ(model.basis.operatorName, "A. Weber");
     EXPECT_EQ(model.basis.sample, "S-2 (entered after the recording ended)");

@@ -59,7 +59,7 @@ TEST_F(Index, ReadsEachSessionOnce) {
 TEST_F(Index, ReadsAChangedSessionAgain) {
     const auto a = session("a.tacto"), b = session("b.tacto");
     EXPECT_EQ(readsOf({a, b}), 2);
-    ASSERT_TRUE(saveLabels(a, {"", "S-014", "", {}}));
+    ASSERT_TRUE(saveLabels(a, {}, {"", "S-014", "", {}}));
     age(a);
     EXPECT_EQ(readsOf({a, b}), 1);
     EXPECT_EQ(listed[0].summary.labels.sample, "S-014");

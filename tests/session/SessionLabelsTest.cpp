@@ -24,7 +24,7 @@ protected:
     [[nodiscard]] SessionLabels kept() const { return SessionReader::open(path)->labels().value(); }
     [[nodiscard]] std::string refusal(const SessionLabels& wanted) const {
         const auto before = test::bytesOf(path);
-        const auto saved = saveLabels(path, wanted);
+        const auto saved = saveLabels(path, {}, wanted);
         EXPECT_FALSE(saved);
         EXPECT_EQ(test::bytesOf(path), before) << "the session is as it was";
         EXPECT_EQ(filesBeside(), 1) << "and nothing stays beside it";
@@ -41,7 +41,7 @@ protected:
 TEST_F(Labels, AreKeptBehindTheEndAndTheRecordingStaysAsItIs) {
     const auto before = SessionReader::open(path);
     const auto text = before->reproducibleText().value();
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, {}, labels));
     EXPECT_EQ(kept(), labels);
     EXPECT_EQ(filesBeside(), 1);
     const auto after = SessionReader::open(path);
@@ -56,14 +56,30 @@ TEST_F(Labels, AreKeptBehindTheEndAndTheRecordingStaysAsItIs) {
 }
 
 TEST_F(Labels, AreChangedOneByOneAndOnlyChangesAreWritten) {
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, {}, labels));
     const auto once = verifySession(path)->rows;
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, {}, labels));
     EXPECT_EQ(verifySession(path)->rows, once) << "nothing was changed";
+    const auto shown = labels;
     labels.note.clear();
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, shown, labels));
     EXPECT_EQ(kept(), labels);
     EXPECT_EQ(verifySession(path)->rows, once + 1);
+}
+
+TEST_F(Labels, ThatWereChangedElsewhereMeanwhileStay) {
+    ASSERT_TRUE(saveLabels(path, {}, labels));
+    const auto shown = labels;  // in two windows
+    auto here = shown, there = shown;
+    there.operatorName = "B. Ott";
+    there.tags = {"repeat"};
+    here.note = "lead was loose";
+    ASSERT_TRUE(saveLabels(path, shown, there));
+    const auto kept_here = saveLabels(path, shown, here);
+    const SessionLabels both{"B. Ott", "S-014", "lead was loose", {"repeat"}};
+    EXPECT_EQ(kept(), both);
+    ASSERT_TRUE(kept_here);
+    EXPECT_EQ(*kept_here, both) << "and the window is told what it did not know";
 }
 
 TEST_F(Labels, BeginWithWhatWasEnteredBeforeTheRun) {
@@ -73,18 +89,18 @@ TEST_F(Labels, BeginWithWhatWasEnteredBeforeTheRun) {
     ASSERT_TRUE(writer->reportItem(clock.now(), {{"kind", "notes"}, {"operator", "B. Ott"}, {"sample", "S-1"}}));
     ASSERT_TRUE(writer->close());
     EXPECT_EQ(kept(), (SessionLabels{"B. Ott", "S-1", "", {}}));
-    ASSERT_TRUE(saveLabels(path, {"B. Ott", "S-2", "", {}}));
+    ASSERT_TRUE(saveLabels(path, {"B. Ott", "S-1", "", {}}, {"B. Ott", "S-2", "", {}}));
     EXPECT_EQ(kept(), (SessionLabels{"B. Ott", "S-2", "", {}}));
 }
 
 TEST_F(Labels, ThatWereForgedAreFound) {
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, {}, labels));
     test::forge(path, "UPDATE entries SET body=replace(body, 'S-014', 'S-015') WHERE kind='annotation'");
     EXPECT_THAT(verifySession(path)->problems, Contains(HasSubstr("was altered")));
 }
 
 TEST_F(Labels, AreTheOnlyRowsBehindTheEnd) {
-    ASSERT_TRUE(saveLabels(path, labels));
+    ASSERT_TRUE(saveLabels(path, {}, labels));
     test::forge(path, "UPDATE entries SET kind='event' WHERE kind='annotation'");
     EXPECT_THAT(verifySession(path)->problems, Contains(HasSubstr("comes after the end mark")));
     EXPECT_FALSE(SessionReader::open(path)->closed());
@@ -100,7 +116,7 @@ TEST_F(Labels, OfALockedSessionAreRefusedWithTheReason) {
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
     EXPECT_THAT(refusal(labels), HasSubstr("run.tacto is locked"));
     ::close(other);
-    EXPECT_TRUE(saveLabels(path, labels));
+    EXPECT_TRUE(saveLabels(path, {}, labels));
 }
 
 TEST_F(Labels, OfASessionThatIsBeingRecordedAreRefused) {
@@ -108,7 +124,7 @@ TEST_F(Labels, OfASessionThatIsBeingRecordedAreRefused) {
     test::HandClock clock;
     auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
     ASSERT_TRUE(writer->event(clock.now(), "armed", {}));
-    const auto saved = saveLabels(path, labels);
+    const auto saved = saveLabels(path, {}, labels);
     ASSERT_FALSE(saved);
     EXPECT_THAT(saved.error().message, HasSubstr("has no end mark"));
     ASSERT_TRUE(writer->event(clock.now(), "stop", {})) << "and the recording goes on";
@@ -122,7 +138,7 @@ TEST_F(Labels, ThatDoNotFitOnTheDiskLeaveTheSessionAsItWas) {
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const rlimit now{std::filesystem::file_size(path) / 2, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &now), 0);
-    const auto saved = saveLabels(path, labels);
+    const auto saved = saveLabels(path, {}, labels);
     setrlimit(RLIMIT_FSIZE, &before);
     ASSERT_FALSE(saved);
     EXPECT_THAT(saved.error().message, HasSubstr("could not be changed and is as it was"));

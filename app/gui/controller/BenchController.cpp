@@ -178,7 +178,10 @@ void BenchController::fitLoad(const std::string& load) {
     thread_.post([this, load] {
         if (!live_ || !live_->bench().devices().load) return;
         live_->bench().disarm();
-        if (auto done = live_->bench().devices().load->fitLoad(load); !done) report(done.error());
+        if (auto done = live_->bench().devices().load->fitLoad(load); !done) return report(done.error());
+        // A record of the load before is neither shown nor waited for.
+        if (auto again = live_->repeatCapture(); !again) return scopeFailed(again.error());
+        tell([this, name = QString::fromStdString(load)] { emit loadFitted(name); });
     });
 }
 
@@ -195,7 +198,7 @@ void BenchController::stopScope() {
     });
 }
 
-void BenchController::run(const RunOrder& order, StopMark asked) {
+std::uint64_t BenchController::run(const RunOrder& order, StopMark asked) {
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
     auto marked = order;
@@ -203,8 +206,10 @@ void BenchController::run(const RunOrder& order, StopMark asked) {
     marked.asked = asked;
     marked.watched = [pulse = pulse_] { return pulse->runs(); };
     activity_ = Activity::Opening;  // at once: no other run is begun beside it
+    const auto number = ++lastRun_;
     emit changed();
-    thread_.post([this, marked = std::move(marked)] { runOnThread(marked); });
+    thread_.post([this, marked = std::move(marked), number] { runOnThread(marked, number); });
+    return number;
 }
 
 void BenchController::order(StopMark asked, std::function<Result<void>(Bench&)> task) {
@@ -298,17 +303,23 @@ void BenchController::closeOnThread() {
     become(Activity::Closed, nullptr, nullptr);
 }
 
-void BenchController::runOnThread(const RunOrder& order) {
+void BenchController::runOnThread(const RunOrder& order, std::uint64_t number) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
     static_cast<void>(feed_.take());
     auto finished = std::make_shared<FinishedRun>();
+    finished->number = number;
     finished->order = order;
     auto tap = std::make_shared<BenchTap>();
     auto registry = makeRegistry_();
     const auto end = [&] {
-        become(Activity::Closed, nullptr, nullptr);
-        tell([this, finished] { emit this->finished(finished); });
+        tell([this, finished] {
+            activity_ = Activity::Closed;
+            open_.reset();
+            tap_.reset();
+            emit changed();
+            emit this->finished(finished);
+        });
     };
     auto prepared = ProtocolRun::prepare(order, registry, tap);
     if (!prepared) {

@@ -43,6 +43,7 @@ enum class Activity {
 
 /// A run's end, with the reports that were written of it.
 struct FinishedRun {
+    std::uint64_t number = 0;  ///< as run() returned it
     RunOrder order;
     RunResult result;
     std::filesystem::path html, pdf;  ///< empty when not written
@@ -107,15 +108,18 @@ public:
     void setSpeed(double speed);
     /// Puts a surface under a simulated finger; an empty material lifts it.
     void present(const std::string& material, double speed_mm_s, double force_n);
+    /// The output is off first. loadFitted() tells that the load is there; every capture after it is of that load.
     void fitLoad(const std::string& load);
     /// From now on captures come by captured(), one per trigger, until stopScope() or scopeStopped(). `single`: one,
     /// then none. `untriggeredAfter`: one also whenever no trigger has come for that long (where open()->untriggered).
     void runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter = {});
     void stopScope();
 
-    /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is.
-    void run(const RunOrder& order, StopMark asked);
-    void run(const RunOrder& order) { run(order, mark()); }
+    /// Closes a live bench and runs a protocol on one of its own. finished() tells the end, whatever it is, in one step
+    /// with the change to Closed: no run can begin between the two. Returns the run's number, which no other run of
+    /// this controller has.
+    std::uint64_t run(const RunOrder& order, StopMark asked);
+    std::uint64_t run(const RunOrder& order) { return run(order, mark()); }
     [[nodiscard]] RunFeed takeRunFeed() { return feed_.take(); }
     [[nodiscard]] WindowOperator& windowOperator() noexcept { return operator_; }
 
@@ -128,6 +132,7 @@ signals:
     /// The finger slides over another surface, for the window or a script. An empty material: it is lifted.
     void presented(const QString& material, double speed_mm_s, double force_n);
     void captured(std::shared_ptr<const tacto::Capture> capture);
+    void loadFitted(const QString& load);
     /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
     /// is not touched by it. failed() says it too, for who looks elsewhere.
     void scopeStopped(const QString& why);
@@ -145,7 +150,7 @@ private:
     void scopeFailed(const Error& error);
     void openOnThread(const LiveOrder& order, StopMark asked);
     void closeOnThread();
-    void runOnThread(const RunOrder& order);
+    void runOnThread(const RunOrder& order, std::uint64_t number);
     void publishBench(Bench* bench, ScriptRun* script);
     [[nodiscard]] std::string lastStop() const;
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
@@ -162,6 +167,7 @@ private:
     std::shared_ptr<BenchTap> tap_;
     Profile profile_;
     DriveCommand lastDrive_;
+    std::uint64_t lastRun_ = 0;  ///< the number of it
     ShippedLimits limits_;
 
     // One for this controller and all its benches.

@@ -316,7 +316,7 @@ void ProtocolWorkspace::runNow() {
     for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
     showStep(kRun);
     showButtons();
-    controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
+    run_ = controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
 }
 
 void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
@@ -332,7 +332,7 @@ void ProtocolWorkspace::refresh(const Telemetry& telemetry) {
 }
 
 void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
-    if (!running_) return;
+    if (!running_ || run->number != run_) return;  // another page's
     refresh({});
     running_ = false;
     last_ = run;

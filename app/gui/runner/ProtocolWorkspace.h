@@ -91,7 +91,8 @@ private:
     QElapsedTimer askedSince_;
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
-    bool paused_ = false;  // asked for here, or seen
+    std::uint64_t run_ = 0;  ///< its number
+    bool paused_ = false;    // asked for here, or seen
     bool seenPaused_ = false;
 
     StepList* steps_ = nullptr;

@@ -235,6 +235,10 @@ void ScopeWorkspace::connectBench() {
     connect(&controller_, &BenchController::captured, this, [this](std::shared_ptr<const Capture> capture) {
         if (running()) pipe_.take(std::move(capture));
     });
+    connect(&controller_, &BenchController::loadFitted, this, [this] {  // a mean is of one load
+        pipe_.beginAnew();
+        table_->clear();
+    });
     connect(acquisition_.get(), &ScopeAcquisition::requested, this, [this] { pipe_.breakOff(); });
     connect(acquisition_.get(), &ScopeAcquisition::stopped, this, [this](const QString& why) { tell({}, why); });
     connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);

@@ -148,6 +148,8 @@ void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
     save();
     session_ = std::move(session);
     kept_ = session_->labels;
+    refused_.clear();
+    pending_ = 0;
     nothing_->hide();
     content_->show();
     showFields();
@@ -185,12 +187,7 @@ void SessionOverview::resizeEvent(QResizeEvent* event) {
 }
 
 void SessionOverview::showFields() {
-    QStringList tags;
-    for (const auto& tag : kept_.tags) tags << qtext(tag);
-    operator_->setText(qtext(kept_.operatorName));
-    sample_->setText(qtext(kept_.sample));
-    tags_->setText(tags.join(", "));
-    note_->setText(qtext(kept_.note));
+    showLabels(kept_);
     const bool fixed = !session_->fixed.isEmpty();
     const std::pair<QLineEdit*, QString> all[] = {{operator_, tr("Who did it, for the report.")},
                                                   {sample_, tr("What was measured, by your own id.")},
@@ -203,6 +200,21 @@ void SessionOverview::showFields() {
                                           "recorded stays as it is."));
     }
     saySaved(session_->fixed, false);
+}
+
+/// A field that has this already is left alone, with its cursor.
+void SessionOverview::showLabels(const SessionLabels& labels) {
+    QStringList tags;
+    for (const auto& tag : labels.tags) tags << qtext(tag);
+    const std::pair<QLineEdit*, QString> all[] = {{operator_, qtext(labels.operatorName)},
+                                                  {sample_, qtext(labels.sample)},
+                                                  {note_, qtext(labels.note)},
+                                                  {tags_, tags.join(", ")}};
+    const bool sameTags = entered().tags == labels.tags;
+    for (const auto& [edit, text] : all) {
+        const bool same = edit == tags_ ? sameTags : edit->text().simplified() == text;
+        if (!same) edit->setText(text);
+    }
 }
 
 SessionLabels SessionOverview::entered() const {
@@ -220,15 +232,31 @@ void SessionOverview::save() {
     const auto labels = entered();
     if (labels == kept_) return;
     const auto before = std::exchange(kept_, labels);
+    refused_.clear();  // what was refused is tried again
+    ++pending_;
     saySaved(tr("Saving…"), false);
-    saving_.start([path = session_->path, labels](const WorkPort&) { return saveLabels(path, labels); },
-                  [this, before, session = session_](const Result<void>& done) {
-                      const bool shown = session_ == session;
-                      if (done) emit labelsSaved(qtext(session->path.string()));
-                      if (!done && shown) kept_ = before;  // the next Return tries again
-                      if (!done && !shown) emit labelsRefused(sentence(done.error()));
-                      if (shown) saySaved(done ? tr("Kept in the session.") : sentence(done.error()), !done);
-                  });
+    saves_.save(session_->path, before, labels,
+                [this, before, labels, session = session_](const Result<SessionLabels>& done) {
+                    if (done) emit labelsSaved(qtext(session->path.string()));
+                    if (session_ == session) return saved(before, labels, done);
+                    if (!done) emit labelsRefused(sentence(done.error()));
+                });
+}
+
+void SessionOverview::saved(const SessionLabels& before, const SessionLabels& edited,
+                            const Result<SessionLabels>& done) {
+    --pending_;
+    if (!done) {
+        takeEdit(edited, before, kept_);  // the next Return tries again
+        refused_ = sentence(done.error());
+    } else if (pending_ == 0) {
+        auto shown = entered();  // what was changed elsewhere comes, what is being typed stays
+        takeEdit(kept_, *done, shown);
+        takeEdit(kept_, entered(), shown);
+        kept_ = *done;
+        showLabels(shown);
+    }
+    saySaved(refused_.isEmpty() ? tr("Kept in the session.") : refused_, !refused_.isEmpty());
 }
 
 void SessionOverview::saySaved(const QString& text, bool refused) {

@@ -12,7 +12,7 @@
 #include <QTextBrowser>
 #include <memory>
 
-#include "app/gui/sessions/Background.h"
+#include "app/gui/sessions/LabelSaves.h"
 #include "app/gui/sessions/ReadSession.h"
 
 namespace tacto::gui {
@@ -44,14 +44,18 @@ private:
     void fitWhy();
     void showHead();
     void showFields();
+    void showLabels(const SessionLabels& labels);
     void showHappened();
     void save();
+    void saved(const SessionLabels& before, const SessionLabels& edited, const Result<SessionLabels>& done);
     void saySaved(const QString& text, bool refused);
     [[nodiscard]] SessionLabels entered() const;
 
     std::shared_ptr<const ReadSession> session_;
     SessionLabels kept_;  ///< as they are in the session, or on their way into it
-    Background saving_;
+    QString refused_;     ///< why an edit that still stands in the fields is not in the session
+    int pending_ = 0;     ///< edits of this session on their way
+    LabelSaves saves_;
     QWidget* content_;
     QLabel* nothing_;
     QLabel* icon_ = nullptr;

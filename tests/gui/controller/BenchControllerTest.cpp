@@ -246,6 +246,29 @@ TEST_F(Controller, RunsAProtocolAndTellsHowItEnded) {
     EXPECT_EQ(controller.activity(), Activity::Closed);
 }
 
+TEST_F(Controller, NoRunBeginsBetweenTheEndOfOneAndWhatTellsIt) {
+    const auto order =
+        orderOf("protocol({ title: 'T', needs: [], parameters: {} });\nfunction run(p) { log('hello'); }");
+    std::vector<std::uint64_t> ended;
+    std::vector<Activity> then;
+    QObject::connect(&controller, &BenchController::finished, [&](std::shared_ptr<const gui::FinishedRun> run) {
+        ended.push_back(run->number);
+        then.push_back(controller.activity());
+    });
+    std::uint64_t second = 0;
+    QObject::connect(&controller, &BenchController::changed, [&] {
+        if (controller.activity() != Activity::Closed || second != 0) return;
+        // As soon as the window can: a click that waited until no run was going on.
+        QMetaObject::invokeMethod(
+            &controller, [&] { second = controller.run(order); }, Qt::QueuedConnection);
+    });
+    const auto first = controller.run(order);
+    ASSERT_IN_TIME(comesTrue([&] { return ended.size() == 2; }));
+    EXPECT_THAT(ended, testing::ElementsAre(first, second));
+    EXPECT_NE(first, second);
+    EXPECT_THAT(then, testing::Each(Activity::Closed));
+}
+
 TEST_F(Controller, StopEndsAScriptThatLoopsForEver) {
     RecordProperty("hazard", "H10");
     std::shared_ptr<const gui::FinishedRun> ended;

@@ -307,6 +307,30 @@ function run(p) {
     EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
 }
 
+TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
+    RecordProperty("hazard", "H9");
+    write("short", "protocol({ title: 'S', needs: [], parameters: {} });\nfunction run(p) { log('done'); }");
+    write("loop", kLoop);
+    gui::ProtocolWorkspace other(controller, "loop");
+    other.resize(1300, 820);
+    other.show();
+    ASSERT_IN_TIME(comesTrue([&] { return other.ready(); }));
+    open("short");
+    ASSERT_TRUE(ready());
+    QObject::connect(&controller, &gui::BenchController::changed, &other, [&] {
+        // The earliest moment at which another run may begin: the end of this one is not told yet.
+        if (controller.activity() == gui::Activity::Closed && !ended) other.runAsked();
+    });
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    EXPECT_TRUE(other.running()) << "the end of the short one is not its own";
+    EXPECT_FALSE(workspace->running());
+    ended.reset();
+    controller.stop("test");
+    ASSERT_IN_TIME(comesTrue([&] { return ended != nullptr; }));
+    EXPECT_FALSE(other.running());
+}
+
 TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
     open("separability");
     ASSERT_TRUE(ready());

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/scope/Graticule.h"
+#include "app/gui/scope/MaskPanel.h"
 #include "app/gui/scope/MeasurementTable.h"
 #include "app/gui/scope/QuantitySpin.h"
 #include "app/gui/scope/ScopeExport.h"
@@ -176,6 +177,27 @@ TEST(MeasurementTable, ShowsWhatCoreMeasures) {
     EXPECT_NE(find<QLabel>(table, "Channel 'voltage' is tired."), nullptr);
     click(*find<QPushButton>(table, "Reset statistics"));
     EXPECT_EQ(table.statistics().captures(), 0U);
+}
+
+TEST(MaskPanel, AResetCountsNoCaptureFromBefore) {
+    gui::MaskPanel panel;
+    panel.make(prepared(twoPulses()));
+    const auto judged = [&] {
+        auto shown = std::const_pointer_cast<gui::ShownCapture>(prepared(twoPulses(99.999, 30)));
+        shown->judgedBy = panel.mask();
+        shown->mask = panel.mask()->check(*shown->capture);
+        return shown;
+    };
+    const auto underWay = judged();
+    panel.take(judged());
+    ASSERT_EQ(panel.counts().outside, 1U);
+    panel.resetCounts();
+    panel.take(underWay);
+    EXPECT_EQ(panel.counts().judged(), 0U);
+    EXPECT_EQ(panel.alarm(), "");
+    EXPECT_EQ(panel.firstOutside(), nullptr);
+    panel.take(judged());
+    EXPECT_EQ(panel.counts().outside, 1U) << "the test goes on with the same band";
 }
 
 TEST(CaptureStatistics, IntervalsRunFromCaptureToCaptureWhereNoneWasLeftOut) {

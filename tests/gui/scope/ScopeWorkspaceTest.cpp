@@ -290,6 +290,20 @@ TEST_F(Scope, AnAverageIsMarkedAndBeginsAnewWithTheCommand) {
     EXPECT_TRUE(scope.screen().overlay().notes.isEmpty());
 }
 
+TEST_F(Scope, AnAverageBeginsAnewWithAnotherLoad) {
+    RecordProperty("hazard", "H9");
+    openBench();
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    click(*find<QToolButton>(scope, "Average"));
+    ASSERT_IN_TIME(comes([&] { return scope.model().shown()->averaged >= 4; }));
+    controller.fitLoad("1 kohm");
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() == 0; }));
+    deliver();
+    ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 1; }));
+    EXPECT_EQ(scope.model().shown()->averaged, scope.table().statistics().captures());
+}
+
 TEST_F(Scope, AMaskThatFailsSaysSoLoudlyKeepsTheFirstAndTouchesNoOutput) {
     RecordProperty("hazard", "H9");
     openBench();

@@ -100,7 +100,7 @@ TEST_F(Sessions, FiveThousandAreListedInUnderASecond) {
 TEST_F(Sessions, AreFoundByWhatWasSaidOfThem) {
     const auto path = sessions.write({.name = "a"});
     (void)sessions.write({.name = "b", .protocol = "load-safety", .verdict = "fail"});
-    ASSERT_TRUE(saveLabels(path, {"B. Ott", "S-099", "lead was loose", {"P60", "repeat"}}));
+    ASSERT_TRUE(saveLabels(path, {}, {"B. Ott", "S-099", "lead was loose", {"P60", "repeat"}}));
     begin();
     listed(2);
     auto* search = find<QLineEdit>(workspace, "Search");
@@ -140,6 +140,44 @@ TEST_F(Sessions, AreEditedInPlaceAndKeptInTheSession) {
     EXPECT_EQ(SessionReader::open(path)->chainHead(), head);
     EXPECT_IN_TIME(comesTrue([&] { return cell(0, 6) == "table bumped once #P60 #P120"; })) << cell(0, 6).toStdString();
     EXPECT_EQ(field("labelNote").text(), "table bumped once") << "and stands where it was written";
+}
+
+TEST_F(Sessions, ARefusedEditStaysSaidThoughAnotherFollowsAtOnce) {
+    RecordProperty("hazard", "H8");
+    const auto path = sessions.write({.name = "a"});
+    begin();
+    listed(1);
+    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    field("labelTags").setText(QString(60, 'x'));
+    QTest::keyClick(&field("labelTags"), Qt::Key_Return);
+    field("labelNote").setText("table bumped once");
+    QTest::keyClick(&field("labelNote"), Qt::Key_Return);
+    ASSERT_IN_TIME(comesTrue([&] { return SessionReader::open(path)->labels()->note == "table bumped once"; }));
+    ASSERT_IN_TIME(comesTrue([&] { return saidOfLabels().contains("60 characters"); })) << saidOfLabels().toStdString();
+    EXPECT_FALSE(comesTrue([&] { return !saidOfLabels().contains("60 characters"); }, 300)) << "nor is it said over";
+    EXPECT_EQ(field("labelTags").text(), QString(60, 'x')) << "what is not kept stays to be mended";
+    field("labelTags").setText("P60");
+    QTest::keyClick(&field("labelTags"), Qt::Key_Return);
+    ASSERT_IN_TIME(comesTrue([&] { return saidOfLabels() == "Kept in the session."; })) << saidOfLabels().toStdString();
+    EXPECT_EQ(SessionReader::open(path)->labels().value(),
+              (SessionLabels{"A. Weber", "S-014", "table bumped once", {"P60"}}));
+}
+
+TEST_F(Sessions, ThatWereEditedElsewhereMeanwhileKeepThatAndShowIt) {
+    RecordProperty("hazard", "H8");
+    const auto path = sessions.write({.name = "a"});
+    begin();
+    listed(1);
+    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    const auto shown = SessionReader::open(path)->labels().value();
+    auto elsewhere = shown;
+    elsewhere.operatorName = "B. Ott";
+    ASSERT_TRUE(saveLabels(path, shown, elsewhere));
+    field("labelNote").setText("table bumped once");
+    QTest::keyClick(&field("labelNote"), Qt::Key_Return);
+    ASSERT_IN_TIME(comesTrue([&] { return saidOfLabels() == "Kept in the session."; })) << saidOfLabels().toStdString();
+    EXPECT_EQ(SessionReader::open(path)->labels().value(), (SessionLabels{"B. Ott", "S-014", "table bumped once", {}}));
+    EXPECT_EQ(field("labelOperator").text(), "B. Ott");
 }
 
 TEST_F(Sessions, ThatAreReadOnlySayWhyAndTakeNoEdit) {
@@ -197,7 +235,7 @@ TEST_F(Sessions, LooksRight) {
     (void)sessions.write({.name = "c", .protocol = "", .verdict = "", .wallStart = "2026-11-21T08:10:00Z"});
     const auto path = sessions.write({.name = "d", .verdict = "indeterminate", .wallStart = "2026-11-22T09:31:00Z"});
     ASSERT_TRUE(
-        saveLabels(path, {"A. Weber", "S-014", "P60 against P120, table bumped once; repeat with 40", {"P60"}}));
+        saveLabels(path, {}, {"A. Weber", "S-014", "P60 against P120, table bumped once; repeat with 40", {"P60"}}));
     begin();
     listed(4);
     ASSERT_NO_FATAL_FAILURE(chosen(0));
