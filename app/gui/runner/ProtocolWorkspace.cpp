@@ -9,6 +9,7 @@
 
 #include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/ParameterForm.h"
+#include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
@@ -29,7 +30,6 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPreviewAfter_ms = 150;
-constexpr int kPathWidth = 240, kPathPad = 16;
 
 using State = StepList::State;
 
@@ -51,7 +51,11 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(0);
-    row->addWidget(buildPath());
+    path_ = new ProcedurePath(fixed_.isEmpty(), this);
+    head_ = &path_->head();
+    steps_ = &path_->steps();
+    panel_ = &path_->panel();
+    row->addWidget(path_);
     auto* edge = new QFrame(this);
     edge->setFrameShape(QFrame::VLine);
     edge->setForegroundRole(QPalette::Mid);
@@ -62,6 +66,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     pages_ = new ProcedurePages(controller_.day(), this);
     column->addWidget(pages_, 1);
     row->addLayout(column, 1);
+    connectPath();
     connectPages();
     // Wherever the focus is: of the workspaces in a window one is visible.
     auto* runs = new QShortcut(Qt::Key_F5, this, nullptr, nullptr, Qt::WindowShortcut);
@@ -86,28 +91,11 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     fillChooser({});
 }
 
-QWidget* ProtocolWorkspace::buildPath() {
-    auto* path = new QWidget(this);
-    path->setObjectName("path");
-    path->setFixedWidth(scaledPx(kPathWidth));
-    auto* column = new QVBoxLayout(path);
-    column->setContentsMargins(0, kPathPad / 2, 0, kPathPad / 2);
-    auto* top = new QVBoxLayout;
-    top->setContentsMargins(kPathPad, 0, kPathPad, 0);
-    head_ = new ProtocolHead(fixed_.isEmpty(), path);
+void ProtocolWorkspace::connectPath() {
     connect(head_, &ProtocolHead::chosen, this, &ProtocolWorkspace::choose);
     connect(head_, &ProtocolHead::editWanted, this, [this] { edit(source_, 0, {}); });
     connect(head_, &ProtocolHead::newWanted, this, [this] { edit({}, 0, {}); });
-    top->addWidget(head_);
-    column->addLayout(top);
-    steps_ =
-        new StepList({tr("Wiring"), tr("Known reference"), tr("Settings"), tr("Run"), tr("Result"), tr("Sign")}, path);
     connect(steps_, &StepList::chosen, this, [this](int step) { goTo(Step(step)); });
-    column->addWidget(steps_);
-    column->addStretch();
-    auto* foot = new QVBoxLayout;
-    foot->setContentsMargins(kPathPad, 0, kPathPad, 0);
-    panel_ = new RunPanel(path);
     connect(panel_, &RunPanel::runWanted, this, &ProtocolWorkspace::runAsked);
     connect(panel_, &RunPanel::confirmed, this, &ProtocolWorkspace::runNow);
     connect(panel_, &RunPanel::stopWanted, this, [this] { controller_.stop("operator (Stop)"); });
@@ -117,9 +105,6 @@ QWidget* ProtocolWorkspace::buildPath() {
     });
     connect(panel_, &RunPanel::lineWanted, this, [this](int line, const QString& why) { edit(source_, line, why); });
     connect(panel_, &RunPanel::profileChangeWanted, this, &ProtocolWorkspace::profileChangeWanted);
-    foot->addWidget(panel_);
-    column->addLayout(foot);
-    return path;
 }
 
 void ProtocolWorkspace::connectPages() {
@@ -129,11 +114,6 @@ void ProtocolWorkspace::connectPages() {
             [this](int line, const QString& why) { edit(source_, line, why); });
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] { steps_->setNote(kSign, pages_->sign().state()); });
-}
-
-void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    steps_->fit();
 }
 
 void ProtocolWorkspace::fillChooser(const QString& select) {
@@ -169,15 +149,8 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->views().showPlot(plotOf(*declaration_));
         pages_->offer(*declaration_);
     }
-    steps_->setStepVisible(kReference, pages_->form().hasReference());
-    for (const auto step : {kRun, kResult, kSign}) {
-        steps_->setState(step, State::ToDo);
-        steps_->setNote(step, {});
-    }
-    steps_->setOutOfReach(kRun, tr("Nothing has run yet: press Run."));
-    steps_->setOutOfReach(kResult, tr("There is no result yet: press Run."));
+    path_->showNoRun(pages_->form().hasReference());
     showStep(kSettings);
-    panel_->setLeading(true);
     judge();
     showButtons();
     if (wasInForm) QTimer::singleShot(0, this, [this] { goTo(kSettings); });
@@ -306,14 +279,7 @@ void ProtocolWorkspace::runNow() {
     last_.reset();
     pages_->views().begin(plotOf(*declaration_), asked_->settings.parameters);
     pages_->sign().clear();
-    panel_->setLeading(true);
-    panel_->begin();
-    steps_->setState(kSettings, State::Done);
-    steps_->setState(kRun, State::UnderWay);
-    steps_->setOutOfReach(kRun, {});
-    steps_->setState(kResult, State::ToDo);
-    steps_->setOutOfReach(kResult, tr("There is no result yet: the run goes on."));
-    for (const auto step : {kRun, kResult}) steps_->setNote(step, {});
+    path_->showRun();
     showStep(kRun);
     showButtons();
     run_ = controller_.run(*std::exchange(asked_, std::nullopt), askedAt_);
@@ -339,14 +305,10 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     prompt_->close();
     const auto& error = run->result.outcome.error;
     const bool watched = panel_->isAncestorOf(QApplication::focusWidget());
-    panel_->end(error.has_value());
-    panel_->setLeading(false);
+    path_->showEnd(error.has_value());
     if (const auto odd = pages_->views().end(*run); !odd.isEmpty()) panel_->say(odd);
     pages_->sign().show(*run);
-    steps_->setState(kRun, error ? State::Troubled : State::Done);
-    steps_->setState(kResult, State::Done);
     steps_->setNote(kResult, pages_->views().word());
-    steps_->setOutOfReach(kResult, {});
     showStep(kResult);
     showButtons();
     if (watched) steps_->focusShown();  // Stop had the keys, and is gone

@@ -17,6 +17,7 @@
 
 namespace tacto::gui {
 
+class ProcedurePath;
 class PromptPanel;
 class ProtocolHead;
 class RunPanel;
@@ -55,11 +56,8 @@ signals:
     void safetyCheckWanted();
     void liveWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    [[nodiscard]] QWidget* buildPath();
+    void connectPath();
     void connectPages();
 
     void fillChooser(const QString& select);
@@ -95,8 +93,9 @@ private:
     bool paused_ = false;    // asked for here, or seen
     bool seenPaused_ = false;
 
+    ProcedurePath* path_ = nullptr;
+    ProtocolHead* head_ = nullptr;  // head, steps and panel are the path's
     StepList* steps_ = nullptr;
-    ProtocolHead* head_ = nullptr;
     RunPanel* panel_ = nullptr;
     PromptPanel* prompt_ = nullptr;
     ProcedurePages* pages_ = nullptr;

@@ -9,7 +9,6 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kMaxInRoll = 600;
-constexpr double kRollPerDivision_s = 1;  ///< at least
 constexpr std::size_t kMaxSamplesKept = 40'000'000;
 
 double lengthOf(const ShownCapture& shown) { return shown.end_s() - shown.capture->start_s; }
@@ -25,57 +24,23 @@ void ScopeModel::show(ShownPtr shown) {
     if (shown_ && shown_->source.isEmpty() && shown->source.isEmpty()) {
         older_.push_front(std::move(shown_));
     } else {
-        chosen_ = chosenView();
+        frame_.keepChosen(scene());
         older_.clear();
     }
     shown_ = std::move(shown);
     dropOldest();
     const bool others = takeLanes();
-    if (older_.empty()) {
-        history_ = {};
-        if (!roll_) fitTime(view_);
-        timeView_ = TimeView::Whole;
-        if (roll_) view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
-        lanes_.fit(*shown_, view_);
-        untouched_ = true;
-        takeChosenView();
-    } else if (!roll_) {
-        followTime(*older_.front());
-    }
-    if (untouched_ && lanes_.outgrow(*shown_, view_)) lanes_.fit(*shown_, view_);
-    if (roll_) view_.left_s = rollLeft(view_.perDivision_s);
+    older_.empty() ? frame_.begin(scene()) : frame_.follow(scene(), *older_.front());
     tellTraces(others);
-}
-
-/// A view of the whole record goes on to show the whole record when its length or pre-trigger changes, one of a pulse
-/// to show it when its width or place does.
-void ScopeModel::followTime(const ShownCapture& before) {
-    if (timeView_ == TimeView::Chosen) return;
-    const auto placed = [](const ShownCapture& s) { return s.capture->start_s - s.zero_s; };
-    const double length = lengthOf(before);
-    const bool moved =
-        std::abs(placed(before) - placed(*shown_)) > length / 50 || std::abs(lengthOf(*shown_) - length) > length / 50;
-    if (timeView_ == TimeView::Whole) {
-        if (moved) fitTime(view_);
-        return;
-    }
-    if (!pulseNear(lanes_.edgesFor(active_), 0)) return;
-    auto next = view_;
-    framePulse(next);
-    constexpr double kJitter = 0.2;
-    if (std::abs(next.perDivision_s / view_.perDivision_s - 1) > kJitter ||
-        std::abs(next.left_s - view_.left_s) > view_.perDivision_s) {
-        view_ = next;
-    }
 }
 
 void ScopeModel::clear() {
     if (!shown_) return;
-    chosen_ = chosenView();
+    frame_.keepChosen(scene());
     setHeld(false);
     shown_.reset();
     older_.clear();
-    history_ = {};
+    frame_.forgetHistory();
     hovered_.reset();
     lanes_.clear();
     lanes_.fill(shown_, older_, roll_, persistence_);
@@ -105,10 +70,7 @@ bool ScopeModel::takeLanes() {
     const bool others = lanes_.take(*shown_);
     lanes_.fill(shown_, older_, roll_, persistence_);
     chooseActive();
-    // A new lane begins with a scale of its own that shows it; what is there keeps its place.
-    Viewport fitted = view_;
-    lanes_.fit(*shown_, fitted);
-    view_.lanes.insert(fitted.lanes.begin(), fitted.lanes.end());
+    frame_.addLanes(scene());
     return others;
 }
 
@@ -135,15 +97,8 @@ void ScopeModel::setRoll(bool roll) {
     roll_ = roll;
     cursors_.hideTime();
     trigger_.forgetMoment();
-    history_ = {};
-    if (roll_ && shown_) {
-        view_.perDivision_s = std::max(view_.perDivision_s, kRollPerDivision_s);
-        view_.left_s = rollLeft(view_.perDivision_s);
-    } else {
-        dropOldest();
-        fitTime(view_);
-        timeView_ = TimeView::Whole;
-    }
+    if (!roll_ || !shown_) dropOldest();
+    frame_.changeMode(scene());
     lanes_.fill(shown_, older_, roll_, persistence_);
     tellCursors();
     tellTraces(false);
@@ -165,7 +120,7 @@ void ScopeModel::setActiveLane(const QString& key) {
 }
 
 void ScopeModel::pickLane(double from_s, double to_s, double height, double reach) {
-    setActiveLane(lanes_.nearest(view_, from_s, to_s, height, reach));
+    setActiveLane(lanes_.nearest(viewport(), from_s, to_s, height, reach));
 }
 
 void ScopeModel::setLaneShown(const QString& key, bool shown) {
@@ -178,14 +133,14 @@ void ScopeModel::setLaneShown(const QString& key, bool shown) {
 
 void ScopeModel::setLaneScale(const QString& key, double perDivision) {
     if (lane(key) == nullptr || !(perDivision > 0)) return;
-    auto next = view_;
+    auto next = viewport();
     next.lanes[key].perDivision = perDivision;
     go(next, "scale " + key);
 }
 
 void ScopeModel::setLanePosition(const QString& key, double position) {
     if (lane(key) == nullptr || !std::isfinite(position)) return;
-    auto next = view_;
+    auto next = viewport();
     next.lanes[key].position = position;
     go(next, "position " + key);
 }
@@ -206,109 +161,61 @@ void ScopeModel::removeReference(const QString& key) {
     tellTraces(true);
 }
 
-void ScopeModel::fitTime(Viewport& view) const {
+void ScopeModel::fit() {
     if (!shown_) return;
-    double from = shown_->capture->start_s;
-    if (roll_ && !older_.empty()) from = std::min(from, older_.back()->capture->start_s);
-    view = showingTime(view, from - zero_s(), shown_->end_s() - zero_s());
-}
-
-void ScopeModel::framePulse(Viewport& view) const {
-    if (!shown_) return;
-    const auto pulse = roll_ ? std::nullopt : pulseNear(lanes_.edgesFor(active_), 0);
-    fitTime(view);
-    if (!pulse) return;
-    const auto framed = framingPulse(view, pulse->first, pulse->second);
-    if (framed.perDivision_s < view.perDivision_s) view = framed;
+    frame_.fit(scene());
+    emit viewChanged();
 }
 
 void ScopeModel::frameFirstPulse() {
-    if (timeView_ != TimeView::Whole || roll_ || !shown_) return;
-    auto next = view_;
-    framePulse(next);
-    go(next, {});
-    timeView_ = showsWhole(*shown_) ? TimeView::Whole : TimeView::Pulse;
+    if (frame_.frameFirstPulse(scene())) emit viewChanged();
 }
 
-bool ScopeModel::showsWhole(const ShownCapture& shown) const {
-    const auto fitted = showingTime(view_, shown.capture->start_s - shown.zero_s, shown.end_s() - shown.zero_s);
-    return std::abs(fitted.left_s - view_.left_s) < view_.perDivision_s / 10 &&
-           fitted.perDivision_s == view_.perDivision_s;
+void ScopeModel::go(const Viewport& next, const QString& kind) {
+    if (frame_.go(scene(), next, kind)) emit viewChanged();
 }
 
-ChosenView ScopeModel::chosenView() const {
-    if (!shown_ || !shown_->source.isEmpty()) return chosen_;
-    ChosenView chosen;
-    if (!roll_ && timeView_ == TimeView::Chosen) chosen.time = ChosenView::Time{view_.left_s, view_.perDivision_s};
-    if (untouched_) return chosen;
-    for (const auto& l : lanes()) {
-        if (!l.reference()) chosen.lanes[l.key] = scaleOf(l);
-    }
-    return chosen;
+void ScopeModel::become(const Viewport& next) {
+    frame_.become(scene(), next);
+    emit viewChanged();
 }
 
-void ScopeModel::takeChosenView() {
-    if (!shown_->source.isEmpty()) return;
-    if (chosen_.time && !roll_) {
-        view_.left_s = chosen_.time->left_s;
-        view_.perDivision_s = chosen_.time->perDivision_s;
-        timeView_ = TimeView::Chosen;
-    }
-    for (const auto& [key, scale] : chosen_.lanes) {
-        if (lane(key) == nullptr) continue;
-        view_.lanes[key] = scale;
-        untouched_ = false;
-    }
-}
-
-void ScopeModel::fit() {
-    if (!shown_) return;
-    auto next = view_;
-    framePulse(next);
-    lanes_.fit(*shown_, next);
-    constexpr double kSame = 0.08;  // a pulse that jitters is still the same
-    const bool again = timeView_ == TimeView::Pulse && next.lanes == view_.lanes &&
-                       std::abs(next.perDivision_s / view_.perDivision_s - 1) < kSame;
-    if (again) fitTime(next);
-    go(next, {});
-    timeView_ = roll_ || showsWhole(*shown_) ? TimeView::Whole : TimeView::Pulse;
-    untouched_ = true;
-}
-
-double ScopeModel::rollLeft(double perDivision_s) const {
-    const double left = onGrid(shown_->end_s() - perDivision_s * kDivisionsAcross, perDivision_s);
-    return std::max(left, std::min(0.0, shown_->capture->start_s));  // before a session there is no time
+bool ScopeModel::undoZoom() {
+    const bool undone = frame_.undo(scene());
+    if (undone) emit viewChanged();
+    return undone;
 }
 
 void ScopeModel::setTimePerDivision(double perDivision_s) {
     if (!(perDivision_s > 0)) return;
-    auto next = view_;
-    const double centre = view_.left_s + view_.width_s() / 2;
+    auto next = viewport();
+    const double centre = viewport().left_s + viewport().width_s() / 2;
     next.perDivision_s = perDivision_s;
-    next.left_s = roll_ && shown_ ? rollLeft(perDivision_s) : onGrid(centre - next.width_s() / 2, perDivision_s);
+    next.left_s = roll_ && shown_ ? ScopeFrame::rollLeft(scene(), perDivision_s)
+                                  : onGrid(centre - next.width_s() / 2, perDivision_s);
     go(next, "time base");
 }
 
 void ScopeModel::setTimeCentre(double centre_s) {
     if (!std::isfinite(centre_s)) return;
-    auto next = view_;
+    auto next = viewport();
     next.left_s = centre_s - next.width_s() / 2;
     go(next, "time position");
 }
 
 void ScopeModel::zoomTime(int steps, double anchor_s, const QString& kind) {
-    go(zoomedInTime(view_, steps, anchor_s), kind);
+    go(zoomedInTime(viewport(), steps, anchor_s), kind);
 }
 
 void ScopeModel::zoomLevel(int steps, double anchorHeight, const QString& kind) {
     if (active() == nullptr) return;
-    auto next = view_;
+    auto next = viewport();
     next.lanes[active()->scaleKey()] = zoomedInLevel(scaleOf(*active()), steps, anchorHeight);
     go(next, kind);
 }
 
 void ScopeModel::zoomToBox(double from_s, double to_s, double bottom, double top) {
-    auto next = spanningTime(view_, from_s, to_s);
+    auto next = spanningTime(viewport(), from_s, to_s);
     for (const auto& l : lanes()) {
         if (!l.reference() && l.shown) next.lanes[l.key] = showingHeights(scaleOf(l), bottom, top);
     }
@@ -325,7 +232,7 @@ void ScopeModel::movedBy(Viewport& view, double time_s, double height) const {
 }
 
 void ScopeModel::pan(double time_s, double height, const QString& kind) {
-    auto next = view_;
+    auto next = viewport();
     movedBy(next, time_s, height);
     go(next, kind);
 }
@@ -338,34 +245,10 @@ void ScopeModel::dragView(const Viewport& from, double time_s, double height) {
 
 void ScopeModel::dragLane(const Viewport& from, const QString& key, double height) {
     if (lane(key) == nullptr) return;
-    auto next = view_;
+    auto next = viewport();
     next.lanes[key].position = onGrid(std::clamp(height, -kHalfUp, kHalfUp), 1);
-    if (view_ == from && next != view_) remember();
+    if (viewport() == from && next != viewport()) remember();
     become(next);
-}
-
-void ScopeModel::go(const Viewport& next, const QString& kind) {
-    if (next == view_) return;
-    history_.remember(view_, kind);
-    become(next);
-}
-
-void ScopeModel::become(const Viewport& next) {
-    if (next.lanes != view_.lanes) untouched_ = false;
-    const bool moved = next.left_s != view_.left_s || next.perDivision_s != view_.perDivision_s;
-    view_ = next;
-    if (moved) timeView_ = shown_ && !roll_ && showsWhole(*shown_) ? TimeView::Whole : TimeView::Chosen;
-    emit viewChanged();
-}
-
-bool ScopeModel::undoZoom() {
-    const auto before = history_.undo();
-    if (!before) return false;
-    untouched_ = false;
-    auto next = *before;
-    next.lanes.insert(view_.lanes.begin(), view_.lanes.end());  // lanes that came since keep their scale
-    become(next);
-    return true;
 }
 
 void ScopeModel::tellCursors() {
@@ -375,7 +258,7 @@ void ScopeModel::tellCursors() {
 
 void ScopeModel::setTimeCursors(bool on) {
     if (on == cursors_.time_s().has_value()) return;
-    on ? cursors_.showTime(view_) : cursors_.hideTime();
+    on ? cursors_.showTime(viewport()) : cursors_.hideTime();
     tellCursors();
 }
 
@@ -424,7 +307,7 @@ bool ScopeModel::nudgeTimeCursor(double by_s) {
 bool ScopeModel::jumpTimeCursor(double direction) {
     if (!cursors_.timeFocused()) return false;
     const double at = (*cursors_.time_s())[static_cast<std::size_t>(cursors_.focused())];
-    return nudgeTimeCursor(nextEdge(lanes_.edgesFor(active_), at, direction, view_.width_s() * 1e-9) - at);
+    return nudgeTimeCursor(nextEdge(lanes_.edgesFor(active_), at, direction, viewport().width_s() * 1e-9) - at);
 }
 
 bool ScopeModel::nudgeLevelCursor(double byHeight) {

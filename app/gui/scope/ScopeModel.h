@@ -9,8 +9,8 @@
 
 #include <QObject>
 
-#include "app/gui/scope/ChosenView.h"
 #include "app/gui/scope/ScopeCursors.h"
+#include "app/gui/scope/ScopeFrame.h"
 #include "app/gui/scope/ScopeLanes.h"
 #include "app/gui/scope/ScopeTrigger.h"
 #include "app/gui/scope/TraceEdges.h"
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] const std::vector<ScopeLane>& lanes() const noexcept { return lanes_.all(); }
     /// Null without one; so for all that take a key.
     [[nodiscard]] const ScopeLane* lane(const QString& key) const { return lanes_.find(key); }
-    [[nodiscard]] LaneScale scaleOf(const ScopeLane& lane) const { return view_.scale(lane.scaleKey()); }
+    [[nodiscard]] LaneScale scaleOf(const ScopeLane& lane) const { return viewport().scale(lane.scaleKey()); }
     [[nodiscard]] TracePtr trace(const QString& lane) const;
     [[nodiscard]] const QString& activeLane() const noexcept { return active_; }
     void setActiveLane(const QString& lane);
@@ -57,7 +57,7 @@ public:
     QString storeReference();
     void removeReference(const QString& key);
 
-    [[nodiscard]] const Viewport& viewport() const noexcept { return view_; }
+    [[nodiscard]] const Viewport& viewport() const noexcept { return frame_.view(); }
     void setTimePerDivision(double perDivision_s);
     void setTimeCentre(double centre_s);
     /// The pulse nearest to the trigger in the middle third, every lane as large as it can be; asked again, the whole
@@ -74,12 +74,12 @@ public:
     void dragView(const Viewport& from, double time_s, double height);
     void dragLane(const Viewport& from, const QString& lane, double height);
     /// The present view is one to go back to.
-    void remember() { history_.remember(view_, {}); }
+    void remember() { frame_.remember(); }
     bool undoZoom();
-    [[nodiscard]] bool canUndo() const noexcept { return !history_.empty(); }
+    [[nodiscard]] bool canUndo() const noexcept { return frame_.canUndo(); }
     /// For the bench's first capture, instead of a fit: from an earlier session, or from before a file was looked at.
-    void setChosenView(ChosenView chosen) { chosen_ = std::move(chosen); }
-    [[nodiscard]] ChosenView chosenView() const;
+    void setChosenView(ChosenView chosen) { frame_.setChosen(std::move(chosen)); }
+    [[nodiscard]] ChosenView chosenView() const { return frame_.chosen(scene()); }
 
     [[nodiscard]] const ScopeCursors& cursors() const noexcept { return cursors_; }
     void setTimeCursors(bool on);
@@ -124,14 +124,8 @@ private:
     void chooseActive();
     void dropOldest();
     void tellTraces(bool lanesToo);
-    void fitTime(Viewport& view) const;
-    void framePulse(Viewport& view) const;
-    void followTime(const ShownCapture& before);
-    [[nodiscard]] bool showsWhole(const ShownCapture& shown) const;
-    void takeChosenView();
+    [[nodiscard]] ScopeFrame::Scene scene() const { return {shown_, older_, lanes_, active_, roll_}; }
     void movedBy(Viewport& view, double time_s, double height) const;
-    /// Where the screen begins in roll mode: the newest capture ends it.
-    [[nodiscard]] double rollLeft(double perDivision_s) const;
     /// Becomes the view, after remembering the present one under `kind`.
     void go(const Viewport& next, const QString& kind);
     void become(const Viewport& next);
@@ -145,14 +139,7 @@ private:
     bool roll_ = false;
     bool held_ = false;
 
-    Viewport view_;
-    ChosenView chosen_;
-    ViewHistory history_;
-    /// What of time the next captures are shown with.
-    enum class TimeView { Whole, Pulse, Chosen };
-    TimeView timeView_ = TimeView::Whole;
-    bool untouched_ = true;  ///< the scales are a fit and were not changed: they grow with the signal
-
+    ScopeFrame frame_;
     ScopeCursors cursors_;
     ScopeTrigger trigger_;
     std::optional<EdgeReading> hovered_;

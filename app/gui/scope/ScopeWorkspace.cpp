@@ -2,13 +2,8 @@
 
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QLabel>
 #include <QMimeData>
-#include <QPushButton>
-#include <QShortcut>
-#include <QSplitter>
 #include <QStackedWidget>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
@@ -16,12 +11,15 @@
 #include <utility>
 
 #include "app/gui/scope/MeasurementTable.h"
+#include "app/gui/scope/ScopeColumns.h"
 #include "app/gui/scope/ScopeControls.h"
+#include "app/gui/scope/ScopeEmpty.h"
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeGestures.h"
+#include "app/gui/scope/ScopeKeys.h"
+#include "app/gui/scope/ScopeStatus.h"
 #include "app/gui/scope/ScopeTools.h"
 #include "app/gui/scope/SpectrumPanel.h"
-#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/CaptureFormatsList.h"
 
@@ -38,15 +36,13 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       controller_(controller),
       files_(std::make_unique<ScopeFiles>(pipe_, model_, *this)),
       tools_(new ScopeTools(files_->menu(), this)),
-      cancelOpen_(new QToolButton(this)),
+      status_(new ScopeStatus(this)),
       screen_(new ScopeScreen(model_, this)),
       gestures_(std::make_unique<ScopeGestures>(model_, *screen_)),
       controls_(new ScopeControls(model_, *screen_, this)),
       spectrum_(new SpectrumPanel(this)),
       table_(new MeasurementTable(readings_, this)),
-      status_(new QLabel(this)),
-      stack_(new QStackedWidget(this)),
-      plots_(new QSplitter(Qt::Vertical, this)) {
+      stack_(new QStackedWidget(this)) {
     acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
     setAcceptDrops(true);
     files_->show(*screen_, *table_, [this] { return caption(); });
@@ -69,65 +65,16 @@ ScopeWorkspace::~ScopeWorkspace() {
 }
 
 void ScopeWorkspace::layOut() {
-    status_->setObjectName("scopeStatus");
-    status_->setWordWrap(true);
-    setTextSize(*status_, TextSize::Small);
-    cancelOpen_->setText(tr("Cancel"));
-    cancelOpen_->setToolTip(tr("Gives up reading. What is shown stays."));
-    cancelOpen_->setAutoRaise(true);
-    cancelOpen_->setFocusPolicy(Qt::StrongFocus);
-
-    plots_->setChildrenCollapsible(false);
-    plots_->addWidget(screen_);
-    plots_->addWidget(spectrum_);
-    plots_->addWidget(table_);
-    plots_->setStretchFactor(0, 5);
-    plots_->setStretchFactor(1, 2);
-    plots_->setStretchFactor(2, 2);
-    plots_->setSizes({600, 200, 190});
-    spectrum_->hide();
-    table_->hide();
-
-    auto* left = new QWidget(this);
-    auto* column = new QVBoxLayout(left);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
-    auto* statusLine = new QHBoxLayout;
-    statusLine->setContentsMargins(8, 2, 8, 0);
-    statusLine->addWidget(status_, 1);
-    statusLine->addWidget(cancelOpen_);
-    column->addLayout(statusLine);
-    column->addWidget(plots_, 1);
-
-    auto* whole = new QWidget(this);
-    auto* rows = new QVBoxLayout(whole);
-    rows->setContentsMargins(0, 0, 0, 0);
-    rows->setSpacing(0);
-    rows->addWidget(tools_);
-    auto* row = new QHBoxLayout;
-    row->addWidget(left, 1);
-    row->addWidget(controls_);
-    rows->addLayout(row, 1);
-
-    stack_->addWidget(buildEmpty());
-    stack_->addWidget(whole);
+    auto* empty = new ScopeEmpty(this);
+    connect(empty, &ScopeEmpty::nextStep, this, &ScopeWorkspace::openBenchWanted);
+    connect(empty, &ScopeEmpty::openClicked, files_.get(), &ScopeFiles::askOpen);
+    stack_->addWidget(empty);
+    columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, this);
+    stack_->addWidget(columns_);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSizeConstraint(QLayout::SetNoConstraint);  // see minimumSizeHint()
     layout->addWidget(stack_);
-}
-
-QWidget* ScopeWorkspace::buildEmpty() {
-    auto* empty = new EmptyState(tr("The oscilloscope shows and measures what really arrives at the electrodes.\n"
-                                    "No bench is open, and no capture is loaded."),
-                                 tr("Open the simulated bench"), this);
-    connect(empty, &EmptyState::nextStep, this, &ScopeWorkspace::openBenchWanted);
-    auto* open = new QPushButton(tr("Open a capture…"), empty);
-    open->setToolTip(tr("A CSV file with time_s and a column per channel, as this program saves them."));
-    connect(open, &QPushButton::clicked, files_.get(), &ScopeFiles::askOpen);
-    auto* column = static_cast<QVBoxLayout*>(empty->layout());
-    column->insertWidget(column->count() - 1, open, 0, Qt::AlignCenter);
-    return empty;
 }
 
 void ScopeWorkspace::connectTools() {
@@ -139,11 +86,7 @@ void ScopeWorkspace::connectTools() {
     connect(tools_, &ScopeTools::timeCursorsToggled, &model_, &ScopeModel::setTimeCursors);
     connect(tools_, &ScopeTools::levelCursorsToggled, &model_, &ScopeModel::setLevelCursors);
     connect(gestures_.get(), &ScopeGestures::boxZoomEnded, tools_, &ScopeTools::endBox);
-    connect(tools_, &ScopeTools::controlsClicked, this, [this](bool on) {
-        controlsWanted_ = on;
-        controlsForced_ = on;
-        fitControls();
-    });
+    connect(tools_, &ScopeTools::controlsClicked, columns_, &ScopeColumns::askForControls);
     connect(tools_, &ScopeTools::tableClicked, table_, &QWidget::setVisible);
     connect(tools_, &ScopeTools::timeBaseChosen, &model_, &ScopeModel::setTimePerDivision);
     connect(tools_, &ScopeTools::spectrumClicked, &controls_->view(), &ViewPanel::setSpectrum);
@@ -153,27 +96,10 @@ void ScopeWorkspace::connectTools() {
         on ? controls_->mask().make(model_.shown()) : controls_->mask().remove();
         showState();
     });
-    connect(cancelOpen_, &QToolButton::clicked, &pipe_, &CapturePipe::cancelOpen);
+    connect(status_, &ScopeStatus::cancelClicked, &pipe_, &CapturePipe::cancelOpen);
     connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
     connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
-    const auto onKey = [this](const QKeySequence& key, auto task) {
-        auto* shortcut = new QShortcut(key, this);
-        // The tools may stand in another row than this: the keys are this view's wherever the focus is in the window.
-        shortcut->setContext(Qt::WindowShortcut);
-        connect(shortcut, &QShortcut::activated, this, task);
-    };
-    onKey(Qt::Key_A, [this] { setMode(ScopeMode::Auto); });
-    onKey(Qt::Key_N, [this] { setMode(ScopeMode::Normal); });
-    onKey(Qt::Key_S, [this] { setMode(ScopeMode::Single); });
-    onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
-    onKey(Qt::Key_T, [this] { tools_->toggleTimeCursors(); });
-    onKey(Qt::Key_L, [this] { tools_->toggleLevelCursors(); });
-    onKey(Qt::Key_B, [this] { tools_->toggleBox(); });
-    onKey(Qt::Key_D, [this] { emit driveWanted(); });
-    onKey(QKeySequence::Save, [this] {
-        if (model_.shown()) files_->askSavePicture();
-    });
-    onKey(QKeySequence::Undo, [this] { model_.undoZoom(); });
+    addScopeKeys(*this, *tools_, *files_);
 }
 
 void ScopeWorkspace::connectModel() {
@@ -182,11 +108,6 @@ void ScopeWorkspace::connectModel() {
         tools_->setCanUndo(model_.canUndo());
         tools_->showTimeBase(model_.viewport().perDivision_s);
         sayCursors();
-        showSpectrum();
-    });
-    connect(&model_, &ScopeModel::lanesChanged, this, [this] {
-        spectrum_->setLanes(model_.lanes());
-        showSpectrum();
     });
     connect(&model_, &ScopeModel::triggerLevelChosen, this, [this](double level) {
         controls_->acquisition().setLevel(level);
@@ -208,7 +129,7 @@ void ScopeWorkspace::connectPanels() {
         pipe_.recalculate(model_.shown());
     });
     connect(view, &ViewPanel::spectrumToggled, this, &ScopeWorkspace::showSpectrum);
-    connect(spectrum_, &SpectrumPanel::chosen, this, &ScopeWorkspace::showSpectrum);
+    spectrum_->follow(model_);
     connect(view, &ViewPanel::averageChanged, this, &ScopeWorkspace::average);
     connect(table_, &MeasurementTable::resetClicked, this, [this] {
         pipe_.setAverage(1);
@@ -247,35 +168,16 @@ void ScopeWorkspace::connectBench() {
         if (model_.shown() && model_.shown()->capture == shown->capture) model_.replaceMath(shown);
     });
     connect(&pipe_, &CapturePipe::openingChanged, this, &ScopeWorkspace::showState);
-    connect(&pipe_, &CapturePipe::failed, this, [this](const QString& what) { tell(done_, what); });
+    connect(&pipe_, &CapturePipe::failed, this, [this](const QString& what) {
+        status_->tellProblem(what);
+        showState();
+    });
 }
 
 /// Without the column at the right, which goes where there is no room for it: large text must not make the window
 /// larger than its screen.
 QSize ScopeWorkspace::minimumSizeHint() const {
     return {screen_->minimumWidth() + fontMetrics().averageCharWidth() * 4, fontMetrics().height() * 16};
-}
-
-void ScopeWorkspace::fitControls() {
-    const int needed = screen_->minimumWidth() + controls_->sizeHint().width() + fontMetrics().averageCharWidth() * 4;
-    const bool room = width() >= needed;
-    if (room) controlsForced_ = false;
-    const bool on = controlsWanted_ && (room || controlsForced_);
-    tools_->showControls(on);
-    controls_->setVisible(on);
-}
-
-void ScopeWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fitControls();
-}
-
-void ScopeWorkspace::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (acquisition_ == nullptr) return;
-    if (event->type() == QEvent::PaletteChange) showSpectrum();
-    if (event->type() != QEvent::FontChange) return;
-    QMetaObject::invokeMethod(this, &ScopeWorkspace::fitControls, Qt::QueuedConnection);  // once all have the new font
 }
 
 void ScopeWorkspace::hideEvent(QHideEvent* event) {
@@ -305,9 +207,7 @@ void ScopeWorkspace::save() const {
     readings_.save(settings);
     spectrum_->save(settings);
     saveView(settings, model_.chosenView());
-    settings.setValue("panels", plots_->saveState());
-    settings.setValue("controls", controlsWanted_);
-    settings.setValue("table", !table_->isHidden());
+    columns_->save(settings);
 }
 
 void ScopeWorkspace::restore() {
@@ -317,14 +217,7 @@ void ScopeWorkspace::restore() {
     readings_.restore(settings);
     spectrum_->restore(settings);
     model_.setChosenView(restoredView(settings));
-    plots_->restoreState(settings.value("panels").toByteArray());  // says no to what it did not write
-    plots_->setOrientation(Qt::Vertical);
-    plots_->setChildrenCollapsible(false);
-    // At a first start the screen gets all the room; both panels are opened from the tools.
-    controlsWanted_ = rememberedFlag(settings, "controls").value_or(false);
-    table_->setVisible(rememberedFlag(settings, "table").value_or(false));
-    tools_->showTable(!table_->isHidden());
-    fitControls();
+    columns_->restore(settings);
     const auto known = std::find(kModes.begin(), kModes.end(), settings.value("mode").toString());
     applyMode(known == kModes.end() ? mode() : static_cast<ScopeMode>(known - kModes.begin()));
 }
@@ -343,7 +236,7 @@ void ScopeWorkspace::benchChanged() {
             acquisition_->wantAgain();
         }
     }
-    if (acquisition_->benchChanged(watched_ || isVisible())) problem_.clear();
+    if (acquisition_->benchChanged(watched_ || isVisible())) status_->forgetProblem();
     showState();
 }
 
@@ -370,7 +263,7 @@ void ScopeWorkspace::applyMode(ScopeMode mode) {
 }
 
 void ScopeWorkspace::run() {
-    problem_.clear();
+    status_->forgetProblem();
     acquisition_->run();
     showState();
 }
@@ -395,8 +288,7 @@ void ScopeWorkspace::take(const ShownPtr& shown) {
         return say();
     }
     if (!model_.shown() || model_.shown()->source != shown->source || !ours) table_->clear();
-    problem_.clear();
-    done_.clear();
+    status_->forget();
     model_.show(shown);
     // At first the record is seen whole; the first train that comes of it is what one wants to see.
     if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
@@ -419,11 +311,12 @@ bool ScopeWorkspace::outlives(const ShownCapture& next) const {
 bool ScopeWorkspace::openCaptureFile(const QString& path) {
     const QFileInfo file(path);
     if (!file.isFile() || !file.isReadable()) {
-        tell(done_, tr("%1 cannot be read. What is shown stays.").arg(path));
+        status_->tellProblem(tr("%1 cannot be read. What is shown stays.").arg(path));
+        showState();
         return false;
     }
     hold();
-    problem_.clear();
+    status_->forgetProblem();
     pipe_.open(path);
     return true;
 }
@@ -436,8 +329,7 @@ void ScopeWorkspace::show(std::shared_ptr<const Capture> capture, const QString&
 void ScopeWorkspace::saveAs(const QString& path) { files_->saveAs(path); }
 
 void ScopeWorkspace::tell(const QString& done, const QString& problem) {
-    done_ = done;
-    problem_ = problem;
+    status_->tell(done, problem);
     showState();
 }
 
@@ -449,15 +341,6 @@ QString ScopeWorkspace::triggerLane() const {
     return {};
 }
 
-QString ScopeWorkspace::statusText() const {
-    if (!problem_.isEmpty()) return problem_;
-    if (pipe_.opening()) return tr("Reading the capture, %1 %…").arg(pipe_.percentRead());
-    if (!done_.isEmpty()) return done_;
-    auto text = acquisition_->statusText(model_.shown().get(), pipe_.skippedCaptures());
-    if (const auto mask = controls_->mask().said(); !mask.isEmpty()) text += " · " + mask;
-    return text;
-}
-
 void ScopeWorkspace::showState() {
     tools_->showRunning(running(), acquisition_->possible());
     const auto& shown = model_.shown();
@@ -466,12 +349,13 @@ void ScopeWorkspace::showState() {
     controls_->mask().canMake(triggered);
     const bool empty = !model_.shown() && controller_.activity() == Activity::Closed && !pipe_.opening();
     stack_->setCurrentIndex(empty ? 0 : 1);
-    cancelOpen_->setVisible(pipe_.opening());
     say();
 }
 
 void ScopeWorkspace::say() {
-    status_->setText(statusText());
+    auto standing = acquisition_->statusText(model_.shown().get(), pipe_.skippedCaptures());
+    if (const auto mask = controls_->mask().said(); !mask.isEmpty()) standing += " · " + mask;
+    status_->show(pipe_.opening() ? std::optional(pipe_.percentRead()) : std::nullopt, standing);
     const auto& shown = model_.shown();
     const bool ours = !shown || shown->source.isEmpty();
     model_.setTrigger(ours && !model_.roll() ? triggerLane() : QString(), settings().triggerLevel,
@@ -507,12 +391,6 @@ void ScopeWorkspace::showSpectrum() {
     const bool wanted = controls_->view().wantsSpectrum();
     spectrum_->setVisible(wanted);
     tools_->showSpectrum(wanted);
-    if (!wanted) return;
-    const auto key = spectrum_->lane();
-    const auto* lane = model_.lane(key);
-    const double zero = model_.zero_s();
-    spectrum_->show(model_.trace(key), model_.viewport().left_s + zero, model_.viewport().right_s() + zero,
-                    lane == nullptr ? colours().text : laneColour(model_, *lane));
 }
 
 }  // namespace tacto::gui

@@ -5,9 +5,6 @@
 //
 // What the user chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
 //
-// Keys, wherever the focus is in the window while this is visible: R run or hold, A auto, N normal, S single, T and L
-// cursors, B box, D drive, Ctrl+S saves the picture; the screen's own are in ScopeGestures.h.
-//
 // Thread-safety: the GUI thread.
 #pragma once
 
@@ -19,18 +16,17 @@
 #include "app/gui/scope/ScopeAcquisition.h"
 #include "app/gui/scope/ScopeModel.h"
 
-class QLabel;
-class QSplitter;
 class QStackedWidget;
-class QToolButton;
 
 namespace tacto::gui {
 
 class MeasurementTable;
+class ScopeColumns;
 class ScopeControls;
 class ScopeFiles;
 class ScopeGestures;
 class ScopeScreen;
+class ScopeStatus;
 class ScopeTools;
 class SpectrumPanel;
 struct ScopeCaption;
@@ -87,14 +83,11 @@ signals:
 protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
-    void changeEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
 private:
     void layOut();
-    QWidget* buildEmpty();
     void connectTools();
     void connectModel();
     void connectPanels();
@@ -107,14 +100,12 @@ private:
     void average();
     [[nodiscard]] ScopeCaption caption() const;
     void tell(const QString& done, const QString& problem);
-    void fitControls();
     void save() const;
     void restore();
     void say();
     void sayCursors();
     void showSpectrum();
     void showState();
-    [[nodiscard]] QString statusText() const;
     [[nodiscard]] QString triggerLane() const;
 
     BenchController& controller_;
@@ -126,23 +117,18 @@ private:
     bool framed_ = false;            ///< the first train of it was
     int averages_ = 1;
     bool watched_ = false;
-    QString problem_;
-    QString done_;  ///< what was saved
 
     // Constructed in the order of the tab key.
     ScopeTools* tools_;
-    QToolButton* cancelOpen_;
+    ScopeStatus* status_;
     ScopeScreen* screen_;
     std::unique_ptr<ScopeGestures> gestures_;
     std::unique_ptr<ScopeAcquisition> acquisition_;
     ScopeControls* controls_;
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;
-    QLabel* status_;
     QStackedWidget* stack_;
-    QSplitter* plots_;
-    bool controlsWanted_ = false;
-    bool controlsForced_ = false;  ///< asked for where there is no room for them
+    ScopeColumns* columns_ = nullptr;
 };
 
 }  // namespace tacto::gui

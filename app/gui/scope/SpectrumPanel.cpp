@@ -14,6 +14,8 @@
 
 #include "app/gui/scope/Remembered.h"
 #include "app/gui/scope/ScopeLanes.h"
+#include "app/gui/scope/ScopeModel.h"
+#include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -336,6 +338,32 @@ void SpectrumPanel::changeEvent(QEvent* event) {
     if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
     restyle();
     plot_->replot(QCustomPlot::rpQueuedReplot);
+    if (event->type() == QEvent::PaletteChange) showModel();  // the lane's colour
+}
+
+void SpectrumPanel::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    showModel();
+}
+
+void SpectrumPanel::follow(const ScopeModel& model) {
+    model_ = &model;
+    connect(&model, &ScopeModel::lanesChanged, this, [this] {
+        setLanes(model_->lanes());
+        showModel();
+    });
+    connect(&model, &ScopeModel::viewChanged, this, &SpectrumPanel::showModel);
+    connect(this, &SpectrumPanel::chosen, this, &SpectrumPanel::showModel);
+}
+
+void SpectrumPanel::showModel() {
+    if (model_ == nullptr || isHidden()) return;
+    const auto key = lane();
+    const auto* its = model_->lane(key);
+    const double zero = model_->zero_s();
+    const auto& view = model_->viewport();
+    show(model_->trace(key), view.left_s + zero, view.right_s() + zero,
+         its == nullptr ? colours().text : laneColour(*model_, *its));
 }
 
 }  // namespace tacto::gui

@@ -24,6 +24,7 @@ class QCPItemText;
 
 namespace tacto::gui {
 
+class ScopeModel;
 struct ScopeLane;
 
 /// RMS over frequency, from the first bin above 0 up to half the rate.
@@ -49,6 +50,9 @@ public:
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;
 
+    /// Shows the chosen lane's part that is on the screen, and follows the model from now on while visible. `model`
+    /// outlives this, or takes its leave with disconnect().
+    void follow(const ScopeModel& model);
     void setLanes(const std::vector<ScopeLane>& lanes);
     [[nodiscard]] QString lane() const;
     [[nodiscard]] SpectralWindow window() const;
@@ -69,8 +73,10 @@ signals:
 
 protected:
     void changeEvent(QEvent* event) override;
+    void showEvent(QShowEvent* event) override;
 
 private:
+    void showModel();
     void calculate(const Trace& trace, double from_s, double to_s);
     void findPeaks(const QString& unit);
     void draw();
@@ -78,6 +84,7 @@ private:
     void namePeaks();
     void restyle();
 
+    const ScopeModel* model_ = nullptr;
     QComboBox* channel_;
     QComboBox* window_;
     QCheckBox* log_;

@@ -7,8 +7,6 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPushButton>
-#include <QScreen>
-#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
 #include <QToolBar>
@@ -26,6 +24,7 @@
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/window/ArmQuestion.h"
 #include "app/gui/window/CloseQuestion.h"
 #include "app/gui/window/ComingWorkspace.h"
 #include "app/gui/window/DayDialog.h"
@@ -36,13 +35,15 @@
 #include "app/gui/window/MarkLine.h"
 #include "app/gui/window/Menus.h"
 #include "app/gui/window/NoticeBanner.h"
-#include "app/gui/window/RailButton.h"
 #include "app/gui/window/RecentFiles.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
+#include "app/gui/window/ScrollingPage.h"
 #include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StopKeys.h"
 #include "app/gui/window/WelcomeTour.h"
+#include "app/gui/window/WindowPlace.h"
+#include "app/gui/window/WorkspaceRail.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/devices/Driver.h"
 
@@ -57,29 +58,6 @@ enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
 bool opensDocks(int page) { return page == kLive || page == kPilot; }
-
-/// What a simulated stimulator drives. What is connected to a real one only the operator can say.
-QString knownLoad(const SessionAbout& about) {
-    for (const auto& device : about.devices) {
-        const auto uri = DeviceUri::parse(device.uri);
-        if (device.role != "stimulator" || !uri || uri->scheme != "sim") continue;
-        const auto load = std::ranges::find(uri->parameters, "load", [](const auto& p) { return p.first; });
-        return QString::fromStdString(load == uri->parameters.end() ? kDefaultLoad : load->second);
-    }
-    return {};
-}
-
-/// The page, with scroll bars where there is less room than it needs: no page makes the window larger than the screen.
-QScrollArea* scrolling(QWidget* page, QWidget* parent) {
-    auto* area = new QScrollArea(parent);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    area->setFocusPolicy(Qt::NoFocus);
-    area->setMinimumSize(1, 1);
-    area->setWidget(page);
-    for (auto* ground : {page, area->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
-    return area;
-}
 
 }  // namespace
 
@@ -122,15 +100,22 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     }
 
     buildPages();
-    buildNavigation();
+    rail_ = new WorkspaceRail(this);
+    addToolBar(Qt::LeftToolBarArea, rail_);
+    connect(rail_, &WorkspaceRail::chosen, this, [this](int index) {
+        showWorkspace(index);
+        focusWorkspace();
+    });
     buildDocks();
-    new Menus(*this, *navigation_, *docks_, *line_);
+    new Menus(*this, rail_->workspaces(), *docks_, *line_);
     auto* day = new DayButton(controller_.day(), menuBar());
     connect(day, &QToolButton::clicked, this, [this] { askForDay(false); });
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     tour_ = new WelcomeTour(*this);
     const auto all = runners();
     closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()});
+    arming_ = new ArmQuestion(controller_, *this);
+    connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
@@ -151,15 +136,15 @@ void MainWindow::buildPages() {
     livePage_->setObjectName("livePage");
     live_ = new LiveWorkspace(controller_, livePage_);
     scope_ = new ScopeWorkspace(controller_, livePage_);
-    livePage_->addTab(scrolling(live_, livePage_), tr("&Touch"), live_->tools());
-    livePage_->addTab(scrolling(scope_, livePage_), tr("&Oscilloscope"), scope_->tools());
+    livePage_->addTab(new ScrollingPage(live_, livePage_), tr("&Touch"), live_->tools());
+    livePage_->addTab(new ScrollingPage(scope_, livePage_), tr("&Oscilloscope"), scope_->tools());
     pages_->addWidget(livePage_);
     calibrate_ = new CalibrateWorkspace(controller_, calibrations_, pages_);
-    pages_->addWidget(scrolling(calibrate_, pages_));
+    pages_->addWidget(new ScrollingPage(calibrate_, pages_));
     safetyCheck_ = new ProtocolWorkspace(controller_, "load-safety", pages_);
-    pages_->addWidget(scrolling(safetyCheck_, pages_));
+    pages_->addWidget(new ScrollingPage(safetyCheck_, pages_));
     separability_ = new ProtocolWorkspace(controller_, "separability", pages_);
-    pages_->addWidget(scrolling(separability_, pages_));
+    pages_->addWidget(new ScrollingPage(separability_, pages_));
     pages_->addWidget(new ComingWorkspace(
         tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
         {tr("Consent, accepted levels and the ramp that approaches them"),
@@ -167,9 +152,9 @@ void MainWindow::buildPages() {
          tr("Participants by pseudonym, trials as data")},
         tr("Nothing in this version can be armed for a person."), pages_));
     sessions_ = new SessionsWorkspace(controller_, pages_);
-    pages_->addWidget(scrolling(sessions_, pages_));
+    pages_->addWidget(new ScrollingPage(sessions_, pages_));
     protocols_ = new ProtocolWorkspace(controller_, QString(), pages_);
-    pages_->addWidget(scrolling(protocols_, pages_));
+    pages_->addWidget(new ScrollingPage(protocols_, pages_));
     for (auto* runner : calibrate_->runners())
         connect(runner, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kCalibrate); });
     connect(safetyCheck_, &ProtocolWorkspace::attentionWanted, this, [this] { showWorkspace(kSafetyCheck); });
@@ -192,45 +177,6 @@ void MainWindow::buildPages() {
         showWorkspace(kLive);
         livePage_->setCurrentIndex(kTouch);
     });
-}
-
-void MainWindow::buildNavigation() {
-    auto* bar = new QToolBar(tr("Workspaces"), this);
-    bar->setObjectName("workspaces");
-    bar->setMovable(false);
-    bar->setFloatable(false);
-    bar->toggleViewAction()->setEnabled(false);
-    bar->setContextMenuPolicy(Qt::PreventContextMenu);
-    navigation_ = new QActionGroup(this);
-    struct Entry {
-        QString name, icon, tip;
-    };
-    const Entry entries[] = {
-        {tr("Live"), "live", tr("Touch, drive by hand, replay, and the oscilloscope")},
-        {tr("Calibrate"), "calibrate", tr("What the stimulator really delivers, and until when that holds")},
-        {tr("Safety check"), "safety-check", tr("Limits on resistor loads")},
-        {tr("Separability"), "separability", tr("Can an oscilloscope tell the four conditions apart?")},
-        {tr("Pilot"), "pilot", tr("Sessions with volunteers")},
-        {tr("Sessions"), "sessions", tr("Everything that was recorded")},
-        {tr("Protocols"), "protocols", tr("Every protocol script, shipped and the lab's own")},
-    };
-    int index = 0;
-    for (const auto& [name, iconName, tip] : entries) {
-        auto* action = new QAction(name, this);
-        action->setCheckable(true);
-        action->setShortcut(QKeySequence(Qt::CTRL | static_cast<Qt::Key>(Qt::Key_1 + index)));
-        action->setToolTip(tr("%1 (%2)").arg(tip, action->shortcut().toString(QKeySequence::NativeText)));
-        navigation_->addAction(action);
-        connect(action, &QAction::triggered, this, [this, index] {
-            showWorkspace(index);
-            focusWorkspace();
-        });
-        bar->addWidget(new RailButton(action, iconName, bar));
-        addAction(action);  // its key
-        ++index;
-    }
-    addToolBar(Qt::LeftToolBarArea, bar);
-    rail_ = bar;
 }
 
 void MainWindow::buildDocks() {
@@ -281,7 +227,7 @@ void MainWindow::tick() {
 void MainWindow::showWorkspace(int index) {
     if (index < 0 || index >= pages_->count()) return;
     pages_->setCurrentIndex(index);
-    navigation_->actions().at(index)->setChecked(true);
+    rail_->setCurrent(index);
     docks_->enter(index, opensDocks(index));
 }
 
@@ -316,32 +262,11 @@ void MainWindow::showScope() {
 void MainWindow::noteChange() {
     const auto open = controller_.open();
     setWindowTitle(open && open->simulated() ? tr("Tactoscope – simulated") : tr("Tactoscope"));
-    if (controller_.activity() == Activity::Live && open) {
-        if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
-    }
 }
 
-void MainWindow::askToArm() {
-    if (controller_.activity() != Activity::Live) {
-        return banner_->complain(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
-    }
-    askToConfirm(ArmDialog::Purpose::Arm);
-}
+void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
 
-void MainWindow::checkImpedance() {
-    const auto open = controller_.open();
-    if (controller_.activity() != Activity::Live || !open || !open->source)
-        return banner_->complain(tr("No impedance to check: no stimulator is open. Open the simulated bench (Ctrl+B)"));
-    askToConfirm(ArmDialog::Purpose::CheckImpedance);
-}
-
-void MainWindow::askToConfirm(ArmDialog::Purpose purpose) {
-    auto* dialog = new ArmDialog(controller_, purpose, load_, this);
-    connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
-    // What it asks about is the bench that is open now: with another bench or profile the question is void.
-    connect(&controller_, &BenchController::changed, dialog, &QDialog::reject);
-    openDialog(dialog);
-}
+void MainWindow::checkImpedance() { arming_->ask(ArmDialog::Purpose::CheckImpedance); }
 
 void MainWindow::askForSimulatedBench() { openDialog(new SimulatedBenchDialog(controller_, this)); }
 
@@ -416,7 +341,7 @@ void MainWindow::restore() {
     QSettings settings;
     setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(kWanted);
-    stayOnScreen();
+    keepOnScreen(*this);
     if (!restoreState(settings.value("state").toByteArray())) {
         QTimer::singleShot(0, this, [this] { docks_->reset(); });  // once the window is laid out
     }
@@ -428,30 +353,15 @@ void MainWindow::restore() {
     showWorkspace(settings.value("workspace", 0).toInt());
 }
 
-/// STOP is in the window's corner: no part of the window may lie beyond the screen, whatever it was when it was left.
-void MainWindow::stayOnScreen() {
-    if (isMaximized() || isFullScreen()) return;
-    const auto room = screen()->availableGeometry();
-    // Before the window is shown its frame is not known; the second call, then, takes it off.
-    const auto frame = frameGeometry().size() - geometry().size();
-    resize(size().boundedTo(room.size() - frame));
-    auto place = frameGeometry();
-    place.moveRight(std::min(place.right(), room.right()));
-    place.moveBottom(std::min(place.bottom(), room.bottom()));
-    place.moveLeft(std::max(place.left(), room.left()));
-    place.moveTop(std::max(place.top(), room.top()));
-    if (place.topLeft() != frameGeometry().topLeft()) move(place.topLeft());
-}
-
 void MainWindow::showEvent(QShowEvent* event) {
     QMainWindow::showEvent(event);
     if (event->spontaneous()) return;
-    QTimer::singleShot(0, this, &MainWindow::stayOnScreen);  // once the window system has put its frame around it
+    QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });  // once the window system has put its frame around it
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
-    for (auto* button : rail_->findChildren<RailButton*>()) button->updateGeometry();  // narrow in a low window
+    rail_->fit();
 }
 
 void MainWindow::changeEvent(QEvent* event) {

@@ -5,24 +5,20 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QActionGroup>
 #include <QMainWindow>
 #include <QStackedWidget>
 #include <QTimer>
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/window/ArmDialog.h"
-
-class QToolBar;
 
 namespace tacto::gui {
 
+class ArmQuestion;
 class CalibrateWorkspace;
 class CloseQuestion;
 class DeviceDock;
@@ -41,6 +37,7 @@ class ScopeWorkspace;
 class SessionsWorkspace;
 class TabbedPage;
 class WelcomeTour;
+class WorkspaceRail;
 
 class MainWindow final : public QMainWindow {
     Q_OBJECT
@@ -89,14 +86,11 @@ protected:
 private:
     void buildPages();
     void buildDocks();
-    void buildNavigation();
     void restore();
-    void stayOnScreen();
     void tick();
     /// All that run protocols.
     [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
-    void askToConfirm(ArmDialog::Purpose purpose);
     void showScope();
     void focusWorkspace();
 
@@ -123,11 +117,9 @@ private:
     MarkLine* mark_ = nullptr;
     WelcomeTour* tour_ = nullptr;
     CloseQuestion* closing_ = nullptr;
-    QActionGroup* navigation_ = nullptr;
-    QToolBar* rail_ = nullptr;
+    ArmQuestion* arming_ = nullptr;
+    WorkspaceRail* rail_ = nullptr;
     QTimer frame_;
-    QString load_;                  // declared last
-    std::filesystem::path loadOf_;  // the session of its bench
 };
 
 }  // namespace tacto::gui

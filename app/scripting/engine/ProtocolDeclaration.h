@@ -12,14 +12,12 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "core/base/Result.h"
+#include "app/scripting/engine/ProtocolParameter.h"
 #include "core/devices/Device.h"
 
 namespace tacto {
@@ -35,26 +33,6 @@ struct ProtocolSource {
 
 /// Where a script comes from, for people: "shipped with the program", or its path.
 [[nodiscard]] std::string originOf(const ProtocolSource& source);
-
-/// A day is written as 2027-03-01, a file is its path; an empty text is neither.
-enum class ParameterType { Number, Integer, Choice, Text, Boolean, Date, File };
-/// "number", "integer", "choice", "text", "boolean", "date", "file"
-[[nodiscard]] std::string_view nameOf(ParameterType type) noexcept;
-
-struct ProtocolParameter {
-    std::string name;   ///< the key of --set and of `p` in run(p)
-    std::string label;  ///< for people; the name where the script gives none
-    std::string unit;   ///< "ohm", "s"; empty for a bare number
-    ParameterType type = ParameterType::Number;
-    std::optional<double> min;  ///< Number and Integer
-    std::optional<double> max;
-    std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
-    nlohmann::json value;                                      ///< the default, within the range
-    bool reference = false;  ///< of the known reference that is read first: `step: "reference"`
-    /// What is not known without it; 0 or nothing is no answer then, and a window asks for it first. May be empty.
-    std::string needed;
-    [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
-};
 
 struct ProtocolDeclaration {
     std::string name;
@@ -85,17 +63,14 @@ struct ProtocolSettings {
                                                           std::chrono::milliseconds limit = std::chrono::seconds(1));
 
 /// Reads what protocol() was given. `order` and `choiceOrder`: the parameters' names as written, and the keys of each
-/// one's choices. A title has at most 200 characters, a parameter's name too, any other text 2000; a whole number lies
-/// within ±2^53. Errors: InvalidArgument naming the parameter and the key.
+/// one's choices. A title has at most 200 characters, any other text 2000. Errors: InvalidArgument naming the key; as
+/// parseParameter().
 [[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
                                                            const nlohmann::json& choiceOrder);
 
 /// What `now` declares otherwise than `before`, as "another purpose"; empty where they declare the same. Names and
 /// questions are not compared: a script does not declare those.
 [[nodiscard]] std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now);
-
-/// Checks one value as text against its parameter. Errors: InvalidArgument naming key, value and what is accepted.
-[[nodiscard]] Result<nlohmann::json> parseSetting(const ProtocolParameter& parameter, std::string_view text);
 
 /// Defaults overridden by `settings`; keys that are no parameter answer the script's questions.
 /// Errors: as parseSetting(); InvalidArgument for an unknown key, listing the known ones.

@@ -1,0 +1,92 @@
+#include "app/gui/scope/ScopeColumns.h"
+
+#include <QEvent>
+#include <QSettings>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include "app/gui/scope/MeasurementTable.h"
+#include "app/gui/scope/Remembered.h"
+#include "app/gui/scope/ScopeControls.h"
+#include "app/gui/scope/ScopeScreen.h"
+#include "app/gui/scope/ScopeStatus.h"
+#include "app/gui/scope/ScopeTools.h"
+#include "app/gui/scope/SpectrumPanel.h"
+
+namespace tacto::gui {
+
+ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
+    : QWidget(parent), parts_(parts), plots_(new QSplitter(Qt::Vertical, this)) {
+    plots_->setChildrenCollapsible(false);
+    plots_->addWidget(&parts_.screen);
+    plots_->addWidget(&parts_.spectrum);
+    plots_->addWidget(&parts_.table);
+    plots_->setStretchFactor(0, 5);
+    plots_->setStretchFactor(1, 2);
+    plots_->setStretchFactor(2, 2);
+    plots_->setSizes({600, 200, 190});
+    parts_.spectrum.hide();
+    parts_.table.hide();
+
+    auto* left = new QWidget(this);
+    auto* column = new QVBoxLayout(left);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(&parts_.status);
+    column->addWidget(plots_, 1);
+
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addWidget(&parts_.tools);
+    auto* row = new QHBoxLayout;
+    row->addWidget(left, 1);
+    row->addWidget(&parts_.controls);
+    rows->addLayout(row, 1);
+}
+
+void ScopeColumns::askForControls(bool on) {
+    wanted_ = on;
+    forced_ = on;
+    fitControls();
+}
+
+void ScopeColumns::fitControls() {
+    const int needed =
+        parts_.screen.minimumWidth() + parts_.controls.sizeHint().width() + fontMetrics().averageCharWidth() * 4;
+    const bool room = width() >= needed;
+    if (room) forced_ = false;
+    const bool on = wanted_ && (room || forced_);
+    parts_.tools.showControls(on);
+    parts_.controls.setVisible(on);
+}
+
+void ScopeColumns::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fitControls();
+}
+
+void ScopeColumns::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() != QEvent::FontChange || plots_ == nullptr) return;
+    QMetaObject::invokeMethod(this, &ScopeColumns::fitControls, Qt::QueuedConnection);  // once all have the new font
+}
+
+void ScopeColumns::save(QSettings& settings) const {
+    settings.setValue("panels", plots_->saveState());
+    settings.setValue("controls", wanted_);
+    settings.setValue("table", !parts_.table.isHidden());
+}
+
+void ScopeColumns::restore(QSettings& settings) {
+    plots_->restoreState(settings.value("panels").toByteArray());  // says no to what it did not write
+    plots_->setOrientation(Qt::Vertical);
+    plots_->setChildrenCollapsible(false);
+    // At a first start the screen gets all the room; both panels are opened from the tools.
+    wanted_ = rememberedFlag(settings, "controls").value_or(false);
+    parts_.table.setVisible(rememberedFlag(settings, "table").value_or(false));
+    parts_.tools.showTable(!parts_.table.isHidden());
+    fitControls();
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,52 @@
+// ScopeColumns.h - the oscilloscope's parts on the page: tools above; status, screen, spectrum and measurements below
+// each other; the controls beside them, where there is room.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+
+class QSettings;
+class QSplitter;
+
+namespace tacto::gui {
+
+class MeasurementTable;
+class ScopeControls;
+class ScopeScreen;
+class ScopeStatus;
+class ScopeTools;
+class SpectrumPanel;
+
+class ScopeColumns final : public QWidget {
+    Q_OBJECT
+public:
+    struct Parts {
+        ScopeTools& tools;
+        ScopeStatus& status;
+        ScopeScreen& screen;
+        SpectrumPanel& spectrum;
+        MeasurementTable& table;
+        ScopeControls& controls;
+    };
+    ScopeColumns(const Parts& parts, QWidget* parent);
+    /// Shows or hides the controls; here also where they take room from the screen.
+    void askForControls(bool on);
+
+    void save(QSettings& settings) const;
+    void restore(QSettings& settings);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void fitControls();
+
+    Parts parts_;
+    QSplitter* plots_;
+    bool wanted_ = false;
+    bool forced_ = false;  ///< asked for where there is no room for them
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,42 @@
+#include "app/gui/scope/ScopeStatus.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+ScopeStatus::ScopeStatus(QWidget* parent) : QWidget(parent), text_(new QLabel(this)), cancel_(new QToolButton(this)) {
+    text_->setObjectName("scopeStatus");
+    text_->setWordWrap(true);
+    setTextSize(*text_, TextSize::Small);
+    cancel_->setText(tr("Cancel"));
+    cancel_->setToolTip(tr("Gives up reading. What is shown stays."));
+    cancel_->setAutoRaise(true);
+    cancel_->setFocusPolicy(Qt::StrongFocus);
+    cancel_->hide();
+    connect(cancel_, &QToolButton::clicked, this, &ScopeStatus::cancelClicked);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(8, 2, 8, 0);
+    row->addWidget(text_, 1);
+    row->addWidget(cancel_);
+}
+
+void ScopeStatus::tell(const QString& done, const QString& problem) {
+    done_ = done;
+    problem_ = problem;
+}
+
+void ScopeStatus::forget() { tell({}, {}); }
+
+void ScopeStatus::show(std::optional<int> percentRead, const QString& standing) {
+    cancel_->setVisible(percentRead.has_value());
+    text_->setText(!problem_.isEmpty() ? problem_
+                   : percentRead       ? tr("Reading the capture, %1 %…").arg(*percentRead)
+                   : !done_.isEmpty()  ? done_
+                                       : standing);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,14 @@
+#include "app/gui/window/ScrollingPage.h"
+
+namespace tacto::gui {
+
+ScrollingPage::ScrollingPage(QWidget* page, QWidget* parent) : QScrollArea(parent) {
+    setFrameShape(QFrame::NoFrame);
+    setWidgetResizable(true);
+    setFocusPolicy(Qt::NoFocus);
+    setMinimumSize(1, 1);
+    setWidget(page);
+    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+}
+
+}  // namespace tacto::gui

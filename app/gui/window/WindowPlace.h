@@ -1,0 +1,15 @@
+// WindowPlace.h - keeps a window on its screen. STOP is in the window's corner: no part of the window may lie beyond
+// the screen, whatever the screen was when it was left.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+class QWidget;
+
+namespace tacto::gui {
+
+/// Moves and shrinks the window until it lies on its screen; a maximised one is left alone. Before a window is shown
+/// its frame is not known: called again after that, it takes the frame off.
+void keepOnScreen(QWidget& window);
+
+}  // namespace tacto::gui

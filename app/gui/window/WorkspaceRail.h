@@ -1,0 +1,29 @@
+// WorkspaceRail.h - the workspaces at the left of the window, one button each with its key, Ctrl+1 to Ctrl+7.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QActionGroup>
+#include <QToolBar>
+
+namespace tacto::gui {
+
+class WorkspaceRail final : public QToolBar {
+    Q_OBJECT
+public:
+    explicit WorkspaceRail(QWidget* parent);
+    /// One action each, in the order of the window's pages; a menu may hold them too.
+    [[nodiscard]] const QActionGroup& workspaces() const noexcept { return *workspaces_; }
+    void setCurrent(int index);
+    /// The window has another height: in a low one the buttons are low.
+    void fit();
+
+signals:
+    /// By click, key or menu.
+    void chosen(int index);
+
+private:
+    QActionGroup* workspaces_;
+};
+
+}  // namespace tacto::gui
