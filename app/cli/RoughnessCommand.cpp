@@ -90,9 +90,8 @@ int runRoughness(const QCommandLineParser& parser) {
     printRow("pressure Pa", summary.pressure_pa);
     printRow("P", summary.P);
     if (!summary.flags.empty()) {
-        say("\nFlags: ");
-        for (std::size_t i = 0; i < summary.flags.size(); ++i) say("{}{}", i ? ", " : "", summary.flags[i]);
         say("\n");
+        for (const auto& flag : summary.flags) say("{}\n", flagSentence(flag));
     }
     say("\n{}\n", kKnownLimitOfR);
     return kDone;

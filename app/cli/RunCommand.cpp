@@ -15,6 +15,7 @@
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Printable.h"
+#include "core/dsp/RoughnessFlags.h"
 #include "core/session/Origin.h"
 
 namespace tacto::cli {
@@ -209,7 +210,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     const auto shown = shownAs(outcome.results);
     printAnyResults(outcome.results, shown);
     say("\n");
-    for (const auto& mark : value["marks"]) say("  {}\n", mark.get<std::string>());
+    for (const auto& mark : value["marks"]) say("  {}\n", flagSentence(mark.get<std::string>()));
     printVerdict(value["verdict"].is_string() ? value["verdict"].get<std::string>()
                  : outcome.error              ? "none: the run ended before there was one"
                                               : "none: this protocol judges nothing",

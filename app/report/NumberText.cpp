@@ -80,6 +80,10 @@ QString settingText(double value, const QString& unit) {
     return withUnit(brief(si * std::pow(10.0, -prefix.exponent)), prefix.symbol + split.base);
 }
 
+QString toleranceText(double value, const QString& unit) {
+    return settingText(std::isfinite(value) ? QString::number(value, 'g', 2).toDouble() : value, unit);
+}
+
 QString proportionText(const Estimate& estimate) {
     const auto percent = [](double v) { return fixed(100 * v, 1); };
     if (!std::isfinite(estimate.value)) return kMissing;

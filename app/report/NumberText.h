@@ -27,6 +27,10 @@ namespace tacto {
 /// A setting, without padding zeros: "1 kΩ", "25", "0.15 N".
 [[nodiscard]] QString settingText(double value, const QString& unit);
 
+/// A tolerance as an instrument states it, without padding zeros and with two digits at most, for a tolerance is not
+/// known better: "0.5 %", "80 µA".
+[[nodiscard]] QString toleranceText(double value, const QString& unit);
+
 /// "99.0 % (94.6 to 99.8 %)" of an estimate of a proportion.
 [[nodiscard]] QString proportionText(const Estimate& estimate);
 

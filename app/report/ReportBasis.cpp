@@ -75,7 +75,10 @@ void readRule(const QJsonObject& results, const QString& kind, ReportBasis& basi
 QString numberOrUnknown(const QJsonObject& object, const char* key, const QString& unit, const char* name,
                         bool plusMinus = true) {
     const auto value = object.value(QLatin1String(key));
-    const QString shown = value.isDouble() ? (plusMinus ? "± " : "") + settingText(value.toDouble(), unit) : "unknown";
+    const auto known = [&] {
+        return plusMinus ? "± " + toleranceText(value.toDouble(), unit) : quantityText(value.toDouble(), unit, 2);
+    };
+    const QString shown = value.isDouble() ? known() : "unknown";
     return QString("%1 %2").arg(QLatin1String(name), shown);
 }
 

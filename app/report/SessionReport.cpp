@@ -9,6 +9,7 @@
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
 #include "core/base/JsonText.h"
+#include "core/dsp/RoughnessFlags.h"
 #include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
@@ -290,7 +291,7 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
 
     const auto marks = sessionMarks(*reader);
     if (!marks) return failure(marks);
-    for (const auto& mark : *marks) model.marks << text(mark);
+    for (const auto& mark : *marks) model.marks << text(flagSentence(mark));
     const auto measurements = reader->measurements();
     if (!measurements) return failure(measurements);
     for (const auto& row : *measurements) {

@@ -14,7 +14,8 @@ namespace tacto {
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
 [[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);
 
-/// "FDA guidance" of "fda-pms"; an id that is not shipped stands as it is.
+/// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known
+/// stands as it is.
 [[nodiscard]] QString limitSetTitle(const QString& id);
 /// "200 Ω + 10 kΩ ∥ 50 nF" of a load's name.
 [[nodiscard]] QString loadText(QString name);

@@ -53,6 +53,10 @@ struct RoughnessFlags {
     [[nodiscard]] std::vector<std::string> texts() const;
 };
 
+/// The text of a flag, with its count where it has one, as a sentence for people: "The finger is taken to slide
+/// whenever it touches: …". Any other text is returned as it is.
+[[nodiscard]] std::string flagSentence(std::string_view text);
+
 /// The last paragraph of science.md section 2. It stands wherever R is shown.
 inline constexpr const char* kKnownLimitOfR =
     "Known limit of R: on the public sliding data tried so far its features are repeatable and specific to a material, "

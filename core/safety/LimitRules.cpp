@@ -28,11 +28,18 @@ struct TrainAtLimit {
     }
 };
 
-tl::unexpected<Error> refused(const ActiveLimit& limit, double value, const std::string& aside) {
-    return fail(ErrorCode::LimitExceeded, "{} would be {:.4g} {}{}; {} allows {} {:.6g} {} ({})",
-                titleOf(limit.row.quantity), value, unitOf(limit.row.quantity), aside, limit.set.view(),
-                limit.row.strict ? "less than" : "at most", limit.row.max, unitOf(limit.row.quantity),
-                limit.row.source);
+/// The limit's source, after the title of the set that it is from; a source that begins with the title says both.
+std::string originOf(const State& state, const ActiveLimit& limit) {
+    const auto title = titleOf(state.setup->limits, limit.set.view());
+    const std::string source(limit.row.source);
+    return limit.ceiling || source.starts_with(title) ? source : fmt::format("{}; {}", title, source);
+}
+
+tl::unexpected<Error> refused(const TrainAtLimit& t, double value, const std::string& aside) {
+    const LimitRow& row = t.limit.row;
+    return fail(ErrorCode::LimitExceeded, "{} would be {:.4g} {}{}; {} {:.6g} {} is allowed ({})",
+                titleOf(row.quantity), value, unitOf(row.quantity), aside, row.strict ? "less than" : "at most",
+                row.max, unitOf(row.quantity), originOf(t.state, t.limit));
 }
 
 bool breaksAlone(const TrainAtLimit& t) {
@@ -53,7 +60,7 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
         aside = fmt::format(" in the worst case ({:.4g} {} into {})", there.at(row.quantity), unitOf(row.quantity),
                             usual.text());
     }
-    return refused(t.limit, t.valueAlone(), aside);
+    return refused(t, t.valueAlone(), aside);
 }
 
 bool breaksInWindow(const TrainAtLimit& t) {
@@ -63,7 +70,7 @@ bool breaksInWindow(const TrainAtLimit& t) {
 }
 
 tl::unexpected<Error> refusedInWindow(const TrainAtLimit& t) {
-    return refused(t.limit, t.valueInWindow(), fmt::format(" with the {} trains before it", t.window->trains));
+    return refused(t, t.valueInWindow(), fmt::format(" with the {} trains before it", t.window->trains));
 }
 }  // namespace
 

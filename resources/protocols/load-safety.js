@@ -10,7 +10,7 @@ protocol({
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     area: {
-      label: "Smallest electrode (0: profile)",
+      label: "Area of the smallest electrode (0: as in the profile)",
       unit: "cm2",
       min: 0,
       max: 1000,

@@ -36,6 +36,7 @@ std::vector<std::string> flagsOf(const Slide& slide, const RoughnessSettings& se
 TEST(Rest, TooShortBeforeContactIsAssumedAndSaid) {
     const auto flags = flagsOf(lateStart());
     EXPECT_THAT(flags, Contains("baseline assumed"));
+    for (const auto& flag : flags) EXPECT_TRUE(flagSentence(flag).ends_with('.')) << flag;
     EXPECT_THAT(flags, Contains("sliding assumed"));
 }
 

@@ -18,6 +18,12 @@ TEST(NumberText, UsesEngineeringPrefixesAndFourDigits) {
     EXPECT_EQ(plain(quantityText(0.8, "uC", 3)), "800 nC");
 }
 
+TEST(NumberText, ATolerancesDigitsAreThoseThatAreKnown) {
+    EXPECT_EQ(plain(toleranceText(80.1807e-6, "A")), "80 µA");
+    EXPECT_EQ(plain(toleranceText(0.5, "%")), "0.5 %");
+    EXPECT_EQ(plain(toleranceText(12.345, "ppm")), "12 ppm");
+}
+
 TEST(NumberText, RoundsBeforeItChoosesThePrefix) { EXPECT_EQ(plain(quantityText(0.99996, "s")), "1.000 s"); }
 
 TEST(NumberText, GivesValueAndUncertaintyTheSameDecimals) {

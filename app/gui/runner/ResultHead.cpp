@@ -6,6 +6,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/dsp/RoughnessFlags.h"
 
 namespace tacto::gui {
 
@@ -96,7 +97,7 @@ void ResultHead::show(const FinishedRun& run) {
     }
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
     why_->setText(titled(why.takeFirst()));
-    for (const auto& mark : run.result.marks) why << QString::fromStdString(mark);
+    for (const auto& mark : run.result.marks) why << QString::fromStdString(flagSentence(mark));
     more_->setText(why.join("\n"));
     more_->setVisible(!why.isEmpty());
     errorLine_ = outcome.line;

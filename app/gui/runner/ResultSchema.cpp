@@ -20,6 +20,9 @@ RecordColumn text(const char* title, const char* at) { return {word(title), at, 
 RecordColumn number(const char* title, const char* at, const char* unit = "", const char* uncertainty = "") {
     return {word(title), at, As::Number, QString::fromUtf8(unit), uncertainty};
 }
+RecordColumn tolerance(const char* title, const char* at, const char* unit) {
+    return {word(title), at, As::Tolerance, QString::fromUtf8(unit), {}};
+}
 RecordColumn as(As as, const char* title, const char* at) { return {word(title), at, as, {}, {}}; }
 RecordColumn verdict(const char* at = "verdict") { return as(As::Verdict, "Verdict", at); }
 
@@ -42,8 +45,8 @@ Tables basis() {
                number("Allowed, ±", "allowed_pct", "%"), as(As::YesNo, "Passed", "passed"), text("It read", "text")}),
         rows("Instruments", "instruments",
              {text("Role", "role"), text("Instrument", "name"), text("Serial", "serial"), text("Channel", "channel"),
-              number("Gain, ±", "gain_pct", "%"), number("Probe, ±", "probe_pct", "%"),
-              number("Time base, ±", "timebase_ppm", "ppm"), text("As stated by", "stated_by")}),
+              tolerance("Gain, ±", "gain_pct", "%"), tolerance("Probe, ±", "probe_pct", "%"),
+              tolerance("Time base, ±", "timebase_ppm", "ppm"), text("As stated by", "stated_by")}),
         {word("What it rests on"), "rests_on", Shape::Sentences, {}, {}}};
 }
 
@@ -163,7 +166,7 @@ Tables loadSafety() {
                        text("What", "title"),
                        number("Value", "value", "@unit", "expanded_uncertainty"),
                        number("Limit", "limit", "@unit"),
-                       as(As::LimitSet, "Of", "set"),
+                       as(As::LimitSet, "Set by", "set"),
                        text("Reason", "reason")};
     };
     return Tables{rows("Loads", "loads", loadColumns()), rows("What did not simply pass", "rows", judged(), "pass"),

@@ -10,6 +10,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
 #include "core/base/JsonFields.h"
+#include "core/dsp/RoughnessFlags.h"
 
 namespace tacto::gui {
 
@@ -90,7 +91,7 @@ QString SessionDetails::aboutHtml() const {
         html += "</p>";
     }
     QStringList marks;
-    for (const auto& mark : session_->marks) marks << qtext(mark).toHtmlEscaped();
+    for (const auto& mark : session_->marks) marks << qtext(flagSentence(mark)).toHtmlEscaped();
     if (!marks.isEmpty()) html += "<p>" + marks.join("<br>") + "</p>";
     html += "<table cellpadding=\"3\">";
     const auto row = [&](const QString& name, const QString& value) {

@@ -9,6 +9,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "core/base/JsonFields.h"
+#include "core/dsp/RoughnessFlags.h"
 
 namespace tacto::gui {
 
@@ -95,9 +96,9 @@ QString armingSentence(const nlohmann::json& body) {
 
 QString marksSentence(const nlohmann::json& body) {
     QStringList flags;
-    for (const auto& flag : textsOr(body, "flags")) flags << qtext(flag);
+    for (const auto& flag : textsOr(body, "flags")) flags << qtext(flagSentence(flag));
     return flags.isEmpty() ? words("The bench was closed without a flag of R.")
-                           : QObject::tr("The bench was closed with the flags of R: %1.").arg(flags.join(", "));
+                           : QObject::tr("The bench was closed. %1").arg(flags.join(' '));
 }
 
 /// "11:02:10" where the session's time is the day's, "0:12.3" on a virtual clock.

@@ -130,6 +130,15 @@ ColumnText numbersText(const RecordColumn& column, const json& records) {
     return out;
 }
 
+ColumnText tolerancesText(const RecordColumn& column, const json& records) {
+    ColumnText out{column.title, {}, true};
+    for (const auto& record : records) {
+        const auto& value = memberAt(record, column.at);
+        out.cells << (value.is_number() ? toleranceText(value.get<double>(), column.unit) : kNone);
+    }
+    return out;
+}
+
 QString wordsText(As as, const json& value) {
     if (value.is_null()) return kNone;
     const auto text = textOf(value);
@@ -164,6 +173,7 @@ const json& memberAt(const json& record, const std::string& path) {
 ColumnText columnText(const RecordColumn& column, const json& records) {
     if (column.as == As::Share) return sharesText(column, records);
     if (column.as == As::Number) return numbersText(column, records);
+    if (column.as == As::Tolerance) return tolerancesText(column, records);
     ColumnText out{column.title, {}, false};
     for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));
     return out;

@@ -13,7 +13,7 @@
 namespace tacto::gui {
 
 struct RecordColumn {
-    enum class As { Text, Number, Share, YesNo, Verdict, Load, LimitSet };
+    enum class As { Text, Number, Tolerance, Share, YesNo, Verdict, Load, LimitSet };
     QString title;
     std::string at;  ///< the member; "a.b" for a member of a member
     As as = As::Text;
@@ -24,7 +24,8 @@ struct RecordColumn {
 /// The member at "a.b"; null where there is none.
 [[nodiscard]] const nlohmann::json& memberAt(const nlohmann::json& record, const std::string& path);
 
-/// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A statistic
+/// A column as it is written: the header with its unit, a cell for each record, "–" for what is missing. A tolerance
+/// has two digits at most, for more are not known, and its unit in the cell. A statistic
 /// {"mean","sd"} is "40.12 ± 0.46", an estimate {"value","low","high"} "99.0 (94.6 to 99.8)". Numbers more than a
 /// thousand times apart carry a prefix each, in their cells.
 struct ColumnText {

@@ -9,6 +9,7 @@
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstCase.h"
 #include "app/gui/theme/RecordTable.h"
+#include "app/report/TableContent.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
 
@@ -108,6 +109,8 @@ TEST(RecordTable, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
                         {"verdict", "not evaluated"},
                         {"load", "200 ohm + 10 kohm || 50 nF"},
                         {"set", "fda-pms"},
+                        {"offset", 80.1807e-6},
+                        {"gain", 0.5},
                         {"flag", true}}};
     const auto cell = [&](const RecordColumn& column) { return columnText(column, rows).cells.first().toStdString(); };
     EXPECT_EQ(cell({"V", "v", As::Number, "V"}), "40.12 ± 0.46");
@@ -115,6 +118,10 @@ TEST(RecordTable, KnowsStatisticsSharesVerdictsAndWhatIsMissing) {
     EXPECT_EQ(cell({"V", "verdict", As::Verdict}), "○ not evaluated");
     EXPECT_EQ(cell({"L", "load", As::Load}), "200\u00a0Ω + 10\u00a0kΩ ∥ 50\u00a0nF");
     EXPECT_EQ(cell({"S", "set", As::LimitSet}), "FDA guidance");
+    EXPECT_EQ(limitSetTitle("gate"), "this program");
+    EXPECT_EQ(cell({"T", "offset", As::Tolerance, "A"}), "80\u202fµA") << "two digits of 80.1807 µA";
+    EXPECT_EQ(cell({"T", "gain", As::Tolerance, "%"}), "0.5\u202f%");
+    EXPECT_EQ(cell({"T", "none", As::Tolerance, "%"}), "–");
     EXPECT_EQ(cell({"F", "flag", As::YesNo}), "yes");
     for (const auto as : {As::Number, As::Share, As::Verdict, As::Text}) EXPECT_EQ(cell({"M", "a.b", as}), "–");
     const auto unknown = columnText({"V", "value", As::Number, "V", "u"}, Json{{{"value", 1.5}, {"u", nullptr}}});
