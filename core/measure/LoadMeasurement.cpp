@@ -191,6 +191,21 @@ void warnOfLoad(const ChannelMeasurement& pulses, LoadMeasurement& result) {
 
 }  // namespace
 
+std::vector<PulseLoad> loadOfPulses(const Capture& capture, std::size_t voltage, std::size_t current,
+                                    const ChannelMeasurement& measured) {
+    const auto& volts = capture.channels[voltage];
+    const LoadOfPulse load(capture, volts, capture.channels[current]);
+    const double voltageNoise = neighbourNoise(volts.samples, volts.lsb);
+    std::vector<PulseLoad> loads;
+    loads.reserve(measured.pulses.size());
+    double silentFrom_s = capture.start_s - 1;
+    for (const auto& pulse : measured.pulses) {
+        loads.push_back(pulse.flags.measured() ? load.of(pulse, silentFrom_s, measured, voltageNoise) : PulseLoad{});
+        silentFrom_s = pulse.seenTo_s;
+    }
+    return loads;
+}
+
 Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage, std::size_t current,
                                     const MeasureOptions& options) {
     const std::pair<std::size_t, const char*> wanted[] = {{voltage, "V"}, {current, "A"}};
@@ -212,14 +227,7 @@ Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage,
     LoadMeasurement result;
     result.voltage = volts.name;
     result.current = amperes.name;
-    result.pulses.reserve(pulses.pulses.size());
-    const LoadOfPulse load(capture, volts, amperes);
-    double silentFrom_s = capture.start_s - 1;
-    for (const auto& pulse : pulses.pulses) {
-        result.pulses.push_back(pulse.flags.measured() ? load.of(pulse, silentFrom_s, pulses, voltageNoise)
-                                                       : PulseLoad{});
-        silentFrom_s = pulse.seenTo_s;
-    }
+    result.pulses = loadOfPulses(capture, voltage, current, pulses);
     summariseLoad(volts, amperes, pulses, voltageNoise, result);
     warnOfLoad(pulses, result);
     warnOfFlatVoltage(capture, voltage, options, result);

@@ -65,6 +65,11 @@ struct LoadMeasurement {
 [[nodiscard]] Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage, std::size_t current,
                                                   const MeasureOptions& options = {});
 
+/// Of each pulse of the current that `measured` found, which is measureChannel()'s of `current`: for a caller that has
+/// it already. The channels must be in V and A.
+[[nodiscard]] std::vector<PulseLoad> loadOfPulses(const Capture& capture, std::size_t voltage, std::size_t current,
+                                                  const ChannelMeasurement& measured);
+
 /// The channels to measure a load from: the only one in V and the only one in A. None if there are several or none.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> loadChannels(const Capture& capture);
 

@@ -110,7 +110,7 @@ void CaptureStatistics::add(const ShownCapture& shown) {
     for (std::size_t c = 0; c < measured.size(); ++c) {
         for (const auto reading : allReadings()) {
             auto& its = channels_[c].readings[static_cast<std::size_t>(reading)];
-            auto values = readingsOf(reading, measured[c], shown.waveforms[c]);
+            auto values = readingsOf(reading, shown, c);
             if (reading == Reading::Interval) {
                 if (const auto across = intervalAcross(channels_[c].lastOnset_s, measured[c])) {
                     values.push_back(*across);

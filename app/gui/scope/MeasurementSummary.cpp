@@ -227,9 +227,7 @@ void MeasurementSummary::fill() {
         const auto text = statisticText(figure.reading, figure.statistic, its, channel.unit);
         figure.label->setText(text);
         const bool missing = text == "–" && shown_;
-        const auto reason =
-            missing ? whyMissing(figure.reading, shown_->measurement[figure.channel], shown_->waveforms[figure.channel])
-                    : QString();
+        const auto reason = missing ? whyMissing(figure.reading, *shown_, figure.channel) : QString();
         const bool single = figure.statistic == Statistic::Sd && its.n() == 1;
         figure.label->setToolTip(!missing ? nameOf(figure.reading).explained
                                  : single ? tr("One reading has no standard deviation.")

@@ -142,11 +142,10 @@ void MeasurementTable::refill() {
             for (std::size_t s = 0; s < kStatistics.size(); ++s) {
                 auto* item = table_->item(row, columnOf(c, s));
                 item->setText(statisticText(reading, kStatistics[s], its, channels[c].unit));
-                item->setToolTip(item->text() != "–" ? QString()
-                                 : its.n() == 1      ? tr("One reading has no standard deviation.")
-                                 : newest_ == nullptr
-                                     ? QString()
-                                     : whyMissing(reading, newest_->measurement[c], newest_->waveforms[c]));
+                item->setToolTip(item->text() != "–"  ? QString()
+                                 : its.n() == 1       ? tr("One reading has no standard deviation.")
+                                 : newest_ == nullptr ? QString()
+                                                      : whyMissing(reading, *newest_, c));
             }
         }
     }

@@ -66,7 +66,16 @@ QString percentText(double value) {
     return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + QChar(0x202f) + "%";
 }
 
-bool isCharge(Reading reading) { return reading == Reading::Charge || reading == Reading::SecondCharge; }
+bool isCharge(Reading reading) {
+    return reading == Reading::Charge || reading == Reading::SecondCharge || reading == Reading::NetCharge;
+}
+
+/// What takes the voltage and the current together.
+bool isOfLoad(Reading reading) { return reading == Reading::NetCharge || reading == Reading::Energy; }
+
+double ofLoad(Reading reading, const PulseLoad& pulse) {
+    return reading == Reading::NetCharge ? pulse.netCharge_c : pulse.energy_j;
+}
 
 }  // namespace
 
@@ -135,6 +144,15 @@ ReadingName nameOf(Reading reading) {
         case Reading::SecondCharge:
             return {"second-charge", QObject::tr("2nd charge"),
                     QObject::tr("Area under the second phase of a current."), "C"};
+        case Reading::NetCharge:
+            return {
+                "net-charge", QObject::tr("Net charge"),
+                QObject::tr("Charge of both phases of a pulse with their signs, gap included: what is left behind."),
+                "C"};
+        case Reading::Energy:
+            return {"energy", QObject::tr("Energy"),
+                    QObject::tr("Voltage times current over a pulse, both phases and the gap: what stays in the load."),
+                    "J"};
         case Reading::Pulses:
             break;
     }
@@ -149,12 +167,16 @@ std::optional<Reading> readingOfKey(const QString& key) {
     return std::nullopt;
 }
 
-std::vector<double> readingsOf(Reading reading, const ChannelMeasurement& measured,
-                               const WaveformMeasurement& waveform) {
+std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel) {
+    const auto& measured = shown.measurement[channel];
+    const auto& waveform = shown.waveforms[channel];
     std::vector<double> values;
     if (reading == Reading::Pulses) return {static_cast<double>(measured.measuredPulses)};
     if (const auto whole = ofWaveform(reading, waveform)) {
         values.push_back(*whole);
+    } else if (isOfLoad(reading)) {
+        if (shown.loadCurrent != channel) return {};
+        for (const auto& pulse : shown.loads) values.push_back(ofLoad(reading, pulse));
     } else if (reading == Reading::Interval) {
         for (const auto& train : measured.trains) values.push_back(train.interval_s);
     } else {
@@ -172,8 +194,14 @@ QString readingText(Reading reading, double value, const QString& channelUnit, i
     return quantityText(value, unit.isEmpty() ? channelUnit : unit, digits);
 }
 
-QString whyMissing(Reading reading, const ChannelMeasurement& measured, const WaveformMeasurement& waveform) {
+QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel) {
+    const auto& measured = shown.measurement[channel];
+    const auto& waveform = shown.waveforms[channel];
+    if (reading == Reading::Energy && measured.unit != "A") return QObject::tr("Energy stands with the current.");
     if (isCharge(reading) && measured.unit != "A") return QObject::tr("Charge is read on the current channel.");
+    if (isOfLoad(reading) && shown.loadCurrent != channel) {
+        return QObject::tr("It takes one channel in V and one in A: which of several belong together is not known.");
+    }
     if (reading == Reading::Frequency || reading == Reading::Duty) {
         return waveform.missing > 0 ? QObject::tr("Samples are missing: a period may hide in the gap.")
                                     : QObject::tr("The record holds no whole period. Choose a longer record.");

@@ -34,28 +34,29 @@ enum class Reading {
     SecondAmplitude,
     SecondWidth,
     SecondCharge,
+    NetCharge,
+    Energy,
     Pulses,
 };
-inline constexpr std::size_t kReadings = 19;
+inline constexpr std::size_t kReadings = 21;
 [[nodiscard]] std::array<Reading, kReadings> allReadings();
 
 struct ReadingName {
     QString key;        ///< "amplitude": as it is stored
     QString title;      ///< "Amplitude"
     QString explained;  ///< one or two sentences for a tool tip
-    QString unit;       ///< "s", "%", "Hz", "C"; empty: the channel's own
+    QString unit;       ///< "s", "%", "Hz", "C", "J"; empty: the channel's own
 };
 [[nodiscard]] ReadingName nameOf(Reading reading);
 [[nodiscard]] std::optional<Reading> readingOfKey(const QString& key);
 
-/// All of the channel's in one capture: one per measured pulse, per train for the interval, one of the waveform.
-[[nodiscard]] std::vector<double> readingsOf(Reading reading, const ChannelMeasurement& measured,
-                                             const WaveformMeasurement& waveform);
+/// All of the channel's in one capture: one per measured pulse, per train for the interval, one of the waveform. Net
+/// charge and energy are the current channel's, where the capture has one voltage and one current.
+[[nodiscard]] std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel);
 /// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is no current.
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
 /// Why there is none, in a sentence or two.
-[[nodiscard]] QString whyMissing(Reading reading, const ChannelMeasurement& measured,
-                                 const WaveformMeasurement& waveform);
+[[nodiscard]] QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel);
 /// "V", or "V2" where several channels have the unit; so on plots and above columns.
 [[nodiscard]] QString channelLetter(const std::vector<ChannelMeasurement>& channels, std::size_t channel);
 

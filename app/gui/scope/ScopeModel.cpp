@@ -8,6 +8,7 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr std::size_t kMaxMoments = 1000;
 constexpr std::size_t kMaxInRoll = 600;
 constexpr std::size_t kMaxSamplesKept = 40'000'000;
 
@@ -330,6 +331,35 @@ void ScopeModel::hover(std::optional<double> time_s) {
     if (now == hovered_) return;
     hovered_ = std::move(now);
     emit overlayChanged();
+}
+
+void ScopeModel::addMark(MomentMark mark) {
+    if (marks_.size() == kMaxMoments) marks_.erase(marks_.begin());
+    marks_.push_back(std::move(mark));
+    emit overlayChanged();
+}
+
+void ScopeModel::clearMarks() {
+    marks_.clear();
+    emit overlayChanged();
+}
+
+std::vector<MomentMark> ScopeModel::marksOnAxis() const {
+    std::vector<MomentMark> seen;
+    if (!shown_ || !shown_->source.isEmpty()) return seen;
+    for (const auto& mark : marks_) {
+        const double at = mark.at_s - zero_s();
+        if (at >= viewport().left_s && at <= viewport().right_s()) seen.push_back({at, mark.word});
+    }
+    return seen;
+}
+
+QString ScopeModel::markBeside() const {
+    if (!shown_ || !shown_->source.isEmpty() || roll_ || marks_.empty()) return {};
+    const auto& last = marks_.back();
+    if (last.at_s > shown_->end_s()) return tr("after it: “%1”").arg(last.word);
+    const bool between = !older_.empty() && last.at_s > older_.front()->end_s() && last.at_s < shown_->capture->start_s;
+    return between ? tr("before it: “%1”").arg(last.word) : QString();
 }
 
 void ScopeModel::setTrigger(const QString& key, double level, bool held) {

@@ -17,6 +17,12 @@
 
 namespace tacto::gui {
 
+/// A moment that the operator marked, on the session's time base.
+struct MomentMark {
+    double at_s = 0;
+    QString word;
+};
+
 class ScopeModel final : public QObject {
     Q_OBJECT
 public:
@@ -100,6 +106,15 @@ public:
     void hover(std::optional<double> time_s);
     [[nodiscard]] const std::optional<EdgeReading>& hovered() const noexcept { return hovered_; }
 
+    /// Of the bench's session; no more than the newest thousand.
+    void addMark(MomentMark mark);
+    void clearMarks();
+    /// Those that the axis reaches, with their time on it; none where a file is shown.
+    [[nodiscard]] std::vector<MomentMark> marksOnAxis() const;
+    /// The newest mark that no capture holds, as a note on the one that is shown: it came between the capture before
+    /// and this one, or after this one. Empty without one, and in roll mode.
+    [[nodiscard]] QString markBeside() const;
+
     [[nodiscard]] const ScopeTrigger& trigger() const noexcept { return trigger_; }
     void setTrigger(const QString& lane, double level, bool held);
     void setPreTrigger(std::optional<double> fraction) { trigger_.setFraction(fraction); }
@@ -143,6 +158,7 @@ private:
     ScopeCursors cursors_;
     ScopeTrigger trigger_;
     std::optional<EdgeReading> hovered_;
+    std::vector<MomentMark> marks_;
 };
 
 }  // namespace tacto::gui

@@ -13,6 +13,7 @@ constexpr double kReach = 5;  ///< pixels beside a line within which it is taken
 constexpr int kFlagWidth = 136;
 constexpr double kFlagPadding = 8;
 constexpr double kArrow = 6;
+constexpr int kWordChars = 24;
 
 }  // namespace
 
@@ -141,6 +142,7 @@ void ScopeOverlay::draw(QCPPainter* painter) {
     if (area().isEmpty()) return;  // not laid out yet
     painter->setFont(font());
     drawMarks(*painter);
+    drawMoments(*painter);
     drawTrigger(*painter);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
@@ -292,6 +294,23 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
         painter.setPen(colours().text);
         painter.setBrush(Qt::NoBrush);
         painter.drawText(QRectF(left, top + 4, width, line), Qt::AlignCenter, mark.why);
+    }
+}
+
+/// As in the live plots: a dashed line, the word at its top on a ground of ink.
+void ScopeOverlay::drawMoments(QCPPainter& painter) const {
+    const auto a = area();
+    const auto& c = colours();
+    const QFontMetricsF metrics(font());
+    for (const auto& moment : state.moments) {
+        const double at = x(moment.at_s);
+        drawLine(painter, QLineF(at, a.top(), at, a.bottom()), c.text, Qt::DashLine);
+        const auto word = metrics.elidedText(moment.word, Qt::ElideRight, metrics.averageCharWidth() * kWordChars);
+        QRectF box(at, a.top(), metrics.horizontalAdvance(word) + 6, metrics.height());
+        if (box.right() > a.right()) box.moveRight(at);
+        painter.fillRect(box, c.text);
+        painter.setPen(c.base);
+        painter.drawText(box, Qt::AlignCenter, word);
     }
 }
 

@@ -44,6 +44,11 @@ struct OverlayState {
         QString why;
         QColor colour;
     };
+    /// What the operator marked.
+    struct Moment {
+        double at_s = 0;
+        QString word;
+    };
     /// What a cursor reads; it stands beyond what the two cursors enclose.
     struct Flag {
         struct Row {
@@ -67,8 +72,9 @@ struct OverlayState {
     std::optional<QRectF> box;          ///< pixels
     std::optional<EdgeReading> hover;
     std::vector<Mark> marks;  ///< in time order
-    QStringList notes;        ///< about the whole record: "not triggered", "averaged 16"
-    QString alarm;            ///< of a failed mask test, until it is acknowledged
+    std::vector<Moment> moments;
+    QStringList notes;  ///< about the whole record: "not triggered", "averaged 16"
+    QString alarm;      ///< of a failed mask test, until it is acknowledged
 };
 
 class ScopeOverlay final : public QCPLayerable {
@@ -108,6 +114,7 @@ private:
     void drawLine(QCPPainter& painter, const QLineF& line, const QColor& colour, Qt::PenStyle style) const;
     void drawTrigger(QCPPainter& painter) const;
     void drawMarks(QCPPainter& painter) const;
+    void drawMoments(QCPPainter& painter) const;
     void drawHover(QCPPainter& painter) const;
     void drawNotes(QCPPainter& painter) const;
     void drawAlarm(QCPPainter& painter) const;

@@ -278,6 +278,8 @@ void ScopeScreen::fillOverlay() {
     if (model_.shown() && model_.shown()->capture->untriggered) o.notes << tr("not triggered");
     if (model_.held()) o.notes << tr("the last train, held");
     if (model_.shown() && model_.shown()->averaged > 0) o.notes << tr("averaged %1").arg(model_.shown()->averaged);
+    if (const auto mark = model_.markBeside(); !mark.isEmpty()) o.notes << mark;
+    for (const auto& mark : model_.marksOnAxis()) o.moments.push_back({mark.at_s, mark.word});
     o.alarm = alarm_;
     o.box = box_;
     o.hover = model_.hovered();

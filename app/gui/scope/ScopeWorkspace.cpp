@@ -156,6 +156,10 @@ void ScopeWorkspace::connectBench() {
     connect(&controller_, &BenchController::captured, this, [this](std::shared_ptr<const Capture> capture) {
         if (running()) pipe_.take(std::move(capture));
     });
+    connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
+        const auto open = controller_.open();  // a run's session has a time of its own
+        if (open && open->session == session_) model_.addMark({at_s, word});
+    });
     connect(&controller_, &BenchController::loadFitted, this, [this] {  // a mean is of one load
         pipe_.beginAnew();
         table_->clear();
@@ -228,6 +232,7 @@ void ScopeWorkspace::benchChanged() {
     if (acquisition_->possible() && std::exchange(session_, session) != session) {
         framed_ = false;
         pipe_.beginAnew();
+        model_.clearMarks();
         table_->clear();
         controls_->mask().resetCounts();
         if (model_.shown() && !model_.shown()->source.isEmpty()) {

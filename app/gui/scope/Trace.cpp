@@ -101,6 +101,10 @@ ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOpt
     for (std::size_t c = 0; c < capture->channels.size(); ++c) {
         shown->waveforms.push_back(measureWaveform(*capture, c, measured.channels[c]));
     }
+    if (const auto pair = loadChannels(*capture)) {
+        shown->loadCurrent = pair->second;
+        shown->loads = loadOfPulses(*capture, pair->first, pair->second, measured.channels[pair->second]);
+    }
     shown->measurement = std::move(measured.channels);
     shown->warnings = std::move(measured.warnings);
     shown->capture = std::move(capture);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/measure/CaptureMask.h"
+#include "core/measure/LoadMeasurement.h"
 #include "core/measure/MinMaxPyramid.h"
 #include "core/measure/PulseMeasurement.h"
 #include "core/measure/WaveformMeasurement.h"
@@ -79,6 +80,8 @@ struct ShownCapture {
     std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
     std::vector<ChannelMeasurement> measurement;  ///< of the channels
     std::vector<WaveformMeasurement> waveforms;   ///< the same
+    std::vector<PulseLoad> loads;                 ///< of each pulse of the current below
+    std::optional<std::size_t> loadCurrent;       ///< that channel; nothing unless there are one V and one A
     std::optional<MaskCheck> mask;                ///< as it was taken, before any averaging; nothing: no mask
     std::shared_ptr<const CaptureMask> judgedBy;  ///< of that check
     bool follows = true;                          ///< no capture was left out between the one before it and this

@@ -172,5 +172,25 @@ TEST_F(Model, RemembersTheViewOfTheBenchWhileAFileIsLookedAt) {
     EXPECT_DOUBLE_EQ(model.viewport().left_s, chosen.left_s);
 }
 
+TEST_F(Model, ShowsWhatTheOperatorMarkedWhereItLies) {
+    model.show(prepared(twoPulses(99.999)));
+    model.addMark({100.002, "moved the lead"});
+    ASSERT_EQ(model.marksOnAxis().size(), 1U);
+    EXPECT_NEAR(model.marksOnAxis().front().at_s, 2e-3, 1e-9);
+    EXPECT_EQ(model.markBeside(), "") << "it is in the record";
+    model.addMark({100.5, "gel"});
+    EXPECT_EQ(model.marksOnAxis().size(), 1U);
+    EXPECT_EQ(model.markBeside(), "after it: “gel”");
+    model.show(prepared(twoPulses(101)));
+    EXPECT_EQ(model.markBeside(), "before it: “gel”");
+    model.show(prepared(twoPulses(102)));
+    EXPECT_EQ(model.markBeside(), "") << "one capture says it";
+    model.clearMarks();
+    model.addMark({102.002, "again"});
+    EXPECT_EQ(model.marksOnAxis().size(), 1U);
+    model.clearMarks();
+    EXPECT_TRUE(model.marksOnAxis().empty());
+}
+
 }  // namespace
 }  // namespace tacto::test

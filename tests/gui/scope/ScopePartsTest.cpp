@@ -200,6 +200,25 @@ TEST(MaskPanel, AResetCountsNoCaptureFromBefore) {
     EXPECT_EQ(panel.counts().outside, 1U) << "the test goes on with the same band";
 }
 
+TEST(Reading, NetChargeAndEnergyAreTheCurrentsWhereOneVoltageGoesWithIt) {
+    const auto shown = prepared(twoPulses());
+    const auto energy = readingsOf(gui::Reading::Energy, *shown, 1);
+    ASSERT_EQ(energy.size(), 2U);
+    for (const double joules : energy) EXPECT_NEAR(joules, 2 * 40 * 40e-3 * 200e-6, 10e-6);
+    const auto net = readingsOf(gui::Reading::NetCharge, *shown, 1);
+    ASSERT_EQ(net.size(), 2U);
+    for (const double coulombs : net) EXPECT_NEAR(coulombs, 0, 0.01 * 8e-6);
+    EXPECT_EQ(readingText(gui::Reading::Energy, 640e-6, "A"), "640.0\u202fµJ");
+    EXPECT_TRUE(readingsOf(gui::Reading::Energy, *shown, 0).empty());
+    EXPECT_EQ(whyMissing(gui::Reading::Energy, *shown, 0), "Energy stands with the current.");
+    auto three = twoPulses();
+    three.channels.push_back(three.channels.front());
+    three.channels.back().name = "voltage 2";
+    const auto unclear = prepared(std::move(three));
+    EXPECT_TRUE(readingsOf(gui::Reading::Energy, *unclear, 1).empty());
+    EXPECT_TRUE(whyMissing(gui::Reading::Energy, *unclear, 1).contains("one channel in V and one in A"));
+}
+
 TEST(CaptureStatistics, IntervalsRunFromCaptureToCaptureWhereNoneWasLeftOut) {
     gui::CaptureStatistics statistics;
     const auto onePulse = [](double at_s, bool follows = true) {
