@@ -5,6 +5,7 @@
 
 #include "app/gui/calibrate/CalibrationView.h"
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/runner/DisclosedPanel.h"
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
@@ -15,8 +16,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLogLines = 5000;    // shown; all of them are in the session
-constexpr int kBesideChars = 115;  // the waveform stands beside the plot from this width on
+constexpr int kLogLines = 5000;                          // shown; all of them are in the session
+constexpr int kBesideChars = 115;                        // the waveform stands beside the plot from this width on
+constexpr int kMatrixChars = 130, kDisclosedChars = 56;  // what limits x loads need, and the outputs beside them
 constexpr int kPageGap = 6;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
@@ -67,6 +69,8 @@ QWidget* RunViews::buildPlots() {
     plane_ = new TrialPlane(holder);
     loads_ = new LoadRows(holder);
     matrix_ = new LimitMatrixView(holder);
+    disclosed_ = new DisclosedPanel(holder);
+    disclosed_->setMinimumWidth(fontMetrics().averageCharWidth() * kDisclosedChars);
     calibration_ = new CalibrationView(holder);
     none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
                           "tables."),
@@ -78,6 +82,7 @@ QWidget* RunViews::buildPlots() {
     plots_->addWidget(plane_, 3);
     plots_->addWidget(loads_, 3);
     plots_->addWidget(matrix_, 3);
+    plots_->addWidget(disclosed_, 1);
     plots_->addWidget(calibration_, 3);
     plots_->addWidget(none_, 3);
     plots_->addWidget(wave_, 2);
@@ -144,6 +149,9 @@ void RunViews::arrange() {
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);
     matrix_->setVisible(plot_ == Plot::Loads && judged);
+    // Narrower, both are views of their own: under Tables and under Waveform.
+    disclosed_->setVisible(plot_ == Plot::Loads && judged &&
+                           width() >= fontMetrics().averageCharWidth() * (kMatrixChars + kDisclosedChars));
     loads_->setVisible(plot_ == Plot::Loads && !judged);
     none_->setVisible(plot_ == Plot::None);
     const bool anywhere = plot_ != Plot::Slides && plot_ != Plot::None;
@@ -176,6 +184,7 @@ void RunViews::begin(Plot plot, const nlohmann::json& parameters) {
     next_->show({});
     tables_->show({});
     matrix_->show({});
+    disclosed_->clear();
     log_->clear();
     plane_->begin(false, featuresOf(plot));
     loads_->begin();
@@ -200,6 +209,8 @@ void RunViews::take(const RunFeed& feed) {
     }
     calibration_->draw();
     if (!feed.captures.empty()) wave_->show(feed.captures.back());
+    if (plot_ == Plot::Loads)
+        for (const auto& capture : feed.captures) disclosed_->take(capture);
 }
 
 QString RunViews::end(const FinishedRun& run) {
@@ -216,6 +227,7 @@ QString RunViews::end(const FinishedRun& run) {
     const auto& results = run.result.outcome.results;
     shows([&] { loads_->end(results); });
     shows([&] { matrix_->show(memberAt(results, "matrix")); });
+    shows([&] { disclosed_->show(memberAt(results, "disclosed")); });
     shows([&] { calibration_->end(results); });
     shows([&] { tables_->show(results); });
     head_->show(run);

@@ -18,6 +18,7 @@ namespace tacto::gui {
 
 class CalibrationView;
 class CaptureStrip;
+class DisclosedPanel;
 class LimitMatrixView;
 class LoadRows;
 class ResultHead;
@@ -64,6 +65,7 @@ private:
     TrialPlane* plane_ = nullptr;
     LoadRows* loads_ = nullptr;               // in the plane's place where a protocol measures loads
     LimitMatrixView* matrix_ = nullptr;       // and what they come to
+    DisclosedPanel* disclosed_ = nullptr;     // beside it where there is room
     CalibrationView* calibration_ = nullptr;  // and in its place where one calibrates
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;

@@ -105,6 +105,12 @@ void ScopeModel::setRoll(bool roll) {
     tellTraces(false);
 }
 
+QString ScopeModel::channelIn(const QString& unit) const {
+    for (const auto& lane : lanes())
+        if (!lane.reference() && lane.unit == unit && lane.key.startsWith("channel/")) return lane.key;
+    return {};
+}
+
 TracePtr ScopeModel::trace(const QString& key) const {
     const auto* its = lane(key);
     if (its == nullptr) return nullptr;

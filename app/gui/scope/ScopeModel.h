@@ -50,6 +50,8 @@ public:
     [[nodiscard]] const std::vector<ScopeLane>& lanes() const noexcept { return lanes_.all(); }
     /// Null without one; so for all that take a key.
     [[nodiscard]] const ScopeLane* lane(const QString& key) const { return lanes_.find(key); }
+    /// The first channel in this unit; empty without one.
+    [[nodiscard]] QString channelIn(const QString& unit) const;
     [[nodiscard]] LaneScale scaleOf(const ScopeLane& lane) const { return viewport().scale(lane.scaleKey()); }
     [[nodiscard]] TracePtr trace(const QString& lane) const;
     [[nodiscard]] const QString& activeLane() const noexcept { return active_; }

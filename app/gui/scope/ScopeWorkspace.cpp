@@ -338,14 +338,6 @@ void ScopeWorkspace::tell(const QString& done, const QString& problem) {
     showState();
 }
 
-QString ScopeWorkspace::triggerLane() const {
-    const QString unit = controls_->acquisition().triggersOnCurrent() ? "A" : "V";
-    for (const auto& lane : model_.lanes()) {
-        if (!lane.reference() && lane.unit == unit && lane.key.startsWith("channel/")) return lane.key;
-    }
-    return {};
-}
-
 void ScopeWorkspace::showState() {
     tools_->showRunning(running(), acquisition_->possible());
     const auto& shown = model_.shown();
@@ -363,8 +355,9 @@ void ScopeWorkspace::say() {
     status_->show(pipe_.opening() ? std::optional(pipe_.percentRead()) : std::nullopt, standing);
     const auto& shown = model_.shown();
     const bool ours = !shown || shown->source.isEmpty();
-    model_.setTrigger(ours && !model_.roll() ? triggerLane() : QString(), settings().triggerLevel,
-                      acquisition_->levelFollows());
+    model_.setTrigger(
+        ours && !model_.roll() ? model_.channelIn(controls_->acquisition().triggersOnCurrent() ? "A" : "V") : QString(),
+        settings().triggerLevel, acquisition_->levelFollows());
     model_.setPreTrigger(ours && running() && shown ? std::optional(acquisition_->requestedSettings().preTrigger)
                                                     : std::nullopt);
     tools_->setCanUndo(model_.canUndo());

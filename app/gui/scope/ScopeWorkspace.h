@@ -106,7 +106,6 @@ private:
     void sayCursors();
     void showSpectrum();
     void showState();
-    [[nodiscard]] QString triggerLane() const;
 
     BenchController& controller_;
     CapturePipe pipe_;

@@ -42,7 +42,7 @@ protected:
 
 private:
     void apply();
-    void giveFirst();
+    void giveClaimed();
 
     QMainWindow& window_;
     std::vector<FoldingDock*> docks_;

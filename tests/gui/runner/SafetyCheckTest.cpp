@@ -1,5 +1,6 @@
 // The safety check in its workspace: the electrode's area first, loads as rows that turn to verdicts, limits x loads.
 #include <QHeaderView>
+#include <QScrollArea>
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/LimitMatrixView.h"
@@ -52,9 +53,18 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_GT(judged, 50);
     EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
+    EXPECT_EQ(find<QWidget>(*workspace, "disclosedOutputs"), nullptr) << "there is no room beside the limits";
+    workspace->resize(1800, 900);
+    auto& disclosed = the<QScrollArea>("disclosedOutputs");
+    ASSERT_NE(disclosed.widget(), nullptr);
+    EXPECT_GE(qobject_cast<QTableWidget*>(disclosed.widget())->rowCount(), 6);
+    EXPECT_THAT(says("strongestOutput").toStdString(), HasSubstr("mA at its peak"));
+    EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
+    shot(*workspace, "safety_result_wide");
     gui::applyTheme(gui::Theme::Dark);
     QTest::qWait(50);
     shot(*workspace, "safety_result_dark");
+    workspace->resize(1150, 600);
     int live = 0;
     QObject::connect(workspace.get(), &gui::ProtocolWorkspace::liveWanted, [&] { ++live; });
     click(the<QPushButton>("Go to Live"));
@@ -73,7 +83,7 @@ TEST_F(SafetyCheck, AsksForTheElectrodeAreaFirst) {
         EXPECT_LT(area.mapTo(workspace.get(), QPoint()).y(), other->mapTo(workspace.get(), QPoint()).y());
     }
     EXPECT_EQ(step("Settings").state(), gui::StepList::State::Troubled);
-    ASSERT_IN_TIME(comesTrue([this] { return says("runObstacle").contains("Smallest electrode"); }));
+    ASSERT_IN_TIME(comesTrue([this] { return says("runObstacle").contains("smallest electrode"); }));
     EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr) << "the profile is not in the way";
     EXPECT_FALSE(the<QPushButton>("runButton").isEnabled());
     shot(*workspace, "safety_area_dark");
