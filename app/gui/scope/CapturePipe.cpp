@@ -30,6 +30,7 @@ void CapturePipe::setAverage(std::size_t captures) {
 
 void CapturePipe::beginAnew() {
     gap_ = true;
+    ++epoch_;
     thread_.start([this] { average_.clear(); });
 }
 
@@ -43,7 +44,7 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
     ++pending_;
     const bool follows = !std::exchange(gap_, false);
     const bool ours = source.isEmpty();
-    thread_.start([this, capture = std::move(capture), source, wish = wish_, follows, ours,
+    thread_.start([this, capture = std::move(capture), source, wish = wish_, follows, ours, epoch = epoch_,
                    mask = ours ? mask_ : nullptr]() mutable {
         std::optional<MaskCheck> judged;
         if (mask && !capture->untriggered) judged = mask->check(*capture);
@@ -57,9 +58,9 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
         shown->averaged = averages ? average_.count() : 0;
         QMetaObject::invokeMethod(
             this,
-            [this, shown] {
+            [this, shown, of = ours ? epoch : 0] {
                 --pending_;
-                emit prepared(shown);
+                if (of == 0 || of == epoch_) emit prepared(shown);
             },
             Qt::QueuedConnection);
     });

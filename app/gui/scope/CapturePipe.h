@@ -31,7 +31,8 @@ public:
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
     /// What comes next does not follow on what came last: the oscilloscope was set anew.
     void breakOff() { gap_ = true; }
-    /// Another bench: nothing of the one before goes into a mean.
+    /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
+    /// way do not come.
     void beginAnew();
     void setWish(const MathOptions& wish) { wish_ = wish; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
@@ -62,8 +63,9 @@ private:
     QThreadPool thread_;  // one, so that results come in order
     MathOptions wish_;
     std::shared_ptr<const CaptureMask> mask_;
-    CaptureAverage average_;  // the thread's
-    bool gap_ = false;        // a capture was left out since the last
+    CaptureAverage average_;   // the thread's
+    bool gap_ = false;         // a capture was left out since the last
+    std::uint64_t epoch_ = 1;  // of the bench's captures; another since beginAnew()
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;

@@ -219,6 +219,7 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
             "It takes two trains: in one record, or in captures that follow one another. For a single "
             "capture choose a longer record.");
     }
+    if (isOfLoad(reading)) return QObject::tr("The voltage of the pulses is clipped, or samples of it are missing.");
     return QObject::tr("The pulses have no second phase.");
 }
 
