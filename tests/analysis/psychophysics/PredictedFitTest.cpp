@@ -46,7 +46,8 @@ std::vector<PredictedTrial> session(const VirtualObserver& who, const VirtualObs
         {4, Seconds(2)}, {4, Seconds(0.5)}, {6.5, Seconds(2)}, {6.5, Seconds(0.5)}};
     std::vector<PredictedTrial> out;
     double stimulated = 0;
-    for (const auto& trial : planTrials({}, seed).value()) {
+    const auto plan = planTrials({}, seed).value();
+    for (const auto& trial : plan) {
         if (trial.phase != TrialPhase::Test || !trial.condition) continue;
         const Seconds before(stimulated);
         const auto key = std::to_string(trial.number);
