@@ -19,8 +19,9 @@ struct ShownOfKind {
     bool name;
     Keys keys;
 };
-constexpr std::string_view kAboutKeys[] = {"program_version", "protocol",  "protocol_sha256", "devices",      "limit_sets",
-                                           "simulated",       "mode",      "wall_start",      "virtual_clock"};
+constexpr std::string_view kAboutKeys[] = {
+    "program_version", "protocol", "protocol_sha256", "devices",      "limit_sets",
+    "simulated",       "mode",     "wall_start",      "virtual_clock"};
 constexpr std::string_view kTrialKeys[] = {"number"};
 constexpr std::string_view kChunkKeys[] = {"stream", "index"};
 constexpr std::string_view kCaptureKeys[] = {"trial"};

@@ -95,8 +95,8 @@ struct SessionReader::State {
             if (!*more) return {};
             const auto chunk = chunkHead(rows->integer(0), rows->text(1));
             if (!chunk) return failure(chunk);
-            auto unpacked = unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3),
-                                   block);
+            auto unpacked =
+                unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
             if (!unpacked) return unpacked;
             if (!visit(*chunk, block)) return {};
         }
@@ -223,9 +223,8 @@ Result<std::vector<SessionRow>> SessionReader::reportItems() const { return stat
 Result<std::vector<SessionTrial>> SessionReader::trials() const {
     std::vector<SessionTrial> trials;
     auto read = state_->forEach(kind::kTrial, [&](const SessionRow& row) {
-        trials.push_back(
-            {row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name, valueOr(row.body, "measured"),
-             row.sealed});
+        trials.push_back({row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name,
+                          valueOr(row.body, "measured"), row.sealed});
     });
     if (!read) return failure(read);
     return trials;
@@ -330,11 +329,13 @@ Result<std::string> SessionReader::reproducibleText() const {
                                 rows->text(4), hexOf(rows->blob(5)));
             continue;
         }
-        const auto row = state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3),
-                                     rows->text(4));
+        const auto row =
+            state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3), rows->text(4));
         if (!row) return failure(row);
-        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which differs.
-        text += fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
+        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which
+        // differs.
+        text +=
+            fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
     }
 }
 

@@ -151,8 +151,10 @@ struct Study::State {
     [[nodiscard]] Result<const StudyKeys::Entry*> keyOf(std::string_view participant) const {
         const auto* entry = keys ? keys->byId(participant) : nullptr;
         if (entry == nullptr) {
-            return fail(ErrorCode::Unsupported, "there is no key of participant {}: it was destroyed, or the study is "
-                        "opened without its passphrase", participant);
+            return fail(ErrorCode::Unsupported,
+                        "there is no key of participant {}: it was destroyed, or the study is "
+                        "opened without its passphrase",
+                        participant);
         }
         return entry;
     }
@@ -184,7 +186,8 @@ struct Study::State {
         for (const auto& one : known.participants) {
             if (usable(one) && one.code == *stored) return one;
         }
-        return fail(ErrorCode::NotFound, "the study has no participant {}; a code that is enrolled is expected", *stored);
+        return fail(ErrorCode::NotFound, "the study has no participant {}; a code that is enrolled is expected",
+                    *stored);
     }
 
     /// The chains of the sessions that ended are those that the ledger noted.
@@ -193,7 +196,8 @@ struct Study::State {
             if (head.empty() || headOf(files.session(file)) == head) continue;
             return fail(kGateRefused,
                         "the record of session {} is not the one that the ledger notes: it is gone or was changed; put "
-                        "it back from your copy", file);
+                        "it back from your copy",
+                        file);
         }
         return clockGate(known.last, now());
     }
@@ -260,8 +264,8 @@ Result<void> layOut(const StudyFiles& files, const StudySettings& settings, std:
     SessionAbout about;
     about.programVersion = TACTOSCOPE_VERSION;
     about.protocol = "study ledger";
-    about.wallStart = fmt::format("{}T00:00:00Z", dateText(std::chrono::year_month_day(
-                                                      std::chrono::floor<std::chrono::days>(now))));
+    about.wallStart =
+        fmt::format("{}T00:00:00Z", dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(now))));
     auto made = Ledger::create(files.ledger(), about, now);
     if (!made) return failure(made);
     const auto text = studyText(settings);
@@ -273,8 +277,10 @@ Result<void> layOut(const StudyFiles& files, const StudySettings& settings, std:
 Result<void> takeFolder(const StudyFiles& files) {
     std::error_code error;
     if (Study::isThere(files.folder))
-        return fail(ErrorCode::Unsupported, "{} holds a study; a new one needs a folder of its own", files.folder.string());
-    if (fs::exists(files.folder, error) && (!fs::is_directory(files.folder, error) || !fs::is_empty(files.folder, error)))
+        return fail(ErrorCode::Unsupported, "{} holds a study; a new one needs a folder of its own",
+                    files.folder.string());
+    if (fs::exists(files.folder, error) &&
+        (!fs::is_directory(files.folder, error) || !fs::is_empty(files.folder, error)))
         return fail(ErrorCode::Unsupported, "{} is there already; a new study needs an empty folder or a new one",
                     files.folder.string());
     return {};
@@ -406,8 +412,8 @@ Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, 
         if (!rehearsal) {
             if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
         }
-        auto keys = StudyKeys::open(keyFileOf(files, *first, around), first->id, rehearsal ? nullptr : passphrase,
-                                    around.cost);
+        auto keys =
+            StudyKeys::open(keyFileOf(files, *first, around), first->id, rehearsal ? nullptr : passphrase, around.cost);
         if (!keys) return failure(keys);
         state->keys.emplace(std::move(*keys));
     }
@@ -523,7 +529,8 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
     if (consent.version.empty() || consent.by.empty())
-        return fail(ErrorCode::InvalidArgument, "a consent needs the version of the form and the initials of who took it");
+        return fail(ErrorCode::InvalidArgument,
+                    "a consent needs the version of the form and the initials of who took it");
     if (!consent.date.ok() || !(consent.date <= today())) {
         return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
                     dateText(consent.date), dateText(today()));
@@ -547,9 +554,11 @@ Result<void> Study::withdraw(std::string_view code) {
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
     if (state_->settings.dataOnRequest == DataOnRequest::Keep) {
-        return fail(kGateRefused,
-                    "the study keeps what was collected (data_on_request keep), as its consent says; \"leave\" ends {}'s "
-                    "part", participant->code);
+        return fail(
+            kGateRefused,
+            "the study keeps what was collected (data_on_request keep), as its consent says; \"leave\" ends {}'s "
+            "part",
+            participant->code);
     }
     // The note first: a key that is gone without it would look like damage. open() finishes what a crash leaves.
     auto noted =
@@ -668,9 +677,11 @@ Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& e
     if (state_->known.session(session) == nullptr)
         return fail(ErrorCode::NotFound, "the study has no session {}", session);
     if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
-        return fail(ErrorCode::InvalidArgument,
-                    "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
-                    "\"{}\", {} and {}", event.what, event.severity, event.relation);
+        return fail(
+            ErrorCode::InvalidArgument,
+            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
+            "\"{}\", {} and {}",
+            event.what, event.severity, event.relation);
     }
     return state_->append(ledger::kAdverseEvent, {{"session", session}}, &state_->keys->study(), toJson(event));
 }

@@ -83,9 +83,9 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
     EXPECT_EQ(reader->verdicts()->front().verdict, "sealed");
     EXPECT_TRUE(reader->captures()->front().sealed);
     EXPECT_EQ(reader->labels()->note, "sealed");
-    for (const auto& code : {reader->streams().error().code, reader->samples(1).error().code,
-                             reader->capture(reader->captures()->front().seq).error().code,
-                             reader->reproducibleText().error().code})
+    for (const auto& code :
+         {reader->streams().error().code, reader->samples(1).error().code,
+          reader->capture(reader->captures()->front().seq).error().code, reader->reproducibleText().error().code})
         EXPECT_EQ(code, ErrorCode::Unsupported);
     EXPECT_EQ(summarise(path)->verdict, "sealed");
 }
