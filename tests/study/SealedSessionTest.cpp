@@ -1,6 +1,7 @@
 // A session whose rows are sealed: what it shows, what its key opens, and that a change is found without the key.
 #include <sqlite3.h>
 
+#include "core/session/Origin.h"
 #include "core/session/SessionSummary.h"
 #include "core/session/SessionVerify.h"
 #include "core/study/SessionSeal.h"
@@ -88,6 +89,7 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
           reader->capture(reader->captures()->front().seq).error().code, reader->reproducibleText().error().code})
         EXPECT_EQ(code, ErrorCode::Unsupported);
     EXPECT_EQ(summarise(path)->verdict, "sealed");
+    EXPECT_EQ(deliveredIn(*reader).error().code, ErrorCode::Unsupported);  // and not: nothing
 }
 
 TEST_F(SealedSession, OpensWithItsOwnKeyInItsOwnFileOnly) {
