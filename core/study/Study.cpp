@@ -1,10 +1,12 @@
 #include "core/study/Study.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <ctime>
-#include <fcntl.h>
+#include <fstream>
 #include <iterator>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/Csv.h"
@@ -38,27 +40,34 @@ CalibrationDate localDay(std::chrono::sys_seconds at) {
             std::chrono::day(static_cast<unsigned>(here.tm_mday))};
 }
 
-/// Who has the study open.
-struct Holder {
-    std::int64_t process = 0;
-};
+/// The process that holds a lock on `file`, as the system lists it: nothing is written to say so, and a program that
+/// changes nothing leaves the folder as it was.
+std::optional<std::int64_t> holderOf(const fs::path& file) {
+    struct stat about {};
+    if (::stat(file.c_str(), &about) != 0) return std::nullopt;
+    std::ifstream locks("/proc/locks");
+    const auto inode = fmt::format(":{}", about.st_ino);
+    for (std::string number, kind, mode, access, process, place, rest;
+         locks >> number >> kind >> mode >> access >> process >> place; std::getline(locks, rest)) {
+        std::int64_t id = 0;
+        const bool isHere = kind == "FLOCK" && place.ends_with(inode);
+        if (isHere && std::from_chars(process.data(), process.data() + process.size(), id).ec == std::errc() && id > 0)
+            return id;
+    }
+    return std::nullopt;
+}
 
 Result<LockedFile> lockStudy(const StudyFiles& files) {
-    auto locked = LockedFile::open(files.lock(), sizeof(Checked<Holder>), 0600);
-    if (locked) {
-        static_cast<Checked<Holder>*>(locked->content())->write({.process = ::getpid()});
-        return std::move(*locked);
-    }
+    constexpr std::size_t kLockBytes = 1;
+    auto locked = LockedFile::open(files.lock(), kLockBytes, 0600);
+    if (locked) return std::move(*locked);
     if (locked.error().why != LockedFile::Refusal::Held) {
         return fail(ErrorCode::Io, "the study in {} cannot be opened for changes: its lock {} cannot be taken",
                     files.folder.string(), files.lock().string());
     }
-    Checked<Holder> holder;
-    const int held = ::open(files.lock().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    const bool told = held >= 0 && ::read(held, &holder, sizeof holder) == sizeof holder && holder.sound();
-    if (held >= 0) ::close(held);
+    const auto holder = holderOf(files.lock());
     return fail(ErrorCode::Io, "the study in {} is open in {}; end that first. Nothing was changed",
-                files.folder.string(), told ? programOf(holder.content.process) : "another program");
+                files.folder.string(), holder ? programOf(*holder) : "another program");
 }
 
 fs::path keyFileOf(const StudyFiles& files, const StudySettings& settings, const Study::Surroundings& around) {
