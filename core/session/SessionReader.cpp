@@ -117,13 +117,13 @@ struct SessionReader::State {
         if (!inside) return failure(inside);
         return std::move(inside->body);
     }
-    [[nodiscard]] Result<void> unpack(std::int64_t seq, const ChunkHead& head, std::size_t columns,
+    [[nodiscard]] Result<void> unpack(std::int64_t seq, const ChunkHead& chunk, std::size_t columns,
                                       std::span<const std::byte> stamps, std::span<const std::byte> data,
                                       SampleBlock& into) const {
-        if (!source.sealed()) return unpackChunk(head, columns, stamps, data, into);
+        if (!source.sealed()) return unpackChunk(chunk, columns, stamps, data, into);
         const auto opened = openedBulk(*seal, seq, kind::kChunk, data);
         if (!opened) return failure(opened);
-        return unpackOpenedChunk(head, columns, *opened, into);
+        return unpackOpenedChunk(chunk, columns, *opened, into);
     }
 
     [[nodiscard]] Result<std::vector<SessionStreamInfo>> declared() const {
