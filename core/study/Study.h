@@ -80,7 +80,7 @@ struct AdverseEvent {
     int severity = 1;  ///< 1 to 4
     bool serious = false;
     int relation = 1;  ///< 1 (none) to 5 (certain)
-    std::string action, outcome;
+    std::string action{}, outcome{};
     bool reported = false;
 };
 

@@ -76,7 +76,7 @@ TEST_F(StudyCrash, Kill9AtAnyMomentLosesNothingThatWasAcknowledged) {
         for (const auto& participant : study->participants()) {
             withdrawn += participant.state == ParticipantState::Withdrawn;
             consents += participant.consents.size();
-            if (participant.state == ParticipantState::Withdrawn) EXPECT_EQ(participant.code, "");
+            EXPECT_EQ(participant.code.empty(), participant.state == ParticipantState::Withdrawn);
         }
         EXPECT_GE(study->participants().size(), enrolledSaid);
         EXPECT_LE(study->participants().size(), enrolledSaid + 1);
