@@ -44,9 +44,9 @@ int usage(const std::string& sentence) {
 }
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness,  kEncode,
-                                          kMeasure, kConvert,     kAnalyze, kReport,     kVerify,
-                                          kHid,     kScienceMode, kSensor,  kCertificate};
+    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness,   kEncode,
+                                          kMeasure, kConvert,     kAnalyze, kReport,      kVerify,
+                                          kHid,     kScienceMode, kSensor,  kCertificate, kStudy};
     return all;
 }
 

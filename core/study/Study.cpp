@@ -1,0 +1,421 @@
+#include "core/study/Study.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+
+#include "core/base/Csv.h"
+#include "core/base/JsonFields.h"
+#include "core/seal/SealedText.h"
+#include "core/session/Digest.h"
+#include "core/session/SessionReader.h"
+#include "core/session/SessionVerify.h"
+#include "core/study/NewStudy.h"
+#include "core/study/StudyBook.h"
+#include "core/study/StudyLock.h"
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kIdDigits = 16;
+
+int answersIn(const fs::path& file) {
+    const auto reader = SessionReader::open(file);
+    if (!reader) return 0;
+    const auto events = reader->events();
+    if (!events) return 0;
+    return static_cast<int>(std::ranges::count(*events, std::string("answer"), &SessionRow::name));
+}
+
+fs::path withoutEnd(const fs::path& folder) {
+    return folder.has_filename() ? folder : folder.parent_path();  // "study/" is "study"
+}
+
+}  // namespace
+
+struct Study::State : StudyBook {};
+
+fs::path Study::defaultKeyFolder() {
+    const char* data = std::getenv("XDG_DATA_HOME");
+    if (data != nullptr && *data != '\0') return fs::path(data) / "tactoscope" / "keys";
+    const char* home = std::getenv("HOME");
+    return fs::path(home != nullptr ? home : ".") / ".local" / "share" / "tactoscope" / "keys";
+}
+
+bool Study::isThere(const fs::path& folder) {
+    std::error_code error;
+    const StudyFiles files{folder};
+    return fs::exists(files.settings(), error) || fs::exists(files.ledger(), error);
+}
+
+Study::Study(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Study::Study(Study&&) noexcept = default;
+Study& Study::operator=(Study&&) noexcept = default;
+Study::~Study() = default;
+
+Result<Study> Study::create(const fs::path& folder, StudySettings settings, const Passphrase& passphrase) {
+    return create(folder, std::move(settings), passphrase, Surroundings());
+}
+Result<Study> Study::createRehearsal(const fs::path& folder, StudySettings settings) {
+    return createRehearsal(folder, std::move(settings), Surroundings());
+}
+Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, Access access) {
+    return open(folder, passphrase, access, Surroundings());
+}
+
+Result<Study> Study::create(const fs::path& folder, StudySettings settings, const Passphrase& passphrase,
+                            const Surroundings& around) {
+    const StudyFiles files{withoutEnd(folder)};
+    settings.id = randomHex(kIdDigits);
+    settings.kind = StudyKind::Study;
+    settings.approval.protocolSha256 = protocolHash(settings);
+    if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
+    if (settings.approval.reference.empty())
+        return fail(ErrorCode::InvalidArgument, "a study needs the reference of its approval");
+    if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
+    if (auto made = makeStudy(files, settings, &passphrase, around); !made) return failure(made);
+    return open(files.folder, &passphrase, Access::Change, around);
+}
+
+Result<Study> Study::createRehearsal(const fs::path& folder, StudySettings settings, const Surroundings& around) {
+    constexpr int kAsManyAsWanted = 10'000;
+    const StudyFiles files{withoutEnd(folder)};
+    settings.id = randomHex(kIdDigits);
+    settings.kind = StudyKind::Rehearsal;
+    if (settings.title.empty()) settings.title = "Rehearsal";
+    if (settings.consentVersion.empty()) settings.consentVersion = "rehearsal";
+    settings.participantsMax = settings.sessionsMax = kAsManyAsWanted;
+    auto& approval = settings.approval;
+    if (approval.reference.empty()) {
+        approval.reference = "rehearsal";
+        approval.from = localDay(around.time->wall());
+        approval.expires = {approval.from.year() + std::chrono::years(50), std::chrono::January, std::chrono::day(1)};
+    }
+    approval.protocolSha256 = protocolHash(settings);
+    if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
+    if (auto made = makeStudy(files, settings, nullptr, around); !made) return failure(made);
+    return open(files.folder, nullptr, Access::Change, around);
+}
+
+Result<Study> Study::open(const fs::path& folder, const Passphrase* passphrase, Access access,
+                          const Surroundings& around) {
+    auto state = std::make_unique<State>();
+    state->files.folder = withoutEnd(folder);
+    state->around = around;
+    const auto& files = state->files;
+    if (!isThere(files.folder)) return fail(ErrorCode::NotFound, "there is no study in {}", files.folder.string());
+    const auto text = readTextFile(files.settings());
+    if (!text) return failure(text);
+    // Its version comes before everything else: what a newer program wrote is not judged.
+    const auto first = parseStudy(*text, files.settings().string());
+    if (!first) return failure(first);
+    if (access == Access::Change) {
+        auto lock = lockStudy(files);
+        if (!lock) return failure(lock);
+        state->lock.emplace(std::move(*lock));
+    }
+    const auto verified = verifySession(files.ledger());
+    if (!verified) return failure(verified);
+    if (verified->status != SessionStatus::Intact) {
+        return fail(ErrorCode::ParseError, "the ledger of the study in {} is damaged: {}", files.folder.string(),
+                    verified->problems.empty() ? "it is no ledger" : verified->problems.front());
+    }
+    state->settings = *first;
+    const bool rehearsal = first->kind == StudyKind::Rehearsal;
+    if (rehearsal || passphrase != nullptr) {
+        if (!rehearsal) {
+            if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
+        }
+        auto keys =
+            StudyKeys::open(keyFileOf(files, *first, around), first->id, rehearsal ? nullptr : passphrase, around.cost);
+        if (!keys) return failure(keys);
+        state->keys.emplace(std::move(*keys));
+    }
+    if (auto read = state->read(); !read) return failure(read);
+    const auto current = readStudy(files, state->known.settingsSha256);
+    if (!current) return failure(current);
+    auto settings = parseStudy(*current, files.settings().string());
+    if (!settings) return failure(settings);
+    state->settings = std::move(*settings);
+    if (access == Access::Change) {
+        if (*current != *text) {
+            if (auto published = publishStudy(files); !published) return failure(published);
+        }
+        auto opened = Ledger::open(files.ledger());
+        if (!opened) return failure(opened);
+        state->ledger.emplace(std::move(*opened));
+        if (state->keys) {
+            if (auto finished = state->finishWithdrawals(); !finished) return failure(finished);
+        }
+    }
+    return Study(std::move(state));
+}
+
+const fs::path& Study::folder() const noexcept { return state_->files.folder; }
+const StudySettings& Study::settings() const noexcept { return state_->settings; }
+bool Study::isRehearsal() const noexcept { return state_->settings.kind == StudyKind::Rehearsal; }
+bool Study::hasKey() const noexcept { return state_->keys.has_value(); }
+std::string Study::ledgerHead() const { return state_->known.head; }
+CalibrationDate Study::today() const { return state_->today(); }
+Result<void> Study::stillApproved() const { return state_->stillApproved(); }
+std::vector<Participant> Study::participants() const { return state_->known.participants; }
+Result<Participant> Study::find(std::string_view code) const { return state_->find(code); }
+fs::path Study::pathOf(std::string_view file) const { return state_->files.session(file); }
+
+std::vector<StudySession> Study::sessions() const {
+    auto all = state_->known.sessions;
+    for (auto& session : all) {
+        for (const auto& part : session.parts) session.answered += answersIn(pathOf(part.file));
+    }
+    return all;
+}
+
+Result<StudySession> Study::session(std::string_view id) const {
+    const auto* found = state_->known.session(id);
+    if (found == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
+    auto session = *found;
+    for (const auto& part : session.parts) session.answered += answersIn(pathOf(part.file));
+    return session;
+}
+
+std::optional<StudySession> Study::unfinished(std::string_view participantId) const {
+    for (const auto& session : state_->known.sessions) {
+        if (session.participant == participantId && session.state == StudySessionState::Unfinished) return session;
+    }
+    return std::nullopt;
+}
+
+Result<Participant> Study::enrol(Participant participant) {
+    if (auto may = state_->changeable(); !may) return failure(may);
+    const auto& settings = state_->settings;
+    if (static_cast<int>(state_->known.participants.size()) >= settings.participantsMax) {
+        return fail(kGateRefused, "{} participants are enrolled, as many as approval {} allows",
+                    state_->known.participants.size(), settings.approval.reference);
+    }
+    if (participant.virtualSeed && state_->find(fmt::format("{}{}", kVirtualPrefix, *participant.virtualSeed))) {
+        return fail(ErrorCode::Unsupported, "virtual:{} is enrolled already; another seed is expected",
+                    *participant.virtualSeed);
+    }
+    const auto taken = [&](const std::string& code) {
+        return std::ranges::find(state_->known.participants, code, &Participant::code) !=
+               state_->known.participants.end();
+    };
+    if (participant.code.empty()) {
+        do participant.code = newCode();
+        while (taken(participant.code));
+    } else {
+        const auto stored = checkedCode(participant.code);
+        if (!stored) return failure(stored);
+        if (taken(*stored))
+            return fail(ErrorCode::Unsupported, "{} is enrolled already; another code is expected", *stored);
+        participant.code = *stored;
+    }
+    participant.id = randomHex(kIdDigits);
+    // The key first: a row whose key was lost would never open.
+    if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
+    const auto number = static_cast<int>(state_->known.participants.size()) + 1;
+    auto noted = state_->appendOf(participant, ledger::kEnrolled, {{"number", number}}, toJson(participant));
+    if (!noted) {
+        static_cast<void>(state_->keys->destroy(participant.id));
+        return failure(noted);
+    }
+    return state_->known.participants.back();
+}
+
+Result<Participant> Study::admitVirtual(std::uint64_t seed) {
+    if (!isRehearsal())
+        return fail(ErrorCode::Unsupported, "only in a rehearsal does a virtual participant enrol by itself");
+    const auto code = fmt::format("{}{}", kVirtualPrefix, seed);
+    auto found = state_->find(code);
+    if (!found) {
+        Participant participant;
+        participant.virtualSeed = seed;
+        found = enrol(std::move(participant));
+        if (!found) return found;
+    }
+    if (consentGate(settings(), *found, today())) return found;
+    if (auto given = consent(code, {settings().consentVersion, today(), "rehearsal"}); !given) return failure(given);
+    return state_->find(code);
+}
+
+Result<void> Study::consent(std::string_view code, const Consent& consent) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto participant = state_->find(code);
+    if (!participant) return failure(participant);
+    if (consent.version.empty() || consent.by.empty())
+        return fail(ErrorCode::InvalidArgument,
+                    "a consent needs the version of the form and the initials of who took it");
+    if (!consent.date.ok() || !(consent.date <= today())) {
+        return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
+                    dateText(consent.date), dateText(today()));
+    }
+    if (participant->state != ParticipantState::Active)
+        return fail(kGateRefused, "{} has left the study; only an active participant consents", participant->code);
+    return state_->appendOf(*participant, ledger::kConsent, nlohmann::json::object(), toJson(consent));
+}
+
+Result<void> Study::leave(std::string_view code) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto participant = state_->find(code);
+    if (!participant) return failure(participant);
+    if (participant->state == ParticipantState::Left)
+        return fail(kGateRefused, "{} has left the study already", participant->code);
+    return state_->append(ledger::kLeft, {{"participant", participant->id}, {"sessions", participant->sessions}});
+}
+
+Result<void> Study::withdraw(std::string_view code) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto participant = state_->find(code);
+    if (!participant) return failure(participant);
+    if (state_->settings.dataOnRequest == DataOnRequest::Keep) {
+        return fail(
+            kGateRefused,
+            "the study keeps what was collected (data_on_request keep), as its consent says; \"leave\" ends {}'s "
+            "part",
+            participant->code);
+    }
+    // The note first: a key that is gone without it would look like damage. open() finishes what a crash leaves.
+    auto noted =
+        state_->append(ledger::kWithdrawn, {{"participant", participant->id}, {"sessions", participant->sessions}});
+    if (!noted) return noted;
+    if (auto destroyed = state_->keys->destroy(participant->id); !destroyed) return destroyed;
+    return state_->read();
+}
+
+Result<void> Study::amend(StudySettings settings, std::string_view reference) {
+    if (auto may = state_->changeable(); !may) return may;
+    if (reference.empty() || reference == state_->settings.approval.reference) {
+        return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
+    }
+    settings.id = state_->settings.id;
+    settings.kind = state_->settings.kind;
+    settings.approval.reference = reference;
+    settings.approval.protocolSha256 = protocolHash(settings);
+    if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return sound;
+    const auto text = studyText(settings);
+    if (auto drafted = draftStudy(state_->files, text); !drafted) return drafted;
+    auto row = settingsRow(settings, text);
+    row["reference"] = reference;
+    if (auto noted = state_->append(ledger::kAmendment, std::move(row)); !noted) return noted;
+    if (auto published = publishStudy(state_->files); !published) return published;
+    state_->settings = std::move(settings);
+    return {};
+}
+
+Result<BegunSession> Study::beginSession(const SessionRequest& request) {
+    if (auto may = state_->changeable(); !may) return failure(may);
+    const auto participant = state_->find(request.code);
+    if (!participant) return failure(participant);
+    if (const auto open = unfinished(participant->id)) {
+        return fail(ErrorCode::Unsupported, "session {} of {} is unfinished; resume it or end it first", open->number,
+                    participant->code);
+    }
+    if (auto holds = state_->gates(request, *participant, false); !holds) return failure(holds);
+    const auto id = randomHex(kIdDigits);
+    auto noted = state_->appendOf(*participant, ledger::kSessionBegun,
+                                  {{"session", id},
+                                   {"file", id},
+                                   {"number", participant->sessions + 1},
+                                   {"protocol", request.script.name},
+                                   {"script_sha256", request.script.sha256}},
+                                  {{"encoding", request.encoding}});
+    if (!noted) return failure(noted);
+    return state_->begun(id);
+}
+
+Result<BegunSession> Study::continueSession(std::string_view id, const SessionRequest& request) {
+    if (auto may = state_->changeable(); !may) return failure(may);
+    const auto participant = state_->find(request.code);
+    if (!participant) return failure(participant);
+    const auto before = session(id);
+    if (!before) return failure(before);
+    if (before->participant != participant->id)
+        return fail(ErrorCode::NotFound, "{} has no session {}", participant->code, id);
+    if (before->state != StudySessionState::Unfinished) {
+        return fail(kGateRefused, "session {} of {} is {}; only an unfinished one goes on", before->number,
+                    participant->code, wordFor(Words<StudySessionState>(kStudySessionStates), before->state));
+    }
+    if (auto holds = state_->gates(request, *participant, true); !holds) return failure(holds);
+    const auto& last = before->parts.back().file;
+    auto noted = state_->append(ledger::kSessionPart, {{"session", before->id},
+                                                       {"file", randomHex(kIdDigits)},
+                                                       {"participant", participant->id},
+                                                       {"after", last},
+                                                       {"head", headOf(pathOf(last))}});
+    if (!noted) return failure(noted);
+    return state_->begun(id);
+}
+
+Result<void> Study::endSession(std::string_view id, StudySessionState ended, std::string_view chainHead) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto* session = state_->known.session(id);
+    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
+    if (ended == StudySessionState::Unfinished || session->state != StudySessionState::Unfinished) {
+        return fail(ErrorCode::InvalidArgument, "session {} is {} and cannot become {}", id,
+                    wordFor(Words<StudySessionState>(kStudySessionStates), session->state),
+                    wordFor(Words<StudySessionState>(kStudySessionStates), ended));
+    }
+    const auto& file = session->parts.back().file;
+    const auto head = chainHead.empty() ? headOf(pathOf(file)) : std::string(chainHead);
+    return state_->append(ledger::kSessionEnded,
+                          {{"session", session->id},
+                           {"participant", session->participant},
+                           {"state", wordFor(Words<StudySessionState>(kStudySessionStates), ended)},
+                           {"file", file},
+                           {"head", head}});
+}
+
+Result<std::shared_ptr<const RowSeal>> Study::sealOf(std::string_view file) const {
+    const auto* session = state_->known.sessionOfFile(file);
+    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session file {}", file);
+    return state_->sealFor(*session, file);
+}
+
+Result<std::vector<SessionRow>> Study::events(const StudySession& session) const {
+    std::vector<SessionRow> all;
+    for (const auto& part : session.parts) {
+        auto seal = state_->sealFor(session, part.file);
+        if (!seal) return failure(seal);
+        const auto reader = SessionReader::open(pathOf(part.file), std::move(*seal));
+        if (!reader && reader.error().code == ErrorCode::NotFound) continue;
+        if (!reader) return failure(reader);
+        auto rows = reader->events();
+        if (!rows) return failure(rows);
+        std::ranges::move(*rows, std::back_inserter(all));
+    }
+    return all;
+}
+
+Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& event) {
+    if (auto may = state_->changeable(); !may) return may;
+    if (state_->known.session(session) == nullptr)
+        return fail(ErrorCode::NotFound, "the study has no session {}", session);
+    if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
+        return fail(
+            ErrorCode::InvalidArgument,
+            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
+            "\"{}\", {} and {}",
+            event.what, event.severity, event.relation);
+    }
+    return state_->append(ledger::kAdverseEvent, {{"session", session}}, &state_->keys->study(), toJson(event));
+}
+
+Result<std::vector<std::pair<std::string, AdverseEvent>>> Study::adverseEvents() const {
+    if (!state_->keys) return fail(ErrorCode::Unsupported, "adverse events are read with the study's passphrase");
+    return state_->known.adverseEvents;
+}
+
+Result<void> Study::exported(const fs::path& place, std::string_view what) {
+    if (auto may = state_->changeable(); !may) return may;
+    if (liesInside(place, folder())) {
+        return fail(ErrorCode::InvalidArgument,
+                    "{} lies inside the study folder; an export there would stand unsealed beside what is sealed",
+                    place.string());
+    }
+    return state_->append(ledger::kExported, {{"what", what}}, &state_->keys->study(), {{"place", place.string()}});
+}
+
+}  // namespace tacto
