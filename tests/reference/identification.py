@@ -2,8 +2,6 @@
 
 Answers are listed as they were given, block by block; nothing is drawn at random.
 """
-import itertools
-
 import numpy as np
 from scipy import optimize, special, stats
 
@@ -173,26 +171,6 @@ def prevalence(k, n):
             "high": 1 if k == n else share(below + 0.95)}
 
 
-def fit():
-    """G, and its exact distribution by every table that three trials a row can give."""
-    predicted = [[0.7, 0.2, 0.1], [0.25, 0.5, 0.25]]
-    counts = [[1, 2, 0], [1, 1, 1]]
-    n = 3
-
-    def g(table):
-        return sum(2 * k * np.log(k / (n * p)) for row, ps in zip(table, predicted) for k, p in zip(row, ps) if k)
-
-    rows = [row for row in itertools.product(range(n + 1), repeat=3) if sum(row) == n]
-    chances = {}
-    for table in itertools.product(rows, rows):
-        p = np.prod([stats.multinomial.pmf(row, n, ps) for row, ps in zip(table, predicted)])
-        chances[table] = (g(table), p)
-    observed = g(counts)
-    larger = sum(p for value, p in chances.values() if value > observed + 1e-9)
-    equal = sum(p for value, p in chances.values() if abs(value - observed) <= 1e-9)
-    return {"predicted": predicted, "counts": counts, "g": observed, "p_larger": larger, "p_equal": equal}
-
-
 def figures():
     return {
         "session": analysed(),
@@ -203,7 +181,6 @@ def figures():
             logistic([[0, 80, 50], [3, 80, 61], [10, 80, 70]]),
             logistic([[1, 16, 12], [2, 16, 13], [3, 16, 11], [4, 16, 12], [5, 16, 13]]),
         ],
-        "fit": fit(),
     }
 
 

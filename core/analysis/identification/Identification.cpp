@@ -28,13 +28,13 @@ std::optional<std::size_t> indexOf(const std::vector<std::string>& names, std::s
     return static_cast<std::size_t>(at - names.begin());
 }
 
-std::vector<std::string> labelsMet(std::span<const IdentificationTrial> trials) {
-    std::vector<std::string> met;
+/// What test trials name, in the order first met, after those in `met`.
+std::vector<std::string> namesMet(std::span<const IdentificationTrial> trials, std::string IdentificationTrial::*name,
+                                  std::vector<std::string> met) {
     for (const auto& trial : trials) {
-        if (trial.phase != TrialPhase::Test) continue;
-        for (const auto* name : {&trial.condition, &trial.response}) {
-            if (!name->empty() && !isReserved(*name) && !indexOf(met, *name)) met.push_back(*name);
-        }
+        const auto& text = trial.*name;
+        if (trial.phase != TrialPhase::Test || text.empty() || text == kCatchCondition) continue;
+        if (!indexOf(met, text)) met.push_back(text);
     }
     return met;
 }
@@ -59,7 +59,8 @@ Result<void> checkLabels(const std::vector<std::string>& labels) {
 }
 
 /// What is presented, or answered, must be known: a misspelt one would otherwise be a wrong answer.
-Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std::vector<std::string>& labels) {
+Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std::vector<std::string>& labels,
+                         const std::vector<std::string>& columns) {
     std::set<std::size_t> answered;
     for (const auto& trial : trials) {
         if (trial.phase != TrialPhase::Test) continue;
@@ -68,9 +69,9 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
                         trial.condition, fmt::join(labels, ", "));
         }
         if (trial.response.empty()) continue;
-        if (trial.response != kNoneResponse && trial.response != kNotSureResponse && !indexOf(labels, trial.response)) {
-            return fail(ErrorCode::InvalidArgument, "trial {} was answered \"{}\"; {}, none or not-sure was expected",
-                        trial.number, trial.response, fmt::join(labels, ", "));
+        if (!indexOf(columns, trial.response) || trial.response == kCatchCondition) {
+            return fail(ErrorCode::InvalidArgument, "trial {} was answered \"{}\"; {} was expected", trial.number,
+                        trial.response, fmt::join(columns, ", "));
         }
         if (!answered.insert(trial.number).second) {
             return fail(ErrorCode::InvalidArgument, "trial {} was answered twice; one answer was expected",
@@ -80,8 +81,8 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
     return {};
 }
 
-/// Right answers stand on the diagonal.
-ConfusionFigures figuresOf(const Counts& counts) {
+/// Right answers stand on the diagonal; `names` are offered beside what is no name.
+ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     ConfusionFigures out;
     std::vector<std::vector<double>> table;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -89,7 +90,7 @@ ConfusionFigures figuresOf(const Counts& counts) {
         for (const std::size_t n : counts[i]) out.n += n;
         out.hits += counts[i][i];
     }
-    out.chance = 1 / static_cast<double>(counts.size());
+    out.chance = 1 / static_cast<double>(names);
     out.accuracy = wilsonInterval(out.hits, out.n);
     out.pChance = binomialAtLeast(out.hits, out.n, out.chance);
     out.it_bits = informationTransfer(table);
@@ -114,15 +115,15 @@ FeatureFigures mergedBy(std::string_view LabelFeatures::*value, const Identifica
         if (!indexOf(out.values, name)) out.values.emplace_back(name);
         rowOf.push_back(*indexOf(out.values, name));
     }
-    const std::size_t values = out.values.size(), labels = found.labels.size();
-    out.confusion.assign(values, std::vector<std::size_t>(values + 2, 0));
+    const std::size_t values = out.values.size(), labels = found.labels.size(), columns = found.columns.size();
+    out.confusion.assign(values, std::vector<std::size_t>(values + columns - labels, 0));
     for (std::size_t i = 0; i < labels; ++i) {
-        for (std::size_t j = 0; j < labels + 2; ++j) {
+        for (std::size_t j = 0; j < columns; ++j) {
             const std::size_t column = j < labels ? rowOf[j] : values + j - labels;
             out.confusion[rowOf[i]][column] += found.confusion[i][j];
         }
     }
-    out.figures = figuresOf(out.confusion);
+    out.figures = figuresOf(out.confusion, values);
     const auto& counts = out.confusion;
     const std::size_t signal = counts[0][0] + counts[0][1], noise = counts[1][0] + counts[1][1];
     if (signal > 0 && noise > 0) {
@@ -155,7 +156,7 @@ void addTrials(Identification& out, std::span<const IdentificationTrial> trials)
         const IdentificationTrial* const previous = std::exchange(before, row ? &trial : nullptr);
         if (!row) {
             ++out.catches.n;
-            if (indexOf(out.labels, trial.response)) ++out.catches.falseAlarms;
+            if (!isReserved(trial.response)) ++out.catches.falseAlarms;
             continue;
         }
         ++out.confusion[*row][*indexOf(out.columns, trial.response)];
@@ -184,20 +185,18 @@ std::size_t unanswered(std::span<const IdentificationTrial> trials) {
     return static_cast<std::size_t>(std::ranges::count_if(answered, [](const auto& trial) { return !trial.second; }));
 }
 
-}  // namespace
-
-Result<Identification> identify(std::span<const IdentificationTrial> trials, std::vector<std::string> labels) {
+Result<Identification> analysed(std::span<const IdentificationTrial> trials, std::vector<std::string> labels,
+                                std::vector<std::string> columns) {
     Identification out;
-    out.labels = labels.empty() ? labelsMet(trials) : std::move(labels);
+    out.labels = std::move(labels);
+    out.columns = std::move(columns);
     if (auto sane = checkLabels(out.labels); !sane) return failure(sane);
-    if (auto sane = checkTrials(trials, out.labels); !sane) return failure(sane);
-    out.columns = out.labels;
-    out.columns.emplace_back(kNoneResponse);
-    out.columns.emplace_back(kNotSureResponse);
+    if (auto sane = checkTrials(trials, out.labels, out.columns); !sane) return failure(sane);
     out.confusion.assign(out.labels.size(), std::vector<std::size_t>(out.columns.size(), 0));
     addTrials(out, trials);
     out.noAnswer = unanswered(trials);
-    out.all = figuresOf(out.confusion);
+    const auto isName = [](const std::string& column) { return !isReserved(column); };
+    out.all = figuresOf(out.confusion, static_cast<std::size_t>(std::ranges::count_if(out.columns, isName)));
     out.catches.rate = clopperPearsonInterval(out.catches.falseAlarms, out.catches.n);
     if (areTwoByTwo(out.labels)) {
         out.texture = mergedBy(&LabelFeatures::texture, out);
@@ -212,6 +211,21 @@ Result<Identification> identify(std::span<const IdentificationTrial> trials, std
     for (const auto& block : out.blocks) points.push_back({static_cast<double>(block.block), block.n, block.hits});
     out.learning = logisticSlope(points);
     return out;
+}
+
+}  // namespace
+
+Result<Identification> identify(std::span<const IdentificationTrial> trials, std::vector<std::string> labels) {
+    auto columns = labels;
+    columns.emplace_back(kNoneResponse);
+    columns.emplace_back(kNotSureResponse);
+    return analysed(trials, std::move(labels), std::move(columns));
+}
+
+Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials) {
+    auto labels = namesMet(trials, &IdentificationTrial::condition, {});
+    auto columns = namesMet(trials, &IdentificationTrial::response, labels);
+    return analysed(trials, std::move(labels), std::move(columns));
 }
 
 }  // namespace tacto

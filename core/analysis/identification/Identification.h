@@ -22,7 +22,7 @@ namespace tacto {
 struct ConfusionFigures {
     std::size_t n = 0;
     std::size_t hits = 0;
-    double chance = kNaN;            ///< of a right answer by guessing among the rows
+    double chance = kNaN;            ///< of a right answer by guessing among the names offered
     Estimate accuracy;               ///< Wilson 95 %
     double pChance = kNaN;           ///< P(X ≥ hits) by chance, one-sided, exact; 1 without trials
     double it_bits = kNaN;           ///< information transfer; NaN without trials
@@ -30,7 +30,7 @@ struct ConfusionFigures {
     double itCorrected_bits = kNaN;  ///< max(0, transfer - bias)
 };
 
-/// One feature, the other passed over: rows are its two values, columns the two, "none" and "not sure".
+/// One feature, the other passed over: rows are its two values, columns the two and the other answers.
 struct FeatureFigures {
     std::vector<std::string> values;                  ///< as first met in the labels
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
@@ -62,7 +62,7 @@ struct AnswerShare {
 
 struct Identification {
     std::vector<std::string> labels;                  ///< rows
-    std::vector<std::string> columns;                 ///< labels, "none", "not-sure"
+    std::vector<std::string> columns;                 ///< labels, then the other answers: "none", "not-sure"
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
     ConfusionFigures all;
     std::optional<FeatureFigures> texture;  ///< where the labels are two by two
@@ -80,11 +80,14 @@ struct Identification {
     std::vector<double> medianResponseTime_s;  ///< of each label's rows, as presented; NaN without answers
 };
 
-/// `trials` in the order presented, whatever their phase; `labels` are the answers offered, in the order of the rows.
-/// Empty: those that the trials name, in the order first met.
+/// `trials` in the order presented, whatever their phase; `labels` are the names offered, in the order of the rows,
+/// with "none" and "not sure" beside them.
 /// Errors: InvalidArgument for fewer than two labels, a label given twice or reserved, and a test trial whose condition
 /// or response is neither a label nor one of the reserved words, or whose number comes a second time with an answer.
 [[nodiscard]] Result<Identification> identify(std::span<const IdentificationTrial> trials,
-                                              std::vector<std::string> labels = {});
+                                              std::vector<std::string> labels);
+/// The same for trials of which nothing else is known: rows are the conditions met, and the answers met beside those
+/// are the answers offered, each in the order first met. Errors: as identify().
+[[nodiscard]] Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials);
 
 }  // namespace tacto

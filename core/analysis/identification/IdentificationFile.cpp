@@ -26,27 +26,32 @@ Result<std::size_t> countIn(const NamedRows& rows, std::optional<std::size_t> co
 
 }  // namespace
 
-Result<std::vector<IdentificationTrial>> readIdentificationTrials(const std::filesystem::path& path) {
+Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path) {
     const auto text = readTextFile(path);
     if (!text) return failure(text);
     return parseIdentificationTrials(*text, path.string());
 }
 
-Result<std::vector<IdentificationTrial>> parseIdentificationTrials(std::string_view text, std::string_view name) {
-    NamedRows rows(text, name, "columns condition and response were expected", "a row per trial");
-    const auto condition = rows.column({"condition", "trial_type"});
+Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_view text, std::string_view name) {
+    NamedRows rows(text, name, "columns stimulus and response were expected", "a row per trial");
+    const auto condition = rows.column({"stimulus", "condition", "trial_type"});
     if (!condition) return failure(condition);
     const auto response = rows.column({"response"});
     if (!response) return failure(response);
+    const auto participant = rows.find({"participant", "participant_id"});
     const auto number = rows.find({"number", "trial"}), block = rows.find({"block"}), phase = rows.find({"phase"}),
                attempt = rows.find({"attempt"}), time = rows.find({"response_time", "rt_s"});
 
-    std::vector<IdentificationTrial> trials;
+    std::vector<ParticipantTrials> people;
     auto more = rows.next();
     for (; more && *more; more = rows.next()) {
+        const std::string who(participant ? rows[*participant] : "");
+        auto person = std::ranges::find(people, who, &ParticipantTrials::participant);
+        if (person == people.end()) person = people.insert(people.end(), {who, {}});
+        auto& trials = person->trials;
         IdentificationTrial trial;
         trial.condition = std::string(rows[*condition]);
-        if (isMissing(trial.condition)) return rows.refuse("the condition is empty; a name was expected");
+        if (isMissing(trial.condition)) return rows.refuse("the stimulus is empty; a name was expected");
         if (!isMissing(rows[*response])) trial.response = std::string(rows[*response]);
         if (trial.response == "not_sure") trial.response = kNotSureResponse;
         if (phase && !isMissing(rows[*phase])) {
@@ -78,7 +83,7 @@ Result<std::vector<IdentificationTrial>> parseIdentificationTrials(std::string_v
         trials.push_back(std::move(trial));
     }
     if (!more) return failure(more);
-    return trials;
+    return people;
 }
 
 }  // namespace tacto

@@ -72,8 +72,6 @@ json toJson(const IdentificationTrial& trial) {
             {"rt_s", numberOrNull(trial.rt_s)}};
 }
 
-json toJson(const GoodnessOfFit& fit) { return {{"g", numberOrNull(fit.g)}, {"p", numberOrNull(fit.p)}}; }
-
 json toJson(const FewPeople& people) {
     json rows = json::array();
     for (const auto& person : people.people) {

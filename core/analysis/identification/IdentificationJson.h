@@ -8,7 +8,6 @@
 
 #include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
-#include "core/analysis/identification/GoodnessOfFit.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/OverSessions.h"
 
@@ -22,8 +21,6 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
 /// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; response null without an answer
 [[nodiscard]] nlohmann::json toJson(const IdentificationTrial& trial);
-/// {"g", "p"}
-[[nodiscard]] nlohmann::json toJson(const GoodnessOfFit& fit);
 /// {"people", "accuracy": {"median", "min", "max"}, "it_corrected_bits", "above_chance": {"k", "n", "share",
 /// "prevalence", "prevalence_at_least"}}
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "core/analysis/identification/Identification.h"
@@ -132,7 +133,7 @@ TEST(Identification, WithoutTrialsNothingIsKnown) {
 TEST(Identification, AllRightIsTwoBitsAndStaysFinite) {
     std::vector<IdentificationTrial> trials;
     for (std::size_t i = 0; i < 80; ++i) trials.push_back(trialOf(i + 1, kLabels[i % 4], kLabels[i % 4], i / 16));
-    const auto found = identify(trials);
+    const auto found = identifyAsMet(trials);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found->labels, kLabels);
     EXPECT_NEAR(found->all.it_bits, 2, 1e-12);
@@ -142,8 +143,23 @@ TEST(Identification, AllRightIsTwoBitsAndStaysFinite) {
     EXPECT_TRUE(std::isnan(found->learning.value));
 }
 
+/// pilot.md section 10: `analyze identification` takes the labels it meets as the answers offered.
+TEST(Identification, WhatIsMetIsWhatWasOffered) {
+    const auto found = identifyAsMet(
+        std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "a", "none"), trialOf(4, "catch", "none")});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->labels, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(found->columns, (std::vector<std::string>{"a", "b", "none"}));
+    EXPECT_EQ(found->confusion, (std::vector<std::vector<std::size_t>>{{0, 1, 1}, {0, 1, 0}}));
+    EXPECT_EQ(found->all.chance, 0.5);
+    EXPECT_NEAR(found->all.itBias_bits, 2 / (2 * 3 * std::log(2.0)), 1e-12);
+    const auto wider = identifyAsMet(std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "a", "c")});
+    EXPECT_EQ(wider->labels.size(), 2U);
+    EXPECT_NEAR(wider->all.chance, 1.0 / 3, 1e-15);  // c could be guessed too
+}
+
 TEST(Identification, LabelsThatAreNotTwoByTwoHaveNoFeatures) {
-    const auto found = identify(std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "c", "none")});
+    const auto found = identifyAsMet(std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "c", "none")});
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_FALSE(found->texture);
     EXPECT_TRUE(toJson(*found).at("pressure").is_null());
@@ -155,10 +171,9 @@ TEST(Identification, RefusesWhatIsNoAnswer) {
         const auto found = identify(trials, std::move(labels));
         return found ? std::string("accepted") : found.error().message;
     };
-    EXPECT_EQ(
-        refusal({trialOf(3, "rough-high", "rogh-high")}),
-        "trial 3 was answered \"rogh-high\"; smooth-low, smooth-high, rough-low, rough-high, none or not-sure was "
-        "expected");
+    EXPECT_EQ(refusal({trialOf(3, "rough-high", "rogh-high")}),
+              "trial 3 was answered \"rogh-high\"; smooth-low, smooth-high, rough-low, rough-high, none, not-sure was "
+              "expected");
     EXPECT_EQ(refusal({trialOf(3, "hard", "rough-high")}),
               "trial 3 presents \"hard\"; smooth-low, smooth-high, rough-low, rough-high or catch was expected");
     EXPECT_EQ(refusal({trialOf(3, "rough-high", "none"), trialOf(3, "rough-high", "rough-high")}),
