@@ -198,17 +198,20 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
     return files;
 }
 
-Result<void> writeBids(const std::vector<BidsFile>& files, const fs::path& folder) {
+Result<void> checkBidsFolder(const fs::path& folder) {
     std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed) return fail(ErrorCode::Io, "{}: {}", folder.string(), failed.message());
-    if (!fs::is_empty(folder, failed) || failed) {
-        return fail(ErrorCode::InvalidArgument, "{} holds something already; a new or empty folder is expected",
-                    folder.string());
-    }
+    if (!fs::exists(folder, failed) || (fs::is_directory(folder, failed) && fs::is_empty(folder, failed))) return {};
+    return fail(ErrorCode::InvalidArgument, "{} holds something already; a new or empty folder is expected",
+                folder.string());
+}
+
+Result<void> writeBids(const std::vector<BidsFile>& files, const fs::path& folder) {
+    if (auto free = checkBidsFolder(folder); !free) return free;
     for (const auto& file : files) {
         const auto path = folder / file.path;
+        std::error_code failed;
         fs::create_directories(path.parent_path(), failed);
+        if (failed) return fail(ErrorCode::Io, "{}: {}", path.parent_path().string(), failed.message());
         std::ofstream out(path, std::ios::binary);
         out << file.text;
         out.close();

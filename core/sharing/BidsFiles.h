@@ -37,7 +37,10 @@ struct BidsFile {
 [[nodiscard]] Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with,
                                                       std::string_view version);
 
-/// Writes them to `folder`, which is new or empty. Errors: InvalidArgument for a folder that holds something; Io.
+/// Errors: InvalidArgument for a folder that holds something, or is none.
+[[nodiscard]] Result<void> checkBidsFolder(const std::filesystem::path& folder);
+
+/// Writes them to `folder`, which is new or empty. Errors: as checkBidsFolder(); Io.
 [[nodiscard]] Result<void> writeBids(const std::vector<BidsFile>& files, const std::filesystem::path& folder);
 
 }  // namespace tacto
