@@ -106,7 +106,7 @@ struct OpenTrial {
 
 /// What the rows of all parts of a session say of its trials with a number: those of the plan.
 struct PilotTrials {
-    nlohmann::json plan;  ///< [{number, phase, block, condition}]; null where none is stored
+    nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null where none is stored
     std::vector<IdentificationTrial> trials;  ///< answered, or twice without an answer; in the order answered
     std::vector<OpenTrial> open;
 };

@@ -11,11 +11,11 @@ namespace {
 constexpr Word<PromptTo> kPromptTo[] = {
     {"participant", PromptTo::Participant}, {"operator", PromptTo::Operator}, {"both", PromptTo::Both}};
 
-constexpr Word<PromptKind> kPromptKinds[] = {
-    {"hold", PromptKind::Hold},           {"strength", PromptKind::Strength}, {"interval", PromptKind::Interval},
-    {"condition", PromptKind::Condition}, {"yes-no", PromptKind::YesNo},      {"go-on", PromptKind::GoOn},
-    {"choice", PromptKind::Choice},       {"several", PromptKind::Several},   {"scale", PromptKind::Scale},
-    {"text", PromptKind::Text}};
+constexpr Word<PromptKind> kPromptKinds[] = {{"hold", PromptKind::Hold},         {"strength", PromptKind::Strength},
+                                             {"interval", PromptKind::Interval}, {"condition", PromptKind::Condition},
+                                             {"yes-no", PromptKind::YesNo},      {"go-on", PromptKind::GoOn},
+                                             {"choice", PromptKind::Choice},     {"several", PromptKind::Several},
+                                             {"scale", PromptKind::Scale},       {"text", PromptKind::Text}};
 
 PilotPrompt prompt(PromptKind kind, std::string name, std::string text, std::vector<PromptTarget> targets,
                    PromptTo to = PromptTo::Participant) {
@@ -46,9 +46,8 @@ PilotPrompt holdPrompt() {
 }
 
 PilotPrompt strengthPrompt() {
-    return prompt(
-        PromptKind::Strength, "strength", "What did you feel?",
-        {{"nothing", "Nothing"}, {"weak", "Weak"}, {"strong", "Strong"}, {"too-strong", "Too strong"}});
+    return prompt(PromptKind::Strength, "strength", "What did you feel?",
+                  {{"nothing", "Nothing"}, {"weak", "Weak"}, {"strong", "Strong"}, {"too-strong", "Too strong"}});
 }
 
 PilotPrompt intervalPrompt() {
