@@ -48,7 +48,7 @@ struct AscendingPresentation {
 struct AscendingSeries {
     double felt = std::numeric_limits<double>::quiet_NaN();  ///< first level felt; NaN: none
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
-    double highest = 0;  ///< that was presented and answered, or stopped
+    double highest = 0;  ///< that was answered
     SeriesEnd endedBy = SeriesEnd::Open;
     LevelLimit ceiling = LevelLimit::Device;  ///< what the ceiling was, where it ended the series
     std::size_t feltEmpty = 0;
@@ -57,7 +57,7 @@ struct AscendingSeries {
 
 struct AscendingResult {
     double felt = std::numeric_limits<double>::quiet_NaN();  ///< F: median of the series'; NaN: nothing was felt
-    /// U: lowest level called too strong, else the highest that was presented; NaN before any level was.
+    /// U: lowest level called too strong, else the highest that was answered; NaN before any was.
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
     bool saidTooStrong = false;
     std::vector<AscendingSeries> series;
@@ -91,9 +91,11 @@ private:
     [[nodiscard]] AscendingSeries& current() noexcept { return result_.series.back(); }
     [[nodiscard]] std::size_t above(std::size_t index) const noexcept;
     void beginSeries();
+    void chooseEmptyPlace();
     void choose();
     void answerEmpty(StrengthWord word);
     void answerLevel(StrengthWord word);
+    void calledTooStrong(std::size_t index);
     void end(SeriesEnd how);
 
     LevelGrid grid_;
@@ -104,7 +106,6 @@ private:
     std::size_t number_ = 1;      // Of the presentation that is asked for
     std::size_t index_ = 0;       // Its level; 0: empty
     std::size_t last_ = 0;        // Last level of this series
-    std::size_t feltBefore_ = 0;  // First felt level of this series before `last_`; 0: none
     std::size_t first_ = 0;       // First level felt in this series; 0: none
     std::size_t leading_ = 0;     // Empty presentations still due at the beginning
     std::size_t inFive_ = 0;      // Place in the current five

@@ -70,12 +70,14 @@ public:
 
 private:
     QuestPlus(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed);
+    void normalise();
     void choose();
     [[nodiscard]] std::size_t informative(std::size_t forbidden) const;
     [[nodiscard]] double expectedEntropy(std::size_t level) const;
-    [[nodiscard]] double mean_db() const;
-    [[nodiscard]] double sd_db() const;
-    [[nodiscard]] double quantile_db(double q) const;
+    [[nodiscard]] double weightOf(std::size_t alpha) const noexcept;
+    [[nodiscard]] double mean_db() const noexcept;
+    [[nodiscard]] double sd_db() const noexcept;
+    [[nodiscard]] double quantile_db(double q) const noexcept;
 
     LevelGrid grid_;
     QuestPlusSettings settings_;
