@@ -78,7 +78,7 @@ Result<void> PilotCare::checklist() {
         if (auto held = stopTest(by); !held) return held;
     }
     if (auto held = skin("before"); !held) return held;
-    return stage_.settings().unit == LevelUnit::Milliamps ? electrodes() : Result<void>();
+    return stage_.settings().unit == LevelUnit::Current ? electrodes() : Result<void>();
 }
 
 Result<void> PilotCare::machine() {
