@@ -74,6 +74,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
     {"continue", {}},
     {"resumed", {}},
     {"rating", {}},
+    {"side-effect", {}},
     {"note", {}},
     {"adverse-event", {}},
     {"session-end", {}},
