@@ -11,6 +11,7 @@
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/identification/OverSessions.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 
@@ -55,6 +56,27 @@ PresentedRange rangeOf(const BidsSession& session) {
 
 bool isUsable(const BidsSession& session) {
     return std::isfinite(session.low.value()) || std::isfinite(session.lowIntensity);
+}
+
+/// Mean over the conditions, 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
+double naturalnessOf(const BidsSession& session) {
+    constexpr std::string_view kWords[] = {"totally-unnatural", "rather-unnatural", "possibly-natural",
+                                           "almost-natural", "totally-natural"};
+    std::vector<double> scores;
+    for (const auto& rating : session.ratings) {
+        const auto word = std::ranges::find(kWords, rating.value);
+        if (rating.item == "naturalness" && word != std::end(kWords))
+            scores.push_back(static_cast<double>(word - std::begin(kWords) + 1));
+    }
+    return statisticsOf(scores).mean;
+}
+
+double medianResponse_s(const BidsSession& session) {
+    std::vector<double> times;
+    for (const auto& row : session.trials) {
+        if (row.trial.phase == TrialPhase::Test && std::isfinite(row.trial.rt_s)) times.push_back(row.trial.rt_s);
+    }
+    return statisticsOf(times).median;
 }
 
 /// One session with its figures.
@@ -141,6 +163,28 @@ void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
     blocks.emplace_back(std::move(facts));
 }
 
+void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const BidsSession& session,
+                const std::string& name) {
+    if (session.ratings.empty()) return;
+    constexpr std::string_view kItems[] = {"intensity", "unpleasantness", "pain", "naturalness", "qualities"};
+    TableBlock table;
+    table.caption = captions.table(QString("%1, session %2: ratings").arg(text(name)).arg(session.number));
+    table.columns = {
+        {"Condition"}, {"Intensity, 0 to 10", true}, {"Unpleasantness", true}, {"Pain", true}, {"Naturalness"},
+        {"Felt like"}};
+    for (const auto& label : session.labels) {
+        QStringList row = {text(label)};
+        for (const auto item : kItems) {
+            const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
+                return rating.condition == label && rating.item == item;
+            });
+            row << (rated == session.ratings.end() || rated->value.empty() ? QString("–") : text(rated->value));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    blocks.emplace_back(std::move(table));
+}
+
 void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
                   const std::vector<Analysed>& sessions) {
     std::vector<EncodingResult> results;
@@ -155,16 +199,24 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
         results.push_back({.encoding = encoding,
                            .n = one.found.all.n,
                            .hits = one.found.all.hits,
-                           .trainingBlocks = training.size()});
+                           .trainingBlocks = training.size(),
+                           .medianResponse_s = medianResponse_s(one.session->results),
+                           .naturalness = naturalnessOf(one.session->results)});
     }
     if (results.size() < 2) return;
     const auto compared = compareEncodings(std::move(results));
     TableBlock table;
     table.caption = captions.table(text(name) + ": encodings, in the order in which the person had them");
-    table.columns = {{"Encoding"}, {"Right", true}, {"Trials", true}, {"Training blocks", true}};
+    table.columns = {{"Encoding"},
+                     {"Right", true},
+                     {"Trials", true},
+                     {"Training blocks", true},
+                     {"Median response (s)", true},
+                     {"Naturalness, 1 to 5", true}};
     for (const auto& each : compared.encodings) {
         table.rows.push_back({text(each.encoding), QString::number(each.hits), QString::number(each.n),
-                              QString::number(each.trainingBlocks)});
+                              QString::number(each.trainingBlocks), number(each.medianResponse_s, 2),
+                              number(each.naturalness, 1)});
     }
     blocks.emplace_back(std::move(table));
     for (const auto& pair : compared.pairs) {
@@ -282,6 +334,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
                              .arg(text(results.encoding)),
                          content.simulated);
             addFacts(blocks, one);
+            addRatings(blocks, captions, results, name);
         }
         addEncodings(blocks, captions, name, sessions);
         if (auto added = addSessions(blocks, captions, name, sessions); !added) return failure(added);
