@@ -311,7 +311,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
         if (participant.about.state == ParticipantState::Withdrawn) continue;
         auto sessions = analysed(participant);
         if (!sessions) return failure(sessions);
-        PersonResult person{.name = participant.about.code};
+        PersonResult person{.name = participant.about.code, .usable = true, .figures = {}};
         person.usable = std::ranges::any_of(participant.sessions, [](const auto& s) { return isUsable(s.results); });
         if (!sessions->empty()) person.figures = sessions->front().found.all;
         if (!participant.sessions.empty()) people.push_back(std::move(person));

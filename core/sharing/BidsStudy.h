@@ -30,12 +30,12 @@ struct BidsTrial {
 /// One presentation of a threshold procedure.
 struct BidsThresholdTrial {
     std::size_t number = 0;
-    std::string procedure;   ///< "ascending", "detection", "range", "drift"
-    std::size_t series = 0;  ///< of the ascending limits, or the block before which drift was checked; 0: none
-    std::string type;        ///< "stimulus" or "catch"; of two intervals the one that holds it, "first" or "second"
+    std::string procedure{};  ///< "ascending", "detection", "range", "drift"
+    std::size_t series = 0;   ///< of the ascending limits, or the block before which drift was checked; 0: none
+    std::string type{};       ///< "stimulus" or "catch"; of two intervals the one that holds it, "first" or "second"
     Milliamps current{kNaN};
     double intensity = kNaN;
-    std::string response;
+    std::string response{};
     std::optional<bool> correct;  ///< of two intervals
     double response_s = kNaN;
 };

@@ -67,7 +67,12 @@ StudyRecord studyOfThree() {
     gate.name = row::kGate;
     gate.body = {{"name", "skin break 3"}, {"holds", false}, {"said", "the skin scores 2"}};
     study.participants[1].sessions[0].rows = {stop, gate};
-    study.events = {{"00000000000000a1", {.what = "redness", .severity = 2, .relation = 5, .outcome = "gone"}}};
+    AdverseEvent event;
+    event.what = "redness";
+    event.severity = 2;
+    event.relation = 5;
+    event.outcome = "gone";
+    study.events = {{"00000000000000a1", event}};
     return study;
 }
 

@@ -20,9 +20,9 @@ namespace tacto {
 
 /// One person and one encoding.
 struct PersonResult {
-    std::string name;          ///< as it is shown: a code in the study, a label outside it
-    bool usable = true;        ///< had a range between detection and discomfort
-    ConfusionFigures figures;  ///< n = 0 where no test trial was answered
+    std::string name;            ///< as it is shown: a code in the study, a label outside it
+    bool usable = true;          ///< had a range between detection and discomfort
+    ConfusionFigures figures{};  ///< n = 0 where no test trial was answered
 };
 
 struct FewPeople {
