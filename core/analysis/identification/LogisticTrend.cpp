@@ -95,7 +95,8 @@ Estimate logisticSlope(std::span<const TrendPoint> points) {
 
     const SlopeProfile profile(std::move(used));
     constexpr double kOpen = std::numeric_limits<double>::infinity();
-    const bool openAbove = profile.score(kSteepest) > 0, openBelow = profile.score(-kSteepest) < 0;
+    // Where every answer agrees with a slope, what is left of the score may be too small for a number.
+    const bool openAbove = profile.score(kSteepest) >= 0, openBelow = profile.score(-kSteepest) <= 0;
     const double best = openAbove   ? kSteepest
                         : openBelow ? -kSteepest
                                     : turnOf(-kSteepest, kSteepest, [&](double b) { return profile.score(b) > 0; });

@@ -44,7 +44,7 @@ TEST(IdentificationText, WhatIsNotKnownIsLeftOut) {
 TEST(IdentificationText, PrecisionIsThatOfTheDesign) {
     EXPECT_EQ(precisionSentence(80, 0.25), "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance.");
     EXPECT_EQ(precisionSentence(40, 0.25),
-              "40 trials: ± 11 % at 85 %, ± 15 % at 50 %; 15 right of 40 is above chance.");
+              "40 trials: ± 11 % at 85 %, ± 15 % at 50 %; 16 right of 40 is above chance.");
 }
 
 }  // namespace
