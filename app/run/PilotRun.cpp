@@ -54,6 +54,22 @@ std::chrono::sys_seconds secondsOf(const std::string& iso) {
     return days + hours(hour) + minutes(minute) + seconds(second);
 }
 
+/// Of a virtual participant to the checklist: no, but for the item that the settings name.
+Result<std::vector<ExclusionAnswer>> simulatedAnswers(const RunOrder& order) {
+    auto answers = nothingExcludes();
+    const auto yes = textOf(order, "exclusions");
+    if (yes.empty()) return answers;
+    const auto at = std::ranges::find(answers, yes, &ExclusionAnswer::key);
+    if (at == answers.end()) {
+        std::vector<std::string> keys;
+        for (const auto& answer : answers) keys.push_back(answer.key);
+        return fail(ErrorCode::InvalidArgument, "exclusions is \"{}\"; one of {} is expected", yes,
+                    fmt::join(keys, ", "));
+    }
+    at->yes = true;
+    return answers;
+}
+
 }  // namespace
 
 bool isPilotProtocol(const std::string& name) noexcept {
@@ -85,8 +101,7 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
         study_.emplace(std::move(*made));
         remarks_.push_back("A rehearsal was made in " + pilot.study.string() + "; its participants are simulated.");
     } else {
-        auto opened =
-            Study::open(pilot.study, pilot.passphrase ? &*pilot.passphrase : nullptr, Study::Access::Change);
+        auto opened = Study::open(pilot.study, pilot.passphrase ? &*pilot.passphrase : nullptr, Study::Access::Change);
         if (!opened) return failure(opened);
         study_.emplace(std::move(*opened));
         if (!study_->hasKey())
@@ -129,7 +144,8 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     unfinished_->number, who_.code, unfinished_->protocol);
     if (unfinished_->protocol != order.script.name)
-        return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with "
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} is of {}; it goes on with that protocol, or ends with "
                     "--set unfinished=end",
                     unfinished_->number, who_.code, unfinished_->protocol);
     if (auto read = readEarlier(); !read) return read;
@@ -148,6 +164,7 @@ Result<void> PilotRun::readEarlier() {
         auto events = reader->events();
         if (!events) return failure(events);
         std::ranges::move(*events, std::back_inserter(earlier_));
+        if (!earlierSeed_) earlierSeed_ = reader->about().seed;
         earlierHead_ = reader->chainHead();
     }
     return {};
@@ -163,9 +180,8 @@ Result<void> PilotRun::mayResume() const {
         const auto reader = SessionReader::open(path, *seal);
         if (!reader) return failure(reader);
         const auto begun = secondsOf(reader->about().wallStart);
-        const auto lasted = reader->about().virtualClock
-                                ? std::chrono::seconds(0)
-                                : std::chrono::floor<std::chrono::seconds>(reader->lastAt());
+        const auto lasted = reader->about().virtualClock ? std::chrono::seconds(0)
+                                                         : std::chrono::floor<std::chrono::seconds>(reader->lastAt());
         last = std::max(last, begun + lasted);
     }
     const auto now = SystemTime::real().wall();
@@ -212,6 +228,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.code = who_.code;
     settings_.isVirtual = who_.virtualSeed.has_value();
     settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
+    if (earlierSeed_) order.seed = *earlierSeed_;  // The session's, whatever the command says now
     settings_.seed = order.seed;
     settings_.encoding = study.encodings.empty() ? "standard" : study.encodings.front();
     settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;
@@ -254,9 +271,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     request_.codeConfirmed = pilot.codeConfirmed || settings_.isVirtual;
     request_.exclusions = pilot.exclusions;
     if (!settings_.isVirtual) return;
-    request_.exclusions = nothingExcludes();
-    const auto yes = textOf(order, "exclusions");
-    for (auto& answer : request_.exclusions) answer.yes = answer.key == yes;
+    if (auto answers = simulatedAnswers(order)) request_.exclusions = std::move(*answers);
 }
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, bool simulated) {
@@ -276,16 +291,12 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
 Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                     std::shared_ptr<BenchTap> tap) {
     std::unique_ptr<PilotRun> made(new PilotRun());
-    if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
-    if (const auto yes = textOf(order, "exclusions"); !yes.empty()) {
-        const auto items = exclusionItems();
-        if (std::ranges::find(items, yes, &ExclusionItem::key) == items.end()) {
-            std::vector<std::string_view> keys;
-            for (const auto& item : items) keys.push_back(item.key);
-            return fail(ErrorCode::InvalidArgument, "exclusions is \"{}\"; one of {} is expected", yes,
-                        fmt::join(keys, ", "));
-        }
+    const auto answers = simulatedAnswers(order);
+    if (!answers) return failure(answers);
+    if (textOf(order, "participant").starts_with(kVirtual)) {  // Before a rehearsal is made for it
+        if (auto held = exclusionGate(*answers); !held) return failure(held);
     }
+    if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
     if (auto chosen = made->chooseSession(order); !chosen) return failure(chosen);
     made->fitOrder(order, pilot);
     const VirtualObserver* truth = nullptr;
@@ -306,8 +317,8 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     const auto& opened = made->run_->opened();
     made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_);
     const auto parts = static_cast<int>(made->begun_->session.parts.size());
-    made->session_ = std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_,
-                                                    truth, parts);
+    made->session_ =
+        std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
     if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlierHead_);
     auto* raw = made.get();
     made->session_->stillApproved = [raw] { return raw->study_->stillApproved(); };

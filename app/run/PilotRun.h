@@ -73,6 +73,7 @@ private:
     SessionRequest request_;
     std::vector<SessionRow> earlier_;
     std::string earlierHead_;
+    std::optional<std::uint64_t> earlierSeed_;
     PilotSettings settings_;
     std::vector<std::string> remarks_;
 
