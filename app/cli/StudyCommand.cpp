@@ -284,7 +284,11 @@ const std::vector<StudyWord>& studyWords() {
          nullptr},
         {"enrol", 2, 3, {"virtual", "passphrase-file", "json"}, true, enrol},
         {"consent", 3, 3, {"version", "date", "by", "passphrase-file", "json"}, true, consent},
-        {"show", 2, 2, {"passphrase-file", "json"}, false,
+        {"show",
+         2,
+         2,
+         {"passphrase-file", "json"},
+         false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
         {"trials", 3, 3, {"session", "passphrase-file", "json"}, false, trials},
         {"leave", 3, 3, {"passphrase-file", "json"}, true, leave},
@@ -343,7 +347,8 @@ int runStudy(const QCommandLineParser& parser) {
 
 const Command kStudy{
     "study",
-    "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | enrol "
+    "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | "
+    "enrol "
     "STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | trials "
     "STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE} [--passphrase-file F] [--json]",
     "Studies with people or virtual participants: approval, consent, sealed records",
