@@ -186,8 +186,7 @@ Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Reg
     return running;
 }
 
-RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers,
-                    SignalStop& interrupts) {
+RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
     auto& run = running.run();
     ProgressLine line;
     TerminalOperator desk(answers, interrupts, [&line] { line.clear(); });
@@ -344,7 +343,8 @@ int runRun(const QCommandLineParser& parser) {
 const Command kRun{
     "run",
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
-    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--report none|html|pdf] [--json]",
+    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--report "
+    "none|html|pdf] [--json]",
     "Runs a protocol script, records it and writes its report",
     true,
     declareRun,

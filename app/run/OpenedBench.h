@@ -42,7 +42,7 @@ struct BenchOrder {
     bool rehearsal = false;
     /// Makes the session file in place of makeRunSession(); empty: that does. The flag: every device is simulated.
     std::function<Result<RunSession>(const SessionAbout&, const Clock&, bool)> makeSession = {};
-    SessionAbout about = {};             ///< of a protocol: its script and parameters; aboutSession() adds the rest
+    SessionAbout about = {};  ///< of a protocol: its script and parameters; aboutSession() adds the rest
 };
 
 struct OpenedBench {
@@ -52,7 +52,7 @@ struct OpenedBench {
     SessionAbout about;
     std::unique_ptr<SessionWriter> session;
     std::shared_ptr<const RowSeal> seal;  ///< of the session; null: its rows are not sealed
-    std::unique_ptr<Bench> bench;  // Ends before what it writes to
+    std::unique_ptr<Bench> bench;         // Ends before what it writes to
     /// What the operator should know before anything is delivered, a sentence each; what a report needs of it is in the
     /// session.
     std::vector<std::string> warnings;

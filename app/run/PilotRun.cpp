@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
@@ -46,12 +45,20 @@ void fitSource(DeviceUri& uri) {
     if (!has("step")) uri.parameters.emplace_back("step", "0.5mA");
 }
 
-std::chrono::sys_seconds secondsOf(const std::string& iso) {
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
-    if (std::sscanf(iso.c_str(), "%d-%d-%dT%d:%d:%d", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-    using namespace std::chrono;
-    const sys_days days{std::chrono::year(year) / month / day};
-    return days + hours(hour) + minutes(minute) + seconds(second);
+/// Of a virtual participant to the checklist: no, but for the item that the settings name.
+Result<std::vector<ExclusionAnswer>> simulatedAnswers(const RunOrder& order) {
+    auto answers = nothingExcludes();
+    const auto yes = textOf(order, "exclusions");
+    if (yes.empty()) return answers;
+    const auto at = std::ranges::find(answers, yes, &ExclusionAnswer::key);
+    if (at == answers.end()) {
+        std::vector<std::string> keys;
+        for (const auto& answer : answers) keys.push_back(answer.key);
+        return fail(ErrorCode::InvalidArgument, "exclusions is \"{}\"; one of {} is expected", yes,
+                    fmt::join(keys, ", "));
+    }
+    at->yes = true;
+    return answers;
 }
 
 }  // namespace
@@ -85,8 +92,7 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
         study_.emplace(std::move(*made));
         remarks_.push_back("A rehearsal was made in " + pilot.study.string() + "; its participants are simulated.");
     } else {
-        auto opened =
-            Study::open(pilot.study, pilot.passphrase ? &*pilot.passphrase : nullptr, Study::Access::Change);
+        auto opened = Study::open(pilot.study, pilot.passphrase ? &*pilot.passphrase : nullptr, Study::Access::Change);
         if (!opened) return failure(opened);
         study_.emplace(std::move(*opened));
         if (!study_->hasKey())
@@ -129,51 +135,24 @@ Result<void> PilotRun::chooseSession(const RunOrder& order) {
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     unfinished_->number, who_.code, unfinished_->protocol);
     if (unfinished_->protocol != order.script.name)
-        return fail(ErrorCode::NotFound, "session {} of {} is of {}; it goes on with that protocol, or ends with "
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} is of {}; it goes on with that protocol, or ends with "
                     "--set unfinished=end",
                     unfinished_->number, who_.code, unfinished_->protocol);
-    if (auto read = readEarlier(); !read) return read;
+    auto rows = pilotRows(*study_, *unfinished_);
+    if (!rows) return failure(rows);
+    earlier_ = std::move(*rows);
     return mayResume();
 }
 
-/// The events of all parts so far. A part that was booked and never made holds none.
-Result<void> PilotRun::readEarlier() {
-    for (const auto& part : unfinished_->parts) {
-        const auto path = study_->pathOf(part.file);
-        if (!std::filesystem::exists(path)) continue;
-        auto seal = study_->sealOf(part.file);
-        if (!seal) return failure(seal);
-        const auto reader = SessionReader::open(path, *seal);
-        if (!reader) return failure(reader);
-        auto events = reader->events();
-        if (!events) return failure(events);
-        std::ranges::move(*events, std::back_inserter(earlier_));
-        earlierHead_ = reader->chainHead();
-    }
-    return {};
-}
-
-/// On a virtual clock the session's time runs ahead of the wall's: a part counts from its beginning then.
 Result<void> PilotRun::mayResume() const {
-    std::chrono::sys_seconds last = unfinished_->parts.back().begun;
-    for (const auto& part : unfinished_->parts) {
-        const auto path = study_->pathOf(part.file);
-        const auto seal = study_->sealOf(part.file);
-        if (!std::filesystem::exists(path) || !seal) continue;
-        const auto reader = SessionReader::open(path, *seal);
-        if (!reader) return failure(reader);
-        const auto begun = secondsOf(reader->about().wallStart);
-        const auto lasted = reader->about().virtualClock
-                                ? std::chrono::seconds(0)
-                                : std::chrono::floor<std::chrono::seconds>(reader->lastAt());
-        last = std::max(last, begun + lasted);
-    }
     const auto now = SystemTime::real().wall();
-    if (now - last <= kResumedWithin) return {};
+    if (now - earlier_.lastAt <= kResumedWithin) return {};
     return fail(kGateRefused,
                 "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and is ended with --set "
                 "unfinished=end",
-                unfinished_->number, who_.code, std::chrono::duration<double, std::ratio<3600>>(now - last).count());
+                unfinished_->number, who_.code,
+                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count());
 }
 
 // The bench
@@ -212,6 +191,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.code = who_.code;
     settings_.isVirtual = who_.virtualSeed.has_value();
     settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
+    if (earlier_.seed) order.seed = *earlier_.seed;  // The session's, whatever the command says now
     settings_.seed = order.seed;
     settings_.encoding = study.encodings.empty() ? "standard" : study.encodings.front();
     settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;
@@ -254,9 +234,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     request_.codeConfirmed = pilot.codeConfirmed || settings_.isVirtual;
     request_.exclusions = pilot.exclusions;
     if (!settings_.isVirtual) return;
-    request_.exclusions = nothingExcludes();
-    const auto yes = textOf(order, "exclusions");
-    for (auto& answer : request_.exclusions) answer.yes = answer.key == yes;
+    if (auto answers = simulatedAnswers(order)) request_.exclusions = std::move(*answers);
 }
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, bool simulated) {
@@ -276,16 +254,12 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
 Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                     std::shared_ptr<BenchTap> tap) {
     std::unique_ptr<PilotRun> made(new PilotRun());
-    if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
-    if (const auto yes = textOf(order, "exclusions"); !yes.empty()) {
-        const auto items = exclusionItems();
-        if (std::ranges::find(items, yes, &ExclusionItem::key) == items.end()) {
-            std::vector<std::string_view> keys;
-            for (const auto& item : items) keys.push_back(item.key);
-            return fail(ErrorCode::InvalidArgument, "exclusions is \"{}\"; one of {} is expected", yes,
-                        fmt::join(keys, ", "));
-        }
+    const auto answers = simulatedAnswers(order);
+    if (!answers) return failure(answers);
+    if (textOf(order, "participant").starts_with(kVirtual)) {  // Before a rehearsal is made for it
+        if (auto held = exclusionGate(*answers); !held) return failure(held);
     }
+    if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
     if (auto chosen = made->chooseSession(order); !chosen) return failure(chosen);
     made->fitOrder(order, pilot);
     const VirtualObserver* truth = nullptr;
@@ -304,11 +278,11 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     if (!run) return failure(run);
     made->run_ = std::move(*run);
     const auto& opened = made->run_->opened();
-    made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_);
+    made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_.events);
     const auto parts = static_cast<int>(made->begun_->session.parts.size());
-    made->session_ = std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_,
-                                                    truth, parts);
-    if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlierHead_);
+    made->session_ =
+        std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
+    if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlier_.chainHead);
     auto* raw = made.get();
     made->session_->stillApproved = [raw] { return raw->study_->stillApproved(); };
     return made;

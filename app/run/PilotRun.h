@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/PilotRows.h"
 #include "app/run/ProtocolRun.h"
 #include "core/pilot/PilotSession.h"
 #include "core/pilot/VirtualPilotParticipant.h"
@@ -61,7 +62,6 @@ private:
     [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
     [[nodiscard]] Result<void> mayResume() const;
-    [[nodiscard]] Result<void> readEarlier();
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
     [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock, bool simulated);
@@ -71,8 +71,7 @@ private:
     std::optional<StudySession> unfinished_;  // That is gone on with
     std::optional<BegunSession> begun_;
     SessionRequest request_;
-    std::vector<SessionRow> earlier_;
-    std::string earlierHead_;
+    PilotRows earlier_;
     PilotSettings settings_;
     std::vector<std::string> remarks_;
 

@@ -48,8 +48,8 @@ std::string silentName(const StageTrial& trial) { return trial.askedAgain ? tria
 std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
 
 Seconds lengthOf(const StageTrial& trial) {
-    return trial.level > 0 ? static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval
-                           : Seconds(0);
+    const Seconds trains = static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval;
+    return trial.level > 0 ? std::min(trains, trial.presentation.duration) : Seconds(0);
 }
 
 PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)
@@ -262,6 +262,7 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
 // Arming, and reaching the levels of a resumed session again
 
 Result<void> PilotStage::arm() {
+    if (armed_) return {};
     ArmRequest request;
     request.declaredLoadConfirmed = true;
     request.operatorConfirmed = true;
@@ -279,9 +280,7 @@ Result<void> PilotStage::arm() {
 }
 
 Result<void> PilotStage::ready() {
-    if (!armed_) {
-        if (auto armed = arm(); !armed) return armed;
-    }
+    if (auto armed = arm(); !armed) return armed;
     if (!rampDue_) return {};
     rampDue_ = false;
     return ramp();

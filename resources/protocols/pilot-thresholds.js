@@ -13,6 +13,7 @@ protocol({
       choices: { ask: "is named, and nothing is done", resume: "goes on", end: "is ended, and a new one begins" },
       value: "ask",
     },
+    blocks: { label: "Blocks of the test: not used here", type: "integer", min: 1, max: 50, value: 5 },
     exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },
     method: {
       label: "Detection by",

@@ -10,8 +10,8 @@ namespace tacto::host::pilot {
 
 using Json = nlohmann::json;
 
-HostCall begin, skin, sideEffects, ratings, finish, results, blocks;                      // Session.cpp
-HostCall ascendingLimits, detection, range;                                               // Procedures.cpp
-HostCall familiarise, train, testBlock, driftCheck, beforeBlock, takeBreak;               // Procedures.cpp
+HostCall begin, skin, sideEffects, ratings, finish, results, blocks;         // Session.cpp
+HostCall ascendingLimits, detection, range;                                  // Procedures.cpp
+HostCall familiarise, train, testBlock, driftCheck, beforeBlock, takeBreak;  // Procedures.cpp
 
 }  // namespace tacto::host::pilot

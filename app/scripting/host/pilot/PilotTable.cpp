@@ -12,10 +12,12 @@ std::vector<HostFunction> pilotFunctions() {
     const auto block = whole("block", "of the test, from 1").range(1, 50);
     return {
         {.name = "begin",
-         .parameters = {flag("options.trials", "the session has trials, so their order is drawn and kept").otherwise(true)},
-         .text = "Draws the order of the session from its seed and stores it, then goes through the checklist: machine, "
-                 "both STOPs, skin, electrodes. What an earlier part of the session stored is taken from there: nothing "
-                 "that was answered is asked or presented again.",
+         .parameters =
+             {flag("options.trials", "the session has trials, so their order is drawn and kept").otherwise(true)},
+         .text =
+             "Draws the order of the session from its seed and stores it, then goes through the checklist: machine, "
+             "both STOPs, skin, electrodes. What an earlier part of the session stored is taken from there: nothing "
+             "that was answered is asked or presented again.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::begin},
@@ -26,8 +28,9 @@ std::vector<HostFunction> pilotFunctions() {
          .call = host::pilot::blocks},
         {.name = "skin",
          .parameters = {text("moment", "\"before\", \"break 3\", \"after\"")},
-         .text = "The operator scores redness and swelling from 0 to 4. Before, both must be 0; later 2 ends the session "
-                 "and is an adverse event.",
+         .text =
+             "The operator scores redness and swelling from 0 to 4. Before, both must be 0; later 2 ends the session "
+             "and is an adverse event.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::skin},
@@ -38,8 +41,9 @@ std::vector<HostFunction> pilotFunctions() {
          .failsDisarmed = true,
          .call = host::pilot::sideEffects},
         {.name = "ascendingLimits",
-         .text = "Three series of rising levels, each until the participant says \"too strong\", under the gate's ceiling "
-                 "of the last accepted level and one step.",
+         .text =
+             "Three series of rising levels, each until the participant says \"too strong\", under the gate's ceiling "
+             "of the last accepted level and one step.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::ascendingLimits},
