@@ -64,7 +64,7 @@ BidsFile readme(const BidsStudy& study) {
     return {"README", text};
 }
 
-BidsTable participantsTable(const BidsStudy& study, const BidsWith& with,
+BidsTable participantsTable(const BidsWith& with,
                             const std::vector<std::pair<std::string, const BidsParticipant*>>& labelled) {
     std::vector<BidsColumn> columns = {{"participant_id", "Label of the participant, in random order"},
                                        {"species", "Species; n/a for a simulated participant"},
@@ -187,7 +187,7 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
         }
     }
     std::vector<BidsFile> files = {description(study, version), readme(study)};
-    addTable(files, "participants", participantsTable(study, with, labelled));
+    addTable(files, "participants", participantsTable(with, labelled));
     for (const auto& [label, participant] : labelled) {
         const auto subject = "sub-" + label;
         if (participant->sessions.empty()) continue;

@@ -36,7 +36,7 @@ struct BidsThresholdTrial {
     Milliamps current{kNaN};
     double intensity = kNaN;
     std::string response{};
-    std::optional<bool> correct;  ///< of two intervals
+    std::optional<bool> correct{};  ///< of two intervals
     double response_s = kNaN;
 };
 
