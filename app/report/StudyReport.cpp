@@ -17,7 +17,7 @@ namespace tacto {
 
 namespace {
 
-QString text(const std::string& value) { return QString::fromStdString(value); }
+QString qtext(const std::string& value) { return QString::fromStdString(value); }
 
 /// "–" for what is not known.
 QString number(double value, int decimals) {
@@ -102,7 +102,7 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
     content.documentTitle = title;
     content.header = QString("Tactoscope  ·  %1%2").arg(title, content.simulated ? "  ·  simulated" : "");
     content.footer =
-        QString("Study %1  ·  ledger head %2…").arg(text(study.settings.id), text(study.ledgerHead).left(12));
+        QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
     content.blocks.emplace_back(TitleBlock{title, subtitle});
     if (content.simulated) {
         content.blocks.emplace_back(ParagraphBlock{
@@ -115,8 +115,8 @@ ReportContent begun(const StudyRecord& study, const QString& title, const QStrin
 void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const Analysed& one, const QString& caption,
                   bool simulated) {
     ConfusionFigure figure;
-    for (const auto& label : one.found.labels) figure.labels << text(label);
-    for (const auto& column : one.found.columns) figure.columns << text(column);
+    for (const auto& label : one.found.labels) figure.labels << qtext(label);
+    for (const auto& column : one.found.columns) figure.columns << qtext(column);
     for (const auto& row : one.found.confusion) figure.counts.emplace_back(row.begin(), row.end());
     figure.accuracy = one.found.all.accuracy;
     const Figure drawn{figure, {}};
@@ -158,7 +158,7 @@ void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
     facts.facts.push_back(
         {"After the same condition", percent(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
     facts.facts.push_back({"After another", percent(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
-    facts.facts.push_back({"Precision", text(precisionSentence(found.all.n, found.all.chance))});
+    facts.facts.push_back({"Precision", qtext(precisionSentence(found.all.n, found.all.chance))});
     if (found.noAnswer > 0) facts.facts.push_back({"Without an answer", QString("%1 trial(s)").arg(found.noAnswer)});
     blocks.emplace_back(std::move(facts));
 }
@@ -168,17 +168,17 @@ void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const Bids
     if (session.ratings.empty()) return;
     constexpr std::string_view kItems[] = {"intensity", "unpleasantness", "pain", "naturalness", "qualities"};
     TableBlock table;
-    table.caption = captions.table(QString("%1, session %2: ratings").arg(text(name)).arg(session.number));
+    table.caption = captions.table(QString("%1, session %2: ratings").arg(qtext(name)).arg(session.number));
     table.columns = {
         {"Condition"}, {"Intensity, 0 to 10", true}, {"Unpleasantness", true}, {"Pain", true}, {"Naturalness"},
         {"Felt like"}};
     for (const auto& label : session.labels) {
-        QStringList row = {text(label)};
+        QStringList row = {qtext(label)};
         for (const auto item : kItems) {
             const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
                 return rating.condition == label && rating.item == item;
             });
-            row << (rated == session.ratings.end() || rated->value.empty() ? QString("–") : text(rated->value));
+            row << (rated == session.ratings.end() || rated->value.empty() ? QString("–") : qtext(rated->value));
         }
         table.rows.push_back(std::move(row));
     }
@@ -206,7 +206,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
     if (results.size() < 2) return;
     const auto compared = compareEncodings(std::move(results));
     TableBlock table;
-    table.caption = captions.table(text(name) + ": encodings, in the order in which the person had them");
+    table.caption = captions.table(qtext(name) + ": encodings, in the order in which the person had them");
     table.columns = {{"Encoding"},
                      {"Right", true},
                      {"Trials", true},
@@ -214,7 +214,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
                      {"Median response (s)", true},
                      {"Naturalness, 1 to 5", true}};
     for (const auto& each : compared.encodings) {
-        table.rows.push_back({text(each.encoding), QString::number(each.hits), QString::number(each.n),
+        table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
                               QString::number(each.trainingBlocks), number(each.medianResponse_s, 2),
                               number(each.naturalness, 1)});
     }
@@ -222,7 +222,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
     for (const auto& pair : compared.pairs) {
         blocks.emplace_back(
             ParagraphBlock{QString("%1 less %2: %3 percentage points (Newcombe).")
-                               .arg(text(pair.a), text(pair.b), percent(pair.difference).remove(" %"))});
+                               .arg(qtext(pair.a), qtext(pair.b), percent(pair.difference).remove(" %"))});
     }
 }
 
@@ -246,7 +246,7 @@ Result<void> addSessions(std::vector<ReportBlock>& blocks, Captions& captions, c
     const auto compared = compareSessions(std::move(figures));
     if (!compared) return failure(compared);
     TableBlock table;
-    table.caption = captions.table(text(name) + " over sessions");
+    table.caption = captions.table(qtext(name) + " over sessions");
     table.columns = {{"Session", true},    {"Day", true},     {"Detection (mA)", true}, {"Too strong (mA)", true},
                      {"Range (mA)", true}, {"|Z| (Ω)", true}, {"Right", true},          {"Against the first", true}};
     for (std::size_t i = 0; i < compared->sessions.size(); ++i) {
@@ -277,7 +277,7 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
                      {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected (bit)", true}};
     for (const auto& person : together.people) {
         const auto& figures = person.figures;
-        table.rows.push_back({text(person.name), person.usable ? "yes" : "no",
+        table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
                               QString("%1 of %2").arg(figures.hits).arg(figures.n), percent(figures.accuracy),
                               figures.n > 0 ? QString::number(figures.pChance, 'g', 2) : QString("–"),
                               number(figures.itCorrected_bits, 2)});
@@ -287,7 +287,7 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vect
         ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
                            .arg(number(100 * together.accuracy.median, 0), number(100 * together.accuracy.min, 0),
                                 number(100 * together.accuracy.max, 0))});
-    blocks.emplace_back(ParagraphBlock{text(fewPeopleSentence(together))});
+    blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
 }
@@ -302,7 +302,7 @@ const ParticipantRecord* withCode(const StudyRecord& study, const std::string& c
 }  // namespace
 
 Result<ReportContent> studyReport(const StudyRecord& study) {
-    auto content = begun(study, text(study.settings.title), "Pilot study  ·  for those who run it: names codes");
+    auto content = begun(study, qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
     auto& blocks = content.blocks;
     Captions captions(content.simulated);
     std::vector<PersonResult> people;
@@ -319,19 +319,19 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     }
     for (const auto& [name, sessions] : all) {
         for (const auto& one : sessions)
-            blocks.emplace_back(ParagraphBlock{text(headline(name, one.found, rangeOf(one.session->results)))});
+            blocks.emplace_back(ParagraphBlock{qtext(headline(name, one.found, rangeOf(one.session->results)))});
     }
     addTogether(blocks, captions, std::move(people));
     for (const auto& [name, sessions] : all) {
         if (sessions.empty()) continue;
-        blocks.emplace_back(captions.heading(text(name)));
+        blocks.emplace_back(captions.heading(qtext(name)));
         for (const auto& one : sessions) {
             const auto& results = one.session->results;
             addConfusion(blocks, captions, one,
                          QString("%1, session %2, encoding %3: presented and answered")
-                             .arg(text(name))
+                             .arg(qtext(name))
                              .arg(results.number)
-                             .arg(text(results.encoding)),
+                             .arg(qtext(results.encoding)),
                          content.simulated);
             addFacts(blocks, one);
             addRatings(blocks, captions, results, name);
@@ -345,7 +345,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
 }
 
 ReportContent committeeReport(const StudyRecord& study) {
-    auto content = begun(study, text(study.settings.title), "Report to the ethics committee  ·  names no participant");
+    auto content = begun(study, qtext(study.settings.title), "Report to the ethics committee  ·  names no participant");
     auto& blocks = content.blocks;
     Captions captions(content.simulated);
     blocks.emplace_back(captions.heading("Approval and consent"));
@@ -371,7 +371,7 @@ Result<ReportContent> participantReport(const StudyRecord& study, const std::str
     if (participant == nullptr) return fail(ErrorCode::NotFound, "no participant of this study has the code {}", code);
     const auto sessions = analysed(*participant);
     if (!sessions) return failure(sessions);
-    auto content = begun(study, text(study.settings.title), "What you felt  ·  for the participant");
+    auto content = begun(study, qtext(study.settings.title), "What you felt  ·  for the participant");
     auto& blocks = content.blocks;
     blocks.emplace_back(ParagraphBlock{
         "Thank you for taking part. You felt four kinds of touch, made by short pulses on your skin: rough or smooth, "
