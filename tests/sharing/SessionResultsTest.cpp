@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/results/SessionResults.h"
 
@@ -12,7 +13,7 @@ SessionRow rowOf(const char* kind, const std::string& name, json body = json::ob
     body["name"] = name;
     SessionRow made;
     made.name = kind;
-    made.body = std::move(body);
+    made.body = *parseJson(dumpJson(body), name);  // as a file gives it back
     return made;
 }
 
