@@ -95,11 +95,13 @@ Estimate logisticSlope(std::span<const TrendPoint> points) {
 
     const SlopeProfile profile(std::move(used));
     constexpr double kOpen = std::numeric_limits<double>::infinity();
-    // Where every answer agrees with a slope, what is left of the score may be too small for a number.
-    const bool openAbove = profile.score(kSteepest) >= 0, openBelow = profile.score(-kSteepest) <= 0;
-    const double best = openAbove   ? kSteepest
-                        : openBelow ? -kSteepest
-                                    : turnOf(-kSteepest, kSteepest, [&](double b) { return profile.score(b) > 0; });
+    const double found = turnOf(-kSteepest, kSteepest, [&](double b) { return profile.score(b) > 0; });
+    // Where every answer agrees with a slope, steeper ones are as good but for rounding.
+    constexpr double kAsGood = 1e-9;
+    const double asGood = profile.logLikelihood(found) - kAsGood;
+    const bool openAbove = profile.logLikelihood(kSteepest) >= asGood;
+    const bool openBelow = profile.logLikelihood(-kSteepest) >= asGood;
+    const double best = openAbove ? kSteepest : openBelow ? -kSteepest : found;
     const double needed = profile.logLikelihood(best) - kDeviance95 / 2;
     const auto plausible = [&](double slope) { return profile.logLikelihood(slope) >= needed; };
     const auto end = [&](double far) {

@@ -116,7 +116,7 @@ BidsStudy sharedStudy(const StudyRecord& record) {
         for (const auto& session : participant.sessions) shared.sessions.push_back(session.results);
         out.participants.push_back(std::move(shared));
     }
-    out.simulated = record.rehearsal || !anyPerson;
+    out.simulated = record.rehearsal || (!out.participants.empty() && !anyPerson);
     return out;
 }
 

@@ -36,6 +36,10 @@ TEST(LogisticTrend, ASlopeThatEveryAnswerAgreesWithIsOpen) {
     EXPECT_EQ(found.high, std::numeric_limits<double>::infinity());
     EXPECT_GT(found.low, 2);
     EXPECT_TRUE(std::isfinite(found.low));
+    const std::vector<TrendPoint> fallen = {{1, 16, 16}, {2, 16, 16}, {3, 16, 16}, {4, 16, 16}, {5, 16, 4}};
+    EXPECT_EQ(logisticSlope(fallen).value, -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(logisticSlope(fallen).low, -std::numeric_limits<double>::infinity());
+    EXPECT_LT(logisticSlope(fallen).high, 0);
 }
 
 }  // namespace
