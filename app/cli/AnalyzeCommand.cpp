@@ -6,6 +6,9 @@
 #include "app/cli/Verdicts.h"
 #include "core/analysis/calibration/CalibrationFile.h"
 #include "core/analysis/calibration/CalibrationJson.h"
+#include "core/analysis/identification/IdentificationFile.h"
+#include "core/analysis/identification/IdentificationJson.h"
+#include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/separability/TrialFile.h"
 
@@ -59,6 +62,76 @@ int calibration(const std::string& file, bool asJson) {
     return kDone;
 }
 
+void printConfusion(const Identification& found) {
+    std::vector<std::string> titles = {"presented"};
+    for (const auto& column : found.columns) titles.push_back(">" + column);
+    TextTable table(titles);
+    for (std::size_t i = 0; i < found.labels.size(); ++i) {
+        std::vector<std::string> row = {found.labels[i]};
+        for (const std::size_t n : found.confusion[i]) row.push_back(fmt::to_string(n));
+        table.add(row);
+    }
+    table.print();
+}
+
+void printFigures(const Identification& found, const std::string& name) {
+    printConfusion(found);
+    const auto& all = found.all;
+    say("\n  {}\n", headline(name, found, {}));
+    if (all.n == 0) return;
+    say("  {}\n", precisionSentence(all.n, all.chance));
+    say("  by chance      p = {:.2g} (exact, one-sided)\n", all.pChance);
+    say("  information    {:.2f} bit, {:.2f} bit of it by chance, {:.2f} bit without\n", all.it_bits, all.itBias_bits,
+        all.itCorrected_bits);
+    for (const auto& [title, feature] : {std::pair{"texture", &found.texture}, {"pressure", &found.pressure}}) {
+        if (!*feature) continue;
+        const auto& figures = (*feature)->figures;
+        say("  {:<14} {} of {} (chance 50 %), {:.2f} bit without chance\n", title, figures.hits, figures.n,
+            figures.itCorrected_bits);
+    }
+    if (found.catches.n > 0) {
+        say("  catch trials   {} of {} answered with a name\n", found.catches.falseAlarms, found.catches.n);
+    }
+    if (found.noAnswer > 0) say("  no answer      {} trial(s)\n", found.noAnswer);
+}
+
+/// The labels that each person's trials name are the answers offered. Nothing is judged, and several people are not
+/// pooled (pilot.md section 7).
+int identification(const std::string& file, bool asJson) {
+    const auto read = readIdentificationTrials(file);
+    if (!read) return couldNotRun(read.error());
+    std::vector<PersonResult> people;
+    std::vector<Identification> each;
+    for (const auto& person : *read) {
+        auto found = identifyAsMet(person.trials);
+        if (!found) return couldNotRun(Error{found.error().code, fmt::format("{}: {}", file, found.error().message)});
+        people.push_back({.name = person.participant, .usable = true, .figures = found->all});
+        each.push_back(std::move(*found));
+    }
+    if (each.size() == 1) {
+        const auto name = people.front().name.empty() ? file : people.front().name;
+        auto result = toJson(each.front());
+        result["kind"] = "identification";
+        if (asJson) {
+            printJson(result);
+        } else {
+            printFigures(each.front(), name);
+        }
+        return kDone;
+    }
+    const auto together = judgeFewPeople(people);
+    if (asJson) {
+        auto result = toJson(together);
+        result["kind"] = "identification";
+        for (std::size_t i = 0; i < each.size(); ++i) result["people"][i].update(toJson(each[i]));
+        printJson(result);
+        return kDone;
+    }
+    for (std::size_t i = 0; i < each.size(); ++i) printFigures(each[i], people[i].name);
+    say("\n  {}\n", fewPeopleSentence(together));
+    return kDone;
+}
+
 int runAnalyze(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
     if (given.size() != 2)
@@ -66,16 +139,17 @@ int runAnalyze(const QCommandLineParser& parser) {
     const auto kind = given.front().toStdString();
     const auto file = given.at(1).toStdString();
     if (kind == "calibration") return calibration(file, parser.isSet("json"));
+    if (kind == "identification") return identification(file, parser.isSet("json"));
     if (kind == "separability") return separability(file, parser.isSet("json"));
-    return usage(
-        fmt::format("analyze: \"{}\" cannot be analysed by this version; calibration and separability can", kind));
+    return usage(fmt::format(
+        "analyze: \"{}\" cannot be analysed by this version; calibration, identification and separability can", kind));
 }
 
 }  // namespace
 
 const Command kAnalyze{"analyze",
-                       "{calibration|separability} FILE.csv [--json]",
-                       "Commanded against measured values, or whether measured trials can be told apart",
+                       "{calibration|identification|separability} FILE.csv [--json]",
+                       "Commanded against measured values, or whether people or measurements tell trials apart",
                        false,
                        declareAnalyze,
                        runAnalyze};

@@ -1,12 +1,58 @@
 #include "app/cli/Command.h"
+#include "app/cli/StudyPassphrase.h"
 #include "app/report/Report.h"
+#include "app/report/StudyReport.h"
+#include "core/study/StudyFiles.h"
 
 namespace tacto::cli {
 
 namespace {
 
 void declareReport(QCommandLineParser& parser) {
-    parser.addOption({"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"});
+    parser.addOptions(
+        {{"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"},
+         {"participant", "Of a study: one page in plain words for the participant with that code.", "CODE"},
+         {"for", "Of a study: study (the default; names codes) or committee (names none).", "READER"}});
+    declarePassphrase(parser);
+}
+
+Result<ReportContent> contentFor(const QCommandLineParser& parser, const StudyRecord& record) {
+    if (parser.isSet("participant")) return participantReport(record, parser.value("participant").toStdString());
+    if (parser.value("for") == "committee") return committeeReport(record);
+    return studyReport(record);
+}
+
+/// Results are sealed: a reader's passphrase is asked for as a writer's is.
+Result<Study> openSealed(const QCommandLineParser& parser, const std::string& folder) {
+    auto study = openStudy(parser, folder, Study::Access::Read);
+    if (!study || study->hasKey()) return study;
+    const auto passphrase = passphraseFor(parser, folder);
+    if (!passphrase) return failure(passphrase);
+    return Study::open(folder, &*passphrase, Study::Access::Read);
+}
+
+int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
+    const auto reader = parser.value("for").toStdString();
+    if (!reader.empty() && reader != "study" && reader != "committee")
+        return usage(fmt::format("report: --for is \"{}\"; study or committee is accepted", reader));
+    if (!reader.empty() && parser.isSet("participant"))
+        return usage("report: --for and --participant name two reports; one of them is accepted");
+    const auto out = parser.value("out").toStdString();
+    if (liesInside(out, folder)) {
+        return couldNotRun(Error{ErrorCode::InvalidArgument,
+                                 fmt::format("{} lies inside the study folder; a report there would stand unsealed "
+                                             "beside what is sealed",
+                                             out)});
+    }
+    const auto study = openSealed(parser, folder);
+    if (!study) return couldNotRun(study.error());
+    const auto record = readStudyRecord(*study);
+    if (!record) return couldNotRun(record.error());
+    const auto content = contentFor(parser, *record);
+    if (!content) return couldNotRun(content.error());
+    if (const auto written = writeContent(*content, parser.value("out")); !written) return couldNotRun(written.error());
+    say("{}\n", out);
+    return kDone;
 }
 
 int runReport(const QCommandLineParser& parser) {
@@ -15,6 +61,7 @@ int runReport(const QCommandLineParser& parser) {
     if (!parser.isSet("out")) return usage("report: --out is missing");
     const auto format = reportFormat(parser.value("out"));
     if (!format) return usage("report: " + format.error().message);
+    if (Study::isThere(*session)) return reportStudy(parser, *session);
     const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out"));
     if (!made) {
         auto error = made.error();
@@ -34,7 +81,11 @@ int runReport(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kReport{
-    "report", "SESSION --out report.pdf", "The report of a session, as PDF or HTML", true, declareReport, runReport};
+const Command kReport{"report",
+                      "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--passphrase-file F]",
+                      "The report of a session or of a study, as PDF or HTML",
+                      true,
+                      declareReport,
+                      runReport};
 
 }  // namespace tacto::cli

@@ -4,8 +4,11 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/run/PilotRows.h"
 #include "app/run/Shipped.h"
 #include "app/scripting/ShippedResources.h"
+#include "core/analysis/identification/IdentificationJson.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 
 namespace tacto::cli {
@@ -221,6 +224,48 @@ int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& 
     return changed(done, study, code, parser);
 }
 
+/// Errors: NotFound for a number that there is no session of.
+Result<StudySession> sessionOf(const Study& study, const Participant& participant, const QCommandLineParser& parser) {
+    std::optional<StudySession> found;
+    const auto number = given(parser, "session");
+    for (const auto& session : study.sessions()) {
+        if (session.participant != participant.id) continue;
+        if (number.empty() || std::to_string(session.number) == number) found = session;
+    }
+    if (found) return *found;
+    return fail(ErrorCode::NotFound, "{} has no session{}; one that was begun is expected", participant.code,
+                number.empty() ? "" : " " + number);
+}
+
+/// The plan of a session, what was answered, and what was begun and not answered.
+int trials(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto participant = study.find(words.at(2).toStdString());
+    if (!participant) return couldNotRun(participant.error());
+    const auto session = sessionOf(study, *participant, parser);
+    if (!session) return couldNotRun(session.error());
+    const auto rows = pilotRows(study, *session);
+    if (!rows) return couldNotRun(rows.error());
+    const auto found = pilotTrials(rows->events);
+    auto answered = Json::array();
+    for (const auto& trial : found.trials) answered.push_back(toJson(trial));
+    auto open = Json::array();
+    for (const auto& trial : found.open) open.push_back({{"number", trial.number}, {"attempt", trial.attempt}});
+    if (parser.isSet("json")) {
+        printJson({{"code", participant->code},
+                   {"session", session->number},
+                   {"plan", found.plan},
+                   {"trials", std::move(answered)},
+                   {"open", std::move(open)}});
+        return kDone;
+    }
+    say("Session {} of {}: {} of {} trials answered\n", session->number, participant->code, found.trials.size(),
+        found.plan.size());
+    for (const auto& trial : found.trials)
+        say("  {:3} {:15} block {} {:12} {}\n", trial.number, nameOf(trial.phase), trial.block, trial.condition,
+            trial.response);
+    return kDone;
+}
+
 struct StudyWord {
     const char* name;
     int least, most;  ///< words, its own included
@@ -245,6 +290,7 @@ const std::vector<StudyWord>& studyWords() {
          {"passphrase-file", "json"},
          false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
+        {"trials", 3, 3, {"session", "passphrase-file", "json"}, false, trials},
         {"leave", 3, 3, {"passphrase-file", "json"}, true, leave},
         {"withdraw", 3, 3, {"confirm", "passphrase-file", "json"}, true, withdraw}};
     return all;
@@ -262,6 +308,7 @@ void declareStudy(QCommandLineParser& parser) {
     parser.addOption({"date", "Day on which it was signed.", "DATE"});
     parser.addOption({"by", "Initials of who took it.", "INITIALS"});
     parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
+    parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
     declarePassphrase(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }
@@ -302,8 +349,8 @@ const Command kStudy{
     "study",
     "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | "
     "enrol "
-    "STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | leave "
-    "STUDY CODE | withdraw STUDY CODE --confirm CODE} [--passphrase-file F] [--json]",
+    "STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | trials "
+    "STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE} [--passphrase-file F] [--json]",
     "Studies with people or virtual participants: approval, consent, sealed records",
     false,
     declareStudy,

@@ -18,11 +18,16 @@ Result<ReportFormat> reportFormat(const QString& path) {
 }
 
 Result<void> writeReport(const ReportModel& model, const QString& path, const FontCheck& installed) {
+    // Before anything is drawn.
+    if (const auto format = reportFormat(path); !format) return failure(format);
+    if (auto fonts = requireFonts(installed); !fonts) return fonts;
+    return writeContent(contentOf(model), path, installed);
+}
+
+Result<void> writeContent(const ReportContent& content, const QString& path, const FontCheck& installed) {
     const auto format = reportFormat(path);
     if (!format) return failure(format);
     if (auto fonts = requireFonts(installed); !fonts) return fonts;
-
-    const ReportContent content = contentOf(model);
     QByteArray bytes;
     if (*format == ReportFormat::Pdf) {
         QBuffer pages(&bytes);

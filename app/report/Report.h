@@ -9,6 +9,7 @@
 #include <QString>
 
 #include "app/report/Fonts.h"
+#include "app/report/ReportContent.h"
 #include "app/report/ReportModel.h"
 
 namespace tacto {
@@ -24,6 +25,10 @@ enum class ReportFormat { Pdf, Html };
 /// `installed` tells whether a font is there; the default asks Qt.
 [[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
                                        const FontCheck& installed = fontInstalled);
+
+/// The same for a content that is no session's (StudyReport.h).
+[[nodiscard]] Result<void> writeContent(const ReportContent& content, const QString& path,
+                                        const FontCheck& installed = fontInstalled);
 
 /// Verifies `sessionFile` and writes its report to `path`. The value is what is wrong with the session: the report of
 /// one that was altered is marked DAMAGED on every page (hazard H8). Empty when it is intact.

@@ -283,7 +283,7 @@ Result<void> Bench::reportDiscomfort(Milliamps level) { return state_->levels.re
 Result<void> Bench::beginAscending() { return state_->levels.ascend(true); }
 Result<void> Bench::endAscending() { return state_->levels.ascend(false); }
 Result<Milliamps> Bench::levelCeiling() { return state_->levels.ceiling(); }
-Result<LevelLimit> Bench::levelLimit(Seconds interval) const { return state_->levels.limit(interval); }
+Result<PermittedLevel> Bench::levelLimit(Seconds interval) const { return state_->levels.limit(interval); }
 
 void Bench::idle(Seconds duration) noexcept {
     auto& s = *state_;

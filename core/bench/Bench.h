@@ -80,7 +80,7 @@ struct ArmRequest {
 };
 
 /// The highest level that is permitted at all.
-struct LevelLimit {
+struct PermittedLevel {
     Milliamps level{0};     ///< 0: none is
     std::string limitedBy;  ///< one phrase: "commanded voltage (paper)", "the study's cap", "the device's largest", ...
 };
@@ -170,7 +170,7 @@ public:
     /// The highest level of the device's grid that the limits, the cap and what was too strong permit at `interval` on
     /// the impedance that was measured last, whatever was accepted; and what stands against the next one.
     /// Errors: NotArmed outside person mode, and where no impedance is known.
-    [[nodiscard]] Result<LevelLimit> levelLimit(Seconds interval) const;
+    [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
 
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.

@@ -131,7 +131,7 @@ std::string BenchLevels::hindranceTo(Milliamps level, Seconds interval, const Ga
     return forbiddenBy(setup, *train, interval);
 }
 
-Result<LevelLimit> BenchLevels::limit(Seconds interval) const {
+Result<PermittedLevel> BenchLevels::limit(Seconds interval) const {
     if (auto person = checkPerson(); !person) return failure(person);
     if (auto settable = checkSettable(Milliamps(0)); !settable) return failure(settable);
     if (!(interval.count() > 0 && interval <= Presentation::kLongest)) {
@@ -157,7 +157,7 @@ Result<LevelLimit> BenchLevels::limit(Seconds interval) const {
             by = std::move(hindrance);
         }
     }
-    return LevelLimit{permitted * step(), std::move(by)};
+    return PermittedLevel{permitted * step(), std::move(by)};
 }
 
 }  // namespace tacto

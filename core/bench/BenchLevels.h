@@ -35,7 +35,7 @@ public:
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
     [[nodiscard]] Result<void> ascend(bool begin);
     [[nodiscard]] Result<Milliamps> ceiling();
-    [[nodiscard]] Result<LevelLimit> limit(Seconds interval) const;
+    [[nodiscard]] Result<PermittedLevel> limit(Seconds interval) const;
 
 private:
     [[nodiscard]] Result<void> checkPerson() const;

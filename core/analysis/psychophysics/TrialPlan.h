@@ -13,15 +13,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/analysis/identification/IdentificationTrial.h"
 #include "core/base/Result.h"
-#include "core/base/Words.h"
 
 namespace tacto {
-
-enum class TrialPhase { Familiarisation, Training, Test };
-inline constexpr Word<TrialPhase> kTrialPhases[] = {
-    {"familiarisation", TrialPhase::Familiarisation}, {"training", TrialPhase::Training}, {"test", TrialPhase::Test}};
-[[nodiscard]] constexpr std::string_view nameOf(TrialPhase phase) noexcept { return wordFor(kTrialPhases, phase); }
 
 struct TrialPlanSettings {
     std::size_t conditions = 4;             ///< 2 to 16

@@ -1,0 +1,59 @@
+// export: a study as files for others to read, without codes and dates.
+#include "app/cli/Command.h"
+#include "app/cli/StudyPassphrase.h"
+#include "core/sharing/BidsFiles.h"
+#include "core/sharing/results/StudyResults.h"
+
+namespace tacto::cli {
+
+namespace {
+
+void declareExport(QCommandLineParser& parser) {
+    parser.addOptions(
+        {{"format", "bids: a BIDS dataset of behavioural files.", "bids"},
+         {"out", "A new or empty folder outside the study.", "DIR"},
+         {"with", "What else is exported of a participant: age, sex, handedness; commas between.", "LIST"}});
+    declarePassphrase(parser);
+}
+
+Result<void> exported(Study& study, const BidsWith& with, const std::filesystem::path& out) {
+    const auto record = readStudyRecord(study);
+    if (!record) return failure(record);
+    const auto files = bidsFiles(sharedStudy(*record), with, TACTOSCOPE_VERSION);
+    if (!files) return failure(files);
+    if (auto free = checkBidsFolder(out); !free) return free;
+    // Noted first: no export is without its note, and a place inside the study is refused before anything is there.
+    if (auto noted = study.exported(std::filesystem::absolute(out), "bids"); !noted) return noted;
+    return writeBids(*files, out);
+}
+
+int runExport(const QCommandLineParser& parser) {
+    const auto folder = onlyArgument(parser, "STUDY");
+    if (!folder) return usage(fmt::format("export: {}", folder.error().message));
+    if (!parser.isSet("out")) return usage("export: --out is missing");
+    if (const auto format = parser.value("format").toStdString(); format != "bids")
+        return usage(fmt::format("export: --format is \"{}\"; bids is accepted", format));
+    BidsWith with;
+    if (parser.isSet("with")) {
+        const auto named = bidsWithFrom(parser.value("with").toStdString());
+        if (!named) return usage(fmt::format("export: --with: {}", named.error().message));
+        with = *named;
+    }
+    const std::filesystem::path out = parser.value("out").toStdString();
+    auto study = openStudy(parser, *folder, Study::Access::Change);
+    if (!study) return couldNotRun(study.error());
+    if (const auto done = exported(*study, with, out); !done) return couldNotRun(done.error());
+    say("{}\n", out.string());
+    return kDone;
+}
+
+}  // namespace
+
+const Command kExport{"export",
+                      "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]",
+                      "The results of a study without codes and dates, as a BIDS dataset",
+                      false,
+                      declareExport,
+                      runExport};
+
+}  // namespace tacto::cli

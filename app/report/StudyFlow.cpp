@@ -1,0 +1,168 @@
+#include "app/report/StudyFlow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/base/JsonFields.h"
+#include "core/pilot/PilotRecord.h"
+#include "core/sharing/BidsFiles.h"
+
+namespace tacto {
+
+namespace {
+
+QString shown(const std::string& value) { return value.empty() ? QString("–") : QString::fromStdString(value); }
+
+QString score(std::optional<int> value) { return value ? QString::number(*value) : QString("–"); }
+
+std::size_t rowsOf(const SessionRecord& session, std::string_view kind) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(session.rows, [&](const SessionRow& each) { return each.name == kind; }));
+}
+
+bool hasTestTrials(const SessionRecord& session) {
+    return std::ranges::any_of(session.results.trials,
+                               [](const BidsTrial& row) { return row.trial.phase == TrialPhase::Test; });
+}
+
+bool hasRange(const SessionRecord& session) {
+    return std::isfinite(session.results.low.value()) || std::isfinite(session.results.lowIntensity);
+}
+
+/// The highest current that was presented, in any part of the session.
+double highest_ma(const SessionRecord& session) {
+    double most = kNaN;
+    for (const auto& each : session.rows) {
+        if (each.name != row::kTrialBegin) continue;
+        const double level = numberOr(each.body, "current_ma");
+        if (std::isfinite(level)) most = std::isnan(most) ? level : std::max(most, level);
+    }
+    return most;
+}
+
+std::string labelOf(const BidsStudy& shared, const Participant& participant) {
+    return bidsLabel(shared, static_cast<std::size_t>(std::max(0, participant.enrolled))).value_or("–");
+}
+
+}  // namespace
+
+FactsBlock approvalFacts(const StudyRecord& study) {
+    const auto& approval = study.settings.approval;
+    std::map<std::string, std::size_t> consents;
+    for (const auto& participant : study.participants) {
+        std::set<std::string> versions;
+        for (const auto& consent : participant.about.consents) versions.insert(consent.version);
+        for (const auto& version : versions) ++consents[version];
+    }
+    QStringList given;
+    for (const auto& [version, people] : consents)
+        given << QString("version %1: %2 participant(s)").arg(shown(version)).arg(people);
+    FactsBlock block;
+    block.oneColumn = true;
+    block.facts = {
+        {"Approval", shown(approval.reference)},
+        {"Committee", shown(approval.committee)},
+        {"From", shown(dateText(approval.from))},
+        {"Expires", shown(dateText(approval.expires))},
+        {"Protocol", shown(approval.protocolVersion)},
+        {"Hash of scripts and settings", shown(approval.protocolSha256), true},
+        {"Consent form in force", shown(study.settings.consentVersion)},
+        {"Consents", given.isEmpty() ? QString("none") : given.join("; ")},
+        {"Participants",
+         QString("%1 enrolled of at most %2").arg(study.participants.size()).arg(study.settings.participantsMax)},
+        {"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
+    return block;
+}
+
+TableBlock flowTable(const StudyRecord& study, const QString& caption) {
+    std::size_t consented = 0, begun = 0, usable = 0, tested = 0, complete = 0, left = 0, withdrawn = 0;
+    for (const auto& participant : study.participants) {
+        const auto& about = participant.about;
+        const auto any = [&](auto&& holds) { return std::ranges::any_of(participant.sessions, holds) ? 1U : 0U; };
+        if (about.state == ParticipantState::Left) ++left;
+        if (about.state == ParticipantState::Withdrawn) {
+            ++withdrawn;
+            continue;
+        }
+        if (!about.consents.empty()) ++consented;
+        if (!participant.sessions.empty()) ++begun;
+        usable += any(hasRange);
+        tested += any(hasTestTrials);
+        complete += any([](const SessionRecord& session) {
+            return session.about.state == StudySessionState::Complete && hasTestTrials(session);
+        });
+    }
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Step"}, {"Participants", true}};
+    for (const auto& [step, people] : {std::pair<const char*, std::size_t>{"Enrolled", study.participants.size()},
+                                       {"Consented", consented},
+                                       {"Began a session", begun},
+                                       {"Had a usable range", usable},
+                                       {"Answered test trials", tested},
+                                       {"Completed a session with test trials", complete},
+                                       {"Left, data kept", left},
+                                       {"Withdrew, data destroyed (not in the rows between)", withdrawn}})
+        table.rows.push_back({step, QString::number(people)});
+    return table;
+}
+
+TableBlock careTable(const StudyRecord& study, const QString& caption) {
+    const auto shared = sharedStudy(study);
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Participant"},           {"Session", true},       {"State"},
+                     {"Highest (mA)", true},    {"Presentations", true}, {"Stops by the participant", true},
+                     {"by the operator", true}, {"Faults", true},        {"Skin before", true},
+                     {"Skin after", true}};
+    for (const auto& participant : study.participants) {
+        for (const auto& session : participant.sessions) {
+            const double most = highest_ma(session);
+            table.rows.push_back(
+                {shown(labelOf(shared, participant.about)), QString::number(session.about.number),
+                 shown(std::string(wordFor<StudySessionState>(kStudySessionStates, session.about.state))),
+                 std::isfinite(most) ? QString::number(most, 'f', 1) : QString("–"),
+                 QString::number(rowsOf(session, row::kTrialBegin)),
+                 QString::number(rowsOf(session, row::kParticipantStop)),
+                 QString::number(rowsOf(session, row::kOperatorStop)), QString::number(rowsOf(session, row::kFault)),
+                 score(session.results.skinBefore), score(session.results.skinAfter)});
+        }
+    }
+    return table;
+}
+
+TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
+    const auto shared = sharedStudy(study);
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Participant"}, {"Session", true}, {"Gate"}, {"What was said"}};
+    for (const auto& participant : study.participants) {
+        for (const auto& session : participant.sessions) {
+            for (const auto& each : session.rows) {
+                if (each.name != row::kGate || !each.body.contains("holds") || flagOr(each.body, "holds")) continue;
+                table.rows.push_back({shown(labelOf(shared, participant.about)), QString::number(session.about.number),
+                                      shown(textOr(each.body, "name")), shown(textOr(each.body, "said"))});
+            }
+        }
+    }
+    if (table.rows.empty()) table.rows.push_back({"–", "–", "–", "every gate of every session held"});
+    return table;
+}
+
+TableBlock eventsTable(const StudyRecord& study, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {
+        {"Session"}, {"What"},    {"Severity, 1 to 4", true}, {"Serious"}, {"Relation, 1 to 5", true}, {"Action"},
+        {"Outcome"}, {"Reported"}};
+    for (const auto& [session, event] : study.events) {
+        table.rows.push_back({shown(session), shown(event.what), QString::number(event.severity),
+                              event.serious ? "yes" : "no", QString::number(event.relation), shown(event.action),
+                              shown(event.outcome), event.reported ? "yes" : "no"});
+    }
+    return table;
+}
+
+}  // namespace tacto

@@ -1,0 +1,19 @@
+// StudyFlow.h - what an ethics committee asks of a study: approval and consents, who came how far, what was done to the
+// skin, what went wrong. Participants have the labels of the export, never codes.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "app/report/ReportContent.h"
+#include "core/sharing/results/StudyResults.h"
+
+namespace tacto {
+
+[[nodiscard]] FactsBlock approvalFacts(const StudyRecord& study);
+/// Every enrolled participant is in it, withdrawn ones as a number alone.
+[[nodiscard]] TableBlock flowTable(const StudyRecord& study, const QString& caption);
+[[nodiscard]] TableBlock careTable(const StudyRecord& study, const QString& caption);
+[[nodiscard]] TableBlock refusalsTable(const StudyRecord& study, const QString& caption);
+[[nodiscard]] TableBlock eventsTable(const StudyRecord& study, const QString& caption);
+
+}  // namespace tacto

@@ -1,0 +1,409 @@
+#include "app/report/StudyReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/report/Captions.h"
+#include "app/report/FigureDrawing.h"
+#include "app/report/StudyFlow.h"
+#include "core/analysis/identification/Encodings.h"
+#include "core/analysis/identification/FewPeople.h"
+#include "core/analysis/identification/IdentificationText.h"
+#include "core/analysis/identification/OverSessions.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+namespace {
+
+QString qtext(const std::string& value) { return QString::fromStdString(value); }
+
+/// "–" for what is not known.
+QString number(double value, int decimals) {
+    return std::isfinite(value) ? QString::number(value, 'f', decimals) : QString("–");
+}
+
+QString percent(const Estimate& share) {
+    if (!std::isfinite(share.value)) return "–";
+    return QString("%1 % (%2 to %3)")
+        .arg(100 * share.value, 0, 'f', 0)
+        .arg(100 * share.low, 0, 'f', 0)
+        .arg(100 * share.high, 0, 'f', 0);
+}
+
+std::vector<IdentificationTrial> trialsOf(const BidsSession& session) {
+    std::vector<IdentificationTrial> trials;
+    for (const auto& row : session.trials) trials.push_back(row.trial);
+    return trials;
+}
+
+PresentedRange rangeOf(const BidsSession& session) {
+    PresentedRange range;
+    if (std::isfinite(session.low.value()) && std::isfinite(session.high.value())) {
+        range.low = session.low;
+        range.high = session.high;
+        range.impedance = session.impedance;
+        range.lowVoltage = Volts(session.low.value() * session.impedance.value() / 1000);
+        range.highVoltage = Volts(session.high.value() * session.impedance.value() / 1000);
+    }
+    if (std::isfinite(session.lowIntensity) && std::isfinite(session.highIntensity)) {
+        range.lowIntensity = session.lowIntensity;
+        range.highIntensity = session.highIntensity;
+    }
+    return range;
+}
+
+bool isUsable(const BidsSession& session) {
+    return std::isfinite(session.low.value()) || std::isfinite(session.lowIntensity);
+}
+
+/// Mean over the conditions, 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
+double naturalnessOf(const BidsSession& session) {
+    constexpr std::string_view kWords[] = {"totally-unnatural", "rather-unnatural", "possibly-natural",
+                                           "almost-natural", "totally-natural"};
+    std::vector<double> scores;
+    for (const auto& rating : session.ratings) {
+        const auto word = std::ranges::find(kWords, rating.value);
+        if (rating.item == "naturalness" && word != std::end(kWords))
+            scores.push_back(static_cast<double>(word - std::begin(kWords) + 1));
+    }
+    return statisticsOf(scores).mean;
+}
+
+double medianResponse_s(const BidsSession& session) {
+    std::vector<double> times;
+    for (const auto& row : session.trials) {
+        if (row.trial.phase == TrialPhase::Test && std::isfinite(row.trial.rt_s)) times.push_back(row.trial.rt_s);
+    }
+    return statisticsOf(times).median;
+}
+
+/// One session with its figures.
+struct Analysed {
+    const SessionRecord* session = nullptr;
+    Identification found;
+};
+
+/// Sessions with test trials, in their order.
+Result<std::vector<Analysed>> analysed(const ParticipantRecord& participant) {
+    std::vector<Analysed> all;
+    for (const auto& session : participant.sessions) {
+        auto found = identify(trialsOf(session.results), session.results.labels);
+        if (!found) return failure(found);
+        if (found->all.n > 0) all.push_back({&session, std::move(*found)});
+    }
+    return all;
+}
+
+ReportContent begun(const StudyRecord& study, const QString& title, const QString& subtitle) {
+    ReportContent content;
+    content.simulated = sharedStudy(study).simulated;
+    content.documentTitle = title;
+    content.header = QString("Tactoscope  ·  %1%2").arg(title, content.simulated ? "  ·  simulated" : "");
+    content.footer =
+        QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
+    content.blocks.emplace_back(TitleBlock{title, subtitle});
+    if (content.simulated) {
+        content.blocks.emplace_back(ParagraphBlock{
+            "SIMULATED: the participants are a model of people. These numbers say what the program does, "
+            "not what people do."});
+    }
+    return content;
+}
+
+void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const Analysed& one, const QString& caption,
+                  bool simulated) {
+    ConfusionFigure figure;
+    for (const auto& label : one.found.labels) figure.labels << qtext(label);
+    for (const auto& column : one.found.columns) figure.columns << qtext(column);
+    for (const auto& row : one.found.confusion) figure.counts.emplace_back(row.begin(), row.end());
+    figure.accuracy = one.found.all.accuracy;
+    const Figure drawn{figure, {}};
+    blocks.emplace_back(
+        FigureBlock{captions.figure(caption, simulated), figureLegend(drawn), drawFigure(drawn, simulated)});
+}
+
+QString learningText(const Identification& found) {
+    if (!std::isfinite(found.learning.value)) return "cannot be told";
+    return QString("%1 (%2 to %3) in log odds per block")
+        .arg(number(found.learning.value, 2), number(found.learning.low, 2), number(found.learning.high, 2));
+}
+
+void addFacts(std::vector<ReportBlock>& blocks, const Analysed& one) {
+    const auto& found = one.found;
+    FactsBlock facts;
+    facts.oneColumn = true;
+    facts.facts = {{"By chance", QString("p = %1, exact and one-sided against %2 %")
+                                     .arg(found.all.pChance, 0, 'g', 2)
+                                     .arg(100 * found.all.chance, 0, 'f', 0)},
+                   {"Information", QString("%1 bit, of which chance gives %2 bit; corrected %3 bit")
+                                       .arg(number(found.all.it_bits, 2), number(found.all.itBias_bits, 2),
+                                            number(found.all.itCorrected_bits, 2))}};
+    for (const auto& [name, feature] :
+         {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
+        if (!*feature) continue;
+        const auto& figures = (*feature)->figures;
+        facts.facts.push_back({name, QString("%1 of %2, %3; corrected information %4 bit, d′ %5, criterion %6")
+                                         .arg(figures.hits)
+                                         .arg(figures.n)
+                                         .arg(percent(figures.accuracy), number(figures.itCorrected_bits, 2),
+                                              number((*feature)->dPrime, 2), number((*feature)->criterion, 2))});
+    }
+    facts.facts.push_back({"Catch trials", QString("%1 of %2 answered with a name, exact 95 % interval up to %3 %")
+                                               .arg(found.catches.falseAlarms)
+                                               .arg(found.catches.n)
+                                               .arg(100 * found.catches.rate.high, 0, 'f', 0)});
+    facts.facts.push_back({"Learning over blocks", learningText(found)});
+    facts.facts.push_back(
+        {"After the same condition", percent(wilsonInterval(found.afterSame.hits, found.afterSame.n))});
+    facts.facts.push_back({"After another", percent(wilsonInterval(found.afterOther.hits, found.afterOther.n))});
+    facts.facts.push_back({"Precision", qtext(precisionSentence(found.all.n, found.all.chance))});
+    if (found.noAnswer > 0) facts.facts.push_back({"Without an answer", QString("%1 trial(s)").arg(found.noAnswer)});
+    blocks.emplace_back(std::move(facts));
+}
+
+void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const BidsSession& session,
+                const std::string& name) {
+    if (session.ratings.empty()) return;
+    constexpr std::string_view kItems[] = {"intensity", "unpleasantness", "pain", "naturalness", "qualities"};
+    TableBlock table;
+    table.caption = captions.table(QString("%1, session %2: ratings").arg(qtext(name)).arg(session.number));
+    table.columns = {
+        {"Condition"}, {"Intensity, 0 to 10", true}, {"Unpleasantness", true}, {"Pain", true}, {"Naturalness"},
+        {"Felt like"}};
+    for (const auto& label : session.labels) {
+        QStringList row = {qtext(label)};
+        for (const auto item : kItems) {
+            const auto rated = std::ranges::find_if(session.ratings, [&](const BidsRating& rating) {
+                return rating.condition == label && rating.item == item;
+            });
+            row << (rated == session.ratings.end() || rated->value.empty() ? QString("–") : qtext(rated->value));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    blocks.emplace_back(std::move(table));
+}
+
+void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
+                  const std::vector<Analysed>& sessions) {
+    std::vector<EncodingResult> results;
+    std::set<std::string> met;
+    for (const auto& one : sessions) {
+        const auto& encoding = one.session->results.encoding;
+        if (!met.insert(encoding).second) continue;  // the first session with each
+        std::set<std::size_t> training;
+        for (const auto& row : one.session->results.trials) {
+            if (row.trial.phase == TrialPhase::Training) training.insert(row.trial.block);
+        }
+        results.push_back({.encoding = encoding,
+                           .n = one.found.all.n,
+                           .hits = one.found.all.hits,
+                           .trainingBlocks = training.size(),
+                           .medianResponse_s = medianResponse_s(one.session->results),
+                           .naturalness = naturalnessOf(one.session->results)});
+    }
+    if (results.size() < 2) return;
+    const auto compared = compareEncodings(std::move(results));
+    TableBlock table;
+    table.caption = captions.table(qtext(name) + ": encodings, in the order in which the person had them");
+    table.columns = {{"Encoding"},
+                     {"Right", true},
+                     {"Trials", true},
+                     {"Training blocks", true},
+                     {"Median response (s)", true},
+                     {"Naturalness, 1 to 5", true}};
+    for (const auto& each : compared.encodings) {
+        table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
+                              QString::number(each.trainingBlocks), number(each.medianResponse_s, 2),
+                              number(each.naturalness, 1)});
+    }
+    blocks.emplace_back(std::move(table));
+    for (const auto& pair : compared.pairs) {
+        blocks.emplace_back(
+            ParagraphBlock{QString("%1 less %2: %3 percentage points (Newcombe).")
+                               .arg(qtext(pair.a), qtext(pair.b), percent(pair.difference).remove(" %"))});
+    }
+}
+
+Result<void> addSessions(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
+                         const std::vector<Analysed>& sessions) {
+    if (sessions.size() < 2) return {};
+    std::vector<SessionFigures> figures;
+    for (const auto& one : sessions) {
+        const auto& results = one.session->results;
+        figures.push_back({.number = results.number,
+                           .days = results.days,
+                           .detection_ma = {results.detection_ma, kNaN, kNaN},
+                           .tooStrong = Milliamps(results.tooStrong_ma),
+                           .low = results.low,
+                           .high = results.high,
+                           .impedance = results.impedance,
+                           .n = one.found.all.n,
+                           .hits = one.found.all.hits,
+                           .itCorrected_bits = one.found.all.itCorrected_bits});
+    }
+    const auto compared = compareSessions(std::move(figures));
+    if (!compared) return failure(compared);
+    TableBlock table;
+    table.caption = captions.table(qtext(name) + " over sessions");
+    table.columns = {{"Session", true},    {"Day", true},     {"Detection (mA)", true}, {"Too strong (mA)", true},
+                     {"Range (mA)", true}, {"|Z| (Ω)", true}, {"Right", true},          {"Against the first", true}};
+    for (std::size_t i = 0; i < compared->sessions.size(); ++i) {
+        const auto& each = compared->sessions[i];
+        table.rows.push_back({QString::number(each.number), number(each.days, 0), number(each.detection_ma.value, 2),
+                              number(each.tooStrong.value(), 1),
+                              number(each.low.value(), 1) + " to " + number(each.high.value(), 1),
+                              number(each.impedance.value(), 0), QString("%1 of %2").arg(each.hits).arg(each.n),
+                              i == 0 ? QString("–") : percent(compared->againstFirst[i - 1].accuracy)});
+    }
+    blocks.emplace_back(std::move(table));
+    blocks.emplace_back(ParagraphBlock{QString("Two such sessions can show a change of %1 percentage points or more.")
+                                           .arg(100 * compared->smallestChange, 0, 'f', 0)});
+    if (std::isfinite(compared->trend.value)) {
+        blocks.emplace_back(ParagraphBlock{QString("Trend: %1 (%2 to %3) in log odds per day.")
+                                               .arg(number(compared->trend.value, 3), number(compared->trend.low, 3),
+                                                    number(compared->trend.high, 3))});
+    }
+    return {};
+}
+
+void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, std::vector<PersonResult> people) {
+    blocks.emplace_back(captions.heading("All participants"));
+    const auto together = judgeFewPeople(std::move(people));
+    TableBlock table;
+    table.caption = captions.table("Each participant's first session with test trials");
+    table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
+                     {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected (bit)", true}};
+    for (const auto& person : together.people) {
+        const auto& figures = person.figures;
+        table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
+                              QString("%1 of %2").arg(figures.hits).arg(figures.n), percent(figures.accuracy),
+                              figures.n > 0 ? QString::number(figures.pChance, 'g', 2) : QString("–"),
+                              number(figures.itCorrected_bits, 2)});
+    }
+    blocks.emplace_back(std::move(table));
+    blocks.emplace_back(
+        ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
+                           .arg(number(100 * together.accuracy.median, 0), number(100 * together.accuracy.min, 0),
+                                number(100 * together.accuracy.max, 0))});
+    blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
+    blocks.emplace_back(ParagraphBlock{
+        "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
+}
+
+const ParticipantRecord* withCode(const StudyRecord& study, const std::string& code) {
+    for (const auto& participant : study.participants) {
+        if (!participant.about.code.empty() && participant.about.code == code) return &participant;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+Result<ReportContent> studyReport(const StudyRecord& study) {
+    auto content = begun(study, qtext(study.settings.title), "Pilot study  ·  for those who run it: names codes");
+    auto& blocks = content.blocks;
+    Captions captions(content.simulated);
+    std::vector<PersonResult> people;
+    std::vector<std::pair<std::string, std::vector<Analysed>>> all;
+    for (const auto& participant : study.participants) {
+        if (participant.about.state == ParticipantState::Withdrawn) continue;
+        auto sessions = analysed(participant);
+        if (!sessions) return failure(sessions);
+        PersonResult person{.name = participant.about.code, .usable = true, .figures = {}};
+        person.usable = std::ranges::any_of(participant.sessions, [](const auto& s) { return isUsable(s.results); });
+        if (!sessions->empty()) person.figures = sessions->front().found.all;
+        if (!participant.sessions.empty()) people.push_back(std::move(person));
+        all.emplace_back(participant.about.code, std::move(*sessions));
+    }
+    for (const auto& [name, sessions] : all) {
+        for (const auto& one : sessions)
+            blocks.emplace_back(ParagraphBlock{qtext(headline(name, one.found, rangeOf(one.session->results)))});
+    }
+    addTogether(blocks, captions, std::move(people));
+    for (const auto& [name, sessions] : all) {
+        if (sessions.empty()) continue;
+        blocks.emplace_back(captions.heading(qtext(name)));
+        for (const auto& one : sessions) {
+            const auto& results = one.session->results;
+            addConfusion(blocks, captions, one,
+                         QString("%1, session %2, encoding %3: presented and answered")
+                             .arg(qtext(name))
+                             .arg(results.number)
+                             .arg(qtext(results.encoding)),
+                         content.simulated);
+            addFacts(blocks, one);
+            addRatings(blocks, captions, results, name);
+        }
+        addEncodings(blocks, captions, name, sessions);
+        if (auto added = addSessions(blocks, captions, name, sessions); !added) return failure(added);
+    }
+    blocks.emplace_back(captions.heading("Flow of participants"));
+    blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
+    return content;
+}
+
+ReportContent committeeReport(const StudyRecord& study) {
+    auto content = begun(study, qtext(study.settings.title), "Report to the ethics committee  ·  names no participant");
+    auto& blocks = content.blocks;
+    Captions captions(content.simulated);
+    blocks.emplace_back(captions.heading("Approval and consent"));
+    blocks.emplace_back(approvalFacts(study));
+    blocks.emplace_back(captions.heading("Flow of participants"));
+    blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
+    blocks.emplace_back(captions.heading("Sessions"));
+    blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
+    blocks.emplace_back(refusalsTable(study, captions.table("Gates that did not hold")));
+    blocks.emplace_back(captions.heading("Adverse events"));
+    if (study.events.empty()) {
+        blocks.emplace_back(ParagraphBlock{"None was recorded."});
+    } else {
+        blocks.emplace_back(eventsTable(study, captions.table("Adverse events")));
+    }
+    blocks.emplace_back(
+        SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString("not recorded")}});
+    return content;
+}
+
+Result<ReportContent> participantReport(const StudyRecord& study, const std::string& code) {
+    const auto* participant = withCode(study, code);
+    if (participant == nullptr) return fail(ErrorCode::NotFound, "no participant of this study has the code {}", code);
+    const auto sessions = analysed(*participant);
+    if (!sessions) return failure(sessions);
+    auto content = begun(study, qtext(study.settings.title), "What you felt  ·  for the participant");
+    auto& blocks = content.blocks;
+    blocks.emplace_back(ParagraphBlock{
+        "Thank you for taking part. You felt four kinds of touch, made by short pulses on your skin: rough or smooth, "
+        "firm or light. After each one you said which it was."});
+    for (const auto& one : *sessions) {
+        const auto& all = one.found.all;
+        blocks.emplace_back(ParagraphBlock{
+            QString(
+                "Session %1: you were right %2 times out of %3, which is %4 %. Guessing would be right about %5 times.")
+                .arg(one.session->results.number)
+                .arg(all.hits)
+                .arg(all.n)
+                .arg(100 * all.accuracy.value, 0, 'f', 0)
+                .arg(all.chance * static_cast<double>(all.n), 0, 'f', 0)});
+        if (one.found.texture && one.found.pressure) {
+            blocks.emplace_back(
+                ParagraphBlock{QString("You told rough from smooth %1 times, and firm from light %2 times.")
+                                   .arg(one.found.texture->figures.hits)
+                                   .arg(one.found.pressure->figures.hits)});
+        }
+    }
+    if (sessions->empty()) {
+        blocks.emplace_back(
+            ParagraphBlock{"Your sessions did not get to the part in which you name them. That happens, and it is a "
+                           "result too."});
+    }
+    blocks.emplace_back(ParagraphBlock{
+        "This says nothing about your health or your skill. Some people feel such pulses clearly and others "
+        "do not; finding out is why the study is done. You may ask for your data to be destroyed, or stop "
+        "taking part, as your consent form says."});
+    content.footer = "Tactoscope";
+    return content;
+}
+
+}  // namespace tacto

@@ -1,0 +1,28 @@
+// StudyReport.h - the three reports of a pilot study: for those who run it, for its ethics committee, and one page in
+// plain words for a participant.
+//
+// They are made when they are asked for, and never lie in the study folder. The committee's and the participant's name
+// no code; the study's does, and says so.
+//
+// Thread-safety: the GUI thread (drawn figures are widgets).
+#pragma once
+
+#include <string>
+
+#include "app/report/ReportContent.h"
+#include "core/base/Result.h"
+#include "core/sharing/results/StudyResults.h"
+
+namespace tacto {
+
+/// Each person's result first, then what few people show together, encodings, and one person over sessions.
+/// Errors: as identify().
+[[nodiscard]] Result<ReportContent> studyReport(const StudyRecord& study);
+
+/// Approval, consents, gates, stops, skin, adverse events and the flow of participants; no answers and no codes.
+[[nodiscard]] ReportContent committeeReport(const StudyRecord& study);
+
+/// Errors: NotFound for a code that is not in the study; as identify().
+[[nodiscard]] Result<ReportContent> participantReport(const StudyRecord& study, const std::string& code);
+
+}  // namespace tacto

@@ -1,0 +1,66 @@
+// Participant.h - the door through which a pilot session meets its two people: a window with a person before it, or a
+// virtual participant. The session does not know which.
+//
+// The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
+// the window's thread and waits there; a virtual one answers at once from what was delivered.
+//
+// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread; cancel(), holding()
+// and ready() may be called from any thread; `stop` is called from any thread.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/pilot/Prompt.h"
+
+namespace tacto {
+
+/// One presentation as it was approved and delivered: what a virtual participant feels. A window ignores it. After a
+/// resume the session tells those of the earlier parts again, so that what was learned is known.
+struct FeltPresentation {
+    double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
+    Seconds interval{0};  ///< onset to onset
+    int inInterval = 0;   ///< 1 or 2: where the train of a detection trial came; else 0
+    std::string named;    ///< familiarisation: the condition's key, as the screen said; else empty
+    /// For how long trains were given in this session before this presentation: what adaptation follows.
+    Seconds stimulated{0};
+    /// What the person's answer is drawn for: "seed 1 session 2 test 17", the same however often it was resumed.
+    std::string drawnFor;
+};
+
+class PilotParticipant {
+public:
+    virtual ~PilotParticipant() = default;
+
+    /// Changes both screens; does not wait for a person. Keys pressed from here to the next ask() are early.
+    virtual void show(const PilotScreen& screen) = 0;
+    /// Shows the targets, not before `prompt.targetsAt`, and waits for the answer.
+    /// Errors: Stopped when a person stopped or cancel() was called while it waited; NotFound where there is no one to
+    /// answer, naming the prompt; Device when the screen is gone.
+    /// A prompt named "stop-test" (one of GoOn) is answered by pressing STOP, and so returns Stopped.
+    [[nodiscard]] virtual Result<PilotAnswer> ask(const PilotPrompt& prompt) = 0;
+    /// What was just presented, before the question about it.
+    virtual void delivered(const FeltPresentation& felt) = 0;
+    /// Presses since the last show() that came before targets; empties the list.
+    [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;
+    /// Makes a waiting ask() return Stopped, and every later one until the next show().
+    virtual void cancel() noexcept = 0;
+
+    /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until
+    /// the session shows Rest, letting go also calls `stop("participant let go")`.
+    [[nodiscard]] virtual bool holding() const noexcept = 0;
+    /// Whether a presentation may start: the participant's window has the focus and its screen is there.
+    /// Errors: NotArmed with what is missing.
+    [[nodiscard]] virtual Result<void> ready() const = 0;
+    /// Whether ask() takes time by the clock on the wall. A virtual participant's does not: the session lets the
+    /// answer's `after` pass on the bench's clock.
+    [[nodiscard]] virtual bool answersInRealTime() const noexcept = 0;
+
+    /// Output off at once; by: "participant", "participant let go", "operator". Set by the session before the first
+    /// show(); any thread may call it, at any time until the session ends. Does not block.
+    std::function<void(const char* by)> stop;
+};
+
+}  // namespace tacto

@@ -1,0 +1,116 @@
+// Prompt.h - what a person in a pilot session is asked, what they answer, and what their screen shows meanwhile.
+//
+// Units: times are Seconds, moments are Instants of the session's clock, scales are whole numbers. Keys of targets are
+// the words that the record keeps (resources/design/pilot.md, sections 4, 6 and 10); texts are what people read.
+//
+// Thread-safety: values and pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Units.h"
+
+namespace tacto {
+
+/// Which of the two people is asked. Both: each has to answer, and the answer is the participant's.
+enum class PromptTo { Participant, Operator, Both };
+[[nodiscard]] std::string_view nameOf(PromptTo to) noexcept;  // "participant", "operator", "both"
+
+enum class PromptKind {
+    Hold,       ///< hold a key, a pedal or the target until told otherwise; key "held"
+    Strength,   ///< "nothing", "weak", "strong", "too-strong"
+    Interval,   ///< "first", "second"
+    Condition,  ///< the four conditions in a 2 × 2 field (rough, smooth; firm, light), then "none" and "not-sure"
+    YesNo,      ///< "yes", "no"
+    GoOn,       ///< "go-on": nothing happens until it is pressed
+    Choice,     ///< one of `targets`: naturalness, which encoding was easier, a skin score
+    Several,    ///< any number of `targets`, also none: qualities
+    Scale,      ///< a whole number from `least` to `most`: intensity, pain, severity
+    Text,       ///< a line of text: the electrodes' lot, a note. Never a name
+};
+[[nodiscard]] std::string_view nameOf(PromptKind kind) noexcept;  // "hold", "strength", "interval", ...
+
+struct PromptTarget {
+    std::string key;   ///< what the record keeps
+    std::string text;  ///< what the person reads
+    bool operator==(const PromptTarget&) const = default;
+};
+
+struct PilotPrompt {
+    PromptTo to = PromptTo::Participant;
+    PromptKind kind = PromptKind::GoOn;
+    std::string name;  ///< what is asked, as the record names it: "identification", "skin", "intensity"
+    std::string text;  ///< the question
+    /// In the order in which they are shown, always at the same place. Empty for Text, Scale and Hold.
+    std::vector<PromptTarget> targets;
+    /// Targets appear now or later, never before; the response time starts with them. A press before counts as early.
+    Instant targetsAt{0};
+    /// After which time without an answer the answer is empty; nothing: waits.
+    std::optional<Seconds> within;
+    int least = 0, most = 10;  ///< Scale
+    std::string leastText;     ///< Scale: what its ends mean
+    std::string mostText;
+};
+
+struct PilotAnswer {
+    std::vector<std::string> keys;  ///< one; any number for Several; the text for Text. Empty for Scale: see `value`
+    std::optional<int> value;       ///< Scale
+    /// From the appearance of the targets to the press.
+    Seconds after{0};
+    /// False: `within` passed without an answer.
+    bool given = true;
+
+    /// The only key; empty where there is none.
+    [[nodiscard]] std::string_view key() const noexcept { return keys.empty() ? std::string_view() : keys.front(); }
+};
+
+/// A press that came before the targets: recorded, and no answer.
+struct EarlyPress {
+    std::string key;  ///< what it would have been; empty where the key has no target
+    Instant at{0};
+};
+
+/// What goes on, for the two screens. What depends on a condition stands in `operatorText` and `named` only.
+enum class ScreenState {
+    Rest,      ///< nothing happens
+    Dot,       ///< a presentation is about to start
+    Feel,      ///< trains may come; the same pixels as Dot for every condition
+    Interval,  ///< the first or second interval of a detection trial: `interval`
+    Named,     ///< familiarisation and feedback: the name in `named` is shown
+    Break,     ///< rest between blocks until `until`
+    Ended,
+};
+struct PilotScreen {
+    ScreenState state = ScreenState::Rest;
+    std::string phase;  ///< "checklist", "ascending", "detection", "range", "familiarisation", "training", "test",
+                        ///< "drift", "break", "ratings", "ended"
+    int block = 0;      ///< from 1; 0: none
+    int blocks = 0;     ///< of the test
+    int trial = 0;      ///< of the phase, for the operator; 0: none
+    int trials = 0;
+    int interval = 0;              ///< 1 or 2 with Interval
+    std::string named;             ///< Named: the name of what is or was felt
+    std::optional<bool> right;     ///< training: whether the answer was right
+    std::optional<Instant> until;  ///< Break: its earliest end
+    std::string text;              ///< for the participant; the same for every condition
+    std::string operatorText;      ///< for the operator, not shown while they are blind
+    bool operatorMayKnow = false;  ///< nothing in `operatorText` depends on a condition
+};
+
+// Prompts that are the same wherever they are put. Texts are the ones shown.
+[[nodiscard]] PilotPrompt holdPrompt();
+[[nodiscard]] PilotPrompt strengthPrompt();
+[[nodiscard]] PilotPrompt intervalPrompt();
+/// `names`: keys of the four conditions in the study's order.
+[[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names);
+[[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant);
+[[nodiscard]] PilotPrompt goOnPrompt(std::string text, PromptTo to = PromptTo::Both);
+[[nodiscard]] PilotPrompt scalePrompt(std::string name, std::string text, int least, int most,
+                                      PromptTo to = PromptTo::Participant);
+[[nodiscard]] PilotPrompt choicePrompt(std::string name, std::string text, std::vector<PromptTarget> targets,
+                                       PromptTo to = PromptTo::Participant);
+
+}  // namespace tacto

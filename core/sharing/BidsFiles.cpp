@@ -1,0 +1,223 @@
+#include "core/sharing/BidsFiles.h"
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <set>
+
+#include "core/base/JsonText.h"
+#include "core/base/Random.h"
+#include "core/base/Text.h"
+#include "core/sharing/BidsSessionTables.h"
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kIndent = 2;
+
+std::string textOf(const json& value) { return dumpJson(value, kIndent) + "\n"; }
+
+void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsTable& table,
+              json about = json::object()) {
+    about.update(table.sidecar());
+    files.push_back({stem + ".tsv", table.tsv()});
+    files.push_back({stem + ".json", textOf(about)});
+}
+
+std::string titleOf(const BidsStudy& study) {
+    return study.simulated ? study.title + " (simulated participants)" : study.title;
+}
+
+BidsFile description(const BidsStudy& study, std::string_view version) {
+    json about{{"Name", titleOf(study)},
+               {"BIDSVersion", "1.11.1"},
+               {"DatasetType", "raw"},
+               {"License", study.license.empty() ? "n/a" : study.license},
+               {"GeneratedBy", json::array({{{"Name", "Tactoscope"}, {"Version", version}}})}};
+    about["EthicsApprovals"] =
+        json::array({study.simulated || study.approval.empty() ? "none: no person took part" : study.approval});
+    if (!study.simulated && study.approval.empty()) about["EthicsApprovals"] = json::array();
+    return {"dataset_description.json", textOf(about)};
+}
+
+BidsFile readme(const BidsStudy& study) {
+    std::size_t sessions = 0;
+    for (const auto& participant : study.participants) sessions += participant.sessions.size();
+    std::string text = fmt::format(
+        "{}\n\nWhether people tell four conditions of tactile stimulation apart: {} participant(s), {} session(s).\n\n",
+        titleOf(study), study.participants.size(), sessions);
+    if (study.simulated) {
+        text +=
+            "SIMULATED: the participants are a model of people, and so is what they felt. These data say what the "
+            "program does, not what people do.\n\n";
+    }
+    text +=
+        "task-thresholds: ascending limits, detection of one train in one of two intervals, and the personal range.\n"
+        "task-identification: which of the conditions was presented; trial_type catch is a presentation of nothing.\n"
+        "task-ratings, task-sideeffects: answers to questions.\n\n"
+        "Participants are numbered in random order. No file is dated: sessions are placed by the days since the "
+        "participant's first one. n/a is a value that was not recorded or does not apply.\n";
+    return {"README", text};
+}
+
+BidsTable participantsTable(const BidsWith& with,
+                            const std::vector<std::pair<std::string, const BidsParticipant*>>& labelled) {
+    std::vector<BidsColumn> columns = {{"participant_id", "Label of the participant, in random order"},
+                                       {"species", "Species; n/a for a simulated participant"},
+                                       {"group",
+                                        "Group of the participant",
+                                        "",
+                                        {{"intact", "no limb difference"},
+                                         {"limb difference", "a limb was lost or never formed"},
+                                         {"virtual", "simulated by the program"}}},
+                                       {"sessions", "Sessions begun"}};
+    if (with.age) columns.push_back({"age", "Age as the approval asks for it"});
+    if (with.sex) columns.push_back({"sex", "Sex as the approval asks for it"});
+    if (with.handedness) columns.push_back({"handedness", "Handedness as the approval asks for it"});
+    BidsTable table(std::move(columns));
+    for (const auto& [label, participant] : labelled) {
+        std::vector<BidsCell> cells = {"sub-" + label, participant->isVirtual ? "" : "homo sapiens",
+                                       participant->isVirtual ? "virtual" : participant->group,
+                                       participant->sessions.size()};
+        if (with.age) cells.emplace_back(participant->age);
+        if (with.sex) cells.emplace_back(participant->sex);
+        if (with.handedness) cells.emplace_back(participant->handedness);
+        table.add(std::move(cells));
+    }
+    return table;
+}
+
+std::string sessionLabel(const BidsSession& session) { return fmt::format("ses-{:02}", session.number); }
+
+BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participant) {
+    BidsTable table({{"session_id", "Label of the session"},
+                     {"days_since_first", "Whole days since the participant's first session", "d"},
+                     {"encoding", "Which stimulus has which name"},
+                     {"site", "Where the stimulation was applied"},
+                     {"electrode_area_cm2", "Area of each electrode", "cm^2"},
+                     {"impedance_ohm", "Magnitude of the electrodes' impedance at the beginning", "ohm"},
+                     {"min_ma", "Lowest current of the personal range", "mA"},
+                     {"max_ma", "Highest current of the personal range", "mA"},
+                     {"detection_ma", "Detection threshold (80 % right of two intervals)", "mA"},
+                     {"too_strong_ma", "Lowest current called too strong, else the highest given", "mA"},
+                     {"skin_before", "Worse of erythema and oedema, 0 to 4"},
+                     {"skin_after", "Worse of erythema and oedema, 0 to 4"},
+                     {"complete", "Whether the session came to its end", "", {{"true", "yes"}, {"false", "no"}}},
+                     {"parts", "1, and one more for each time it was interrupted and gone on with"}});
+    for (const auto& session : participant.sessions) {
+        table.add({sessionLabel(session), session.days, session.encoding, study.site, study.electrodeArea_cm2,
+                   session.impedance, session.low, session.high, session.detection_ma, session.tooStrong_ma,
+                   session.skinBefore, session.skinAfter, session.complete, session.parts});
+    }
+    return table;
+}
+
+void addSession(std::vector<BidsFile>& files, const std::string& subject, const BidsSession& session) {
+    const auto label = sessionLabel(session);
+    const auto stem = fmt::format("{0}/{1}/beh/{0}_{1}_task-", subject, label);
+    struct Task {
+        const char* name;
+        const char* description;
+        BidsTable table;
+    };
+    for (const auto& task :
+         {Task{"identification", "Name which of the conditions was presented", identificationTable(session)},
+          Task{"thresholds", "Say how strong it is, or which of two intervals held it", thresholdsTable(session)},
+          Task{"ratings", "Rate each condition, presented without its name", ratingsTable(session)},
+          Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session)}}) {
+        if (task.table.isEmpty()) continue;
+        addTable(files, fmt::format("{}{}_beh", stem, task.name), task.table,
+                 {{"TaskName", task.name}, {"TaskDescription", task.description}});
+    }
+}
+
+}  // namespace
+
+Result<BidsWith> bidsWithFrom(std::string_view list) {
+    BidsWith with;
+    for (const auto each : split(list, ',')) {
+        const auto word = trimmed(each);
+        if (word == "age") {
+            with.age = true;
+        } else if (word == "sex") {
+            with.sex = true;
+        } else if (word == "handedness") {
+            with.handedness = true;
+        } else {
+            return fail(ErrorCode::InvalidArgument, "\"{}\" cannot be exported; age, sex and handedness can", word);
+        }
+    }
+    return with;
+}
+
+Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled) {
+    if (enrolled < 1 || enrolled > study.places) {
+        return fail(ErrorCode::InvalidArgument, "participant {} of a study of {}; 1 to {} is accepted", enrolled,
+                    study.places, study.places);
+    }
+    std::vector<std::size_t> places(study.places);
+    std::iota(places.begin(), places.end(), 1);
+    Random random(study.labelSeed, "labels of participants");
+    for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
+    return fmt::format("{:02}", places[enrolled - 1]);
+}
+
+Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with, std::string_view version) {
+    std::vector<std::pair<std::string, const BidsParticipant*>> labelled;
+    for (const auto& participant : study.participants) {
+        const auto label = bidsLabel(study, participant.enrolled);
+        if (!label) return failure(label);
+        labelled.emplace_back(*label, &participant);
+        std::set<std::size_t> numbers;
+        for (const auto& session : participant.sessions) {
+            if (session.number >= 1 && numbers.insert(session.number).second) continue;
+            return fail(ErrorCode::InvalidArgument, "session {} of participant {}; each number from 1 once is accepted",
+                        session.number, participant.enrolled);
+        }
+    }
+    std::ranges::sort(labelled);
+    for (std::size_t i = 1; i < labelled.size(); ++i) {
+        if (labelled[i].first == labelled[i - 1].first) {
+            return fail(ErrorCode::InvalidArgument, "participant {} stands in the study twice; once was expected",
+                        labelled[i].second->enrolled);
+        }
+    }
+    std::vector<BidsFile> files = {description(study, version), readme(study)};
+    addTable(files, "participants", participantsTable(with, labelled));
+    for (const auto& [label, participant] : labelled) {
+        const auto subject = "sub-" + label;
+        if (participant->sessions.empty()) continue;
+        addTable(files, fmt::format("{0}/{0}_sessions", subject), sessionsTable(study, *participant));
+        for (const auto& session : participant->sessions) addSession(files, subject, session);
+    }
+    std::ranges::sort(files, {}, &BidsFile::path);
+    return files;
+}
+
+Result<void> checkBidsFolder(const fs::path& folder) {
+    std::error_code failed;
+    if (!fs::exists(folder, failed) || (fs::is_directory(folder, failed) && fs::is_empty(folder, failed))) return {};
+    return fail(ErrorCode::InvalidArgument, "{} holds something already; a new or empty folder is expected",
+                folder.string());
+}
+
+Result<void> writeBids(const std::vector<BidsFile>& files, const fs::path& folder) {
+    if (auto free = checkBidsFolder(folder); !free) return free;
+    for (const auto& file : files) {
+        const auto path = folder / file.path;
+        std::error_code failed;
+        fs::create_directories(path.parent_path(), failed);
+        if (failed) return fail(ErrorCode::Io, "{}: {}", path.parent_path().string(), failed.message());
+        std::ofstream out(path, std::ios::binary);
+        out << file.text;
+        out.close();
+        if (!out) return fail(ErrorCode::Io, "{} cannot be written", path.string());
+    }
+    return {};
+}
+
+}  // namespace tacto

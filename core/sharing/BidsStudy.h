@@ -1,0 +1,94 @@
+// BidsStudy.h - the results of a study as they may leave it: nothing that says who, nothing that says when.
+//
+// A participant has no code and no date here; days count from the person's first session. What was not recorded is NaN,
+// an empty text or nothing, and is written as n/a.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/base/NaN.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+struct BidsTrial {
+    IdentificationTrial trial;
+    double intensity = kNaN;  ///< of a massager, 0 to 1
+    Volts voltage{kNaN};      ///< at `impedance`
+    Ohms impedance{kNaN};     ///< measured last before it
+    double detection_ma = kNaN;
+    bool adapted = false;  ///< in a block whose weakest level may not have been felt
+};
+
+/// One presentation of a threshold procedure.
+struct BidsThresholdTrial {
+    std::size_t number = 0;
+    std::string procedure{};  ///< "ascending", "detection", "range", "drift"
+    std::size_t series = 0;   ///< of the ascending limits, or the block before which drift was checked; 0: none
+    std::string type{};       ///< "stimulus" or "catch"; of two intervals the one that holds it, "first" or "second"
+    Milliamps current{kNaN};
+    double intensity = kNaN;
+    std::string response{};
+    std::optional<bool> correct{};  ///< of two intervals
+    double response_s = kNaN;
+};
+
+struct BidsRating {
+    std::string item;       ///< "intensity", "naturalness", ...
+    std::string condition;  ///< empty where it is of none
+    std::string value;      ///< a number, or words with commas between
+};
+
+struct BidsSideEffect {
+    std::string moment;           ///< "before", "after", "next day"
+    std::string item;             ///< "tingling", ...
+    std::optional<int> severity;  ///< 1 to 4
+    std::optional<int> relation;  ///< 1 to 5
+};
+
+struct BidsSession {
+    std::size_t number = 0;
+    double days = kNaN;  ///< since the person's first, whole days
+    std::string encoding;
+    Ohms impedance{kNaN};
+    Milliamps low{kNaN}, high{kNaN};  ///< range
+    double lowIntensity = kNaN, highIntensity = kNaN;
+    double detection_ma = kNaN, tooStrong_ma = kNaN;
+    std::optional<int> skinBefore, skinAfter;  ///< the worse of erythema and oedema, 0 to 4
+    bool complete = false;
+    std::size_t parts = 1;
+    std::vector<std::string> labels;  ///< the answers offered, in the study's order
+    std::vector<BidsTrial> trials;    ///< familiarisation, training and test, in the order presented
+    std::vector<BidsThresholdTrial> thresholds;
+    std::vector<BidsRating> ratings;
+    std::vector<BidsSideEffect> sideEffects;
+};
+
+struct BidsParticipant {
+    std::size_t enrolled = 0;  ///< 1, 2, ...: decides the label together with BidsStudy::labelSeed
+    std::string group;         ///< "intact", "limb difference"
+    bool isVirtual = false;
+    std::string age, sex, handedness;  ///< empty where they were not asked for
+    std::vector<BidsSession> sessions;
+};
+
+struct BidsStudy {
+    std::string title;
+    bool simulated = false;  ///< rehearsal, or every participant is virtual
+    std::string approval;    ///< reference and committee; empty: none
+    std::string license;     ///< under which the data may be used; empty: not decided
+    std::string site;        ///< "upper arm"
+    double electrodeArea_cm2 = kNaN;
+    std::size_t places = 0;       ///< participants that the approval allows: labels are drawn among as many
+    std::uint64_t labelSeed = 0;  ///< the same for the same study
+    std::vector<BidsParticipant> participants;  ///< active and those who left; never one who withdrew
+};
+
+}  // namespace tacto

@@ -1,0 +1,59 @@
+// BidsTable.h - one table of a BIDS dataset with its sidecar: tab-separated values, and what each column means.
+//
+// Thread-safety: values.
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/Units.h"
+
+namespace tacto {
+
+/// A cell as it is written: n/a for NaN, an empty text and nothing.
+struct BidsCell {
+    std::string text;
+
+    BidsCell(double value);
+    BidsCell(std::size_t value);
+    BidsCell(bool value);
+    BidsCell(std::string_view value);
+    BidsCell(const std::string& value) : BidsCell(std::string_view(value)) {}
+    BidsCell(const char* value) : BidsCell(std::string_view(value)) {}
+    BidsCell(std::optional<int> value);
+    BidsCell(std::optional<bool> value);
+    BidsCell(Milliamps value) : BidsCell(value.value()) {}
+    BidsCell(Volts value) : BidsCell(value.value()) {}
+    BidsCell(Ohms value) : BidsCell(value.value()) {}
+};
+
+struct BidsColumn {
+    std::string name;
+    std::string description;
+    std::string units{};                                        ///< SI, empty where it has none
+    std::vector<std::pair<std::string, std::string>> levels{};  ///< of a column of words, with their meaning
+};
+
+class BidsTable {
+public:
+    explicit BidsTable(std::vector<BidsColumn> columns) : columns_(std::move(columns)) {}
+
+    /// As many cells as there are columns.
+    void add(std::initializer_list<BidsCell> cells) { add(std::vector<BidsCell>(cells)); }
+    void add(std::vector<BidsCell> cells);
+    [[nodiscard]] bool isEmpty() const noexcept { return rows_.empty(); }
+    [[nodiscard]] std::string tsv() const;
+    /// Description, units and levels of each column.
+    [[nodiscard]] nlohmann::json sidecar() const;
+
+private:
+    std::vector<BidsColumn> columns_;
+    std::vector<std::vector<BidsCell>> rows_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,191 @@
+#include "core/sharing/results/SessionResults.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "core/base/JsonFields.h"
+#include "core/pilot/PilotRecord.h"
+
+namespace tacto {
+
+namespace {
+
+using nlohmann::json;
+
+/// "detection 12" → {"detection", "12"}: the last word, and what comes before it.
+std::pair<std::string, std::string> lastWordOf(const std::string& name) {
+    const auto blank = name.rfind(' ');
+    if (blank == std::string::npos) return {name, {}};
+    return {name.substr(0, blank), name.substr(blank + 1)};
+}
+
+std::optional<int> wholeNumber(const std::string& text) {
+    int value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// What was said to a question, whatever its kind.
+std::string saidIn(const json& body) {
+    if (const auto keys = textsOr(body, "keys"); !keys.empty()) return fmt::format("{}", fmt::join(keys, ","));
+    if (const auto key = textOr(body, "key"); !key.empty()) return key;
+    const double value = numberOr(body, "value");
+    return std::isfinite(value) ? fmt::format("{:g}", value) : std::string();
+}
+
+/// Goes through the rows once; what was measured last stands beside each trial.
+class SessionRows {
+public:
+    explicit SessionRows(std::vector<std::string> labels) { out_.labels = std::move(labels); }
+
+    void take(const SessionRow& each) {
+        const auto& body = each.body;
+        const auto name = textOr(body, "name");
+        if (each.name == row::kPlan) {
+            out_.encoding = textOr(body, "encoding");
+        } else if (each.name == row::kImpedance) {
+            impedance_ = numberOr(body, "impedance_ohm");
+            if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
+        } else if (each.name == row::kEstimate) {
+            detection_ma_ = numberOr(valueOr(body, "estimate"), "value");
+            out_.detection_ma = detection_ma_;
+        } else if (each.name == row::kDrift) {
+            detection_ma_ = numberOr(valueOr(body, "detection_ma"), "value");
+            if (flagOr(body, "adapted")) adapted_.insert(countOr(body, "block"));
+        } else if (each.name == row::kRange) {
+            out_.low = Milliamps(numberOr(body, "min_ma"));
+            out_.high = Milliamps(numberOr(body, "max_ma"));
+            out_.lowIntensity = numberOr(body, "min_intensity");
+            out_.highIntensity = numberOr(body, "max_intensity");
+        } else if (each.name == row::kSkin) {
+            takeSkin(name, body);
+        } else if (each.name == row::kRating) {
+            const auto [condition, item] = lastWordOf(name);
+            out_.ratings.push_back({item, condition, saidIn(body)});
+        } else if (each.name == row::kSideEffect) {
+            takeSideEffect(name, body);
+        } else if (each.name == row::kAnswer) {
+            takeAnswer(name, body);
+        } else if (each.name == row::kNoAnswer && countOr(body, "number") > 0) {
+            silent_.insert_or_assign(countOr(body, "number"), trialOf(body));
+        }
+    }
+
+    [[nodiscard]] BidsSession result() {
+        for (const auto& [number, trial] : silent_) out_.trials.push_back(trial);
+        if (!std::isfinite(out_.tooStrong_ma)) out_.tooStrong_ma = highest_ma_;
+        return std::move(out_);
+    }
+
+private:
+    [[nodiscard]] BidsTrial trialOf(const json& body) const {
+        BidsTrial made;
+        auto& trial = made.trial;
+        trial.number = countOr(body, "number");
+        if (const auto phase = trialPhaseFrom(textOr(body, "phase"))) trial.phase = *phase;
+        trial.block = countOr(body, "block");
+        trial.condition = textOr(body, "condition");
+        trial.response = textOr(body, "response");
+        trial.attempt = countOr(body, "attempt");
+        trial.rt_s = numberOr(body, "rt_s");
+        trial.current = Milliamps(numberOr(body, "current_ma"));
+        trial.interval_s = numberOr(body, "interval_s");
+        trial.trains = countOr(body, "trains");
+        made.intensity = numberOr(body, "intensity");
+        made.impedance = Ohms(impedance_);
+        made.voltage = Volts(trial.current.value() * impedance_ / 1000);
+        made.detection_ma = detection_ma_;
+        made.adapted = trial.phase == TrialPhase::Test && adapted_.contains(trial.block);
+        return made;
+    }
+
+    void takeAnswer(const std::string& name, const json& body) {
+        if (countOr(body, "number") > 0) {
+            auto made = trialOf(body);
+            silent_.erase(made.trial.number);
+            out_.trials.push_back(std::move(made));
+            return;
+        }
+        const auto [procedure, place] = lastWordOf(name);
+        BidsThresholdTrial trial;
+        trial.procedure = procedure;
+        trial.current = Milliamps(numberOr(body, "current_ma"));
+        trial.intensity = numberOr(body, "intensity");
+        trial.response = textOr(body, "response");
+        trial.response_s = numberOr(body, "rt_s");
+        if (procedure == "ascending") {
+            takeAscending(trial, body);
+        } else if (procedure == "detection" || procedure == "drift") {
+            trial.type = textOr(body, "right");
+            trial.correct = trial.response == trial.type;
+        } else if (procedure == "range") {
+            trial.type = "stimulus";
+        } else {
+            return;  // felt again, without a question of its own
+        }
+        const auto dot = place.find('.');
+        if (dot != std::string::npos)
+            trial.series = static_cast<std::size_t>(wholeNumber(place.substr(0, dot)).value_or(0));
+        trial.number =
+            static_cast<std::size_t>(wholeNumber(dot == std::string::npos ? place : place.substr(dot + 1)).value_or(0));
+        out_.thresholds.push_back(std::move(trial));
+    }
+
+    /// U is the lowest level called too strong, else the highest given. Of an empty presentation the answer counts for
+    /// the level before it.
+    void takeAscending(BidsThresholdTrial& trial, const json& body) {
+        trial.series = countOr(body, "series");
+        const double level = trial.current.value();
+        trial.type = level > 0 || trial.intensity > 0 ? "stimulus" : "catch";
+        if (level > 0) {
+            before_ma_ = level;
+            highest_ma_ = std::isnan(highest_ma_) ? level : std::max(highest_ma_, level);
+        }
+        if (trial.response != "too-strong") return;
+        const double strong = level > 0 ? level : before_ma_;
+        out_.tooStrong_ma = std::isnan(out_.tooStrong_ma) ? strong : std::min(out_.tooStrong_ma, strong);
+    }
+
+    void takeSkin(const std::string& name, const json& body) {
+        const auto moment = lastWordOf(name).first;
+        auto* const score = moment == "before" ? &out_.skinBefore : moment == "after" ? &out_.skinAfter : nullptr;
+        const auto said = wholeNumber(textOr(body, "key"));
+        if (score == nullptr || !said) return;
+        *score = std::max(score->value_or(0), *said);
+    }
+
+    void takeSideEffect(const std::string& name, const json& body) {
+        if (body.contains("keys")) {
+            for (const auto& item : textsOr(body, "keys")) out_.sideEffects.push_back({name, item, {}, {}});
+            return;
+        }
+        const double value = numberOr(body, "value");
+        if (!std::isfinite(value)) return;
+        const auto [noticed, what] = lastWordOf(name);
+        const auto [moment, item] = lastWordOf(noticed);
+        const auto same = [&](const BidsSideEffect& each) { return each.moment == moment && each.item == item; };
+        const auto entry = std::ranges::find_if(out_.sideEffects, same);
+        if (entry == out_.sideEffects.end()) return;
+        (what == "severity" ? entry->severity : entry->relation) = static_cast<int>(std::lround(value));
+    }
+
+    BidsSession out_;
+    double impedance_ = kNaN;
+    double detection_ma_ = kNaN;
+    double before_ma_ = kNaN, highest_ma_ = kNaN;  // of the ascending limits
+    std::set<std::size_t> adapted_;                // blocks
+    std::map<std::size_t, BidsTrial> silent_;      // without an answer so far
+};
+
+}  // namespace
+
+BidsSession sessionResults(const std::vector<SessionRow>& rows, std::vector<std::string> labels) {
+    SessionRows taken(std::move(labels));
+    for (const auto& each : rows) taken.take(each);
+    return taken.result();
+}
+
+}  // namespace tacto

@@ -1,0 +1,123 @@
+#include "core/sharing/results/StudyResults.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+#include "core/encoding/EncodingProfile.h"
+#include "core/session/SessionReader.h"
+#include "core/sharing/results/SessionResults.h"
+
+namespace tacto {
+
+namespace {
+
+std::vector<std::string> conditionNames() {
+    std::vector<std::string> names;
+    for (const auto& condition : EncodingProfile::fourConditions(0, 1)) names.push_back(condition.name);
+    return names;
+}
+
+Result<SessionRecord> readSession(const Study& study, const StudySession& about) {
+    SessionRecord record;
+    record.about = about;
+    for (const auto& part : about.parts) {
+        const auto path = study.pathOf(part.file);
+        std::error_code gone;
+        if (!std::filesystem::exists(path, gone)) continue;  // booked, and never begun
+        const auto seal = study.sealOf(part.file);
+        if (!seal) return failure(seal);
+        const auto file = SessionReader::open(path, *seal);
+        if (!file) return failure(file);
+        auto rows = file->events();
+        if (!rows) return failure(rows);
+        std::ranges::move(*rows, std::back_inserter(record.rows));
+    }
+    record.results = sessionResults(record.rows, conditionNames());
+    record.results.number = static_cast<std::size_t>(about.number);
+    record.results.complete = about.state == StudySessionState::Complete;
+    record.results.parts = about.parts.size();
+    if (record.results.encoding.empty()) record.results.encoding = about.encoding;
+    return record;
+}
+
+/// Days of the calendar between the beginnings of two sessions.
+double daysBetween(const StudySession& first, const StudySession& other) {
+    const auto dayOf = [](const StudySession& session) {
+        return std::chrono::floor<std::chrono::days>(session.parts.front().begun);
+    };
+    return static_cast<double>((dayOf(other) - dayOf(first)).count());
+}
+
+/// The study's id as a number: the same study has the same labels at each export.
+std::uint64_t seedOf(const std::string& id) {
+    std::uint64_t seed = 0;
+    std::from_chars(id.data(), id.data() + id.size(), seed, 16);
+    return seed;
+}
+
+}  // namespace
+
+Result<StudyRecord> readStudyRecord(const Study& study) {
+    if (!study.hasKey()) {
+        return fail(ErrorCode::Unsupported, "{} was opened without its key; results need its passphrase",
+                    study.folder().string());
+    }
+    StudyRecord out;
+    out.settings = study.settings();
+    out.rehearsal = study.isRehearsal();
+    out.ledgerHead = study.ledgerHead();
+    const auto sessions = study.sessions();
+    for (const auto& participant : study.participants()) {
+        ParticipantRecord record{participant, {}};
+        for (const auto& session : sessions) {
+            if (session.participant != participant.id || participant.state == ParticipantState::Withdrawn) continue;
+            auto read = readSession(study, session);
+            if (!read) return failure(read);
+            if (!session.parts.empty()) {
+                const auto& first = record.sessions.empty() ? session : record.sessions.front().about;
+                read->results.days = daysBetween(first, session);
+            }
+            record.sessions.push_back(std::move(*read));
+        }
+        out.participants.push_back(std::move(record));
+    }
+    auto events = study.adverseEvents();
+    if (!events) return failure(events);
+    out.events = std::move(*events);
+    return out;
+}
+
+BidsStudy sharedStudy(const StudyRecord& record) {
+    const auto& settings = record.settings;
+    BidsStudy out;
+    out.title = settings.title;
+    out.approval = settings.approval.committee.empty()
+                       ? settings.approval.reference
+                       : fmt::format("{}, {}", settings.approval.reference, settings.approval.committee);
+    const bool electrodes = settings.modality == Modality::Electrodes;
+    out.site = std::string(nameOf(settings.site));
+    if (electrodes) out.electrodeArea_cm2 = settings.electrode.area.value();
+    out.labelSeed = seedOf(settings.id);
+    out.places = static_cast<std::size_t>(std::max(0, settings.participantsMax));
+    bool anyPerson = false;
+    for (const auto& participant : record.participants) {
+        const auto& about = participant.about;
+        out.places = std::max(out.places, static_cast<std::size_t>(std::max(0, about.enrolled)));
+        if (about.state == ParticipantState::Withdrawn) continue;
+        anyPerson = anyPerson || !about.virtualSeed;
+        BidsParticipant shared;
+        shared.enrolled = static_cast<std::size_t>(std::max(0, about.enrolled));
+        shared.group = std::string(wordFor<ParticipantGroup>(kParticipantGroups, about.group));
+        shared.isVirtual = about.virtualSeed.has_value();
+        shared.age = about.age;
+        shared.sex = about.sex;
+        shared.handedness = about.handedness;
+        for (const auto& session : participant.sessions) shared.sessions.push_back(session.results);
+        out.participants.push_back(std::move(shared));
+    }
+    out.simulated = record.rehearsal || (!out.participants.empty() && !anyPerson);
+    return out;
+}
+
+}  // namespace tacto

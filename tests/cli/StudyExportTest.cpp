@@ -1,0 +1,92 @@
+// export STUDY and report STUDY: what leaves a study, and what never does.
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <regex>
+
+#include "core/base/Csv.h"
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A rehearsal with one session of one block.
+class StudyExport : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto ran = desk_.run({"run", "pilot-identification", "--device", "sim:", "--out", study(), "--set",
+                                    "participant=virtual:7", "--set", "blocks=1", "--seed", "3", "--json"});
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        run_ = jsonOf(ran).at("results");
+    }
+    [[nodiscard]] std::string study() const { return (desk_.path() / "study").string(); }
+    [[nodiscard]] std::string at(const char* name) const { return (desk_.path() / name).string(); }
+
+    const Desk desk_;
+    Json run_;
+};
+
+TEST_F(StudyExport, ABidsFolderHoldsTheSessionsAnswersAndNoCode) {
+    RecordProperty("hazard", "H11");
+    const auto ran = desk_.run({"export", study(), "--format", "bids", "--out", at("bids")});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto code = run_.at("participant").at("code").get<std::string>();
+    std::size_t files = 0, answers = 0;
+    static const std::regex date(R"((19|20)\d\d-\d\d-\d\d|\d\d:\d\d)");
+    for (const auto& entry : fs::recursive_directory_iterator(at("bids"))) {
+        if (!entry.is_regular_file()) continue;
+        ++files;
+        const auto text = readTextFile(entry.path()).value_or("");
+        EXPECT_THAT(text, Not(HasSubstr(code))) << entry.path();
+        EXPECT_FALSE(std::regex_search(text, date)) << entry.path();
+        if (!entry.path().string().ends_with("task-identification_beh.tsv")) continue;
+        for (auto test = text.find("\ttest\t"); test != std::string::npos; test = text.find("\ttest\t", test + 1))
+            ++answers;
+    }
+    EXPECT_GE(files, 10U);
+    EXPECT_EQ(answers, run_.at("n").get<std::size_t>() + run_.at("catch").at("n").get<std::size_t>());
+    EXPECT_THAT(readTextFile(fs::path(at("bids")) / "dataset_description.json").value_or(""), HasSubstr("simulated"));
+    // The export's own table is one that analyze takes.
+    const auto again = desk_.run({"export", study(), "--format", "bids", "--out", at("again")});
+    ASSERT_EQ(again.code, 0) << again.err;
+    for (const auto& entry : fs::recursive_directory_iterator(at("again"))) {
+        if (!entry.path().string().ends_with("task-identification_beh.tsv")) continue;
+        const auto analysed = jsonOf(desk_.run({"analyze", "identification", entry.path().string(), "--json"}));
+        EXPECT_EQ(analysed.at("n"), run_.at("n"));
+        EXPECT_EQ(analysed.at("hits"), run_.at("hits"));
+        EXPECT_TRUE(fs::exists(at("bids") / fs::relative(entry.path(), at("again"))));  // the same labels
+    }
+}
+
+TEST_F(StudyExport, NothingIsPutIntoTheStudyFolder) {
+    RecordProperty("hazard", "H11");
+    expectRefused(desk_.run({"export", study(), "--format", "bids", "--out", study() + "/bids"}), 3,
+                  {"lies inside the study folder"});
+    expectRefused(desk_.run({"report", study(), "--out", study() + "/report.pdf"}), 3,
+                  {"lies inside the study folder"});
+    EXPECT_FALSE(fs::exists(study() + "/bids"));
+    EXPECT_FALSE(fs::exists(study() + "/report.pdf"));
+    expectRefused(desk_.run({"export", study(), "--format", "xml", "--out", at("x")}), 2, {"bids is accepted"});
+    expectRefused(desk_.run({"export", study(), "--out", at("x"), "--with", "name"}), 2, {"age, sex and handedness"});
+    expectRefused(desk_.run({"export", at("nowhere"), "--out", at("x")}), 3, {"no study"});
+}
+
+TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
+    const auto code = run_.at("participant").at("code").get<std::string>();
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);
+    const auto text = readTextFile(at("study.html")).value_or("");
+    EXPECT_THAT(text, HasSubstr("told the four apart in"));
+    EXPECT_THAT(text, HasSubstr(code));
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("committee.html"), "--for", "committee"}).code, 0);
+    EXPECT_THAT(readTextFile(at("committee.html")).value_or(""), Not(HasSubstr(code)));
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("page.pdf"), "--participant", code}).code, 0);
+    EXPECT_GT(fs::file_size(at("page.pdf")), 2000U);
+    expectRefused(desk_.run({"report", study(), "--out", at("other.pdf"), "--participant", "P-ZZZZ"}), 3, {"P-ZZZZ"});
+}
+
+}  // namespace
+}  // namespace tacto::test

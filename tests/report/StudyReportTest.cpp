@@ -1,0 +1,171 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/report/Report.h"
+#include "app/report/StudyReport.h"
+#include "core/base/Csv.h"
+#include "core/pilot/PilotRecord.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::vector<std::string> kLabels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
+
+/// `right` of 80 test trials, the others answered with the next label.
+SessionRecord sessionWith(std::size_t right, int number, const std::string& encoding, double days) {
+    SessionRecord session;
+    session.about.id = "00000000000000a1";
+    session.about.number = number;
+    session.about.state = StudySessionState::Complete;
+    auto& results = session.results;
+    results.number = static_cast<std::size_t>(number);
+    results.days = days;
+    results.encoding = encoding;
+    results.complete = true;
+    results.labels = kLabels;
+    results.low = Milliamps(4);
+    results.high = Milliamps(6.5);
+    results.impedance = Ohms(3400);
+    results.detection_ma = 3.1;
+    for (std::size_t i = 0; i < 80; ++i) {
+        BidsTrial row;
+        row.trial.number = i + 1;
+        row.trial.block = i / 16 + 1;
+        row.trial.condition = kLabels[i % 4];
+        row.trial.response = kLabels[(i + (i < right ? 0 : 1)) % 4];
+        results.trials.push_back(row);
+    }
+    return session;
+}
+
+ParticipantRecord participantWith(const std::string& code, int enrolled, std::vector<SessionRecord> sessions) {
+    ParticipantRecord participant;
+    participant.about.code = code;
+    participant.about.enrolled = enrolled;
+    participant.about.consents = {{"2", {}, "AB"}};
+    participant.sessions = std::move(sessions);
+    return participant;
+}
+
+StudyRecord studyOfThree() {
+    StudyRecord study;
+    study.settings.id = "0123456789abcdef";
+    study.settings.title = "Four conditions";
+    study.settings.approval.reference = "EK 2026/117";
+    study.settings.consentVersion = "2";
+    study.ledgerHead = std::string(64, 'c');
+    study.participants = {
+        participantWith("P-7K3M", 1, {sessionWith(68, 1, "standard", 0), sessionWith(56, 2, "swapped", 7)}),
+        participantWith("P-AAAA", 2, {sessionWith(20, 1, "standard", 0)}), participantWith("P-BBBB", 3, {})};
+    SessionRow stop;
+    stop.name = row::kParticipantStop;
+    SessionRow gate;
+    gate.name = row::kGate;
+    gate.body = {{"name", "skin break 3"}, {"holds", false}, {"said", "the skin scores 2"}};
+    study.participants[1].sessions[0].rows = {stop, gate};
+    AdverseEvent event;
+    event.what = "redness";
+    event.severity = 2;
+    event.relation = 5;
+    event.outcome = "gone";
+    study.events = {{"00000000000000a1", event}};
+    return study;
+}
+
+/// Everything that is written, a line a piece.
+std::string textOf(const ReportContent& content) {
+    QStringList all = {content.documentTitle, content.header, content.footer};
+    for (const auto& block : content.blocks) {
+        if (const auto* title = std::get_if<TitleBlock>(&block)) all << title->title << title->subtitle;
+        if (const auto* heading = std::get_if<HeadingBlock>(&block)) all << heading->text;
+        if (const auto* paragraph = std::get_if<ParagraphBlock>(&block)) all << paragraph->text;
+        if (const auto* facts = std::get_if<FactsBlock>(&block)) {
+            for (const auto& fact : facts->facts) all << fact.name + ": " + fact.value;
+        }
+        if (const auto* table = std::get_if<TableBlock>(&block)) {
+            all << table->caption;
+            for (const auto& row : table->rows) {
+                EXPECT_EQ(row.size(), static_cast<qsizetype>(table->columns.size())) << table->caption.toStdString();
+                all << row.join(" | ");
+            }
+        }
+        if (const auto* figure = std::get_if<FigureBlock>(&block)) all << figure->caption << figure->legend;
+    }
+    return all.join('\n').toStdString();
+}
+
+TEST(StudyReport, EachPersonsResultComesFirst) {
+    const auto content = studyReport(studyOfThree());
+    ASSERT_TRUE(content) << content.error().message;
+    const auto said = textOf(*content);
+    EXPECT_THAT(said, HasSubstr("P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance "
+                                "25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."));
+    EXPECT_LT(said.find("told the four apart"), said.find("All participants"));
+    EXPECT_THAT(said, HasSubstr("1 of 2 were above chance"));
+    EXPECT_THAT(said, HasSubstr("swapped less standard: -15"));
+    EXPECT_THAT(said, HasSubstr("P-7K3M over sessions"));
+    EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
+    EXPECT_THAT(said, HasSubstr("Answered test trials | 2"));
+    EXPECT_THAT(said, Not(HasSubstr("nan")));
+}
+
+TEST(StudyReport, TheCommitteesNamesNoCodeAndNoAnswer) {
+    RecordProperty("hazard", "H11");
+    const auto said = textOf(committeeReport(studyOfThree()));
+    EXPECT_THAT(said, Not(HasSubstr("P-7K3M")));
+    EXPECT_THAT(said, Not(HasSubstr("P-AAAA")));
+    EXPECT_THAT(said, Not(HasSubstr("85 %")));
+    EXPECT_THAT(said, HasSubstr("EK 2026/117"));
+    EXPECT_THAT(said, HasSubstr("version 2: 3 participant(s)"));
+    EXPECT_THAT(said, HasSubstr("the skin scores 2"));
+    EXPECT_THAT(said, HasSubstr("redness | 2 | no | 5"));
+    EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
+}
+
+TEST(StudyReport, TheParticipantsIsPlainAndNamesNoOtherPerson) {
+    RecordProperty("hazard", "H11");
+    const auto content = participantReport(studyOfThree(), "P-7K3M");
+    ASSERT_TRUE(content) << content.error().message;
+    const auto said = textOf(*content);
+    EXPECT_THAT(said, HasSubstr("Session 1: you were right 68 times out of 80, which is 85 %. Guessing would be right "
+                                "about 20 times."));
+    EXPECT_THAT(said, Not(HasSubstr("P-")));
+    EXPECT_THAT(said, Not(HasSubstr("0123456789abcdef")));
+    EXPECT_EQ(participantReport(studyOfThree(), "P-ZZZZ").error().message,
+              "no participant of this study has the code P-ZZZZ");
+}
+
+TEST(StudyReport, SimulatedParticipantsAreCalledSo) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    study.rehearsal = true;
+    const auto content = studyReport(study);
+    ASSERT_TRUE(content);
+    EXPECT_TRUE(content->simulated);
+    EXPECT_THAT(textOf(*content), HasSubstr("SIMULATED"));
+}
+
+TEST(StudyReport, AStudyWithoutSessionsHasAReportToo) {
+    const auto content = studyReport(StudyRecord());
+    ASSERT_TRUE(content) << content.error().message;
+    EXPECT_THAT(textOf(*content), HasSubstr("Nothing is known: the study has no participants."));
+}
+
+TEST(StudyReport, IsWrittenAsPdfAndHtml) {
+    const test::ScratchDir folder;
+    for (const char* name : {"r.pdf", "r.html"}) {
+        const auto path = folder.path() / name;
+        const auto written = writeContent(*studyReport(studyOfThree()), QString::fromStdString(path.string()));
+        ASSERT_TRUE(written) << written.error().message;
+        EXPECT_GT(std::filesystem::file_size(path), 5000U);
+    }
+    const auto html = readTextFile(folder.path() / "r.html").value_or("");
+    EXPECT_THAT(html, HasSubstr("told the four apart in 68 of 80 trials"));
+}
+
+}  // namespace
+}  // namespace tacto

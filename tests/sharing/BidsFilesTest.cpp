@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <regex>
+#include <set>
+#include <sys/wait.h>
+
+#include "core/base/Csv.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
+#include "core/sharing/BidsFiles.h"
+#include "tests/support/Support.h"
+
+namespace tacto {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+BidsTrial trialOf(std::size_t number, std::string condition, std::string response) {
+    BidsTrial row;
+    row.trial.number = number;
+    row.trial.block = 1;
+    row.trial.condition = std::move(condition);
+    row.trial.response = std::move(response);
+    row.trial.rt_s = 0.7312345678;
+    row.trial.current = Milliamps(4.5);
+    row.trial.interval_s = 0.5;
+    row.trial.trains = 9;
+    row.voltage = Volts(15.3);
+    row.impedance = Ohms(3400);
+    row.detection_ma = 2.1;
+    return row;
+}
+
+BidsSession sessionOf(std::size_t number, double days) {
+    BidsSession session;
+    session.number = number;
+    session.days = days;
+    session.encoding = "standard";
+    session.impedance = Ohms(3400);
+    session.low = Milliamps(3);
+    session.high = Milliamps(6.5);
+    session.detection_ma = 2.1;
+    session.skinBefore = 0;
+    session.complete = number == 1;
+    session.labels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
+    session.trials = {trialOf(41, "rough-high", "rough-high"), trialOf(42, "smooth-low", "not-sure"),
+                      trialOf(43, "catch", "none"), trialOf(44, "catch", "rough-low"), trialOf(45, "rough-low", "")};
+    session.trials[2].trial.current = Milliamps(0);
+    session.thresholds = {{.number = 1,
+                           .procedure = "ascending",
+                           .series = 1,
+                           .type = "catch",
+                           .current = Milliamps(0),
+                           .response = "nothing"},
+                          {.number = 1,
+                           .procedure = "detection",
+                           .type = "second",
+                           .current = Milliamps(2.5),
+                           .response = "first",
+                           .correct = false,
+                           .response_s = 0.9}};
+    session.ratings = {{"naturalness", "rough-high", "rather-unnatural"}, {"qualities", "rough-high", "tapping,touch"}};
+    session.sideEffects = {{"after", "tingling", 2, 5}};
+    return session;
+}
+
+BidsStudy studyOfThree() {
+    BidsStudy study;
+    study.title = "Four conditions";
+    study.approval = "EK 2026/117, Ethics Committee";
+    study.site = "upper arm";
+    study.electrodeArea_cm2 = 4;
+    study.places = 5;
+    study.labelSeed = 99;
+    for (std::size_t i = 1; i <= 3; ++i) {
+        BidsParticipant participant;
+        participant.enrolled = i;
+        participant.group = i == 2 ? "limb difference" : "intact";
+        participant.age = "34";
+        participant.sessions = {sessionOf(1, 0), sessionOf(2, 7)};
+        study.participants.push_back(std::move(participant));
+    }
+    return study;
+}
+
+std::map<std::string, std::string> filesOf(const BidsStudy& study, const BidsWith& with = {}) {
+    const auto files = bidsFiles(study, with, "1.2.3");
+    EXPECT_TRUE(files) << files.error().message;
+    std::map<std::string, std::string> out;
+    if (files) {
+        for (const auto& file : *files) EXPECT_TRUE(out.emplace(file.path, file.text).second) << file.path;
+    }
+    return out;
+}
+
+std::vector<std::vector<std::string>> tableOf(const std::string& tsv) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(tsv);
+    for (std::string line; std::getline(lines, line);) {
+        rows.emplace_back();
+        for (const auto cell : split(line, '\t')) rows.back().emplace_back(cell);
+    }
+    return rows;
+}
+
+TEST(BidsFiles, NamesAreThoseOfTheDesign) {
+    std::set<std::string> tasks;
+    for (const auto& [path, text] : filesOf(studyOfThree())) {
+        static const std::regex session(R"(sub-(\d\d)/ses-0[12]/beh/sub-\1_ses-0[12]_task-(\w+)_beh\.(tsv|json))");
+        std::smatch found;
+        if (std::regex_match(path, found, session)) tasks.insert(found[2]);
+    }
+    EXPECT_EQ(tasks, (std::set<std::string>{"identification", "ratings", "sideeffects", "thresholds"}));
+}
+
+TEST(BidsFiles, EachTableIsWholeAndEachColumnInItsSidecar) {
+    const auto files = filesOf(studyOfThree(), {.age = true, .sex = true, .handedness = true});
+    std::size_t tables = 0;
+    for (const auto& [path, text] : files) {
+        if (!path.ends_with(".tsv")) continue;
+        ++tables;
+        const auto rows = tableOf(text);
+        ASSERT_GE(rows.size(), 2U) << path;
+        const auto sidecar = parseJson(files.at(path.substr(0, path.size() - 4) + ".json"), path);
+        ASSERT_TRUE(sidecar) << path;
+        for (const auto& column : rows[0]) {
+            EXPECT_TRUE(sidecar->contains(column)) << path << ": " << column;
+            EXPECT_NE(column, "onset") << path;
+            EXPECT_NE(column, "duration") << path;
+        }
+        for (const auto& row : rows) {
+            EXPECT_EQ(row.size(), rows[0].size()) << path;
+            for (const auto& cell : row) EXPECT_FALSE(cell.empty() || cell == "nan") << path;
+        }
+    }
+    EXPECT_EQ(tables, 1U + 3 * (1 + 2 * 4));
+}
+
+TEST(BidsFiles, TrialsSayWhatWasPresentedAndAnswered) {
+    const auto files = filesOf(studyOfThree());
+    const auto label = "sub-" + bidsLabel(studyOfThree(), 1).value_or("");
+    const auto rows = tableOf(files.at(label + "/ses-01/beh/" + label + "_ses-01_task-identification_beh.tsv"));
+    const std::vector<std::string> columns = {"trial",   "block",         "phase",        "encoding",  "trial_type",
+                                              "texture", "pressure",      "response",     "correct",   "response_time",
+                                              "attempt", "current_ma",    "intensity",    "voltage_v", "interval_s",
+                                              "trains",  "impedance_ohm", "detection_ma", "adapted"};
+    EXPECT_EQ(rows[0], columns);
+    EXPECT_EQ(rows[1], (std::vector<std::string>{"41", "1", "test", "standard", "rough-high", "rough", "high",
+                                                 "rough-high", "true", "0.731235", "1", "4.5", "n/a", "15.3", "0.5",
+                                                 "9", "3400", "2.1", "false"}));
+    EXPECT_EQ(rows[2][7], "not_sure");
+    EXPECT_EQ(rows[2][8], "false");
+    EXPECT_EQ(rows[3][4], "catch");
+    EXPECT_EQ(rows[3][5], "n/a");
+    EXPECT_EQ(rows[3][8], "true");   // nothing, and nothing was felt
+    EXPECT_EQ(rows[4][8], "false");  // nothing, and something was named
+    EXPECT_EQ(rows[5][7], "n/a");
+    EXPECT_EQ(rows[5][8], "n/a");
+}
+
+TEST(BidsFiles, NothingIsDatedAndOnlyWhatIsAskedForIsIdentifying) {
+    RecordProperty("hazard", "H11");
+    static const std::regex date(R"((19|20)\d\d-\d\d|\d\d:\d\d)");
+    for (const auto& [path, text] : filesOf(studyOfThree())) EXPECT_FALSE(std::regex_search(text, date)) << path;
+    EXPECT_EQ(tableOf(filesOf(studyOfThree()).at("participants.tsv"))[0],
+              (std::vector<std::string>{"participant_id", "species", "group", "sessions"}));
+    const auto with = tableOf(filesOf(studyOfThree(), {.age = true}).at("participants.tsv"));
+    EXPECT_EQ(with[0].back(), "age");
+    EXPECT_EQ(with[1].back(), "34");
+}
+
+TEST(BidsFiles, LabelsAreShuffledAndStayWhenMoreAreEnrolled) {
+    auto study = studyOfThree();
+    const auto first = filesOf(study);
+    EXPECT_EQ(first, filesOf(study));
+    std::vector<std::string> labels;
+    for (std::size_t i = 1; i <= 5; ++i) labels.push_back(bidsLabel(study, i).value_or(""));
+    EXPECT_THAT(labels, testing::UnorderedElementsAre("01", "02", "03", "04", "05"));
+    study.participants.pop_back();
+    for (std::size_t i = 1; i <= 2; ++i) EXPECT_EQ(bidsLabel(study, i).value_or(""), labels[i - 1]);
+    bool inOrder = true;
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+        study.labelSeed = seed;
+        inOrder = inOrder && bidsLabel(study, 1).value_or("") == "01" && bidsLabel(study, 2).value_or("") == "02";
+    }
+    EXPECT_FALSE(inOrder);
+}
+
+TEST(BidsFiles, SimulatedParticipantsAreCalledSo) {
+    RecordProperty("hazard", "H9");
+    auto study = studyOfThree();
+    study.simulated = true;
+    for (auto& participant : study.participants) participant.isVirtual = true;
+    const auto files = filesOf(study);
+    EXPECT_THAT(files.at("dataset_description.json"), HasSubstr("simulated"));
+    EXPECT_THAT(files.at("README"), HasSubstr("SIMULATED"));
+    const auto rows = tableOf(files.at("participants.tsv"));
+    EXPECT_EQ(rows[1][1], "n/a");
+    EXPECT_EQ(rows[1][2], "virtual");
+}
+
+TEST(BidsFiles, DescriptionHasTheFieldsOfTheDesign) {
+    const auto about = parseJson(filesOf(studyOfThree()).at("dataset_description.json"), "description");
+    ASSERT_TRUE(about);
+    EXPECT_EQ(about->at("Name"), "Four conditions");
+    EXPECT_EQ(about->at("BIDSVersion"), "1.11.1");
+    EXPECT_EQ(about->at("DatasetType"), "raw");
+    EXPECT_EQ(about->at("EthicsApprovals"), json::array({"EK 2026/117, Ethics Committee"}));
+    EXPECT_EQ(about->at("GeneratedBy"), json::parse(R"([{"Name": "Tactoscope", "Version": "1.2.3"}])"));
+    EXPECT_TRUE(about->contains("License"));
+}
+
+TEST(BidsFiles, ATextNeverBeginsAnotherCell) {
+    auto study = studyOfThree();
+    study.participants[0].sessions[0].ratings[0].value = "tab\there\nand there";
+    const auto label = "sub-" + bidsLabel(study, 1).value_or("");
+    EXPECT_THAT(filesOf(study).at(label + "/ses-01/beh/" + label + "_ses-01_task-ratings_beh.tsv"),
+                HasSubstr("tab here and there"));
+}
+
+TEST(BidsFiles, RefusesWhatCannotBeNumbered) {
+    auto study = studyOfThree();
+    study.places = 2;
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 3 of a study of 2; 1 to 2 is accepted");
+    study = studyOfThree();
+    study.participants[1].enrolled = 1;
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 stands in the study twice; once was expected");
+    study = studyOfThree();
+    study.participants[1].sessions[1].number = 1;
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message,
+              "session 1 of participant 2; each number from 1 once is accepted");
+    EXPECT_EQ(bidsWithFrom("age,name").error().message, "\"name\" cannot be exported; age, sex and handedness can");
+    EXPECT_TRUE(bidsWithFrom("sex, handedness")->handedness);
+}
+
+TEST(BidsFiles, AFolderThatHoldsSomethingIsLeftAlone) {
+    const test::ScratchDir folder;
+    const std::vector<BidsFile> files = {{"a/b.txt", "text"}};
+    ASSERT_TRUE(writeBids(files, folder.path() / "new"));
+    EXPECT_EQ(readTextFile(folder.path() / "new/a/b.txt").value_or(""), "text");
+    EXPECT_THAT(writeBids(files, folder.path() / "new").error().message, HasSubstr("holds something already"));
+    EXPECT_FALSE(writeBids(files, folder.path() / "new/a/b.txt"));
+}
+
+std::pair<std::string, int> outputOf(const std::string& line) {
+    std::string output;
+    FILE* pipe = popen((line + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {"", -1};
+    std::array<char, 4096> piece{};
+    for (std::size_t n = 0; (n = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) output.append(piece.data(), n);
+    const int status = pclose(pipe);
+    return {output, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
+}
+
+TEST(BidsFiles, DebiansValidatorAcceptsEveryPath) {
+    const std::string python = "/usr/bin/python3";
+    if (outputOf(python + " -c 'import bids_validator'").second != 0) GTEST_SKIP() << "no python3-bids-validator";
+    const test::ScratchDir folder;
+    const auto files = bidsFiles(studyOfThree(), {}, "1.2.3");
+    ASSERT_TRUE(files);
+    ASSERT_TRUE(writeBids(*files, folder.path() / "bids"));
+    const auto script = folder.path() / "check.py";
+    std::ofstream(script) << R"(import pathlib, sys
+from bids_validator import BIDSValidator
+root = pathlib.Path(sys.argv[1])
+paths = ["/" + str(path.relative_to(root)) for path in sorted(root.rglob("*")) if path.is_file()]
+refused = [path for path in paths if not BIDSValidator(index_associated=False).is_bids(path)]
+assert not BIDSValidator().is_bids("/sub-01/ses-01/beh/sub-02_ses-01_task-identification_beh.tsv")
+print(len(paths), "files, refused:", refused)
+sys.exit(1 if refused else 0)
+)";
+    const auto [said, code] =
+        outputOf(fmt::format("{} '{}' '{}'", python, script.string(), (folder.path() / "bids").string()));
+    EXPECT_EQ(code, 0) << said;
+    EXPECT_THAT(said, HasSubstr(fmt::format("{} files", files->size())));
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include "core/base/JsonText.h"
+#include "core/pilot/PilotRecord.h"
+#include "core/sharing/results/SessionResults.h"
+
+namespace tacto {
+namespace {
+
+using nlohmann::json;
+
+SessionRow rowOf(const char* kind, const std::string& name, json body = json::object()) {
+    body["name"] = name;
+    SessionRow made;
+    made.name = kind;
+    made.body = *parseJson(dumpJson(body), name);  // as a file gives it back
+    return made;
+}
+
+SessionRow testTrial(std::size_t number, std::size_t block, const std::string& condition, const json& response) {
+    return rowOf(response.is_null() ? row::kNoAnswer : row::kAnswer, fmt::format("test {}", number),
+                 {{"number", number},
+                  {"phase", "test"},
+                  {"block", block},
+                  {"condition", condition},
+                  {"attempt", 1},
+                  {"current_ma", condition == "catch" ? 0 : 4.5},
+                  {"interval_s", 0.5},
+                  {"trains", condition == "catch" ? 0 : 9},
+                  {"response", response},
+                  {"rt_s", response.is_null() ? json(nullptr) : json(0.75)}});
+}
+
+const std::vector<std::string> kLabels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
+
+TEST(SessionResults, WhatWasMeasuredLastStandsBesideEachTrial) {
+    const auto found = sessionResults(
+        {rowOf(row::kPlan, "plan", {{"seed", 7}, {"encoding", "swapped"}, {"trials", json::array()}}),
+         rowOf(row::kImpedance, "part 1 first", {{"impedance_ohm", 3000}}),
+         rowOf(row::kEstimate, "detection", {{"estimate", {{"value", 2.5}, {"low", 2}, {"high", 3}}}}),
+         rowOf(row::kRange, "range", {{"usable", true}, {"min_ma", 3.5}, {"max_ma", 6.5}}),
+         testTrial(41, 1, "rough-high", "rough-high"),
+         rowOf(row::kDrift, "block 2", {{"block", 2}, {"detection_ma", {{"value", 2.9}}}, {"adapted", true}}),
+         rowOf(row::kImpedance, "block 2", {{"impedance_ohm", 3400}}), testTrial(61, 2, "catch", "none"),
+         testTrial(62, 2, "smooth-low", "not-sure")},
+        kLabels);
+    EXPECT_EQ(found.encoding, "swapped");
+    EXPECT_EQ(found.impedance.value(), 3000);
+    EXPECT_EQ(found.detection_ma, 2.5);
+    EXPECT_EQ(found.low.value(), 3.5);
+    EXPECT_EQ(found.high.value(), 6.5);
+    ASSERT_EQ(found.trials.size(), 3U);
+    EXPECT_EQ(found.trials[0].detection_ma, 2.5);
+    EXPECT_NEAR(found.trials[0].voltage.value(), 4.5 * 3, 1e-12);
+    EXPECT_FALSE(found.trials[0].adapted);
+    EXPECT_EQ(found.trials[2].detection_ma, 2.9);
+    EXPECT_EQ(found.trials[2].impedance.value(), 3400);
+    EXPECT_TRUE(found.trials[2].adapted);
+    EXPECT_EQ(found.trials[2].trial.response, "not-sure");
+}
+
+TEST(SessionResults, ATrialAskedTwiceIsOneTrial) {
+    const auto answered =
+        sessionResults({testTrial(5, 1, "rough-low", nullptr), testTrial(5, 1, "rough-low", "none")}, kLabels);
+    ASSERT_EQ(answered.trials.size(), 1U);
+    EXPECT_EQ(answered.trials[0].trial.response, "none");
+    const auto silent =
+        sessionResults({testTrial(5, 1, "rough-low", nullptr), testTrial(5, 1, "rough-low", nullptr)}, kLabels);
+    ASSERT_EQ(silent.trials.size(), 1U);
+    EXPECT_EQ(silent.trials[0].trial.response, "");
+}
+
+TEST(SessionResults, ThresholdsKeepTheirProcedures) {
+    const auto found = sessionResults(
+        {rowOf(row::kAnswer, "ascending 1", {{"series", 1}, {"current_ma", 4}, {"response", "strong"}, {"rt_s", 1}}),
+         rowOf(row::kAnswer, "ascending 2", {{"series", 1}, {"current_ma", 0}, {"response", "too-strong"}}),
+         rowOf(row::kAnswer, "ascending 3", {{"series", 2}, {"current_ma", 9}, {"response", "too-strong"}}),
+         rowOf(row::kAnswer, "detection 12", {{"right", "second"}, {"current_ma", 2}, {"response", "first"}}),
+         rowOf(row::kAnswer, "drift 3.2", {{"right", "first"}, {"current_ma", 2}, {"response", "first"}}),
+         rowOf(row::kAnswer, "range 1", {{"current_ma", 6}, {"response", "yes"}}),
+         rowOf(row::kAnswer, "rating rough-high", {{"condition", "rough-high"}, {"current_ma", 6}}),
+         rowOf(row::kAnswer, "test 4 again", {{"of", 4}, {"current_ma", 6}})},
+        kLabels);
+    ASSERT_EQ(found.thresholds.size(), 6U);
+    EXPECT_EQ(found.thresholds[0].procedure, "ascending");
+    EXPECT_EQ(found.thresholds[0].type, "stimulus");
+    EXPECT_EQ(found.thresholds[1].type, "catch");
+    EXPECT_EQ(found.tooStrong_ma, 4);  // an empty presentation counts for the level before it
+    EXPECT_EQ(found.thresholds[3].number, 12U);
+    EXPECT_EQ(found.thresholds[3].correct, false);
+    EXPECT_EQ(found.thresholds[4].procedure, "drift");
+    EXPECT_EQ(found.thresholds[4].series, 3U);
+    EXPECT_EQ(found.thresholds[4].number, 2U);
+    EXPECT_EQ(found.thresholds[4].correct, true);
+    EXPECT_EQ(found.thresholds[5].correct, std::nullopt);
+    EXPECT_TRUE(found.trials.empty());
+}
+
+TEST(SessionResults, QuestionsBecomeRatingsSideEffectsAndSkin) {
+    const auto found = sessionResults(
+        {rowOf(row::kSkin, "before erythema", {{"key", "0"}}), rowOf(row::kSkin, "before oedema", {{"key", "1"}}),
+         rowOf(row::kSkin, "break 3 erythema", {{"key", "4"}}), rowOf(row::kSkin, "after erythema", {{"key", "2"}}),
+         rowOf(row::kRating, "rough-high intensity", {{"value", 7}}),
+         rowOf(row::kRating, "rough-high naturalness", {{"key", "rather-unnatural"}}),
+         rowOf(row::kRating, "rough-high qualities", {{"keys", {"tapping", "touch"}}}),
+         rowOf(row::kSideEffect, "after", {{"keys", {"tingling", "mood"}}}),
+         rowOf(row::kSideEffect, "after tingling severity", {{"value", 2}}),
+         rowOf(row::kSideEffect, "after tingling relation", {{"value", 5}})},
+        kLabels);
+    EXPECT_EQ(found.skinBefore, 1);
+    EXPECT_EQ(found.skinAfter, 2);
+    ASSERT_EQ(found.ratings.size(), 3U);
+    EXPECT_EQ(found.ratings[0].condition, "rough-high");
+    EXPECT_EQ(found.ratings[0].item, "intensity");
+    EXPECT_EQ(found.ratings[0].value, "7");
+    EXPECT_EQ(found.ratings[1].value, "rather-unnatural");
+    EXPECT_EQ(found.ratings[2].value, "tapping,touch");
+    ASSERT_EQ(found.sideEffects.size(), 2U);
+    EXPECT_EQ(found.sideEffects[0].severity, 2);
+    EXPECT_EQ(found.sideEffects[0].relation, 5);
+    EXPECT_EQ(found.sideEffects[1].severity, std::nullopt);
+}
+
+TEST(SessionResults, NoRowsSayNothing) {
+    RecordProperty("hazard", "H9");
+    const auto found = sessionResults({}, kLabels);
+    EXPECT_TRUE(std::isnan(found.detection_ma));
+    EXPECT_TRUE(std::isnan(found.low.value()));
+    EXPECT_FALSE(found.skinBefore);
+    EXPECT_TRUE(found.trials.empty());
+}
+
+}  // namespace
+}  // namespace tacto
