@@ -36,9 +36,12 @@ AnswerKeys::AnswerKeys(KeySet set, const PilotPrompt& prompt) {
     const auto take = [&](const auto& keys) {
         keys_.assign(keys.begin(), keys.begin() + std::ptrdiff_t(std::min(count, keys.size())));
     };
-    if (set == KeySet::LeftHand && count <= kLeftHand.size()) return take(kLeftHand);
-    if (set == KeySet::RightHand && count <= kRightHand.size()) return take(kRightHand);
-    take(kFigures);
+    if (set == KeySet::LeftHand && count <= kLeftHand.size())
+        take(kLeftHand);
+    else if (set == KeySet::RightHand && count <= kRightHand.size())
+        take(kRightHand);
+    else
+        take(kFigures);
 }
 
 QString AnswerKeys::text(int target) const {

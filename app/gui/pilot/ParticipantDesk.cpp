@@ -14,6 +14,7 @@ void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {
     clock_ = std::move(clock);
     early_.clear();
     cancelled_ = false;
+    break_ = false;
     holding_ = false;
 }
 
@@ -95,15 +96,32 @@ void ParticipantDesk::cancel() noexcept {
 }
 
 Result<void> ParticipantDesk::ready() const {
-    const std::scoped_lock lock(mutex_);
-    if (!there_) return fail(ErrorCode::NotArmed, "the participant's screen is gone");
-    if (!obstacle_.isEmpty()) return fail(ErrorCode::NotArmed, "{}", obstacle_.toStdString());
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return cancelled_ || (there_ && obstacle_.isEmpty() && !break_); });
+    if (cancelled_) return fail(ErrorCode::Stopped, "stopped before the presentation began");
     return {};
 }
 
 void ParticipantDesk::setObstacle(const QString& why) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (std::exchange(obstacle_, why) == why) return;
+    }
+    changed_.notify_all();
+    emit obstacleChanged(why);
+}
+
+void ParticipantDesk::setBreak(bool wanted) {
+    {
+        const std::scoped_lock lock(mutex_);
+        break_ = wanted;
+    }
+    changed_.notify_all();
+}
+
+bool ParticipantDesk::breakWanted() const {
     const std::scoped_lock lock(mutex_);
-    obstacle_ = why;
+    return break_;
 }
 
 void ParticipantDesk::setScreenThere(bool there) {

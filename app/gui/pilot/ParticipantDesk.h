@@ -37,11 +37,15 @@ public:
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
     void cancel() noexcept override;
     [[nodiscard]] bool holding() const noexcept override { return holding_; }
+    /// Waits until nothing is in the way. Errors besides: Stopped, as ask().
     [[nodiscard]] Result<void> ready() const override;
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
 
     /// What is in the way of a presentation, half a sentence; empty: nothing.
     void setObstacle(const QString& why);
+    /// The operator wants a break: no presentation starts until they want it no more.
+    void setBreak(bool wanted);
+    [[nodiscard]] bool breakWanted() const;
     /// The screen is gone: a question that waits for it ends with Device, and so does the next.
     void setScreenThere(bool there);
     /// The targets of question `id` are on the participant's screen since `at`.
@@ -59,13 +63,14 @@ signals:
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
+    void obstacleChanged(const QString& why);
 
 private:
     [[nodiscard]] bool answered() const;
     [[nodiscard]] Result<PilotAnswer> outcome(const PilotPrompt& prompt);
 
     mutable std::mutex mutex_;
-    std::condition_variable changed_;
+    mutable std::condition_variable changed_;
     // Guarded:
     std::shared_ptr<const Clock> clock_;
     std::optional<PilotPrompt> open_;
@@ -74,6 +79,7 @@ private:
     std::optional<PilotAnswer> participants_, operators_;
     std::vector<EarlyPress> early_;
     QString obstacle_;
+    bool break_ = false;
     bool cancelled_ = false;
     bool there_ = true;
 

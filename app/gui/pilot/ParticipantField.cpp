@@ -38,6 +38,13 @@ QStringList iconsOf(const std::string& key) {
     return icons.size() == 2 ? icons : QStringList();
 }
 
+QString conditionWords(const std::string& key) {
+    const auto icons = iconsOf(key);
+    if (icons.size() != 2) return qtext(key);
+    return QObject::tr("%1, %2").arg(icons[0] == "rough" ? QObject::tr("rough") : QObject::tr("smooth"),
+                                     icons[1] == "firm" ? QObject::tr("firm") : QObject::tr("light"));
+}
+
 ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}
 
 void ParticipantField::drop() {
@@ -79,7 +86,8 @@ void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& 
     for (int i = 0; i < count; ++i) {
         const bool scale = kind_ == PromptKind::Scale;
         const auto* told = std::size_t(i) < prompt.targets.size() ? &prompt.targets[std::size_t(i)] : nullptr;
-        const auto words = scale ? QString::number(prompt.least + i) : told != nullptr ? qtext(told->text) : QString();
+        auto words = scale ? QString::number(prompt.least + i) : told != nullptr ? qtext(told->text) : QString();
+        if (condition && !words.isEmpty()) words[0] = words[0].toLower();
         const auto icons = condition && told != nullptr ? iconsOf(told->key) : QStringList();
         auto* target = new AnswerTarget(this);
         target->setObjectName(told != nullptr ? qtext(told->key) : words);

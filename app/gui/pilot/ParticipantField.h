@@ -21,6 +21,8 @@ constexpr double kTarget_mm = 20;
 
 /// What is drawn beside a condition's words; nothing for a condition of another name.
 [[nodiscard]] QStringList iconsOf(const std::string& key);
+/// "rough, firm" of "rough-high"; another name as it is.
+[[nodiscard]] QString conditionWords(const std::string& key);
 
 class ParticipantField final : public QWidget {
     Q_OBJECT

@@ -149,6 +149,11 @@ void ParticipantWindow::noteStop() {
     repaint();
 }
 
+void ParticipantWindow::showBreak(bool on) {
+    break_ = on;
+    if (!asking_ && !stopped_) showState();
+}
+
 QString ParticipantWindow::says() const {
     if (stopped_) return tr("Stopped");
     if (asking_) return tr("Answer phase");
@@ -247,6 +252,8 @@ void ParticipantWindow::showState() {
             static_cast<AnswerTarget*>(hold_)->setContent(tr("hold this"), {"hand"}, key, AnswerTarget::Shape::Row);
             hold_->show();
             field_->clear();
+        } else if (isStopTest()) {
+            field_->clear();
         } else if (prompt_.kind == PromptKind::Text) {
             line_->clear();
             line_->setFocus();
@@ -255,6 +262,7 @@ void ParticipantWindow::showState() {
             field_->showTargets(prompt_, keys_);
         }
         const auto below = prompt_.kind == PromptKind::Hold ? tr("Letting go stops the output.")
+                           : isStopTest()                     ? tr("Press STOP, or Esc.")
                            : prompt_.kind == PromptKind::Text ? tr("Return gives the answer.")
                            : prompt_.kind == PromptKind::Several
                                ? tr("Touch each that fits, then press Return or “done”.")
@@ -262,6 +270,10 @@ void ParticipantWindow::showState() {
                            : prompt_.within            ? tr("Touch one, or press its key. There is time.")
                                                        : tr("Touch one, or press its key.");
         return say(qtext(prompt_.text), below);
+    }
+    if (break_ && !feels()) {
+        field_->clear();
+        return say(tr("Break"), tr("It goes on when both of you are ready."));
     }
     switch (screen_.state) {
         case ScreenState::Rest:
@@ -276,7 +288,7 @@ void ParticipantWindow::showState() {
             return say(tr("Feel what comes"), qtext(screen_.text));
         case ScreenState::Named: {
             const auto verdict = !screen_.right ? tr("This is") : *screen_.right ? tr("Right. This was") : tr("This was");
-            field_->showWord(qtext(screen_.named), {});
+            field_->showWord(conditionWords(screen_.named), iconsOf(screen_.named));
             return say(verdict, qtext(screen_.text));
         }
         case ScreenState::Break:
@@ -331,7 +343,7 @@ void ParticipantWindow::arrange() {
     }
 
     const int gap = px(kGap);
-    const bool asks = asking_ && prompt_.kind != PromptKind::Hold && prompt_.kind != PromptKind::Text;
+    const bool asks = asking_ && prompt_.kind != PromptKind::Hold && prompt_.kind != PromptKind::Text && !isStopTest();
     const int count = asks ? targetCount(prompt_) : 0;
     const int rows = count == 0                              ? 0
                      : prompt_.kind == PromptKind::Scale     ? (count + 5) / 6
@@ -376,8 +388,11 @@ void ParticipantWindow::arrange() {
     mostWord_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
 }
 
+/// Answered by STOP, and by nothing else.
+bool ParticipantWindow::isStopTest() const { return prompt_.name == "stop-test"; }
+
 void ParticipantWindow::choose(int target, SteadyTime at) {
-    if (!asking_) return;
+    if (!asking_ || isStopTest()) return;
     const auto index = std::size_t(target);
     PilotAnswer answer;
     if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != "done") {

@@ -45,6 +45,8 @@ public:
     void openStrip(bool open);
     /// A stop of the output by anyone: the targets go at once.
     void noteStop();
+    /// The operator's break: what the screen says between two trials meanwhile.
+    void showBreak(bool on);
     [[nodiscard]] const ParticipantField& field() const { return *field_; }
     [[nodiscard]] QString title() const { return title_->text(); }
     /// Targets of a question that wait for an answer.
@@ -80,6 +82,7 @@ private:
     void letGo();
     void noteEarly(std::optional<int> target);
     [[nodiscard]] bool feels() const;
+    [[nodiscard]] bool isStopTest() const;
     void judge();
     void tick();
 
@@ -92,6 +95,7 @@ private:
     quint64 id_ = 0;
     bool asking_ = false;
     bool stopped_ = false;
+    bool break_ = false;
     bool painted_ = false;
     int heldKey_ = 0;
     std::map<int, SteadyTime> pressed_;  ///< keys that went down while no target was there, and their last press

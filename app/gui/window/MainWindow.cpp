@@ -19,6 +19,7 @@
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeFiles.h"
@@ -27,7 +28,6 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/CloseQuestion.h"
-#include "app/gui/window/ComingWorkspace.h"
 #include "app/gui/window/DayDialog.h"
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/DockColumn.h"
@@ -56,7 +56,7 @@ constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
-bool opensDocks(int page) { return page == kLive || page == kPilot; }
+bool opensDocks(int page) { return page == kLive; }
 
 /// What a simulated stimulator drives. What is connected to a real one only the operator can say.
 QString knownLoad(const SessionAbout& about) {
@@ -88,7 +88,12 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
-    new StopKeys([this](const char* by) { controller_.stop(by); }, this);
+    new StopKeys(
+        [this](const char* by) {
+            const bool theirs = pilot_ != nullptr && std::string_view(by).starts_with("participant");
+            theirs ? static_cast<void>(pilot_->stopAsParticipant(by)) : controller_.stop(by);
+        },
+        this);
 
     safety_ = new SafetyBar(controller_, calibrations_, this);
     auto* top = new QToolBar(tr("Safety"), this);
@@ -130,7 +135,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     tour_ = new WelcomeTour(*this);
     const auto all = runners();
-    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()});
+    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [this] { return pilot_->running(); });
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
@@ -160,12 +165,10 @@ void MainWindow::buildPages() {
     pages_->addWidget(scrolling(safetyCheck_, pages_));
     separability_ = new ProtocolWorkspace(controller_, "separability", pages_);
     pages_->addWidget(scrolling(separability_, pages_));
-    pages_->addWidget(new ComingWorkspace(
-        tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
-        {tr("Consent, accepted levels and the ramp that approaches them"),
-         tr("Threshold and identification protocols with breaks and stopping rules"),
-         tr("Participants by pseudonym, trials as data")},
-        tr("Nothing in this version can be armed for a person."), pages_));
+    pilot_ = new PilotWorkspace(controller_, pages_);
+    pages_->addWidget(scrolling(pilot_, pages_));
+    connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showWorkspace(kPilot); });
+    connect(pilot_, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
     sessions_ = new SessionsWorkspace(controller_, pages_);
     pages_->addWidget(scrolling(sessions_, pages_));
     protocols_ = new ProtocolWorkspace(controller_, QString(), pages_);
@@ -263,6 +266,7 @@ std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
 void MainWindow::tick() {
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
+    if (pilot_->blind()) safety_->setParticipantsStop(pilot_->stopWords());
     banner_->refresh(telemetry);
     devices_->refresh(telemetry);
     drive_->refresh(telemetry);
@@ -276,10 +280,11 @@ void MainWindow::tick() {
     if (measured) summary_->refresh(telemetry);
     // One of them takes what a run says: the one it was started from, told apart by themselves.
     for (auto* protocol : runners()) protocol->refresh(telemetry);
+    pilot_->refresh(telemetry);
 }
 
 void MainWindow::showWorkspace(int index) {
-    if (index < 0 || index >= pages_->count()) return;
+    if (index < 0 || index >= pages_->count() || (pilot_->blind() && index != kPilot)) return;
     pages_->setCurrentIndex(index);
     navigation_->actions().at(index)->setChecked(true);
     docks_->enter(index, opensDocks(index));
@@ -319,6 +324,19 @@ void MainWindow::noteChange() {
     if (controller_.activity() == Activity::Live && open) {
         if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
     }
+}
+
+/// Lanes, bars and docks show levels and trains as they are delivered.
+void MainWindow::noteBlind() {
+    const bool blind = pilot_->blind();
+    if (blind) showWorkspace(kPilot);
+    for (auto* action : navigation_->actions()) {
+        const bool allowed = !blind || action == navigation_->actions().at(kPilot);
+        action->setEnabled(allowed);
+        if (!allowed) action->setToolTip(tr("Hidden until the session ends: it would show what is delivered."));
+    }
+    docks_->setHidden(blind);
+    safety_->setBlind(blind);
 }
 
 void MainWindow::askToArm() {

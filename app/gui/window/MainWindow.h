@@ -34,6 +34,7 @@ class LiveWorkspace;
 class MarkLine;
 class MeasurementSummary;
 class NoticeBanner;
+class PilotWorkspace;
 class ProtocolWorkspace;
 class RecordingLine;
 class SafetyBar;
@@ -96,6 +97,8 @@ private:
     /// All that run protocols.
     [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
+    /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
+    void noteBlind();
     void askToConfirm(ArmDialog::Purpose purpose);
     void showScope();
     void focusWorkspace();
@@ -112,6 +115,7 @@ private:
     ProtocolWorkspace* safetyCheck_ = nullptr;
     ProtocolWorkspace* separability_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;
+    PilotWorkspace* pilot_ = nullptr;
     SessionsWorkspace* sessions_ = nullptr;
     DeviceDock* devices_ = nullptr;
     ExposureDock* exposure_ = nullptr;

@@ -29,6 +29,9 @@ public:
     SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent = nullptr);
     /// Thirty times a second.
     void refresh(const Telemetry& telemetry);
+    /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
+    void setBlind(bool blind);
+    void setParticipantsStop(const QString& words);
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
@@ -42,6 +45,8 @@ protected:
 private:
     [[nodiscard]] QWidget* buildFacts();
     [[nodiscard]] QWidget* buildButtons();
+    [[nodiscard]] QWidget* buildBlindFacts();
+    void showBlind(const Telemetry& telemetry);
     void giveRoom();
     void showState(const Telemetry& telemetry);
     void showDevice(const Telemetry& telemetry);
@@ -60,6 +65,10 @@ private:
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
     FaultBanner* fault_ = nullptr;  ///< in place of facts and bars
+    QWidget* blindFacts_ = nullptr;  ///< in place of the bars
+    QLabel* within_ = nullptr;
+    QLabel* participantsStop_ = nullptr;
+    bool blind_ = false;
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;
