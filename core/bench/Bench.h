@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/bench/ControlLoop.h"
+#include "core/bench/Presentation.h"
 #include "core/bench/Profile.h"
 #include "core/bench/Telemetry.h"
 #include "core/devices/Driver.h"
@@ -41,8 +42,12 @@ struct BenchConfig {
     std::vector<LimitSet> limits;
     OutputMode mode = OutputMode::BenchLoad;
     std::optional<PersonSetup> person;  ///< required in person mode
-    SessionWriter* session = nullptr;   ///< not owned; null records nothing
-    BenchTap* tap = nullptr;            ///< not owned; null shows nothing
+    /// Whom `person` describes: a virtual participant, who is refused on any device that is not simulated, or a human
+    /// being, who is refused on a simulated one outside a rehearsal.
+    bool virtualParticipant = false;
+    bool rehearsal = false;
+    SessionWriter* session = nullptr;  ///< not owned; null records nothing
+    BenchTap* tap = nullptr;           ///< not owned; null shows nothing
     /// The last of the stimulator that is known. The gate judges by it in any case; a stimulator that is out of order
     /// by it is not armed.
     KnownLines calibration;
@@ -72,6 +77,12 @@ struct ArmRequest {
     /// The text that the operator was shown and confirmed: armingText() of the load. Where the output is real, nothing
     /// else confirms it; for a simulated one it may be empty.
     std::string confirmed{};
+};
+
+/// The highest level that is permitted at all.
+struct PermittedLevel {
+    Milliamps level{0};     ///< 0: none is
+    std::string limitedBy;  ///< one phrase: "commanded voltage (paper)", "the study's cap", "the device's largest", ...
 };
 
 class Bench {
@@ -133,6 +144,34 @@ public:
     /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
+    /// One presentation at one level, in the kind of train that the profile describes: waits for its end. Every train
+    /// is approved by the gate, delivered, read back and judged as any other. Where the last impedance reading would be
+    /// more than 5 s old by the last onset, one check pulse comes first, also before an empty one.
+    /// Nothing else may drive the output. A stop, a pause or a fault ends it (see Presented::end) and makes it void.
+    /// Errors, with which nothing was begun: InvalidArgument as validate(), and for a current that is not on the
+    /// device's grid; Unsupported where the output takes no such level; NotArmed unless armed; Stopped; Device; Io.
+    [[nodiscard]] Result<Presented> present(const Presentation& presentation);
+
+    /// The participant accepted the level that was presented last: without it the next may not rise (hazard H6).
+    /// Recorded as `level-accepted`. Errors: InvalidArgument unless the last presentation was complete, not empty and
+    /// at this level; NotArmed outside person mode; LimitExceeded as SafetyGate::accept(); Io.
+    [[nodiscard]] Result<void> accept(Milliamps level);
+    /// The participant called this level too strong: from now on nothing exceeds it, also when the bench is armed
+    /// again. Told to the gate before it is recorded as `level-too-strong`; also after a stop. Errors: InvalidArgument
+    /// unless finite and ≥ 0; NotArmed outside person mode; Io, when it holds all the same.
+    [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
+    /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Errors: NotArmed outside
+    /// person mode.
+    [[nodiscard]] Result<void> beginAscending();
+    [[nodiscard]] Result<void> endAscending();
+    /// The highest current that a presentation may have now: the ramp, what was too strong, the cap. Errors: NotArmed
+    /// outside person mode, and before it was armed.
+    [[nodiscard]] Result<Milliamps> levelCeiling();
+    /// The highest level of the device's grid that the limits, the cap and what was too strong permit at `interval` on
+    /// the impedance that was measured last, whatever was accepted; and what stands against the next one.
+    /// Errors: NotArmed outside person mode, and where no impedance is known.
+    [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
+
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
     /// `before`: what R was shown for until now; see the session's marks.

@@ -17,16 +17,16 @@
 
 namespace tacto {
 
-/// One presentation as it reached the skin, as far as the device says: what a virtual participant feels. A window
-/// ignores it.
+/// One presentation as it was approved and delivered: what a virtual participant feels. A window ignores it. After a
+/// resume the session tells those of the earlier parts again, so that what was learned is known.
 struct FeltPresentation {
-    Milliamps current{0};  ///< read back where the device reads back, else approved; 0: an empty presentation
-    double intensity = 0;  ///< massagers: 0 to 1, in place of `current`
-    Seconds interval{0};   ///< onset to onset; 0 for a single train or none
-    int trains = 0;        ///< delivered
-    /// Stimulation since the electrodes were placed, this presentation included: what adaptation follows.
+    double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
+    Seconds interval{0};  ///< onset to onset
+    int inInterval = 0;   ///< 1 or 2: where the train of a detection trial came; else 0
+    std::string named;    ///< familiarisation: the condition's key, as the screen said; else empty
+    /// For how long trains were given in this session before this presentation: what adaptation follows.
     Seconds stimulated{0};
-    /// What the person's answer is drawn for: "session 2 test 17", the same however often the session was resumed.
+    /// What the person's answer is drawn for: "seed 1 session 2 test 17", the same however often it was resumed.
     std::string drawnFor;
 };
 
@@ -39,8 +39,9 @@ public:
     /// Shows the targets, not before `prompt.targetsAt`, and waits for the answer.
     /// Errors: Stopped when a person stopped or cancel() was called while it waited; NotFound where there is no one to
     /// answer, naming the prompt; Device when the screen is gone.
+    /// A prompt named "stop-test" (one of GoOn) is answered by pressing STOP, and so returns Stopped.
     [[nodiscard]] virtual Result<PilotAnswer> ask(const PilotPrompt& prompt) = 0;
-    /// What was just presented; an interval of a detection trial is told by itself, before the question.
+    /// What was just presented, before the question about it.
     virtual void delivered(const FeltPresentation& felt) = 0;
     /// Presses since the last show() that came before targets; empties the list.
     [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;

@@ -51,9 +51,10 @@ using Ceilings = std::vector<Ceiling>;
 struct PersonSetup {
     std::string participant;  ///< pseudonym; accepted levels and discomfort live as long as it stays the same
     bool consentRecorded = false;
-    Milliamps discomfortLimit{0};  ///< > 0; may fall during a session, never rise
-    Milliamps rampStep{0};         ///< > 0; the largest step above an accepted level (H6)
-    Ohms impedanceLow{500};        ///< the profile's range in which a person's |Z| must lie
+    Milliamps discomfortLimit{0};    ///< > 0; may fall during a session, never rise
+    Milliamps rampStep{0};           ///< > 0; the largest step above an accepted level (H6)
+    std::optional<Milliamps> cap{};  ///< > 0; the study's: no level exceeds it. Nothing: the study has none
+    Ohms impedanceLow{500};          ///< the profile's range in which a person's |Z| must lie
     Ohms impedanceHigh{10'000};
 };
 

@@ -168,6 +168,19 @@ std::vector<std::vector<double>> responseProbabilities(const IdentificationTask&
     return table;
 }
 
+std::size_t sampleResponse(const IdentificationTask& task, const Observer& observer, const FeltPoint& stimulus,
+                           Random& random) {
+    const bool lapsed = random.uniform() < observer.lapse;
+    FeltPoint felt = stimulus;
+    felt.amplitude_jnd += observer.noise_jnd * random.normal();
+    felt.interval_jnd += observer.noise_jnd * random.normal();
+    const bool unfelt = felt.amplitude_jnd < observer.detection_jnd;
+    if (lapsed || (unfelt && observer.guess == GuessBehaviour::Uniform)) {
+        return static_cast<std::size_t>(random.below(task.points.size()));
+    }
+    return unfelt ? task.points.size() : answerTo(task, felt);
+}
+
 std::vector<std::vector<std::size_t>> sampleResponses(const IdentificationTask& task, const Observer& observer,
                                                       std::size_t trials, Random& random) {
     const std::size_t n = task.points.size();
@@ -175,17 +188,7 @@ std::vector<std::vector<std::size_t>> sampleResponses(const IdentificationTask& 
     for (std::size_t i = 0; i < n; ++i) {
         if (!task.given[i]) continue;
         for (std::size_t trial = 0; trial < trials; ++trial) {
-            const bool lapsed = random.uniform() < observer.lapse;
-            FeltPoint felt = task.points[i];
-            felt.amplitude_jnd += observer.noise_jnd * random.normal();
-            felt.interval_jnd += observer.noise_jnd * random.normal();
-            const bool unfelt = felt.amplitude_jnd < observer.detection_jnd;
-            std::size_t answer = answerTo(task, felt);
-            if (lapsed || (unfelt && observer.guess == GuessBehaviour::Uniform)) {
-                answer = static_cast<std::size_t>(random.below(n));
-            } else if (unfelt) {
-                answer = n;
-            }
+            const std::size_t answer = sampleResponse(task, observer, task.points[i], random);
             ++table[i][answer];
         }
     }

@@ -55,6 +55,11 @@ struct IdentificationTask {
 [[nodiscard]] std::vector<std::vector<double>> responseProbabilities(const IdentificationTask& task,
                                                                      const Observer& observer);
 
+/// One answer to a stimulus, which need not be one of the points (nothing at all is an amplitude of minus infinity):
+/// the index of a point, or points.size() for "none".
+[[nodiscard]] std::size_t sampleResponse(const IdentificationTask& task, const Observer& observer,
+                                         const FeltPoint& stimulus, Random& random);
+
 /// `trials` presentations of each given condition. The same shape as responseProbabilities(), in counts.
 [[nodiscard]] std::vector<std::vector<std::size_t>> sampleResponses(const IdentificationTask& task,
                                                                     const Observer& observer, std::size_t trials,

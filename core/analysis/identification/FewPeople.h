@@ -1,0 +1,43 @@
+// FewPeople.h - what three to five people show together, without pretending that they are many.
+//
+// Every enrolled person has a row: a person without a usable range is one who was not
+// above chance, since dropping them would flatter the answer. Then the median and the range, then how many were above
+// chance with what that says of everybody. Answers are never pooled over people: three people give ten distinct
+// bootstrap samples, and bootstraps over clusters want some 24 (Flynn and Peters 2004).
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/analysis/identification/Identification.h"
+#include "core/base/Statistics.h"
+
+namespace tacto {
+
+/// One person and one encoding.
+struct PersonResult {
+    std::string name;          ///< as it is shown: a code in the study, a label outside it
+    bool usable = true;        ///< had a range between detection and discomfort
+    ConfusionFigures figures;  ///< n = 0 where no test trial was answered
+};
+
+struct FewPeople {
+    std::vector<PersonResult> people;
+    Statistics accuracy;              ///< over those who answered test trials
+    Statistics itCorrected_bits;      ///< the same
+    std::size_t aboveChance = 0;      ///< p < 0.05 each by themselves
+    Estimate share;                   ///< above chance of all people, Clopper and Pearson 95 %
+    Estimate prevalence;              ///< of everybody: Prevalence.h
+    double prevalenceAtLeast = kNaN;  ///< one-sided 95 %; NaN without people
+};
+
+[[nodiscard]] FewPeople judgeFewPeople(std::vector<PersonResult> people);
+
+/// "4 of 5 were above chance (exact 95 % interval 28 to 99 %), which says that 38 to 98 % of such people can do it."
+[[nodiscard]] std::string fewPeopleSentence(const FewPeople& found);
+
+}  // namespace tacto

@@ -1,0 +1,90 @@
+// Identification.h - what one participant's identification session shows: which answers were given to which conditions,
+// how far that is from guessing, and what may have disturbed it.
+//
+// Only test trials count, and catch trials apart from the others. "none" and "not sure" are answers like any other and
+// are wrong. A trial without an answer is counted and enters nothing else. Definitions: science.md section 11.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/statistics/Estimate.h"
+
+namespace tacto {
+
+/// A table of answers against guessing.
+struct ConfusionFigures {
+    std::size_t n = 0;
+    std::size_t hits = 0;
+    double chance = kNaN;            ///< of a right answer by guessing among the rows
+    Estimate accuracy;               ///< Wilson 95 %
+    double pChance = kNaN;           ///< P(X ≥ hits) by chance, one-sided, exact; 1 without trials
+    double it_bits = kNaN;           ///< information transfer; NaN without trials
+    double itBias_bits = kNaN;       ///< how much of it chance gives on average
+    double itCorrected_bits = kNaN;  ///< max(0, transfer - bias)
+};
+
+/// One feature, the other passed over: rows are its two values, columns the two, "none" and "not sure".
+struct FeatureFigures {
+    std::vector<std::string> values;                  ///< as first met in the labels
+    std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
+    ConfusionFigures figures;
+    /// Of `values[0]` against `values[1]` in the trials that were answered with a label, 0.5 added to each count and
+    /// the second value's distribution at 0: z(H) - z(F), and -(z(H) + z(F))/2, below 0 where `values[0]` is preferred.
+    double dPrime = kNaN;
+    double criterion = kNaN;
+};
+
+struct CatchFigures {
+    std::size_t n = 0;
+    std::size_t falseAlarms = 0;  ///< answered with a label
+    Estimate rate;                ///< Clopper and Pearson 95 %: 0 of 10 still allows 31 %
+};
+
+struct BlockFigures {
+    std::size_t block = 0;
+    std::size_t n = 0;
+    std::size_t hits = 0;
+};
+
+/// How often an answer was given, whatever was presented.
+struct AnswerShare {
+    std::string response;
+    std::size_t n = 0;
+    Estimate share;  ///< Wilson 95 %
+};
+
+struct Identification {
+    std::vector<std::string> labels;                  ///< rows
+    std::vector<std::string> columns;                 ///< labels, "none", "not-sure"
+    std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
+    ConfusionFigures all;
+    std::optional<FeatureFigures> texture;  ///< where the labels are two by two
+    std::optional<FeatureFigures> pressure;
+    CatchFigures catches;
+    std::size_t noAnswer = 0;  ///< trials and catch trials that were asked twice without an answer
+    std::vector<AnswerShare> shares;
+    std::vector<BlockFigures> blocks;
+    /// Change of the log odds of a right answer per block, by a logistic model with its profile-likelihood interval.
+    /// NaN where it cannot be told: fewer than two blocks, or every answer right, or every one wrong.
+    Estimate learning;
+    /// Accuracy where the trial before it in the block was of the same condition, and of another. Catch trials and the
+    /// first of a block have no such trial before them.
+    BlockFigures afterSame, afterOther;        // their `block` is not used
+    std::vector<double> medianResponseTime_s;  ///< of each label's rows, as presented; NaN without answers
+};
+
+/// `trials` in the order presented, whatever their phase; `labels` are the answers offered, in the order of the rows.
+/// Empty: those that the trials name, in the order first met.
+/// Errors: InvalidArgument for fewer than two labels, a label given twice or reserved, and a test trial whose condition
+/// or response is neither a label nor one of the reserved words, or whose number comes a second time with an answer.
+[[nodiscard]] Result<Identification> identify(std::span<const IdentificationTrial> trials,
+                                              std::vector<std::string> labels = {});
+
+}  // namespace tacto

@@ -1,0 +1,35 @@
+// IdentificationJson.h - an identification session's figures in the shapes of the command line's contract (pilot.md
+// section 10): the same for `run pilot-identification`, `analyze identification` and reports. Absent values are null.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/identification/Encodings.h"
+#include "core/analysis/identification/FewPeople.h"
+#include "core/analysis/identification/GoodnessOfFit.h"
+#include "core/analysis/identification/Identification.h"
+#include "core/analysis/identification/OverSessions.h"
+
+namespace tacto {
+
+/// {"labels", "columns", "confusion", "n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits",
+/// "it_corrected_bits", "texture", "pressure", "catch", "no_answer", "blocks", "shares", "learning", "sequence"}.
+/// The caller adds what it alone knows: participant, parts, range, drift, predicted, ...
+[[nodiscard]] nlohmann::json toJson(const Identification& found);
+/// {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits"}
+[[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
+/// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; response null without an answer
+[[nodiscard]] nlohmann::json toJson(const IdentificationTrial& trial);
+/// {"g", "p"}
+[[nodiscard]] nlohmann::json toJson(const GoodnessOfFit& fit);
+/// {"people", "accuracy": {"median", "min", "max"}, "it_corrected_bits", "above_chance": {"k", "n", "share",
+/// "prevalence", "prevalence_at_least"}}
+[[nodiscard]] nlohmann::json toJson(const FewPeople& people);
+/// {"encodings", "pairs": [{"a", "b", "difference"}], "order", "preferred"}
+[[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);
+/// {"sessions": [...], "trend", "smallest_change"}
+[[nodiscard]] nlohmann::json toJson(const OverSessions& sessions);
+
+}  // namespace tacto

@@ -1,0 +1,30 @@
+// IdentificationText.h - the sentences with which every result begins.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "core/analysis/identification/Identification.h"
+#include "core/base/Units.h"
+
+namespace tacto {
+
+/// What the conditions lay between: current and what voltage that was, or a massager's intensity.
+struct PresentedRange {
+    std::optional<Milliamps> low, high;
+    Volts lowVoltage{kNaN}, highVoltage{kNaN};  ///< at `impedance`
+    Ohms impedance{kNaN};
+    std::optional<double> lowIntensity, highIntensity;  ///< 0 to 1
+};
+
+/// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
+/// 14 to 22 V at 3.4 kΩ." What is not known is left out. Without trials: "P-7K3M answered no test trial."
+[[nodiscard]] std::string headline(const std::string& name, const Identification& found, const PresentedRange& range);
+
+/// "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance."; `n` ≥ 1.
+[[nodiscard]] std::string precisionSentence(std::size_t n, double chance);
+
+}  // namespace tacto

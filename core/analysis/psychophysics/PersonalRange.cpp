@@ -1,0 +1,87 @@
+#include "core/analysis/psychophysics/PersonalRange.h"
+
+#include <cmath>
+
+namespace tacto {
+
+Result<PersonalRange> PersonalRange::create(const LevelGrid& grid, const PersonalRangeSettings& settings) {
+    const struct {
+        std::string_view name;
+        double value;
+        double low;
+        double high;
+    } asked[] = {{"the detection threshold", settings.detection, 0, 1e6},
+                 {"the level that is too strong", settings.tooStrong, 0, 1e6},
+                 {"the Weber fraction of the level", settings.weber, 0, 10},
+                 {"the factor below what is too strong", settings.belowTooStrong, 0, 1}};
+    for (const auto& each : asked) {
+        if (!(each.value > each.low && each.value <= each.high)) {
+            return fail(ErrorCode::InvalidArgument, "{} is {}; above {:g} to {:g} is accepted", each.name, each.value,
+                        each.low, each.high);
+        }
+    }
+    if (!(settings.aboveDetection >= 1 && settings.aboveDetection <= 10)) {
+        return fail(ErrorCode::InvalidArgument, "the lowest level is {} times detection; 1 to 10 is accepted",
+                    settings.aboveDetection);
+    }
+    if (settings.leastSteps < 1) {
+        return fail(ErrorCode::InvalidArgument, "a range of {} steps is asked for; 1 or more is accepted",
+                    settings.leastSteps);
+    }
+    return PersonalRange(grid, settings);
+}
+
+PersonalRange::PersonalRange(const LevelGrid& grid, const PersonalRangeSettings& settings)
+    : grid_(grid),
+      settings_(settings),
+      min_(grid.atOrAbove(settings.aboveDetection * settings.detection)),
+      limitedBy_(grid.limitedBy()) {
+    const double comfortable = settings_.belowTooStrong * settings_.tooStrong;
+    max_ = grid_.atOrBelow(comfortable);
+    if (comfortable <= grid_.highest() && settings_.saidTooStrong) limitedBy_ = LevelLimit::TooStrong;
+}
+
+bool PersonalRange::wideEnough() const noexcept { return min_ && max_ >= *min_ + settings_.leastSteps; }
+
+std::optional<double> PersonalRange::next() const {
+    if (done()) return std::nullopt;
+    return grid_.level(max_);
+}
+
+Result<void> PersonalRange::answer(bool acceptable) {
+    if (done()) return fail(ErrorCode::InvalidArgument, "the range is settled; no answer is accepted");
+    if (acceptable) {
+        confirmed_ = true;
+        return {};
+    }
+    --max_;
+    ++lowered_;
+    limitedBy_ = LevelLimit::Confirmation;
+    return {};
+}
+
+PersonalRangeResult PersonalRange::result() const {
+    PersonalRangeResult out;
+    out.usable = confirmed_;
+    out.limitedBy = limitedBy_;
+    out.lowered = lowered_;
+    if (min_) out.min = grid_.level(*min_);
+    if (max_ > 0) out.max = grid_.level(max_);
+    if (min_ && max_ > *min_) out.steps = max_ - *min_;
+    if (out.usable) out.jnd = justNoticeableDifferences(out.max, out.min, settings_.weber);
+    if (wideEnough()) return out;
+    if (!min_) {
+        out.reason = fmt::format("the lowest level would be {}, above the highest of {} ({})",
+                                 grid_.textOf(settings_.aboveDetection * settings_.detection),
+                                 grid_.textOf(grid_.highest()), nameOf(grid_.limitedBy()));
+    } else {
+        out.reason = fmt::format(
+            "from the lowest level of {} to the highest of {} ({}) there are {} steps of the "
+            "device; {} or more are needed",
+            grid_.textOf(out.min), grid_.textOf(grid_.level(max_)), nameOf(limitedBy_), out.steps,
+            settings_.leastSteps);
+    }
+    return out;
+}
+
+}  // namespace tacto

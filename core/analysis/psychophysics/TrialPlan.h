@@ -1,0 +1,44 @@
+// TrialPlan.h - which condition comes when: drawn from the seed and stored before the first trial (pilot.md section 4).
+//
+// Familiarisation: named rounds of every condition in order and one empty presentation. Training: blocks with each
+// condition equally often. Test: blocks with each condition equally often and a few catch trials (nothing presented).
+// In training and test no condition comes more than three times in a row, across blocks too; in the test no catch trial
+// comes first in a block or right after another. Among the orders that obey, each phase's order is uniformly random.
+// Numbers belong to the plan: where training ends early its later numbers are not used.
+//
+// Thread-safety: values; pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/base/Result.h"
+
+namespace tacto {
+
+struct TrialPlanSettings {
+    std::size_t conditions = 4;             ///< 2 to 16
+    std::size_t familiarisationRounds = 3;  ///< 0 to 20
+    std::size_t trainingBlocks = 4;         ///< 0 to 20
+    std::size_t trainingPerCondition = 2;   ///< of a block, 1 to 20
+    std::size_t blocks = 5;                 ///< of the test, 1 to 50
+    std::size_t perCondition = 4;           ///< of a block, 1 to 20
+    std::size_t catchTrials = 2;            ///< of a block, 0 to 20
+};
+
+struct PlannedTrial {
+    std::size_t number = 0;  ///< from 1, over the whole plan
+    TrialPhase phase = TrialPhase::Test;
+    std::size_t block = 0;                 ///< from 1 within the phase; of familiarisation the round
+    std::optional<std::size_t> condition;  ///< 0 to conditions − 1; nothing: a catch trial, nothing is presented
+    bool operator==(const PlannedTrial&) const = default;
+};
+
+inline constexpr std::size_t kMostInARow = 3;
+
+/// Errors: InvalidArgument naming the setting, its value and what is accepted, or when no order was found that obeys.
+[[nodiscard]] Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, std::uint64_t seed);
+
+}  // namespace tacto

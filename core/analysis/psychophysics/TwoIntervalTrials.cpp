@@ -1,0 +1,36 @@
+#include "core/analysis/psychophysics/TwoIntervalTrials.h"
+
+#include <algorithm>
+
+#include "core/base/Random.h"
+
+namespace tacto {
+
+Result<TrialInterval> trialIntervalFrom(std::string_view text) {
+    if (const auto known = valueFor(kTrialIntervals, text)) return *known;
+    return fail(ErrorCode::InvalidArgument, "the answer is \"{}\"; first or second is accepted", text);
+}
+
+Result<void> validate(TrialInterval interval) {
+    if (interval == TrialInterval::First || interval == TrialInterval::Second) return {};
+    return fail(ErrorCode::InvalidArgument, "answer number {} is no interval; first or second is accepted",
+                static_cast<int>(interval));
+}
+
+void IntervalShares::add(TrialInterval interval, bool correct) noexcept {
+    IntervalShare& share = interval == TrialInterval::First ? first : second;
+    ++share.trials;
+    if (correct) ++share.right;
+}
+
+TwoIntervalOrder::TwoIntervalOrder(std::uint64_t seed, std::string_view name) : seed_(seed), name_(name) {}
+
+TrialInterval TwoIntervalOrder::of(std::size_t number) const {
+    std::array<TrialInterval, 10> ten{};
+    std::fill(ten.begin() + 5, ten.end(), TrialInterval::Second);
+    Random random(seed_, fmt::format("{}, intervals of ten {}", name_, (number - 1) / ten.size()));
+    for (std::size_t i = ten.size() - 1; i > 0; --i) std::swap(ten[i], ten[random.below(i + 1)]);
+    return ten[(number - 1) % ten.size()];
+}
+
+}  // namespace tacto

@@ -1,0 +1,174 @@
+#include "core/analysis/psychophysics/VirtualObserver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tacto {
+
+namespace {
+
+/// From `least` at `from` to `most` at `to` on a logarithmic scale, with noise, as a whole number of the scale.
+struct RatingScale {
+    double from;
+    double to;
+    double least;
+    double most;
+};
+
+int ratingOn(const RatingScale& scale, double level, double noise) noexcept {
+    const double share = std::log(level / scale.from) / std::log(scale.to / scale.from);
+    const double rated = std::round(scale.least + share * (scale.most - scale.least) + noise);
+    return static_cast<int>(std::clamp(rated, 0.0, 10.0));
+}
+
+constexpr double kRatingNoise = 0.5;
+
+}  // namespace
+
+Result<VirtualObserver> VirtualObserver::create(const VirtualObserverSettings& settings) {
+    const auto& who = settings.who;
+    if (!(settings.adaptation >= 0 && settings.adaptation <= 10)) {
+        return fail(ErrorCode::InvalidArgument, "the adaptation is {}; 0 to 10 is accepted", settings.adaptation);
+    }
+    if (!(settings.adaptationTime.count() > 0 && std::isfinite(settings.adaptationTime.count()))) {
+        return fail(ErrorCode::InvalidArgument, "the time of adaptation is {} s; above 0 is accepted",
+                    settings.adaptationTime.count());
+    }
+    const struct {
+        std::string_view name;
+        double value;
+        double high;
+    } asked[] = {{"perception threshold (mA)", who.detection.value(), 1e6},
+                 {"attention threshold (mA)", who.attention.value(), 1e6},
+                 {"intolerance threshold (mA)", who.intolerance.value(), 1e6},
+                 {"level that is too strong (mA)", who.discomfort.value(), 1e6},
+                 {"Weber fraction of amplitude", who.amplitudeWeber, 10},
+                 {"Weber fraction of interval", who.intervalWeber, 10},
+                 {"noise (JND)", who.noise_jnd, 100}};
+    for (const auto& each : asked) {
+        if (!(each.value > 0 && each.value <= each.high)) {
+            return fail(ErrorCode::InvalidArgument, "the virtual participant's {} is {}; above 0 to {:g} is accepted",
+                        each.name, each.value, each.high);
+        }
+    }
+    if (!(who.discomfort > who.detection)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "the virtual participant's level that is too strong is {} mA; more than its perception threshold "
+                    "of {} mA is accepted",
+                    who.discomfort.value(), who.detection.value());
+    }
+    if (!(who.lapse >= 0 && who.lapse <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "the virtual participant's lapse rate is {}; 0 to 1 is accepted",
+                    who.lapse);
+    }
+    return VirtualObserver(settings);
+}
+
+VirtualObserver::VirtualObserver(const VirtualObserverSettings& settings) noexcept : settings_(settings) {
+    const auto& who = settings_.who;
+    const double unit = settings_.unit == LevelUnit::Milliamps ? 1 : kVirtualFullIntensity.value();
+    detection_ = who.detection.value() / unit;
+    attention_ = who.attention.value() / unit;
+    tooStrong_ = who.discomfort.value() / unit;
+    intolerance_ = who.intolerance.value() / unit;
+    // d(felt)/d(ln level) at the threshold: β/e of the Weibull function, 1/(√(2π) σ) of the normal noise.
+    const double sigma = who.noise_jnd * std::log1p(who.amplitudeWeber);
+    slope_ = std::numbers::e / (std::sqrt(2 * std::numbers::pi) * sigma);
+}
+
+double VirtualObserver::risen(Seconds stimulated) const noexcept {
+    return 1 + settings_.adaptation * -std::expm1(-stimulated.count() / settings_.adaptationTime.count());
+}
+
+Random VirtualObserver::randomFor(std::string_view question, std::string_view key) const {
+    return {settings_.seed, fmt::format("virtual participant's {}, {}", question, key)};
+}
+
+double VirtualObserver::jnd(double level) const noexcept {
+    return std::log(level) / std::log1p(settings_.who.amplitudeWeber);
+}
+
+StrengthWord VirtualObserver::strength(std::string_view key, double level, Seconds stimulated) const {
+    if (!(level > 0)) return StrengthWord::Nothing;
+    Random random = randomFor("strength", key);
+    const double felt = jnd(level / risen(stimulated)) + settings_.who.noise_jnd * random.normal();
+    if (felt < jnd(detection_)) return StrengthWord::Nothing;
+    if (felt >= jnd(tooStrong_)) return StrengthWord::TooStrong;
+    return felt < jnd(attention_) ? StrengthWord::Weak : StrengthWord::Strong;
+}
+
+double VirtualObserver::probabilityRight(double level, Seconds stimulated) const noexcept {
+    const double known = level > 0 ? -std::expm1(-std::pow(level / (detection_ * risen(stimulated)), slope_)) : 0;
+    return 0.5 + (1 - settings_.who.lapse) / 2 * known;
+}
+
+TrialInterval VirtualObserver::detect(std::string_view key, double level, TrialInterval interval,
+                                      Seconds stimulated) const {
+    const bool right = randomFor("detection", key).uniform() < probabilityRight(level, stimulated);
+    if (right) return interval;
+    return interval == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
+}
+
+IdentificationTask VirtualObserver::taskFor(std::span<const DeliveredCondition> conditions) const {
+    IdentificationTask task;
+    for (const auto& condition : conditions) {
+        task.points.push_back(
+            {jnd(condition.level), std::log(condition.interval.count()) / std::log1p(settings_.who.intervalWeber)});
+    }
+    task.given.assign(conditions.size(), true);
+    return task;
+}
+
+Observer VirtualObserver::observerAfter(Seconds stimulated) const {
+    Observer observer;
+    observer.noise_jnd = settings_.who.noise_jnd;
+    observer.lapse = settings_.who.lapse;
+    observer.detection_jnd = jnd(detection_ * risen(stimulated));
+    return observer;
+}
+
+std::size_t VirtualObserver::identify(std::string_view key, std::span<const DeliveredCondition> conditions,
+                                      std::optional<std::size_t> presented, Seconds stimulated) const {
+    Random random = randomFor("identification", key);
+    const auto task = taskFor(conditions);
+    const FeltPoint nothing{-std::numeric_limits<double>::infinity(), 0};
+    return sampleResponse(task, observerAfter(stimulated), presented ? task.points[*presented] : nothing, random);
+}
+
+bool VirtualObserver::acceptable(std::string_view key, double level, Seconds stimulated) const {
+    Random random = randomFor("consent to a level", key);
+    return jnd(level / risen(stimulated)) + settings_.who.noise_jnd * random.normal() < jnd(tooStrong_);
+}
+
+VirtualRating VirtualObserver::rate(std::string_view key, double level, Seconds stimulated) const {
+    Random random = randomFor("rating", key);
+    const double rated = level / risen(stimulated);
+    VirtualRating out;
+    if (!(rated > 0) || jnd(rated) + settings_.who.noise_jnd * random.normal() < jnd(detection_)) {
+        out.naturalness = Naturalness::TotallyUnnatural;
+        return out;
+    }
+    out.intensity = ratingOn({detection_, tooStrong_, 1, 8}, rated, kRatingNoise * random.normal());
+    out.unpleasantness = ratingOn({detection_, tooStrong_, -2, 6}, rated, kRatingNoise * random.normal());
+    out.pain = ratingOn({detection_, tooStrong_, -4, 3}, rated, kRatingNoise * random.normal());
+    out.naturalness = kNaturalness[1 + random.below(4)].value;
+    out.qualities.emplace_back("tingling");
+    for (const std::string_view quality : {"tapping", "pressure", "vibration"}) {
+        if (random.uniform() < 0.4) out.qualities.push_back(quality);
+    }
+    return out;
+}
+
+std::vector<std::vector<double>> VirtualObserver::predicted(std::span<const DeliveredCondition> conditions,
+                                                            Seconds stimulated) const {
+    return responseProbabilities(taskFor(conditions), observerAfter(stimulated));
+}
+
+std::vector<double> VirtualObserver::predictedCatch(std::size_t conditions) const {
+    std::vector<double> row(conditions, settings_.who.lapse / static_cast<double>(conditions));
+    row.push_back(1 - settings_.who.lapse);
+    return row;
+}
+
+}  // namespace tacto

@@ -1,0 +1,257 @@
+#include "core/pilot/PilotCare.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "core/base/JsonFields.h"
+#include "core/base/Random.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Seconds kBetweenChecks{30};
+constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart
+constexpr double kBlocksAgree = 0.3;  // before a block, and on a resume
+constexpr int kSkinEnds = 2;          // erythema or oedema from which a session ends
+constexpr std::chrono::milliseconds kStopIn{10};
+
+constexpr Word<int> kSkinScores[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
+
+struct Named {
+    const char* key;
+    const char* text;
+};
+constexpr Named kSideEffects[] = {{"tingling", "Tingling"},
+                                  {"itching", "Itching"},
+                                  {"burning", "Burning"},
+                                  {"pain", "Pain"},
+                                  {"redness", "Redness"},
+                                  {"twitching", "Twitching"},
+                                  {"numbness", "Numbness"},
+                                  {"phantom-pain", "Phantom pain"},
+                                  {"headache", "Headache"},
+                                  {"tiredness", "Tiredness"},
+                                  {"concentration", "Poor attention"},
+                                  {"mood", "Changed mood"}};
+constexpr Named kNaturalnessTargets[] = {{"totally-natural", "Totally natural"},
+                                         {"almost-natural", "Almost natural"},
+                                         {"possibly-natural", "Possibly natural"},
+                                         {"rather-unnatural", "Rather unnatural"},
+                                         {"totally-unnatural", "Totally unnatural"}};
+constexpr Named kQualityTargets[] = {{"touch", "Touch"},         {"pressure", "Pressure"},   {"tapping", "Tapping"},
+                                     {"vibration", "Vibration"}, {"tingling", "Tingling"},   {"pricking", "Pricking"},
+                                     {"burning", "Burning"},     {"twitching", "Twitching"}, {"phantom", "Phantom"}};
+
+template <std::size_t count>
+std::vector<PromptTarget> targets(const Named (&all)[count]) {
+    std::vector<PromptTarget> out;
+    for (const auto& each : all) out.push_back({each.key, each.text});
+    return out;
+}
+
+PilotPrompt severalPrompt(std::string name, std::string text, std::vector<PromptTarget> offered) {
+    PilotPrompt prompt = choicePrompt(std::move(name), std::move(text), std::move(offered));
+    prompt.kind = PromptKind::Several;
+    return prompt;
+}
+
+PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
+    std::vector<PromptTarget> scores;
+    for (const auto& score : kSkinScores) scores.push_back({std::string(score.text), std::string(score.text)});
+    return choicePrompt(what, words, std::move(scores), PromptTo::Operator);
+}
+
+}  // namespace
+
+std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
+
+Result<void> PilotCare::gate(const std::string& name, bool holds, const std::string& sentence) {
+    auto kept = stage_.record().write(row::kGate, name, {{"holds", holds}, {"said", holds ? "" : sentence}});
+    if (!kept) return kept;
+    return holds ? Result<void>() : stage_.end(PilotEnd::Stopped, sentence);
+}
+
+Result<void> PilotCare::checklist() {
+    if (auto held = machine(); !held) return held;
+    for (const auto by : {PromptTo::Participant, PromptTo::Operator}) {
+        if (auto held = stopTest(by); !held) return held;
+    }
+    if (auto held = skin("before"); !held) return held;
+    return stage_.settings().unit == LevelUnit::Milliamps ? electrodes() : Result<void>();
+}
+
+Result<void> PilotCare::machine() {
+    auto& bench = stage_.bench();
+    std::string missing;
+    if (stage_.settings().unit == LevelUnit::Intensity) {
+        if (!bench.devices().massager) missing = "no massager is connected";
+    } else if (!bench.devices().stimulator) {
+        missing = "no stimulator is connected";
+    } else if (bench.devices().stimulator->traits().drive != Drive::Current) {
+        missing = "the stimulator is a voltage source; a current source is expected";
+    } else if (bench.profile().encoding.train.shape == PulseShape::Monophasic) {
+        missing = "the study's train is monophasic; a biphasic one is expected";
+    } else if (!bench.profile().electrodeArea) {
+        missing = "the area of the electrodes is not stated";
+    } else if (bench.mode() != OutputMode::Person) {
+        missing = "the bench was not opened for a participant";
+    }
+    return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
+}
+
+/// Pressed once, and seen off in time.
+Result<void> PilotCare::stopTest(PromptTo by) {
+    const auto name = fmt::format("{} {}", part(), nameOf(by));
+    if (auto armed = stage_.ready(); !armed) return armed;
+    auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
+    prompt.name = "stop-test";
+    const auto asked = stage_.participant().ask(prompt);
+    const auto took = asked ? std::nullopt : stage_.takeStop();
+    stage_.rest();
+    const double took_ms = took ? std::chrono::duration<double, std::milli>(*took).count() : kNaN;
+    nlohmann::json body{{"by", nameOf(by)}, {"pressed", took.has_value()}, {"off_ms", took_ms}};
+    if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
+    if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
+    return gate(name + " stop", took && *took <= kStopIn,
+                took ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted", nameOf(by),
+                                   took_ms)
+                     : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
+}
+
+Result<double> PilotCare::measureImpedance(const std::string& name) {
+    stage_.rest();
+    ArmRequest request;
+    request.declaredLoadConfirmed = true;
+    request.operatorConfirmed = true;
+    const auto found = stage_.bench().checkImpedance(request);
+    if (!found) return failure(found);
+    const double ohm = *found ? (*found)->value() : kNaN;
+    if (auto kept = stage_.record().write(row::kImpedance, name, {{"impedance_ohm", ohm}}); !kept) return failure(kept);
+    stage_.noteImpedance(ohm);
+    return ohm;
+}
+
+Result<void> PilotCare::electrodes() {
+    const bool resumed = stage_.record().isResumed();
+    auto lot = choicePrompt("electrode-lot", "Lot of the new pair of electrodes", {}, PromptTo::Operator);
+    lot.kind = PromptKind::Text;
+    const auto noted = stage_.ask(row::kGate, "electrode lot", lot);
+    if (!noted) return failure(noted);
+    if (resumed) {
+        const auto untouched =
+            stage_.ask(row::kGate, part() + " electrodes",
+                       yesNoPrompt("electrodes-untouched", "Were the electrodes left untouched?", PromptTo::Operator));
+        if (!untouched) return failure(untouched);
+        if (textOr(*untouched, "key") != "yes")
+            return stage_.end(PilotEnd::Stopped,
+                              "the electrodes were touched since the last answer, which ends a session");
+    }
+    const auto first = measureImpedance(part() + " first");
+    if (!first) return failure(first);
+    if (auto passed = stage_.pass(kBetweenChecks); !passed) return passed;
+    const auto second = measureImpedance(part() + " second");
+    if (!second) return failure(second);
+    const double change = std::abs(*second - *first) / *first;
+    if (auto held = gate(part() + " impedance", change <= kChecksAgree,
+                         fmt::format("the electrodes measured {:.0f} and {:.0f} ohm within 30 s; a difference of at "
+                                     "most 20 % is accepted",
+                                     *first, *second));
+        !held)
+        return held;
+    const auto* begun = stage_.record().find(row::kImpedance, "part 1 second");
+    if (!resumed || begun == nullptr) return {};
+    const double before = numberOr(*begun, "impedance_ohm");
+    return gate(
+        part() + " impedance since", std::abs(*second - before) / before <= kBlocksAgree,
+        fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted, so "
+                    "the session ends",
+                    *second, before));
+}
+
+Result<void> PilotCare::beforeBlock(int block) {
+    if (stage_.settings().unit == LevelUnit::Intensity) return {};
+    const auto name = fmt::format("block {}", block);
+    if (stage_.record().find(row::kImpedance, name) != nullptr) return {};
+    const auto* begun = stage_.record().find(row::kImpedance, "part 1 second");
+    const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
+    const auto now = measureImpedance(name);
+    if (!now) return failure(now);
+    return gate(name + " impedance", std::abs(*now - before) / before <= kBlocksAgree,
+                fmt::format("the electrodes measure {:.0f} ohm after {:.0f} ohm; a change of at most 30 % is accepted. "
+                            "Electrodes that were seated again need thresholds measured anew, so the session ends",
+                            *now, before));
+}
+
+Result<void> PilotCare::skin(const std::string& moment) {
+    int worst = 0;
+    for (const auto& [what, words] :
+         {std::pair{"erythema", "Redness of the skin, 0 to 4"}, std::pair{"oedema", "Swelling of the skin, 0 to 4"}}) {
+        const auto said = stage_.ask(row::kSkin, moment + " " + what, skinPrompt(what, words));
+        if (!said) return failure(said);
+        const auto score = valueFor(kSkinScores, textOr(*said, "key"));
+        if (!score)
+            return fail(ErrorCode::InvalidArgument, "{}: {} is no score; 0 to 4 is expected", what, said->dump());
+        worst = std::max(worst, *score);
+    }
+    if (stage_.record().find(row::kGate, "skin " + moment) != nullptr) return {};
+    const int most = moment == "before" ? 0 : kSkinEnds - 1;
+    if (worst >= kSkinEnds) {
+        if (auto kept = stage_.record().write(row::kAdverseEvent, "skin " + moment, {{"score", worst}}); !kept)
+            return kept;
+    }
+    return gate(
+        "skin " + moment, worst <= most,
+        fmt::format("the skin scores {} ({}); at most {} is accepted, so the session ends", worst, moment, most));
+}
+
+Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& conditions) {
+    std::vector<std::size_t> order(conditions.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    Random random(stage_.settings().seed, "order of ratings");
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    for (const auto index : order) {
+        const auto& condition = conditions[index];
+        StageTrial trial;
+        trial.name = "rating " + condition.name;
+        trial.about = {{"condition", condition.name}};
+        trial.level = condition.level;
+        trial.presentation =
+            testPresentation(stage_.levelOf(condition.level), condition.interval, stage_.settings().window);
+        trial.asks = false;
+        trial.screen.state = ScreenState::Feel;
+        trial.screen.phase = "ratings";
+        const auto felt = stage_.trial(trial);
+        if (!felt) return failure(felt);
+        const PilotPrompt prompts[] = {
+            scalePrompt("intensity", "How strong was it?", 0, 10),
+            scalePrompt("unpleasantness", "How unpleasant was it?", 0, 10),
+            scalePrompt("pain", "How painful was it?", 0, 10),
+            choicePrompt("naturalness", "How natural did it feel?", targets(kNaturalnessTargets)),
+            severalPrompt("qualities", "What did it feel like? Any number of words.", targets(kQualityTargets))};
+        for (const auto& prompt : prompts) {
+            const auto said = stage_.ask(row::kRating, condition.name + " " + prompt.name, prompt);
+            if (!said) return failure(said);
+        }
+    }
+    return {};
+}
+
+Result<void> PilotCare::sideEffects(const std::string& moment) {
+    const auto noticed =
+        stage_.ask(row::kSideEffect, moment,
+                   severalPrompt("side-effects", "Which of these do you notice now?", targets(kSideEffects)));
+    if (!noticed) return failure(noticed);
+    for (const auto& key : textsOr(*noticed, "keys")) {
+        const auto severity = stage_.ask(row::kSideEffect, fmt::format("{} {} severity", moment, key),
+                                         scalePrompt("severity", key + ": how severe? 1 absent to 4 severe", 1, 4));
+        if (!severity) return failure(severity);
+        const auto relation =
+            stage_.ask(row::kSideEffect, fmt::format("{} {} relation", moment, key),
+                       scalePrompt("relation", key + ": related to the stimulation? 1 none to 5 definite", 1, 5));
+        if (!relation) return failure(relation);
+    }
+    return {};
+}
+
+}  // namespace tacto

@@ -1,0 +1,44 @@
+// PilotCare.h - what protects the participant around the trials: the gates that only the running bench can ask, skin,
+// electrodes, ratings, side effects (pilot.md sections 3 and 4).
+//
+// Thread-safety: one caller, the session's thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pilot/PilotStage.h"
+
+namespace tacto {
+
+class PilotCare {
+public:
+    /// `stage` outlives it.
+    explicit PilotCare(PilotStage& stage) : stage_(stage) {}
+
+    /// In every part: machine, both STOPs, and the electrodes. The first part asks for the skin before and the
+    /// electrodes' lot too; a later one whether the electrodes were left untouched.
+    /// Errors: Stopped with the gate's sentence, when the session has ended.
+    [[nodiscard]] Result<void> checklist();
+    /// |Z| before a block, within 30 % of the session's first. Errors: as checklist().
+    [[nodiscard]] Result<void> beforeBlock(int block);
+    /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
+    [[nodiscard]] Result<void> skin(const std::string& moment);
+    /// Each condition felt once more without its name, and rated.
+    [[nodiscard]] Result<void> ratings(const std::vector<PresentedCondition>& conditions);
+    /// `moment`: "before", "after".
+    [[nodiscard]] Result<void> sideEffects(const std::string& moment);
+
+private:
+    [[nodiscard]] Result<void> machine();
+    [[nodiscard]] Result<void> stopTest(PromptTo by);
+    [[nodiscard]] Result<void> electrodes();
+    [[nodiscard]] Result<double> measureImpedance(const std::string& name);
+    /// Ends the session where the gate does not hold.
+    [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
+    [[nodiscard]] std::string part() const;
+
+    PilotStage& stage_;
+};
+
+}  // namespace tacto

@@ -1,0 +1,302 @@
+#include "core/pilot/PilotIdentification.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/psychophysics/TrainingRule.h"
+#include "core/base/JsonFields.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Seconds kAnswerWithin{10};  // from the appearance of the targets
+constexpr Seconds kFeedback{1.5};
+constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
+constexpr int kMostOnDemand = 5;    // of each condition
+
+nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& each : planned) {
+        const auto condition = each.condition ? conditions[*each.condition].name : std::string(kCatchCondition);
+        all.push_back(
+            {{"number", each.number}, {"phase", nameOf(each.phase)}, {"block", each.block}, {"condition", condition}});
+    }
+    return all;
+}
+
+Result<std::vector<PlannedTrial>> plannedFrom(const nlohmann::json& trials, const std::vector<Condition>& conditions) {
+    std::vector<PlannedTrial> out;
+    for (const auto& each : trials) {
+        PlannedTrial trial;
+        trial.number = countOr(each, "number");
+        trial.block = countOr(each, "block");
+        const auto phase = trialPhaseFrom(textOr(each, "phase"));
+        if (!phase) return failure(phase);
+        trial.phase = *phase;
+        const auto name = textOr(each, "condition");
+        const auto at = std::ranges::find(conditions, name, &Condition::name);
+        if (at == conditions.end() && name != kCatchCondition)
+            return fail(ErrorCode::ParseError, "the stored plan names the condition \"{}\", which this study has not",
+                        name);
+        if (at != conditions.end()) trial.condition = static_cast<std::size_t>(at - conditions.begin());
+        out.push_back(trial);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> PilotIdentification::labels() const {
+    std::vector<std::string> names;
+    for (const auto& each : stage_.settings().conditions) names.push_back(each.name);
+    return names;
+}
+
+Result<void> PilotIdentification::plan(bool withTrials) {
+    auto& settings = stage_.settings();
+    const auto stored = stage_.record().once(row::kPlan, "plan", [&]() -> Result<nlohmann::json> {
+        nlohmann::json body{
+            {"seed", settings.seed}, {"encoding", settings.encoding}, {"blocks", settings.blocks}, {"trials", nullptr}};
+        if (!withTrials) return body;
+        TrialPlanSettings wanted;
+        wanted.conditions = settings.conditions.size();
+        wanted.blocks = static_cast<std::size_t>(settings.blocks);
+        wanted.perCondition = static_cast<std::size_t>(settings.perCondition);
+        wanted.catchTrials = static_cast<std::size_t>(settings.catchTrials);
+        const auto planned = planTrials(wanted, settings.seed);
+        if (!planned) return failure(planned);
+        body["trials"] = toJson(*planned, settings.conditions);
+        return body;
+    });
+    if (!stored) return failure(stored);
+    settings.seed = countOr(*stored, "seed");
+    settings.encoding = textOr(*stored, "encoding");
+    settings.blocks = static_cast<int>(countOr(*stored, "blocks"));
+    plan_ = valueOr(*stored, "trials");
+    if (!plan_.is_array()) return {};
+    auto planned = plannedFrom(plan_, settings.conditions);
+    if (!planned) return failure(planned);
+    planned_ = std::move(*planned);
+    return {};
+}
+
+Result<void> PilotIdentification::prepare() {
+    if (!presented_.empty()) return {};
+    const auto& range = thresholds_.found();
+    if (!range || !range->usable) return fail(ErrorCode::InvalidArgument, "trials come after a usable range was found");
+    presented_ = presentedConditions(stage_.settings(), range->min, range->max, stage_.step());
+    lastDetection_ = thresholds_.estimate();
+    return {};
+}
+
+std::vector<PlannedTrial> PilotIdentification::of(TrialPhase phase) const {
+    std::vector<PlannedTrial> out;
+    std::ranges::copy_if(planned_, std::back_inserter(out),
+                         [phase](const PlannedTrial& each) { return each.phase == phase; });
+    return out;
+}
+
+std::string PilotIdentification::nameOfCondition(const PlannedTrial& planned) const {
+    return planned.condition ? presented_[*planned.condition].name : std::string(kCatchCondition);
+}
+
+StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
+    StageTrial trial;
+    trial.name = fmt::format("{} {}", nameOf(planned.phase), planned.number);
+    trial.about = {{"number", planned.number},
+                   {"phase", nameOf(planned.phase)},
+                   {"block", planned.block},
+                   {"condition", nameOfCondition(planned)}};
+    // A catch trial takes as long, and asks as much of the bench, as the others.
+    const auto interval = planned.condition ? presented_[*planned.condition].interval : stage_.settings().longest;
+    trial.level = planned.condition ? presented_[*planned.condition].level : 0;
+    trial.presentation = testPresentation(stage_.levelOf(trial.level), interval, stage_.settings().window);
+    trial.prompt = conditionPrompt(labels());
+    trial.prompt.within = kAnswerWithin;
+    trial.screen.state = ScreenState::Feel;
+    trial.screen.phase = nameOf(planned.phase);
+    trial.screen.block = static_cast<int>(planned.block);
+    trial.screen.blocks = stage_.settings().blocks;
+    return trial;
+}
+
+Result<StageAnswer> PilotIdentification::present(const PlannedTrial& planned, const StageTrial& trial) {
+    auto answer = stage_.trial(trial);
+    if (answer && (answer->given || trial.askedAgain)) keep(planned, trial, *answer);
+    return answer;
+}
+
+void PilotIdentification::keep(const PlannedTrial& planned, const StageTrial& trial, const StageAnswer& answer) {
+    IdentificationTrial kept;
+    kept.number = planned.number;
+    kept.phase = planned.phase;
+    kept.block = planned.block;
+    kept.condition = nameOfCondition(planned);
+    kept.response = answer.response;
+    kept.attempt = answer.attempt;
+    kept.rt_s = answer.rt_s;
+    if (stage_.settings().unit == LevelUnit::Milliamps) kept.current = Milliamps(trial.level);
+    kept.interval_s = planned.condition ? trial.presentation.interval.count() : kNaN;
+    kept.trains = trial.level > 0 ? trial.presentation.onsets.size() : 0;
+    stimulated_.push_back(stage_.stimulated() - lengthOf(trial));
+    trials_.push_back(std::move(kept));
+}
+
+// Before the test
+
+Result<void> PilotIdentification::familiarise() {
+    if (auto ready = prepare(); !ready) return ready;
+    for (const auto& planned : of(TrialPhase::Familiarisation)) {
+        auto trial = stageTrial(planned);
+        trial.asks = false;
+        trial.screen.state = ScreenState::Named;
+        trial.screen.named = nameOfCondition(planned);
+        if (planned.condition) trial.felt.named = trial.screen.named;
+        const auto felt = present(planned, trial);
+        if (!felt) return failure(felt);
+    }
+    std::vector<PromptTarget> offered = conditionPrompt(labels()).targets;
+    offered.resize(labels().size());
+    offered.insert(offered.begin(), {"go-on", "Go on"});
+    const auto most = kMostOnDemand * static_cast<int>(labels().size());
+    for (int n = 1; n <= most; ++n) {
+        const auto wanted = stage_.ask(row::kPhase, fmt::format("on demand {}", n),
+                                       choicePrompt("on-demand", "Feel one again, or go on?", offered));
+        if (!wanted) return failure(wanted);
+        const auto key = textOr(*wanted, "key");
+        const auto at = std::ranges::find(presented_, key, &PresentedCondition::name);
+        if (at == presented_.end()) break;
+        PlannedTrial again;
+        again.phase = TrialPhase::Familiarisation;
+        again.condition = static_cast<std::size_t>(at - presented_.begin());
+        auto trial = stageTrial(again);
+        trial.name = fmt::format("on demand {}", n);
+        trial.asks = false;
+        trial.screen.state = ScreenState::Named;
+        trial.screen.named = trial.felt.named = at->name;
+        const auto felt = stage_.trial(trial);
+        if (!felt) return failure(felt);
+    }
+    return {};
+}
+
+Result<void> PilotIdentification::train() {
+    if (auto ready = prepare(); !ready) return ready;
+    auto rule = TrainingRule::create({});
+    if (!rule) return failure(rule);
+    for (const auto& planned : of(TrialPhase::Training)) {
+        if (rule->done()) break;
+        auto trial = stageTrial(planned);
+        trial.prompt.within.reset();  // No hurry while learning
+        const auto answer = present(planned, trial);
+        if (!answer) return failure(answer);
+        const bool right = answer->response == nameOfCondition(planned);
+        if (auto taken = rule->answer(right); !taken) return taken;
+        if (auto shown = feedback(planned, trial, right, answer->replayed); !shown) return shown;
+    }
+    return {};
+}
+
+/// The name, and a wrong one is felt again with it.
+Result<void> PilotIdentification::feedback(const PlannedTrial& planned, const StageTrial& trial, bool right,
+                                           bool replayed) {
+    StageTrial again = trial;
+    again.name += " again";
+    again.about = {{"of", planned.number}};
+    again.asks = false;
+    again.screen.state = ScreenState::Named;
+    again.screen.named = again.felt.named = nameOfCondition(planned);
+    again.screen.right = right;
+    if (!right) {
+        const auto felt = stage_.trial(again);
+        return felt ? Result<void>() : failure(felt);
+    }
+    if (replayed) return {};
+    stage_.participant().show(again.screen);
+    return stage_.pass(kFeedback);
+}
+
+// The test
+
+Result<void> PilotIdentification::testBlock(int block) {
+    if (auto ready = prepare(); !ready) return ready;
+    std::vector<PlannedTrial> silent;
+    for (const auto& planned : of(TrialPhase::Test)) {
+        if (planned.block != static_cast<std::size_t>(block)) continue;
+        auto trial = stageTrial(planned);
+        const auto answer = present(planned, trial);
+        if (!answer) return failure(answer);
+        if (!answer->given) silent.push_back(planned);
+    }
+    for (const auto& planned : silent) {
+        auto trial = stageTrial(planned);
+        trial.askedAgain = true;
+        const auto answer = present(planned, trial);
+        if (!answer) return failure(answer);
+    }
+    return {};
+}
+
+Result<void> PilotIdentification::driftCheck(int block) {
+    if (auto ready = prepare(); !ready) return ready;
+    DriftCheckSettings settings;
+    settings.felt = thresholds_.limits().felt;
+    settings.last = lastDetection_;
+    settings.min = thresholds_.found()->min;
+    settings.block = static_cast<std::size_t>(block);
+    auto check = DriftCheck::create(*thresholds_.grid(), settings, stage_.settings().seed);
+    if (!check) return failure(check);
+    for (int trials = 1; !check->done();) {
+        if (check->step() == DriftStep::Rest) {
+            if (auto rested = takeBreak(block, kDriftRest); !rested) return rested;
+            if (auto taken = check->rested(); !taken) return taken;
+            continue;
+        }
+        const auto next = check->next();
+        if (!next) break;
+        const auto said = thresholds_.twoIntervals(fmt::format("drift {}.{}", block, trials++), *next, "drift");
+        if (!said) return failure(said);
+        if (auto taken = check->answer(*said); !taken) return taken;
+    }
+    const auto& found = check->result();
+    lastDetection_ = found.estimate.value;
+    const auto stored =
+        stage_.record().once(row::kDrift, fmt::format("block {}", block), [&]() -> Result<nlohmann::json> {
+            return nlohmann::json{
+                {"block", block},
+                {"detection_ma",
+                 {{"value", found.estimate.value}, {"low", found.estimate.low}, {"high", found.estimate.high}}},
+                {"probability", found.probability},
+                {"rests", found.rests},
+                {"adapted", found.adapted}};
+        });
+    if (!stored) return failure(stored);
+    auto row = *stored;
+    row.erase("name");
+    drift_.push_back(std::move(row));
+    return {};
+}
+
+Result<void> PilotIdentification::takeBreak(int block, Seconds time) {
+    auto& record = stage_.record();
+    const auto name = fmt::format("break after {} ({})", block, ++breaks_);
+    if (record.find(row::kBreakEnd, name) != nullptr) return {};
+    stage_.rest();
+    if (record.find(row::kBreakBegin, name) == nullptr) {
+        if (auto kept = record.write(row::kBreakBegin, name, {{"least_s", time.count()}}); !kept) return kept;
+    }
+    PilotScreen screen;
+    screen.state = ScreenState::Break;
+    screen.phase = "break";
+    screen.block = block;
+    screen.blocks = stage_.settings().blocks;
+    screen.until = stage_.bench().clock().now() + toInstant(time);
+    stage_.participant().show(screen);
+    if (auto passed = stage_.pass(time); !passed) return passed;
+    const auto on = stage_.ask(row::kPhase, name, goOnPrompt("Go on when both of you want to."));
+    if (!on) return failure(on);
+    return record.write(row::kBreakEnd, name);
+}
+
+}  // namespace tacto

@@ -1,0 +1,69 @@
+// PilotIdentification.h - the rest of a session: familiarisation, training, test blocks with drift checks and breaks,
+// and what it comes to (pilot.md section 4).
+//
+// Thread-safety: one caller, the session's thread.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/analysis/psychophysics/DriftCheck.h"
+#include "core/analysis/psychophysics/TrialPlan.h"
+#include "core/pilot/PilotThresholds.h"
+
+namespace tacto {
+
+class PilotIdentification {
+public:
+    /// All outlive it.
+    PilotIdentification(PilotStage& stage, PilotThresholds& thresholds) : stage_(stage), thresholds_(thresholds) {}
+
+    /// The order of the whole session and its seed, from the row where one is stored. Comes before anything is
+    /// presented; takes the seed and the numbers of trials of the stored plan into the stage's settings.
+    /// `withTrials`: false for thresholds alone. Errors: as PilotStage; of planTrials().
+    [[nodiscard]] Result<void> plan(bool withTrials);
+
+    // After the range, which is usable. Errors: as PilotStage; InvalidArgument out of order.
+
+    [[nodiscard]] Result<void> familiarise();
+    [[nodiscard]] Result<void> train();
+    /// Block 1, 2, ...
+    [[nodiscard]] Result<void> testBlock(int block);
+    /// Before a later block: is the lowest level still felt? Marks the block where it is not.
+    [[nodiscard]] Result<void> driftCheck(int block);
+    /// After block `block`: output off, at least `time`, until both people press on.
+    [[nodiscard]] Result<void> takeBreak(int block, Seconds time);
+
+    [[nodiscard]] const std::vector<PresentedCondition>& presented() const noexcept { return presented_; }
+    [[nodiscard]] std::vector<std::string> labels() const;
+    [[nodiscard]] nlohmann::json planJson() const { return plan_; }
+    /// Answered trials of the plan, in order, those of earlier parts too.
+    [[nodiscard]] const std::vector<IdentificationTrial>& trials() const noexcept { return trials_; }
+    /// For how long trains had been given before each of them.
+    [[nodiscard]] const std::vector<Seconds>& stimulatedBefore() const noexcept { return stimulated_; }
+    /// [{block, detection_ma {value, low, high}, probability, rests, adapted}]
+    [[nodiscard]] const nlohmann::json& driftJson() const noexcept { return drift_; }
+
+private:
+    [[nodiscard]] Result<void> prepare();
+    [[nodiscard]] StageTrial stageTrial(const PlannedTrial& planned) const;
+    [[nodiscard]] Result<StageAnswer> present(const PlannedTrial& planned, const StageTrial& trial);
+    [[nodiscard]] std::vector<PlannedTrial> of(TrialPhase phase) const;
+    [[nodiscard]] std::string nameOfCondition(const PlannedTrial& planned) const;
+    void keep(const PlannedTrial& planned, const StageTrial& trial, const StageAnswer& answer);
+    [[nodiscard]] Result<void> feedback(const PlannedTrial& planned, const StageTrial& trial, bool right,
+                                        bool replayed);
+
+    PilotStage& stage_;
+    PilotThresholds& thresholds_;
+    nlohmann::json plan_;
+    std::vector<PlannedTrial> planned_;
+    std::vector<PresentedCondition> presented_;
+    std::vector<IdentificationTrial> trials_;
+    std::vector<Seconds> stimulated_;  // As long as trials_
+    nlohmann::json drift_ = nlohmann::json::array();
+    double lastDetection_ = kNaN;
+    int breaks_ = 0;
+};
+
+}  // namespace tacto

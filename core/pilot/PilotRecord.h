@@ -1,0 +1,115 @@
+// PilotRecord.h - what a pilot session has on disk, and what follows from it: state is the replay of rows.
+//
+// A session may have several parts, each a session file: a crashed one is never written again. The record is given the
+// events of all earlier parts, in order, and appends to the present one. Whatever has a row is taken from it and is
+// neither asked nor presented again; the first thing without one happens now.
+//
+// Promise (hazard H8): `trial-begin` is on disk before a presentation's first train is asked for, and `answer` before
+// the next trial begins. A row that cannot be written is an error before the train.
+//
+// Thread-safety: one caller, the session's thread.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/base/Clock.h"
+#include "core/base/Result.h"
+#include "core/session/SessionTypes.h"
+
+namespace tacto {
+
+class SessionWriter;
+
+/// Kinds of the events of a pilot session (resources/design/pilot.md, section 6).
+namespace row {
+inline constexpr const char* kPlan = "plan";
+inline constexpr const char* kTrialBegin = "trial-begin";
+inline constexpr const char* kAnswer = "answer";
+inline constexpr const char* kNoAnswer = "no-answer";
+inline constexpr const char* kAnswerEarly = "answer-early";
+inline constexpr const char* kGate = "gate";
+inline constexpr const char* kStopTest = "stop-test";
+inline constexpr const char* kSkin = "skin";
+inline constexpr const char* kImpedance = "impedance";
+inline constexpr const char* kPhase = "phase";
+inline constexpr const char* kLevelAccepted = "level-accepted";
+inline constexpr const char* kLevelTooStrong = "level-too-strong";
+inline constexpr const char* kEstimate = "estimate";
+inline constexpr const char* kRange = "range";
+inline constexpr const char* kDrift = "drift";
+inline constexpr const char* kBreakBegin = "break-begin";
+inline constexpr const char* kBreakEnd = "break-end";
+inline constexpr const char* kParticipantStop = "participant-stop";
+inline constexpr const char* kOperatorStop = "operator-stop";
+inline constexpr const char* kFault = "fault";
+inline constexpr const char* kContinue = "continue";
+inline constexpr const char* kResumed = "resumed";
+inline constexpr const char* kRating = "rating";
+inline constexpr const char* kSideEffect = "side-effect";
+inline constexpr const char* kAdverseEvent = "adverse-event";
+inline constexpr const char* kSessionEnd = "session-end";
+}  // namespace row
+
+class PilotRecord {
+public:
+    using Json = nlohmann::json;
+
+    /// `writer` and `clock` outlive the record; `earlier` are the events of the session's earlier parts.
+    PilotRecord(SessionWriter& writer, const Clock& clock, const std::vector<SessionRow>& earlier);
+
+    /// The last row of `kind` named `name` (its member "name"), of any part; null where there is none. Valid until the
+    /// next write().
+    [[nodiscard]] const Json* find(std::string_view kind, const std::string& name) const;
+    /// Appends a row. `body` is an object; its member "name" becomes `name`. Errors: Io.
+    [[nodiscard]] Result<void> write(std::string_view kind, const std::string& name, Json body = Json::object());
+    /// What the row says; where there is none, what `make` returns, written first. Errors: as `make` and write().
+    [[nodiscard]] Result<Json> once(std::string_view kind, const std::string& name,
+                                    const std::function<Result<Json>()>& make);
+    /// Rows of `kind`, of all parts.
+    [[nodiscard]] std::size_t count(std::string_view kind) const;
+    /// Times the trial named `name` was begun.
+    [[nodiscard]] std::size_t begun(const std::string& name) const;
+    /// Whether there were rows before this part, which are replayed.
+    [[nodiscard]] bool isResumed() const noexcept { return resumed_; }
+    /// Whether something has happened in this part beside what resuming itself does: no row is replayed any more.
+    [[nodiscard]] std::size_t written() const noexcept { return written_; }
+
+    /// Called after each row is on disk with the number of rows written by this part; tests end the program there.
+    std::function<void(std::size_t)> onWritten;
+
+private:
+    void keep(std::string_view kind, const Json& body);
+
+    SessionWriter& writer_;
+    const Clock& clock_;
+    std::map<std::pair<std::string, std::string>, Json, std::less<>> last_;
+    std::map<std::string, std::size_t, std::less<>> counts_;
+    std::map<std::string, std::size_t, std::less<>> begun_;
+    bool resumed_ = false;
+    std::size_t written_ = 0;
+};
+
+/// A trial that was begun and has no answer.
+struct OpenTrial {
+    std::size_t number = 0;
+    std::size_t attempt = 1;
+    bool operator==(const OpenTrial&) const = default;
+};
+
+/// What the rows of all parts of a session say of its trials with a number: those of the plan.
+struct PilotTrials {
+    nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null where none is stored
+    std::vector<IdentificationTrial> trials;  ///< answered, or twice without an answer; in the order answered
+    std::vector<OpenTrial> open;
+};
+[[nodiscard]] PilotTrials pilotTrials(const std::vector<SessionRow>& rows);
+
+}  // namespace tacto

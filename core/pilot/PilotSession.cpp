@@ -1,0 +1,164 @@
+#include "core/pilot/PilotSession.h"
+
+#include <algorithm>
+
+#include "core/analysis/identification/IdentificationJson.h"
+#include "core/analysis/identification/IdentificationText.h"
+#include "core/analysis/psychophysics/PredictedFit.h"
+#include "core/base/JsonFields.h"
+
+namespace tacto {
+
+namespace {
+
+std::vector<DeliveredCondition> delivered(const std::vector<PresentedCondition>& presented) {
+    std::vector<DeliveredCondition> out;
+    for (const auto& each : presented) out.push_back({each.level, each.interval});
+    return out;
+}
+
+/// A virtual participant never says "not sure": its column is 0.
+std::vector<double> withNotSure(std::vector<double> probabilities) {
+    probabilities.push_back(0);
+    return probabilities;
+}
+
+}  // namespace
+
+PilotSession::PilotSession(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings,
+                           const VirtualObserver* truth, int parts)
+    : stage_(bench, participant, record, std::move(settings)),
+      care_(stage_),
+      thresholds_(stage_),
+      identification_(stage_, thresholds_),
+      truth_(truth),
+      parts_(parts) {}
+
+void PilotSession::resumesFrom(std::string part, std::string chainHead) {
+    resumedPart_ = std::move(part);
+    resumedHead_ = std::move(chainHead);
+}
+
+Result<void> PilotSession::begin(bool withTrials) {
+    auto& record = stage_.record();
+    if (record.isResumed()) {
+        auto kept = record.write(row::kResumed, fmt::format("part {}", parts_),
+                                 {{"part", resumedPart_}, {"chain_head", resumedHead_}});
+        if (!kept) return kept;
+    }
+    if (auto planned = identification_.plan(withTrials); !planned) return planned;
+    return care_.checklist();
+}
+
+nlohmann::json PilotSession::participantJson() const {
+    const auto& settings = stage_.settings();
+    return {{"code", settings.code}, {"virtual", settings.isVirtual}};
+}
+
+nlohmann::json PilotSession::truthJson() const {
+    if (truth_ == nullptr) return nullptr;
+    const auto& who = truth_->settings().who;
+    return {{"detection_ma", truth_->detection()},
+            {"too_strong_ma", truth_->tooStrong()},
+            {"amplitude_weber", who.amplitudeWeber},
+            {"interval_weber", who.intervalWeber},
+            {"lapse", who.lapse},
+            {"noise_jnd", who.noise_jnd}};
+}
+
+nlohmann::json PilotSession::thresholdResults() const {
+    auto results = thresholds_.toJson();
+    results["kind"] = "pilot-thresholds";
+    results["participant"] = participantJson();
+    results["parts"] = parts_;
+    results["resumed"] = parts_ > 1;
+    results["truth"] = truthJson();
+    return results;
+}
+
+Result<Identification> PilotSession::found() const {
+    return identify(identification_.trials(), identification_.labels());
+}
+
+Result<nlohmann::json> PilotSession::identificationResults() const {
+    const auto all = found();
+    if (!all) return failure(all);
+    auto results = toJson(*all);
+    results["kind"] = "pilot-identification";
+    results["participant"] = participantJson();
+    results["encoding"] = stage_.settings().encoding;
+    results["parts"] = parts_;
+    results["resumed"] = parts_ > 1;
+    results["range"] = thresholds_.rangeJson();
+    results["thresholds"] = thresholds_.toJson();
+    results["drift"] = identification_.driftJson();
+    nlohmann::json presented = nlohmann::json::array();
+    const char* unit = stage_.settings().unit == LevelUnit::Milliamps ? "current_ma" : "intensity";
+    for (const auto& each : identification_.presented())
+        presented.push_back({{"name", each.name}, {unit, each.level}, {"interval_s", each.interval.count()}});
+    results["presented"] = std::move(presented);
+    for (const char* key : {"predicted", "fit", "truth", "plan", "trials"}) results[key] = nullptr;
+    if (truth_ == nullptr) return results;
+    results["truth"] = truthJson();
+    results["plan"] = identification_.planJson();
+    auto trials = nlohmann::json::array();
+    for (const auto& each : identification_.trials()) trials.push_back(toJson(each));
+    results["trials"] = std::move(trials);
+    if (auto added = addPredicted(results); !added) return failure(added);
+    return results;
+}
+
+/// From what was delivered and how long stimulation had gone on before each trial.
+Result<void> PilotSession::addPredicted(nlohmann::json& results) const {
+    const auto conditions = delivered(identification_.presented());
+    if (conditions.empty()) return {};
+    auto columns = identification_.labels();
+    columns.emplace_back(kNoneResponse);
+    columns.emplace_back(kNotSureResponse);
+    std::vector<PredictedTrial> trials;
+    const auto& answered = identification_.trials();
+    for (std::size_t i = 0; i < answered.size(); ++i) {
+        const auto& each = answered[i];
+        const auto row = std::ranges::find(columns, each.condition);
+        const auto said = std::ranges::find(columns, each.response);
+        if (each.phase != TrialPhase::Test || row == columns.end() || said == columns.end()) continue;
+        const auto index = static_cast<std::size_t>(row - columns.begin());
+        auto rows = truth_->predicted(conditions, identification_.stimulatedBefore()[i]);
+        trials.push_back(
+            {index, static_cast<std::size_t>(said - columns.begin()), withNotSure(std::move(rows[index]))});
+    }
+    auto table = truth_->predicted(conditions, Seconds(0));
+    if (trials.empty()) {
+        for (auto& row : table) row = withNotSure(std::move(row));
+        results["predicted"] = table;
+        return {};
+    }
+    const auto fit = fitOf(trials, conditions.size(), stage_.settings().seed);
+    if (!fit) return failure(fit);
+    for (std::size_t i = 0; i < table.size(); ++i)
+        table[i] = fit->predicted[i].empty() ? withNotSure(std::move(table[i])) : fit->predicted[i];
+    results["predicted"] = table;
+    results["fit"] = {{"g", fit->all.g}, {"p", fit->all.p}};
+    return {};
+}
+
+Result<std::string> PilotSession::headlineText() const {
+    const auto all = found();
+    if (!all) return failure(all);
+    PresentedRange range;
+    const auto& measured = thresholds_.rangeJson();
+    const auto number = [&measured](const char* key) { return numberOr(measured, key); };
+    if (stage_.settings().unit == LevelUnit::Milliamps) {
+        range.low = Milliamps(number("min_ma"));
+        range.high = Milliamps(number("max_ma"));
+        range.lowVoltage = Volts(number("min_v"));
+        range.highVoltage = Volts(number("max_v"));
+        range.impedance = Ohms(number("impedance_ohm"));
+    } else {
+        range.lowIntensity = number("min_intensity");
+        range.highIntensity = number("max_intensity");
+    }
+    return headline(stage_.settings().code, *all, range);
+}
+
+}  // namespace tacto

@@ -1,0 +1,46 @@
+// PilotSettings.h - what one pilot session is: whose, which, drawn from which seed, and how its conditions are made.
+//
+// Thread-safety: values; pure functions.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/analysis/psychophysics/LevelGrid.h"
+#include "core/base/Units.h"
+#include "core/encoding/EncodingProfile.h"
+
+namespace tacto {
+
+struct PilotSettings {
+    std::string code;  ///< of the participant
+    bool isVirtual = false;
+    int session = 1;         ///< number of the participant's session
+    std::uint64_t seed = 1;  ///< of order, plan and pauses; a session that is resumed has that of its plan
+    std::string encoding = "standard";
+    LevelUnit unit = LevelUnit::Milliamps;
+    double cap = 15;        ///< highest level of the study, in `unit`
+    Seconds shortest{0.5};  ///< T_min
+    Seconds longest{2};     ///< T_max
+    Seconds window{4};      ///< of a presentation, 2 T_max
+    Assignment assignment = Assignment::TextureToAmplitude;
+    std::vector<Condition> conditions = EncodingProfile::fourConditions(0, 1);
+    int blocks = 5;
+    int perCondition = 4;   ///< of a block
+    int catchTrials = 2;    ///< of a block
+    double adaptation = 0;  ///< noted only; the virtual participant has it
+};
+
+/// One condition as this participant gets it: level x of the way from `min` to `max`, interval y of the way from T_max
+/// to T_min, where x and y are the condition's texture and pressure, or pressure and texture when swapped.
+struct PresentedCondition {
+    std::string name;
+    double level = 0;  ///< on the device's grid, in the settings' unit
+    Seconds interval{0};
+};
+/// `step` of the device's grid; levels between are rounded to it. Conditions at 0 and 1 are `min` and `max` exactly.
+[[nodiscard]] std::vector<PresentedCondition> presentedConditions(const PilotSettings& settings, double min, double max,
+                                                                  double step);
+
+}  // namespace tacto

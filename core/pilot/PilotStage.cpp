@@ -1,0 +1,370 @@
+#include "core/pilot/PilotStage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/base/JsonFields.h"
+#include "core/base/Random.h"
+#include "core/base/Words.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Word<PilotEnd> kPilotEnds[] = {
+    {"unfinished", PilotEnd::Unfinished}, {"complete", PilotEnd::Complete}, {"stopped", PilotEnd::Stopped}};
+
+constexpr std::size_t kMostStops = 3;   // of the participant: the third ends the session
+constexpr std::size_t kMostFaults = 2;  // the second ends it
+constexpr std::size_t kMostLate = 5;    // presentations in a row that the bench could not begin in time
+constexpr Seconds kLeastPause{2};       // from an answer to the next first train
+constexpr Seconds kDot{0.5};            // the dot is shown so long before it
+/// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
+constexpr Seconds kAskingTakes{60};
+
+bool isParticipants(std::string_view by) { return by.starts_with("participant"); }
+
+nlohmann::json trainsJson(const Presented& presented) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& train : presented.trains) {
+        const auto* current = std::get_if<Milliamps>(&train.approved);
+        const auto* intensity = std::get_if<VibrationIntensity>(&train.approved);
+        nlohmann::json one{{"onset_s", toSeconds(train.onset)}};
+        if (current != nullptr) one["approved_ma"] = current->value();
+        if (intensity != nullptr) one["approved_intensity"] = intensity->value;
+        if (train.readBack) one["read_back_ma"] = train.readBack->value();
+        if (train.impedance) one["impedance_ohm"] = train.impedance->value();
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+/// Of the row that says that no answer came.
+std::string silentName(const StageTrial& trial) { return trial.askedAgain ? trial.name + " again" : trial.name; }
+
+}  // namespace
+
+std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
+
+Seconds lengthOf(const StageTrial& trial) {
+    return trial.level > 0 ? static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval
+                           : Seconds(0);
+}
+
+PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)
+    : bench_(bench),
+      participant_(participant),
+      record_(record),
+      settings_(std::move(settings)),
+      rampDue_(record.isResumed()) {
+    participant_.stop = [this](const char* by) {
+        const auto pressed = std::chrono::steady_clock::now();
+        stoppedBy_.store(by);
+        bench_.stop(by);
+        stopTook_.store(std::chrono::nanoseconds(std::chrono::steady_clock::now() - pressed).count());
+    };
+}
+
+PilotStage::~PilotStage() {
+    participant_.stop = [](const char*) {};
+}
+
+double PilotStage::step() const {
+    if (settings_.unit == LevelUnit::Intensity) return 0.05;
+    const auto& stimulator = bench_.devices().stimulator;
+    return stimulator ? stimulator->traits().amplitudeStep : 0;
+}
+
+StimulusLevel PilotStage::levelOf(double level) const {
+    if (settings_.unit == LevelUnit::Intensity) return VibrationIntensity{level};
+    return Milliamps(level);
+}
+
+void PilotStage::cancel() noexcept { participant_.cancel(); }
+
+void PilotStage::rest() noexcept {
+    bench_.disarm();
+    armed_ = false;
+}
+
+Result<void> PilotStage::pass(Seconds time) {
+    const auto until = bench_.clock().now() + toInstant(time);
+    for (;;) {
+        const auto now = bench_.clock().now();
+        if (now >= until) return {};
+        const auto passed = bench_.wait(Seconds(until - now));
+        if (passed) return {};
+        if (auto goesOn = recover("pause", passed.error()); !goesOn) return goesOn;
+    }
+}
+
+Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
+    rest();
+    end_ = how;
+    if (auto kept = record_.write(row::kSessionEnd, "end", {{"state", nameOf(how)}, {"why", why}}); !kept) return kept;
+    if (how == PilotEnd::Complete) return {};
+    return fail(ErrorCode::Stopped, "{}", why);
+}
+
+std::optional<std::chrono::nanoseconds> PilotStage::takeStop() noexcept {
+    if (stoppedBy_.exchange(nullptr) == nullptr) return std::nullopt;
+    return std::chrono::nanoseconds(stopTook_.load());
+}
+
+// Presenting and asking
+
+Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
+    if (const auto* answered = record_.find(row::kAnswer, trial.name)) return replay(trial, *answered);
+    if (const auto* silent = record_.find(row::kNoAnswer, silentName(trial))) return replay(trial, *silent);
+    for (std::size_t late = 0; late < kMostLate;) {
+        if (auto armed = ready(); !armed) return failure(armed);
+        const auto number = record_.begun(trial.name) + 1;
+        auto answer = attempt(trial, number);
+        if (answer && *answer) return **answer;
+        if (answer) {  // void, and nothing is wrong: once more
+            ++late;
+            continue;
+        }
+        const auto before = record_.count(row::kContinue);
+        if (auto goesOn = recover(trial.name, answer.error()); !goesOn) return failure(goesOn);
+        if (!trial.stopAnswers || record_.count(row::kContinue) == before) continue;
+        Json body = trial.about;
+        body["response"] = "stop";
+        body["attempt"] = number;
+        if (auto kept = record_.write(row::kAnswer, trial.name, std::move(body)); !kept) return failure(kept);
+        return StageAnswer{"stop", kNaN, number, true, false};
+    }
+    return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
+                trial.name, kMostLate);
+}
+
+Result<StageAnswer> PilotStage::replay(const StageTrial& trial, const Json& body) {
+    const std::string unit(nameOf(settings_.unit));
+    const double stored = numberOr(body, unit.c_str());
+    if (!(std::abs(stored - trial.level) < 1e-6))
+        return fail(ErrorCode::ParseError,
+                    "the record has {} at {} {}, and the script now asks for {}: it cannot be gone on with", trial.name,
+                    unit, stored, trial.level);
+    feel(trial);
+    given(trial);
+    const auto response = textOr(body, "response");
+    return StageAnswer{response, numberOr(body, "rt_s"), countOr(body, "attempt"), !response.empty() || !trial.asks,
+                       true};
+}
+
+void PilotStage::feel(const StageTrial& trial) {
+    auto felt = trial.felt;
+    felt.level = trial.level;
+    felt.interval = trial.presentation.interval;
+    felt.stimulated = stimulated_;
+    felt.drawnFor = fmt::format("seed {} session {} {}", settings_.seed, settings_.session,
+                                trial.drawnAs.empty() ? trial.name : trial.drawnAs);
+    participant_.delivered(felt);
+}
+
+void PilotStage::given(const StageTrial& trial) noexcept { stimulated_ += lengthOf(trial); }
+
+Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, std::size_t number) {
+    if (auto there = participant_.ready(); !there) return failure(there);
+    Json about = trial.about;
+    about["attempt"] = number;
+    about[nameOf(settings_.unit)] = trial.level;
+    about["interval_s"] = trial.presentation.interval.count();
+    if (auto kept = record_.write(row::kTrialBegin, trial.name, about); !kept) return failure(kept);
+
+    auto screen = trial.screen;
+    screen.state = ScreenState::Dot;
+    participant_.show(screen);
+    auto presentation = trial.presentation;
+    Random pauses(settings_.seed, "pause before " + trial.name);
+    const auto earliest = lastAnswer_ + toInstant(kLeastPause) + toInstant(pauses.uniform());
+    presentation.notBefore = std::max(earliest, bench_.clock().now() + toInstant(kDot));
+    if (trial.screen.state != ScreenState::Rest) participant_.show(trial.screen);
+    auto presented = bench_.present(presentation);
+    if (!presented) return failure(presented);
+    if (presented->impedance) impedance_ = presented->impedance->value();
+    switch (presented->end) {
+        case PresentationEnd::Complete:
+            break;
+        case PresentationEnd::Refused:
+            return fail(ErrorCode::LimitExceeded, "{}", presented->reason);
+        case PresentationEnd::Faulted:
+            return fail(ErrorCode::Device, "{}", presented->reason);
+        case PresentationEnd::Stopped:
+            return fail(ErrorCode::Stopped, "{}", presented->reason);
+        case PresentationEnd::Paused:
+        case PresentationEnd::Late:
+            return std::optional<StageAnswer>();
+    }
+    feel(trial);
+    about["trains"] = presented->trains.size();
+    about["delivered"] = trainsJson(*presented);
+    StageAnswer answer{"", kNaN, number, true, false};
+    if (trial.asks) {
+        auto prompt = trial.prompt;
+        prompt.targetsAt = presented->ended;
+        bench_.attend(prompt.within ? *prompt.within + kAskingTakes : kAskingTakes);
+        const auto said = participant_.ask(prompt);
+        if (auto noted = writeEarly(trial); !noted) return failure(noted);
+        if (!said) return failure(said);
+        if (!participant_.answersInRealTime()) {
+            const auto taken = said->given ? said->after : prompt.within.value_or(Seconds(0));
+            if (auto passed = bench_.wait(taken); !passed) return failure(passed);
+        }
+        answer.given = said->given;
+        if (said->given) {
+            answer.response = said->key();
+            answer.rt_s = said->after.count();
+        }
+    }
+    lastAnswer_ = bench_.clock().now();
+    about["response"] = answer.response.empty() ? Json(nullptr) : Json(answer.response);
+    about["rt_s"] = answer.rt_s;
+    auto kept = answer.given ? record_.write(row::kAnswer, trial.name, std::move(about))
+                             : record_.write(row::kNoAnswer, silentName(trial), std::move(about));
+    if (!kept) return failure(kept);
+    given(trial);
+    return std::optional(answer);
+}
+
+Result<void> PilotStage::writeEarly(const StageTrial& trial) {
+    for (const auto& press : participant_.takeEarly()) {
+        auto kept = record_.write(row::kAnswerEarly, trial.name, {{"key", press.key}, {"at_s", toSeconds(press.at)}});
+        if (!kept) return kept;
+    }
+    return {};
+}
+
+Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& name, const PilotPrompt& prompt) {
+    return record_.once(kind, name, [&]() -> Result<Json> {
+        for (;;) {
+            bench_.attend(kAskingTakes);
+            auto said = participant_.ask(prompt);
+            if (said) {
+                if (!participant_.answersInRealTime()) {
+                    if (auto passed = pass(said->after); !passed) return failure(passed);
+                }
+                lastAnswer_ = bench_.clock().now();
+                Json body{{"asked", prompt.name}, {"to", nameOf(prompt.to)}, {"rt_s", said->after.count()}};
+                if (said->value) body["value"] = *said->value;
+                if (prompt.kind == PromptKind::Several)
+                    body["keys"] = said->keys;
+                else if (!said->keys.empty())
+                    body["key"] = said->key();
+                return body;
+            }
+            if (auto goesOn = recover(name, said.error()); !goesOn) return failure(goesOn);
+        }
+    });
+}
+
+// Arming, and reaching the levels of a resumed session again
+
+Result<void> PilotStage::arm() {
+    ArmRequest request;
+    request.declaredLoadConfirmed = true;
+    request.operatorConfirmed = true;
+    if (bench_.outputIsReal()) {
+        const auto load = parseLoad(request.load);
+        request.confirmed = load ? bench_.armingText(*load) : std::string();
+        const auto asked = participant_.ask(yesNoPrompt("arm", request.confirmed, PromptTo::Operator));
+        if (!asked) return failure(asked);
+        if (asked->key() != "yes")
+            return fail(ErrorCode::NotArmed, "the operator did not confirm {}", request.confirmed);
+    }
+    if (auto armed = bench_.arm(request); !armed) return armed;
+    armed_ = true;
+    return {};
+}
+
+Result<void> PilotStage::ready() {
+    if (!armed_) {
+        if (auto armed = arm(); !armed) return armed;
+    }
+    if (!rampDue_) return {};
+    rampDue_ = false;
+    return ramp();
+}
+
+Result<void> PilotStage::judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
+    if (level <= 0) return {};
+    if (tooStrong)
+        tooStrong_ = std::min(tooStrong_, level);
+    else
+        accepted_.try_emplace(level, trial);
+    if (settings_.unit == LevelUnit::Intensity) return {};
+    if (tooStrong) return bench_.reportDiscomfort(Milliamps(level));
+    return replayed ? Result<void>() : bench_.accept(Milliamps(level));
+}
+
+Result<void> PilotStage::ramp() {
+    if (settings_.unit == LevelUnit::Intensity) return {};
+    const auto accepted = accepted_;
+    const auto part = std::to_string(record_.count(row::kResumed));
+    for (const auto& [level, first] : accepted) {
+        if (level >= tooStrong_ || (settled_ && level > *settled_)) break;
+        StageTrial again;
+        again.name = fmt::format("ramp {} {}", part, level);
+        again.about = {{"ramp", true}};
+        again.level = level;
+        again.presentation = ascendingPresentation(levelOf(level), settings_.shortest);
+        again.prompt = strengthPrompt();
+        again.screen.state = ScreenState::Feel;
+        again.screen.phase = "ascending";
+        again.drawnAs = first;  // A virtual participant says of a level what they said of it before
+        const auto stimulated = stimulated_;
+        const auto answer = trial(again);
+        stimulated_ = stimulated;  // So that a session that was resumed goes on as one that was not
+        if (!answer) return failure(answer);
+        if (answer->response == "too-strong") {
+            if (auto told = bench_.reportDiscomfort(Milliamps(level)); !told) return told;
+            return end(PilotEnd::Stopped,
+                       fmt::format("{} mA was accepted before and is too strong now; the session ends here", level));
+        }
+        if (auto told = bench_.accept(Milliamps(level)); !told) return told;
+    }
+    return {};
+}
+
+// After a stop or a fault
+
+Result<void> PilotStage::recover(const std::string& during, const Error& why) {
+    armed_ = false;
+    if (end_ != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
+    const char* by = stoppedBy_.exchange(nullptr);
+    if (why.code == ErrorCode::Stopped) {
+        if (by == nullptr || !isParticipants(by)) {
+            const auto kept = record_.write(row::kOperatorStop, during, {{"why", why.message}});
+            return kept ? Result<void>(tl::unexpected<Error>(why)) : kept;
+        }
+        if (auto kept = record_.write(row::kParticipantStop, during, {{"by", by}}); !kept) return kept;
+        if (record_.count(row::kParticipantStop) >= kMostStops)
+            return end(PilotEnd::Stopped, "the participant stopped for the third time, which ends the session");
+        return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
+    }
+    if (why.code == ErrorCode::Device) {
+        if (auto kept = record_.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
+        if (record_.count(row::kFault) >= kMostFaults)
+            return end(PilotEnd::Stopped, "a second fault ends the session: " + why.message);
+        const auto seated = participant_.ask(
+            goOnPrompt("Output is off: " + why.message + ". See to the electrodes, then go on.", PromptTo::Operator));
+        if (!seated) return failure(seated);
+        if (auto reset = bench_.resetFault(); !reset) return reset;
+        return askToGoOn("The output was off because of a fault. Go on when you want to.");
+    }
+    return tl::unexpected<Error>(why);
+}
+
+Result<void> PilotStage::askToGoOn(const std::string& text) {
+    PilotScreen screen;
+    screen.text = text;
+    participant_.show(screen);
+    const auto asked = participant_.ask(goOnPrompt(text, PromptTo::Participant));
+    if (!asked) return failure(asked);
+    if (auto begun = bench_.begin(bench_.stops().mark()); !begun) return begun;
+    lastAnswer_ = bench_.clock().now();
+    return record_.write(row::kContinue, "continue");
+}
+
+}  // namespace tacto

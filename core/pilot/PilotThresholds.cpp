@@ -1,0 +1,286 @@
+#include "core/pilot/PilotThresholds.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/base/JsonFields.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Word<DetectionMethod> kMethods[] = {{"quest", DetectionMethod::Quest},
+                                              {"staircase", DetectionMethod::Staircase}};
+constexpr Seconds kFeltBeforeAsked{4};  // I_max, before "half an hour of this?"
+
+nlohmann::json orNull(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
+
+nlohmann::json estimateJson(const Estimate& estimate) {
+    if (!std::isfinite(estimate.value)) return nullptr;
+    return {{"value", estimate.value}, {"low", orNull(estimate.low)}, {"high", orNull(estimate.high)}};
+}
+
+nlohmann::json shareJson(const IntervalShare& share) { return {{"trials", share.trials}, {"right", share.right}}; }
+
+/// Length of one train of the profile's kind.
+Seconds trainLength(const Bench& bench) {
+    const auto& train = bench.profile().encoding.train;
+    return train.pulses > 1 && train.rate.value() > 0 ? Seconds(train.pulses / train.rate.value()) : Seconds(0.001);
+}
+
+}  // namespace
+
+std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<DetectionMethod>(kMethods, method); }
+
+Result<DetectionMethod> detectionMethodFrom(std::string_view name) {
+    if (const auto method = valueFor(kMethods, name)) return *method;
+    return fail(ErrorCode::InvalidArgument, "the detection method is \"{}\"; quest or staircase is expected", name);
+}
+
+// Ascending limits
+
+Result<LevelGrid> PilotThresholds::ascendingGrid() {
+    const auto stored = stage_.record().once(row::kPhase, "ascending", [this]() -> Result<nlohmann::json> {
+        if (auto armed = stage_.ready(); !armed) return failure(armed);
+        nlohmann::json body{{"step", stage_.step()}, {"cap", stage_.settings().cap}};
+        if (stage_.settings().unit == LevelUnit::Intensity) return body;
+        const auto limit = stage_.bench().levelLimit(stage_.settings().shortest);
+        if (!limit) return failure(limit);
+        body["device"] = stage_.bench().devices().stimulator->traits().amplitudeMax;
+        body["gate"] = limit->level.value();
+        body["gate_limited_by"] = limit->limitedBy;
+        return body;
+    });
+    if (!stored) return failure(stored);
+    std::vector<LevelCeiling> ceilings;
+    if (stored->contains("device")) ceilings.push_back({numberOr(*stored, "device"), LevelLimit::Device});
+    ceilings.push_back({numberOr(*stored, "cap"), LevelLimit::Cap});
+    if (stored->contains("gate")) ceilings.push_back({numberOr(*stored, "gate"), LevelLimit::Gate});
+    return LevelGrid::create(stage_.settings().unit, numberOr(*stored, "step"), ceilings);
+}
+
+Result<void> PilotThresholds::ascendingLimits() {
+    auto grid = ascendingGrid();
+    if (!grid) return failure(grid);
+    grid_ = *grid;
+    auto limits = AscendingLimits::create(*grid_, stage_.settings().seed);
+    if (!limits) return failure(limits);
+    while (const auto next = limits->next()) {
+        if (auto done = present(*limits, *next); !done) return done;
+    }
+    if (liveSeries_ > 0 && stage_.settings().unit == LevelUnit::Milliamps) {
+        if (auto ended = stage_.bench().endAscending(); !ended) return ended;
+    }
+    ascending_ = limits->result();
+    return {};
+}
+
+Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPresentation& next) {
+    StageTrial trial;
+    trial.name = fmt::format("ascending {}", next.number);
+    trial.about = {{"series", next.series}};
+    trial.level = next.level;
+    trial.presentation = ascendingPresentation(stage_.levelOf(next.level), stage_.settings().shortest);
+    trial.prompt = strengthPrompt();
+    trial.screen.state = ScreenState::Feel;
+    trial.screen.phase = "ascending";
+    trial.screen.block = static_cast<int>(next.series);
+    trial.screen.blocks = static_cast<int>(AscendingLimits::kSeries);
+    trial.stopAnswers = true;
+    const bool live = stage_.record().find(row::kAnswer, trial.name) == nullptr;
+    if (live && liveSeries_ != next.series) {
+        if (auto armed = stage_.ready(); !armed) return armed;
+        const auto held = stage_.participant().ask(holdPrompt());
+        if (!held) return failure(held);
+        // A series that was broken off goes on at the level that the ramp has reached again.
+        const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
+        if (begins && stage_.settings().unit == LevelUnit::Milliamps) {
+            if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
+        }
+        liveSeries_ = next.series;
+    }
+    const auto answer = stage_.trial(trial);
+    if (!answer) {
+        if (answer.error().code != ErrorCode::LimitExceeded || stage_.ended() != PilotEnd::Unfinished)
+            return failure(answer);
+        limits.refused(LevelLimit::Gate);
+        return {};
+    }
+    if (answer->response == "stop") {
+        limits.stop();
+        return {};
+    }
+    const auto word = strengthWordFrom(answer->response);
+    if (!word) return failure(word);
+    const bool tooStrong = *word == StrengthWord::TooStrong;
+    // Of an empty presentation it counts for the last level of the series.
+    const double level = next.empty() && tooStrong ? limits.result().series.back().highest : next.level;
+    if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
+    return limits.answer(*word);
+}
+
+// Detection
+
+Result<LevelGrid> PilotThresholds::belowTooStrong() const {
+    std::vector<LevelCeiling> ceilings{{grid_->highest(), grid_->limitedBy()}};
+    double highest = 0;
+    for (const auto& series : ascending_.series) highest = std::max(highest, series.highest);
+    if (ascending_.saidTooStrong)
+        ceilings.push_back({ascending_.tooStrong - grid_->step(), LevelLimit::TooStrong});
+    else
+        ceilings.push_back({highest, grid_->limitedBy()});
+    return LevelGrid::create(grid_->unit(), grid_->step(), ceilings);
+}
+
+Result<void> PilotThresholds::detection(DetectionMethod method) {
+    if (!grid_) return fail(ErrorCode::InvalidArgument, "detection comes after the ascending limits");
+    method_ = method;
+    measured_ = true;
+    if (!std::isfinite(ascending_.felt) || !(ascending_.tooStrong > grid_->step())) return {};
+    auto below = belowTooStrong();
+    if (!below) return failure(below);
+    detectionGrid_ = *below;
+    auto done = method == DetectionMethod::Quest ? withQuest() : withStaircase();
+    if (!done) return done;
+    const auto kept = stage_.record().once(row::kEstimate, "detection", [this]() -> Result<nlohmann::json> {
+        return nlohmann::json{{"estimate", estimateJson(estimate_)}, {"trials", trials_.size()}};
+    });
+    return kept ? Result<void>() : failure(kept);
+}
+
+Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, const TwoIntervalTrial& asked,
+                                                    const std::string& phase) {
+    StageTrial trial;
+    trial.name = name;
+    trial.about = {{"right", nameOf(asked.interval)}};
+    trial.level = asked.level;
+    const bool second = asked.interval == TrialInterval::Second;
+    trial.presentation = detectionPresentation(stage_.levelOf(asked.level), second, trainLength(stage_.bench()),
+                                               stage_.settings().shortest);
+    trial.prompt = intervalPrompt();
+    trial.screen.state = ScreenState::Interval;
+    trial.screen.phase = phase;
+    trial.screen.trial = static_cast<int>(asked.number);
+    trial.felt.inInterval = second ? 2 : 1;
+    const auto answer = stage_.trial(trial);
+    if (!answer) return failure(answer);
+    return trialIntervalFrom(answer->response);
+}
+
+Result<void> PilotThresholds::withQuest() {
+    QuestPlusSettings settings;
+    settings.felt = ascending_.felt;
+    auto quest = QuestPlus::create(*detectionGrid_, settings, stage_.settings().seed);
+    if (!quest) return failure(quest);
+    while (const auto next = quest->next()) {
+        const auto said = twoIntervals(fmt::format("detection {}", next->number), *next, "detection");
+        if (!said) return failure(said);
+        if (auto taken = quest->answer(*said); !taken) return taken;
+    }
+    auto result = quest->result();
+    estimate_ = result.estimate;
+    shares_ = result.intervals;
+    trials_ = std::move(result.trials);
+    return {};
+}
+
+Result<void> PilotThresholds::withStaircase() {
+    StaircaseSettings settings;
+    settings.felt = ascending_.felt;
+    auto staircase = Staircase::create(*detectionGrid_, settings, stage_.settings().seed);
+    if (!staircase) return failure(staircase);
+    while (const auto next = staircase->next()) {
+        const auto said = twoIntervals(fmt::format("detection {}", next->number), *next, "detection");
+        if (!said) return failure(said);
+        if (auto taken = staircase->answer(*said); !taken) return taken;
+    }
+    auto result = staircase->result();
+    estimate_ = {result.estimate, kNaN, kNaN};
+    shares_ = result.intervals;
+    trials_ = std::move(result.trials);
+    return {};
+}
+
+// Range
+
+Result<void> PilotThresholds::range() {
+    if (!measured_) return fail(ErrorCode::InvalidArgument, "the range comes after the detection threshold");
+    if (!std::isfinite(estimate_.value)) {
+        PersonalRangeResult none;
+        none.reason = std::isfinite(ascending_.felt) ? "no detection threshold was found"
+                                                     : "nothing was felt up to the highest level";
+        range_ = none;
+    } else {
+        PersonalRangeSettings settings;
+        settings.detection = estimate_.value;
+        settings.tooStrong = ascending_.tooStrong;
+        settings.saidTooStrong = ascending_.saidTooStrong;
+        auto range = PersonalRange::create(*grid_, settings);
+        if (!range) return failure(range);
+        for (int n = 1;; ++n) {
+            const auto level = range->next();
+            if (!level) break;
+            StageTrial trial;
+            trial.name = fmt::format("range {}", n);
+            trial.level = *level;
+            trial.presentation = testPresentation(stage_.levelOf(*level), stage_.settings().shortest, kFeltBeforeAsked);
+            trial.prompt = yesNoPrompt("half-an-hour", "Could you feel half an hour of this?");
+            trial.screen.state = ScreenState::Feel;
+            trial.screen.phase = "range";
+            const auto answer = stage_.trial(trial);
+            if (!answer) return failure(answer);
+            if (auto taken = range->answer(answer->response == "yes"); !taken) return taken;
+        }
+        range_ = range->result();
+    }
+    if (range_->usable) stage_.settle(range_->max);
+    // The volts are those of the impedance at that moment: from the row, also after a resume.
+    auto stored =
+        stage_.record().once(row::kRange, "range", [this]() -> Result<nlohmann::json> { return describe(*range_); });
+    if (!stored) return failure(stored);
+    rangeRow_ = std::move(*stored);
+    rangeRow_.erase("name");
+    return {};
+}
+
+nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
+    const double ohm = stage_.impedance();
+    const bool current = stage_.settings().unit == LevelUnit::Milliamps;
+    const char* low = current ? "min_ma" : "min_intensity";
+    const char* high = current ? "max_ma" : "max_intensity";
+    nlohmann::json out{{"usable", found.usable},
+                       {"reason", found.reason.empty() ? nlohmann::json(nullptr) : nlohmann::json(found.reason)},
+                       {low, orNull(found.min)},
+                       {high, orNull(found.max)},
+                       {"jnd", orNull(found.jnd)},
+                       {"limited_by", nameOf(found.limitedBy)}};
+    if (!current) return out;
+    out["min_v"] = orNull(found.min * ohm / 1000);
+    out["max_v"] = orNull(found.max * ohm / 1000);
+    out["impedance_ohm"] = orNull(ohm);
+    return out;
+}
+
+nlohmann::json PilotThresholds::toJson() const {
+    nlohmann::json series = nlohmann::json::array();
+    for (const auto& each : ascending_.series)
+        series.push_back({{"felt_ma", orNull(each.felt)},
+                          {"too_strong_ma", orNull(each.tooStrong)},
+                          {"highest_ma", orNull(each.highest)},
+                          {"ended_by", nameOf(each.endedBy)},
+                          {"felt_empty", each.feltEmpty},
+                          {"marked", each.marked()}});
+    nlohmann::json history = nlohmann::json::array();
+    for (const auto& each : trials_) history.push_back({{"current_ma", each.level}, {"correct", each.correct}});
+    const nlohmann::json detection{{"method", nameOf(method_)},         {"estimate_ma", estimateJson(estimate_)},
+                                   {"trials", trials_.size()},          {"history", std::move(history)},
+                                   {"first", shareJson(shares_.first)}, {"second", shareJson(shares_.second)}};
+    return {{"felt_ma", orNull(ascending_.felt)},
+            {"too_strong_ma", orNull(ascending_.tooStrong)},
+            {"said_too_strong", ascending_.saidTooStrong},
+            {"series", std::move(series)},
+            {"detection", measured_ ? detection : nlohmann::json(nullptr)},
+            {"range", rangeJson()}};
+}
+
+}  // namespace tacto

@@ -1,0 +1,70 @@
+// PilotThresholds.h - the first three steps of a session: ascending limits, detection, the personal range (pilot.md
+// section 4). Each is done once; called again after a resume it returns what the rows say.
+//
+// Thread-safety: one caller, the session's thread.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/analysis/psychophysics/AscendingLimits.h"
+#include "core/analysis/psychophysics/PersonalRange.h"
+#include "core/analysis/psychophysics/QuestPlus.h"
+#include "core/analysis/psychophysics/Staircase.h"
+#include "core/pilot/PilotStage.h"
+
+namespace tacto {
+
+enum class DetectionMethod { Quest, Staircase };
+[[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;  // "quest", "staircase"
+[[nodiscard]] Result<DetectionMethod> detectionMethodFrom(std::string_view name);
+
+class PilotThresholds {
+public:
+    /// `stage` outlives it.
+    explicit PilotThresholds(PilotStage& stage) : stage_(stage) {}
+
+    // In this order. Errors: as PilotStage; InvalidArgument out of order.
+
+    [[nodiscard]] Result<void> ascendingLimits();
+    /// Without a felt level there is nothing to measure: done at once, without an estimate.
+    [[nodiscard]] Result<void> detection(DetectionMethod method);
+    [[nodiscard]] Result<void> range();
+
+    /// Of the results: detection and range are null before they were measured.
+    [[nodiscard]] nlohmann::json toJson() const;
+    /// As its row says it; null before it was measured.
+    [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }
+    [[nodiscard]] const AscendingResult& limits() const noexcept { return ascending_; }
+    [[nodiscard]] const std::optional<PersonalRangeResult>& found() const noexcept { return range_; }
+    /// Posterior mean of the detection threshold; NaN where there is none.
+    [[nodiscard]] double estimate() const noexcept { return estimate_.value; }
+    /// The levels that detection and drift trials may have; after detection().
+    [[nodiscard]] const std::optional<LevelGrid>& grid() const noexcept { return detectionGrid_; }
+    /// One two-interval trial: whether the right interval was said.
+    [[nodiscard]] Result<TrialInterval> twoIntervals(const std::string& name, const TwoIntervalTrial& asked,
+                                                     const std::string& phase);
+
+private:
+    [[nodiscard]] Result<LevelGrid> ascendingGrid();
+    [[nodiscard]] Result<void> present(AscendingLimits& limits, const AscendingPresentation& next);
+    [[nodiscard]] Result<LevelGrid> belowTooStrong() const;
+    [[nodiscard]] Result<void> withQuest();
+    [[nodiscard]] Result<void> withStaircase();
+    [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
+
+    PilotStage& stage_;
+    std::optional<LevelGrid> grid_;
+    AscendingResult ascending_;
+    std::optional<LevelGrid> detectionGrid_;
+    DetectionMethod method_ = DetectionMethod::Quest;
+    Estimate estimate_{kNaN, kNaN, kNaN};
+    IntervalShares shares_;
+    std::vector<AnsweredTwoIntervalTrial> trials_;
+    bool measured_ = false;
+    std::optional<PersonalRangeResult> range_;
+    nlohmann::json rangeRow_;
+    std::size_t liveSeries_ = 0;
+};
+
+}  // namespace tacto

@@ -1,0 +1,85 @@
+#include "core/pilot/Prompt.h"
+
+#include <utility>
+
+#include "core/base/Words.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Word<PromptTo> kPromptTo[] = {
+    {"participant", PromptTo::Participant}, {"operator", PromptTo::Operator}, {"both", PromptTo::Both}};
+
+constexpr Word<PromptKind> kPromptKinds[] = {{"hold", PromptKind::Hold},         {"strength", PromptKind::Strength},
+                                             {"interval", PromptKind::Interval}, {"condition", PromptKind::Condition},
+                                             {"yes-no", PromptKind::YesNo},      {"go-on", PromptKind::GoOn},
+                                             {"choice", PromptKind::Choice},     {"several", PromptKind::Several},
+                                             {"scale", PromptKind::Scale},       {"text", PromptKind::Text}};
+
+PilotPrompt prompt(PromptKind kind, std::string name, std::string text, std::vector<PromptTarget> targets,
+                   PromptTo to = PromptTo::Participant) {
+    PilotPrompt made;
+    made.to = to;
+    made.kind = kind;
+    made.name = std::move(name);
+    made.text = std::move(text);
+    made.targets = std::move(targets);
+    return made;
+}
+
+/// "rough-high" is rough and firm, "smooth-low" smooth and light.
+std::string conditionText(const std::string& key) {
+    const auto dash = key.find('-');
+    if (dash == std::string::npos) return key;
+    const std::string texture = key.substr(0, dash), pressure = key.substr(dash + 1);
+    return (texture == "rough" ? "Rough, " : "Smooth, ") + std::string(pressure == "high" ? "firm" : "light");
+}
+
+}  // namespace
+
+std::string_view nameOf(PromptTo to) noexcept { return wordFor<PromptTo>(kPromptTo, to); }
+std::string_view nameOf(PromptKind kind) noexcept { return wordFor<PromptKind>(kPromptKinds, kind); }
+
+PilotPrompt holdPrompt() {
+    return prompt(PromptKind::Hold, "hold", "Hold the key while the level rises. Letting go stops at once.", {});
+}
+
+PilotPrompt strengthPrompt() {
+    return prompt(PromptKind::Strength, "strength", "What did you feel?",
+                  {{"nothing", "Nothing"}, {"weak", "Weak"}, {"strong", "Strong"}, {"too-strong", "Too strong"}});
+}
+
+PilotPrompt intervalPrompt() {
+    return prompt(PromptKind::Interval, "interval", "Was it in the first or in the second interval? Guess if unsure.",
+                  {{"first", "First"}, {"second", "Second"}});
+}
+
+PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
+    std::vector<PromptTarget> targets;
+    for (const auto& name : names) targets.push_back({name, conditionText(name)});
+    targets.push_back({"none", "Nothing"});
+    targets.push_back({"not-sure", "Not sure"});
+    return prompt(PromptKind::Condition, "identification", "What did you feel?", std::move(targets));
+}
+
+PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to) {
+    return prompt(PromptKind::YesNo, std::move(name), std::move(text), {{"yes", "Yes"}, {"no", "No"}}, to);
+}
+
+PilotPrompt goOnPrompt(std::string text, PromptTo to) {
+    return prompt(PromptKind::GoOn, "go-on", std::move(text), {{"go-on", "Go on"}}, to);
+}
+
+PilotPrompt scalePrompt(std::string name, std::string text, int least, int most, PromptTo to) {
+    auto made = prompt(PromptKind::Scale, std::move(name), std::move(text), {}, to);
+    made.least = least;
+    made.most = most;
+    return made;
+}
+
+PilotPrompt choicePrompt(std::string name, std::string text, std::vector<PromptTarget> targets, PromptTo to) {
+    return prompt(PromptKind::Choice, std::move(name), std::move(text), std::move(targets), to);
+}
+
+}  // namespace tacto

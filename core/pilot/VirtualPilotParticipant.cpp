@@ -1,0 +1,119 @@
+#include "core/pilot/VirtualPilotParticipant.h"
+
+#include <cmath>
+
+#include "core/base/Random.h"
+
+namespace tacto {
+
+namespace {
+
+PilotAnswer answered(std::string key, Seconds after) {
+    PilotAnswer answer;
+    answer.keys.push_back(std::move(key));
+    answer.after = after;
+    return answer;
+}
+
+bool isSame(const DeliveredCondition& learned, const FeltPresentation& felt) {
+    return std::abs(learned.level - felt.level) < 1e-6 && std::abs((learned.interval - felt.interval).count()) < 1e-6;
+}
+
+}  // namespace
+
+VirtualPilotParticipant::VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions)
+    : observer_(std::move(observer)), conditions_(std::move(conditions)) {}
+
+void VirtualPilotParticipant::show(const PilotScreen&) {}
+
+void VirtualPilotParticipant::cancel() noexcept {}
+
+void VirtualPilotParticipant::delivered(const FeltPresentation& felt) {
+    felt_ = felt;
+    if (!felt.named.empty() && felt.level > 0) learned_[felt.named] = {felt.level, felt.interval};
+}
+
+Result<PilotAnswer> VirtualPilotParticipant::ask(const PilotPrompt& prompt) {
+    if (prompt.name == "stop-test") {
+        if (stop) stop(prompt.to == PromptTo::Operator ? "operator" : "participant");
+        return fail(ErrorCode::Stopped, "stopped by the {}, as asked", nameOf(prompt.to));
+    }
+    // To a millisecond, as a clock on a table would read.
+    Random times(observer_.settings().seed, "response time " + felt_.drawnFor + " " + prompt.name);
+    const Seconds after(std::round(1000 * 0.7 * std::exp(0.35 * times.normal())) / 1000);
+    if (prompt.kind == PromptKind::Scale) {
+        PilotAnswer answer;
+        answer.value = ratedFrom(prompt);
+        answer.after = after;
+        return answer;
+    }
+    if (prompt.kind == PromptKind::Several) {
+        PilotAnswer answer;
+        answer.after = after;
+        if (prompt.name == "qualities") {
+            for (const auto word : observer_.rate(felt_.drawnFor, felt_.level, felt_.stimulated).qualities)
+                answer.keys.emplace_back(word);
+        }
+        return answer;
+    }
+    return answered(answerTo(prompt), after);
+}
+
+std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
+    const auto& key = felt_.drawnFor;
+    switch (prompt.kind) {
+        case PromptKind::Strength:
+            return std::string(nameOf(observer_.strength(key, felt_.level, felt_.stimulated)));
+        case PromptKind::Interval: {
+            const auto held = felt_.inInterval == 2 ? TrialInterval::Second : TrialInterval::First;
+            return std::string(nameOf(observer_.detect(key, felt_.level, held, felt_.stimulated)));
+        }
+        case PromptKind::Condition:
+            return identified();
+        case PromptKind::YesNo:
+            if (prompt.name == "half-an-hour")
+                return observer_.acceptable(key, felt_.level, felt_.stimulated) ? "yes" : "no";
+            return prompt.name.starts_with("exclusion") ? "no" : "yes";
+        case PromptKind::Choice:
+            if (prompt.name == "naturalness")
+                return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));
+            return prompt.targets.empty() ? "" : prompt.targets.front().key;
+        case PromptKind::Hold:
+            return "held";
+        case PromptKind::GoOn:
+            return "go-on";
+        case PromptKind::Text:
+            return "simulated";
+        case PromptKind::Several:
+        case PromptKind::Scale:
+            break;
+    }
+    return {};
+}
+
+/// Among the conditions that were learned; one that never was is nobody's answer.
+std::string VirtualPilotParticipant::identified() const {
+    std::vector<DeliveredCondition> known;
+    std::vector<std::string> names;
+    std::optional<std::size_t> presented;
+    for (const auto& name : conditions_) {
+        const auto found = learned_.find(name);
+        if (found == learned_.end()) continue;
+        if (felt_.level > 0 && isSame(found->second, felt_)) presented = known.size();
+        known.push_back(found->second);
+        names.push_back(name);
+    }
+    if (known.empty()) return "not-sure";
+    const auto said = observer_.identify(felt_.drawnFor, known, presented, felt_.stimulated);
+    return said < names.size() ? names[said] : "none";
+}
+
+int VirtualPilotParticipant::ratedFrom(const PilotPrompt& prompt) const {
+    const auto rating = observer_.rate(felt_.drawnFor, felt_.level, felt_.stimulated);
+    if (prompt.name == "intensity") return rating.intensity;
+    if (prompt.name == "unpleasantness") return rating.unpleasantness;
+    if (prompt.name == "pain") return rating.pain;
+    return prompt.least;
+}
+
+}  // namespace tacto

@@ -1,0 +1,47 @@
+// VirtualPilotParticipant.h - a participant who does not exist, and the operator beside them, who answers everything
+// harmlessly: both people of a rehearsal, through the same door as a window's.
+//
+// What is felt follows from what was delivered (VirtualObserver.h); conditions are known by the names under which they
+// were felt in familiarisation. Response times are drawn and have no source: they say nothing about people.
+//
+// Thread-safety: as PilotParticipant.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/psychophysics/VirtualObserver.h"
+#include "core/pilot/Participant.h"
+
+namespace tacto {
+
+class VirtualPilotParticipant final : public PilotParticipant {
+public:
+    /// `conditions`: names of the four, in the order of the study.
+    VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions);
+
+    void show(const PilotScreen& screen) override;
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
+    void delivered(const FeltPresentation& felt) override;
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
+    void cancel() noexcept override;
+    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] Result<void> ready() const override { return {}; }
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
+
+    [[nodiscard]] const VirtualObserver& observer() const noexcept { return observer_; }
+
+private:
+    [[nodiscard]] std::string answerTo(const PilotPrompt& prompt) const;
+    [[nodiscard]] std::string identified() const;
+    [[nodiscard]] int ratedFrom(const PilotPrompt& prompt) const;
+
+    const VirtualObserver observer_;
+    const std::vector<std::string> conditions_;
+    std::map<std::string, DeliveredCondition> learned_;
+    FeltPresentation felt_;  // The last
+};
+
+}  // namespace tacto

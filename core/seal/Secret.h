@@ -1,0 +1,40 @@
+// Secret.h - bytes that must not leave the process: keys and passphrases. They lie in memory of their own between guard
+// pages, locked against swapping where the system allows it, and are wiped when they go.
+//
+// Making the first one switches core dumps off for the process.
+//
+// Thread-safety: as a std::vector.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace tacto {
+
+class Secret {
+public:
+    Secret() noexcept = default;
+    /// `size` zeros.
+    explicit Secret(std::size_t size);
+    /// A copy of `bytes`; wiping those is the caller's business.
+    explicit Secret(std::span<const std::byte> bytes);
+    ~Secret();
+    Secret(Secret&& other) noexcept;
+    Secret& operator=(Secret&& other) noexcept;
+    Secret(const Secret&) = delete;
+    Secret& operator=(const Secret&) = delete;
+
+    [[nodiscard]] std::span<std::byte> bytes() noexcept { return {data_, size_}; }
+    [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {data_, size_}; }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+
+    /// Random bytes.
+    [[nodiscard]] static Secret random(std::size_t size);
+
+private:
+    std::byte* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+}  // namespace tacto

@@ -1,0 +1,62 @@
+// Gates.h - what must hold before a session of a study begins (pilot.md section 3), as far as the study itself can
+// tell: record, approval, participant, consent, exclusion. Study::beginSession() asks all of them; no call leaves one
+// out. The machine, the skin and the electrode are asked where they are known.
+//
+// A gate that does not hold is one sentence with the value and what would be accepted, under kGateRefused (exit 4).
+// NotFound means that the study, code or passphrase cannot be used (exit 3).
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/study/Participant.h"
+#include "core/study/StudySettings.h"
+
+namespace tacto {
+
+inline constexpr ErrorCode kGateRefused = ErrorCode::Stopped;
+
+/// One question of the exclusion checklist. `key` is what `--set exclusions=KEY` and rows say.
+struct ExclusionItem {
+    std::string_view key;
+    std::string_view question;
+};
+[[nodiscard]] std::span<const ExclusionItem> exclusionItems() noexcept;
+
+/// An answer that the participant gave today.
+struct ExclusionAnswer {
+    std::string key;
+    bool yes = false;
+};
+/// Every item answered no.
+[[nodiscard]] std::vector<ExclusionAnswer> nothingExcludes();
+
+/// Each item is answered, and with no. The sentence never says which answer was yes: that is sealed.
+[[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers);
+
+/// The reference is there, `today` lies within the approval, and the settings and scripts are those approved.
+[[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
+/// `script` is one of those approved.
+[[nodiscard]] Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script);
+/// Active, and fewer sessions than the approval allows.
+[[nodiscard]] Result<void> participantGate(const StudySettings& settings, const Participant& participant);
+/// The last session lies far enough back; a rehearsal does not ask.
+[[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
+                                   std::chrono::sys_seconds now);
+/// Consent to the version in force, dated no later than today, taken by somebody.
+[[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
+                                       CalibrationDate today);
+/// The clock is not more than 5 min behind the ledger's last row.
+[[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds ledgerLast, std::chrono::sys_seconds now);
+/// A virtual participant on simulated devices only; a person on a simulated one in a rehearsal only.
+[[nodiscard]] Result<void> simulationGate(const StudySettings& settings, const Participant& participant,
+                                          bool devicesSimulated);
+
+}  // namespace tacto

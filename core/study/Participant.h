@@ -1,0 +1,57 @@
+// Participant.h - one person of a study, or one virtual participant. Never a name, a birth date or a hospital number.
+//
+// A code ends in a check character (ISO 7064 mod 37,36 over its letters and digits), so that a slip of the finger is no
+// other person.
+//
+// Thread-safety: values; newCode() draws from the system's random numbers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/Words.h"
+#include "core/calibration/CalibrationDate.h"
+
+namespace tacto {
+
+enum class ParticipantGroup { Intact, LimbDifference };
+inline constexpr Word<ParticipantGroup> kParticipantGroups[] = {{"intact", ParticipantGroup::Intact},
+                                                                {"limb difference", ParticipantGroup::LimbDifference}};
+enum class ParticipantState { Active, Left, Withdrawn };
+inline constexpr Word<ParticipantState> kParticipantStates[] = {
+    {"active", ParticipantState::Active}, {"left", ParticipantState::Left}, {"withdrawn", ParticipantState::Withdrawn}};
+
+struct Consent {
+    std::string version;
+    CalibrationDate date{};
+    std::string by;  ///< initials of who took it
+    bool operator==(const Consent&) const = default;
+};
+
+struct Participant {
+    std::string id;    ///< 16 random hexadecimal digits; stands in the ledger
+    std::string code;  ///< "P-7K3D"; empty without the study's key, and once withdrawn
+    ParticipantGroup group = ParticipantGroup::Intact;
+    std::optional<std::uint64_t> virtualSeed;  ///< a virtual participant's
+    std::string age, sex, handedness;          ///< only where the approval asks for them; else empty
+    std::vector<Consent> consents;
+    ParticipantState state = ParticipantState::Active;
+    int sessions = 0;      ///< begun
+    int enrolled = 0;      ///< 1, 2, ... in the order of enrolment: what an order of encodings goes by
+    bool readable = true;  ///< false: all but id, state, sessions and enrolled is sealed and there is no key
+    bool operator==(const Participant&) const = default;
+};
+
+/// The code in its stored form: upper case, with its hyphens.
+/// Errors: NotFound for a text that is no code or whose check character is wrong, naming what is accepted.
+[[nodiscard]] Result<std::string> checkedCode(std::string_view text);
+/// A new code, "P-" and four characters, the last of which checks.
+[[nodiscard]] std::string newCode();
+/// The check character of letters and digits (upper case). Nothing for another character.
+[[nodiscard]] std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept;
+
+}  // namespace tacto

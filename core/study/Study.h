@@ -1,0 +1,186 @@
+// Study.h - a study: its folder (study.json, ledger.tacto, sessions/), its key file, its participants and sessions.
+//
+// Promise (hazards H8, H11): what returned a value is on disk. Whoever finds the folder reads no code, no answer and no
+// level: those are sealed under keys that lie elsewhere, in the user's key folder. A withdrawn participant's key is
+// destroyed; the ledger and the chains stay whole.
+//
+// One program at a time changes a study; others may read it.
+//
+// Errors of all calls: NotFound (code), kGateRefused (a gate, Gates.h), Unsupported (a newer Tactoscope made it, or it
+// was opened without its key or for reading), ParseError (damaged), Io. Each is one sentence and changes nothing.
+//
+// Thread-safety: one caller at a time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/base/SystemTime.h"
+#include "core/seal/Passphrase.h"
+#include "core/seal/Secret.h"
+#include "core/session/RowSeal.h"
+#include "core/study/Gates.h"
+#include "core/study/Participant.h"
+#include "core/study/StudySettings.h"
+
+namespace tacto {
+
+enum class StudySessionState { Unfinished, Complete, Stopped };
+inline constexpr Word<StudySessionState> kStudySessionStates[] = {{"unfinished", StudySessionState::Unfinished},
+                                                                  {"complete", StudySessionState::Complete},
+                                                                  {"stopped", StudySessionState::Stopped}};
+
+/// One file of a session. A session that crashed goes on in a new one.
+struct StudyPart {
+    std::string file;  ///< 16 hexadecimal digits: sessions/FILE.tacto
+    std::chrono::sys_seconds begun{};
+};
+
+struct StudySession {
+    std::string id;           ///< 16 hexadecimal digits; that of its first part
+    std::string participant;  ///< Participant::id
+    std::string code;         ///< empty without the key
+    int number = 0;           ///< 1, 2, ... of this participant
+    std::string protocol;
+    std::string encoding;
+    StudySessionState state = StudySessionState::Unfinished;
+    std::vector<StudyPart> parts;  ///< in the order begun, at least one
+    int answered = 0;              ///< rows "answer" in its files
+};
+
+/// What a session is begun with.
+struct SessionRequest {
+    std::string code;  ///< or "virtual:SEED" of a participant who is enrolled
+    ScriptHash script;
+    std::string encoding;
+    bool codeConfirmed = false;  ///< the participant read the code on their own screen and said that it is theirs
+    bool devicesSimulated = false;
+    std::vector<ExclusionAnswer> exclusions;
+};
+
+/// A session, or a part of one, that was just begun. The file does not exist yet: the caller makes it with
+/// SessionWriter::create(path, about, clock, seal).
+struct BegunSession {
+    StudySession session;  ///< with the new part as its last
+    std::filesystem::path path;
+    std::shared_ptr<const RowSeal> seal;
+};
+
+struct AdverseEvent {
+    std::string what;
+    int severity = 1;  ///< 1 to 4
+    bool serious = false;
+    int relation = 1;  ///< 1 (none) to 5 (certain)
+    std::string action, outcome;
+    bool reported = false;
+};
+
+class Study {
+public:
+    enum class Access { Change, Read };
+    /// What tests replace.
+    struct Surroundings {
+        const SystemTime* time = &SystemTime::real();
+        std::filesystem::path keyFolder = defaultKeyFolder();
+        PassphraseCost cost = PassphraseCost::moderate();
+    };
+
+    /// $XDG_DATA_HOME/tactoscope/keys or ~/.local/share/tactoscope/keys.
+    [[nodiscard]] static std::filesystem::path defaultKeyFolder();
+    /// Whether `folder` holds a study.
+    [[nodiscard]] static bool isThere(const std::filesystem::path& folder);
+
+    /// Makes the study's folder and key file; `settings.id` and the approval's protocolSha256 are filled in.
+    /// A lost passphrase is lost data: the caller says so. Blocks about a second (Argon2id).
+    /// Errors: InvalidArgument for settings that are not accepted, an empty passphrase, or a folder that holds
+    /// something; Io.
+    [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
+                                              const Passphrase& passphrase);
+    [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
+                                              const Passphrase& passphrase, const Surroundings& surroundings);
+    /// A study of virtual participants without a passphrase: its keys lie beside study.json, which says so.
+    /// `settings` may be empty: title, approval and consent version are filled in.
+    [[nodiscard]] static Result<Study> createRehearsal(const std::filesystem::path& folder,
+                                                       StudySettings settings = {});
+    [[nodiscard]] static Result<Study> createRehearsal(const std::filesystem::path& folder, StudySettings settings,
+                                                       const Surroundings& surroundings);
+
+    /// `passphrase` null: without the key (a rehearsal opens with it all the same); codes and all that is sealed stay
+    /// unread then. Errors: NotFound where there is no study, or for a wrong passphrase; Io while another program has
+    /// it open for changing.
+    [[nodiscard]] static Result<Study> open(const std::filesystem::path& folder, const Passphrase* passphrase,
+                                            Access access);
+    [[nodiscard]] static Result<Study> open(const std::filesystem::path& folder, const Passphrase* passphrase,
+                                            Access access, const Surroundings& surroundings);
+    Study(Study&&) noexcept;
+    Study& operator=(Study&&) noexcept;
+    ~Study();
+
+    [[nodiscard]] const std::filesystem::path& folder() const noexcept;
+    [[nodiscard]] const StudySettings& settings() const noexcept;
+    [[nodiscard]] bool isRehearsal() const noexcept;
+    [[nodiscard]] bool hasKey() const noexcept;
+    /// 64 hexadecimal digits.
+    [[nodiscard]] std::string ledgerHead() const;
+    /// Today where the computer stands.
+    [[nodiscard]] CalibrationDate today() const;
+    /// The record and approval gates, now: before each block, and for what the window shows.
+    [[nodiscard]] Result<void> stillApproved() const;
+
+    /// In the order of enrolment, withdrawn ones among them.
+    [[nodiscard]] std::vector<Participant> participants() const;
+    /// By code or "virtual:SEED". Errors: NotFound, also for a wrong check character.
+    [[nodiscard]] Result<Participant> find(std::string_view code) const;
+    /// In the order begun. Reads the sessions' files for `answered`.
+    [[nodiscard]] std::vector<StudySession> sessions() const;
+    /// Errors: NotFound.
+    [[nodiscard]] Result<StudySession> session(std::string_view id) const;
+    /// The participant's session that is unfinished, if there is one.
+    [[nodiscard]] std::optional<StudySession> unfinished(std::string_view participantId) const;
+
+    /// `participant.code` empty: a new one. Only group, virtualSeed, age, sex and handedness are taken besides.
+    /// Errors: kGateRefused when the approval's participants are all enrolled; InvalidArgument for a code that is
+    /// taken.
+    [[nodiscard]] Result<Participant> enrol(Participant participant);
+    [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
+    /// The participant takes part no more; the data stay.
+    [[nodiscard]] Result<void> leave(std::string_view code);
+    /// Destroys the participant's key: nothing of theirs opens any more. Errors: kGateRefused where the study keeps
+    /// data (data_on_request).
+    [[nodiscard]] Result<void> withdraw(std::string_view code);
+    /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own.
+    [[nodiscard]] Result<void> amend(StudySettings settings, std::string_view reference);
+
+    /// Asks every gate, then books the session. Nothing is made when one refuses.
+    [[nodiscard]] Result<BegunSession> beginSession(const SessionRequest& request);
+    /// A new part of an unfinished session; the same gates, but for the gap. Errors: NotFound; kGateRefused for one
+    /// that ended.
+    [[nodiscard]] Result<BegunSession> continueSession(std::string_view id, const SessionRequest& request);
+    /// Books the end of a session with the chain head of its last file. A complete or stopped one is never continued.
+    [[nodiscard]] Result<void> endSession(std::string_view id, StudySessionState state, std::string_view chainHead);
+    /// What opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
+    [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
+    [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;
+
+    /// Under the study's key: survives a withdrawal.
+    [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
+    [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
+    /// Notes that data were exported to `place`, which is sealed. Errors: InvalidArgument for a place inside the study
+    /// folder.
+    [[nodiscard]] Result<void> exported(const std::filesystem::path& place, std::string_view what);
+
+private:
+    struct State;
+    explicit Study(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto

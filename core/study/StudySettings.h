@@ -1,0 +1,115 @@
+// StudySettings.h - what a study is allowed to do and how it does it: study.json. One field table reads, writes and
+// checks it (studyFields()), and `study create --set KEY=VALUE` and the window's form derive from the same.
+//
+// Thread-safety: values; the tables are constant.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/RecordFields.h"
+#include "core/base/Units.h"
+#include "core/calibration/CalibrationDate.h"
+
+namespace tacto {
+
+enum class StudyKind { Study, Rehearsal };
+enum class Modality { Electrodes, Massager };
+/// Where electrodes may be put. A closed list: chest, neck and head cannot be chosen.
+enum class ElectrodeSite { Forearm, ResidualLimbEnd, UpperArm, Hand };
+enum class Nerve { Radial, Median, Ulnar };
+enum class Limb { Left, Right };
+/// What happens to the data of a participant who asks for it to be destroyed.
+enum class DataOnRequest { Destroy, Keep };
+
+[[nodiscard]] std::string_view nameOf(StudyKind kind) noexcept;
+[[nodiscard]] std::string_view nameOf(Modality modality) noexcept;
+[[nodiscard]] std::string_view nameOf(ElectrodeSite site) noexcept;
+
+/// A committee's approval. Days are local dates; both ends count.
+struct Approval {
+    std::string reference;
+    std::string committee;
+    CalibrationDate from{};
+    CalibrationDate expires{};
+    std::string protocolVersion;
+    std::string protocolSha256;  ///< protocolHash() of what the committee approved
+    bool operator==(const Approval&) const = default;
+};
+
+/// A protocol's script, as its bytes hash.
+struct ScriptHash {
+    std::string name;  ///< "pilot-identification"
+    std::string sha256;
+    bool operator==(const ScriptHash&) const = default;
+};
+
+/// A limit set of the approval.
+struct StudyLimitSet {
+    std::string id;
+    std::string sha256;
+    bool operator==(const StudyLimitSet&) const = default;
+};
+
+struct StudyElectrode {
+    std::string type = "self-adhesive";
+    SquareCentimetres area{4};
+    double distance_mm = 40;  ///< centre to centre
+    bool operator==(const StudyElectrode&) const = default;
+};
+
+/// The one kind of train that a study delivers (H6).
+struct StudyTrain {
+    std::string shape = "biphasic";
+    double width_us = 200;  ///< of a phase
+    double gap_us = 50;
+    int pulses = 1;
+    double rate_hz = 0;  ///< of the pulses in a train; 0 with one pulse
+    bool operator==(const StudyTrain&) const = default;
+};
+
+struct StudySettings {
+    std::string id;  ///< 16 hexadecimal digits; made by Study::create()
+    std::string title;
+    StudyKind kind = StudyKind::Study;
+    Modality modality = Modality::Electrodes;
+    Approval approval;
+    std::string consentVersion;
+    int participantsMax = 5;
+    int sessionsMax = 4;  ///< of one participant
+    double gapMin_h = 20;
+    double sessionMax_min = 60;
+    double cap_mA = 15;
+    std::vector<StudyLimitSet> limits;
+    ElectrodeSite site = ElectrodeSite::UpperArm;
+    Nerve nerve = Nerve::Median;
+    Limb limb = Limb::Right;
+    StudyElectrode electrode;
+    StudyTrain train;
+    std::string conditions =
+        "texture-pressure";  ///< the four of texture × pressure; their names stand in no plain text
+    std::vector<std::string> encodings{"standard"};
+    int blocks = 5;
+    int perCondition = 4;
+    int catchTrials = 2;  ///< per block
+    bool blind = true;
+    DataOnRequest dataOnRequest = DataOnRequest::Destroy;
+    std::vector<ScriptHash> scripts;  ///< approved; a session's script must be one of them
+    bool operator==(const StudySettings&) const = default;
+};
+
+/// The fields of study.json.
+[[nodiscard]] const RecordFields<StudySettings>& studyFields();
+
+/// Sets one field by its key, as `--set blocks=3` or `--set electrode.area_cm2=5`.
+/// Errors: InvalidArgument naming key, value and what is accepted; also for id, kind, approval and scripts, which have
+/// options of their own.
+[[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
+
+/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself, and the scripts.
+[[nodiscard]] std::string protocolHash(const StudySettings& settings);
+
+}  // namespace tacto
