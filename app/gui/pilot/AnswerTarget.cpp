@@ -14,6 +14,7 @@ namespace {
 constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
 constexpr double kIconShare = 1.75;  // of the words' size
 constexpr double kPadShare = 0.9;
+constexpr int kLeast_px = 11;
 
 }  // namespace
 
@@ -43,9 +44,11 @@ QFont AnswerTarget::wordFont(int px) const {
     return font;
 }
 
+int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
+
 /// The words' size, or the largest at which they have room beside the key.
 int AnswerTarget::fittingPx() const {
-    const int least = std::max(8, words_px_ / 2);
+    const int least = leastPx();
     for (int px = words_px_; px > least; --px) {
         const QFontMetrics metrics(wordFont(px));
         const int pad = int(px * kPadShare);
@@ -60,7 +63,7 @@ int AnswerTarget::fittingPx() const {
 }
 
 QSize AnswerTarget::minimumSizeHint() const {
-    const QFontMetrics metrics(wordFont(std::max(8, words_px_ / 2)));
+    const QFontMetrics metrics(wordFont(leastPx()));
     return {metrics.horizontalAdvance(text()) + 8, metrics.height() + 8};
 }
 

@@ -21,7 +21,7 @@ public:
     void setContent(const QString& words, const QStringList& icons, const QString& key, Shape shape);
     /// Pixels of the words and of the key; words shrink where the target is too narrow for them.
     void setType(int words_px, int key_px);
-    /// As small as the words may get: half their size.
+    /// As small as the words may get.
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 
@@ -39,6 +39,7 @@ protected:
 
 private:
     [[nodiscard]] QFont wordFont(int px) const;
+    [[nodiscard]] int leastPx() const;
     [[nodiscard]] int fittingPx() const;
     QStringList icons_;
     QString key_;

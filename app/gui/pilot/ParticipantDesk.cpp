@@ -13,7 +13,7 @@ void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {
     const std::scoped_lock lock(mutex_);
     clock_ = std::move(clock);
     early_.clear();
-    cancelled_ = false;
+    cancelled_ = stopped_ = false;
     break_ = false;
     holding_ = false;
 }
@@ -33,7 +33,7 @@ void ParticipantDesk::show(const PilotScreen& screen) {
     if (screen.state == ScreenState::Rest) holding_ = false;
     {
         const std::scoped_lock lock(mutex_);
-        cancelled_ = false;
+        cancelled_ = stopped_ = false;
     }
     emit screenChanged(screen);
 }
@@ -47,7 +47,7 @@ bool ParticipantDesk::answered() const {
 Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
     std::unique_lock lock(mutex_);
     const bool theirs = prompt.to != PromptTo::Operator;
-    const auto broken = [&] { return cancelled_ || (theirs && !there_); };
+    const auto broken = [&] { return cancelled_ || stopped_ || (theirs && !there_); };
     if (clock_ && !clock_->isVirtual() && !broken())
         changed_.wait_for(lock, std::max(Instant(0), prompt.targetsAt - clock_->now()), broken);
     open_ = prompt;
@@ -72,7 +72,8 @@ Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
 }
 
 Result<PilotAnswer> ParticipantDesk::outcome(const PilotPrompt& prompt) {
-    if (cancelled_) return fail(ErrorCode::Stopped, "\"{}\" was stopped before it was answered", prompt.name);
+    if (cancelled_ || std::exchange(stopped_, false))
+        return fail(ErrorCode::Stopped, "\"{}\" was stopped before it was answered", prompt.name);
     if (prompt.to != PromptTo::Operator && !there_)
         return fail(ErrorCode::Device, "\"{}\" was not answered: the participant's screen is gone", prompt.name);
     if (answered()) return prompt.to == PromptTo::Operator ? *operators_ : *participants_;
@@ -97,8 +98,9 @@ void ParticipantDesk::cancel() noexcept {
 
 Result<void> ParticipantDesk::ready() const {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return cancelled_ || (there_ && obstacle_.isEmpty() && !break_); });
-    if (cancelled_) return fail(ErrorCode::Stopped, "stopped before the presentation began");
+    changed_.wait(lock, [&] { return cancelled_ || stopped_ || (there_ && obstacle_.isEmpty() && !break_); });
+    if (cancelled_ || std::exchange(stopped_, false))
+        return fail(ErrorCode::Stopped, "stopped before the presentation began");
     return {};
 }
 
@@ -167,13 +169,22 @@ void ParticipantDesk::noteEarly(const std::string& key) {
 
 void ParticipantDesk::setHolding(bool holding) { holding_ = holding; }
 
+bool ParticipantDesk::testsOperatorsStop() const {
+    const std::scoped_lock lock(mutex_);
+    return open_ && open_->name == "stop-test" && open_->to == PromptTo::Operator;
+}
+
 bool ParticipantDesk::stopBy(const char* by) {
     {
         const std::scoped_lock lock(stopMutex_);
         if (!listens_) return false;
         stop(by);
     }
-    cancel();
+    {
+        const std::scoped_lock lock(mutex_);
+        stopped_ = true;
+    }
+    changed_.notify_all();
     return true;
 }
 

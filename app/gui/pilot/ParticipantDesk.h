@@ -56,8 +56,11 @@ public:
     /// A press before the targets; `key` is what it would have been, or empty.
     void noteEarly(const std::string& key);
     void setHolding(bool holding);
-    /// Output off, the wait ends. False where no session listens. Any thread.
+    /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
+    /// shows something before. False where no session listens. Any thread.
     bool stopBy(const char* by);
+    /// Whether the operator's STOP is what the open question waits for: a test of it, which ends no session.
+    [[nodiscard]] bool testsOperatorsStop() const;
 
 signals:
     void screenChanged(const tacto::PilotScreen& screen);
@@ -81,6 +84,7 @@ private:
     QString obstacle_;
     bool break_ = false;
     bool cancelled_ = false;
+    mutable bool stopped_ = false;  ///< by a person; ends one question
     bool there_ = true;
 
     std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end

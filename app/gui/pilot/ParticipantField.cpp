@@ -38,12 +38,24 @@ QStringList iconsOf(const std::string& key) {
     return icons.size() == 2 ? icons : QStringList();
 }
 
+PilotPrompt asItStands(PilotPrompt prompt) {
+    if (prompt.kind != PromptKind::Condition || prompt.targets.size() < kPlaces.size()) return prompt;
+    const auto placeOf = [](const PromptTarget& target) { return std::ranges::find(kPlaces, target.key); };
+    const auto end = prompt.targets.begin() + std::ptrdiff_t(kPlaces.size());
+    const bool known = std::all_of(prompt.targets.begin(), end,
+                                   [&](const PromptTarget& target) { return placeOf(target) != kPlaces.end(); });
+    if (known) std::sort(prompt.targets.begin(), end, [&](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
+    return prompt;
+}
+
 QString conditionWords(const std::string& key) {
     const auto icons = iconsOf(key);
     if (icons.size() != 2) return qtext(key);
     return QObject::tr("%1, %2").arg(icons[0] == "rough" ? QObject::tr("rough") : QObject::tr("smooth"),
                                      icons[1] == "firm" ? QObject::tr("firm") : QObject::tr("light"));
 }
+
+int fieldColumns(int count) { return count <= 3 ? std::max(1, count) : count <= 8 ? 2 : count <= 12 ? 3 : 4; }
 
 ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}
 
@@ -53,7 +65,6 @@ void ParticipantField::drop() {
         target->deleteLater();  // perhaps from its own press
     }
     targets_.clear();
-    places_.clear();
 }
 
 void ParticipantField::clear() {
@@ -82,7 +93,6 @@ void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& 
     kind_ = prompt.kind;
     const bool condition = kind_ == PromptKind::Condition;
     const int count = targetCount(prompt);
-    std::vector<int> stands;
     for (int i = 0; i < count; ++i) {
         const bool scale = kind_ == PromptKind::Scale;
         const auto* told = std::size_t(i) < prompt.targets.size() ? &prompt.targets[std::size_t(i)] : nullptr;
@@ -101,12 +111,7 @@ void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& 
         target->setCheckable(kind_ == PromptKind::Several);
         connect(target, &AnswerTarget::wentDown, this, [this, i](SteadyTime at) { emit chosenAt(i, at); });
         targets_.push_back(target);
-        const auto place = told == nullptr ? kPlaces.end() : std::ranges::find(kPlaces, told->key);
-        if (condition && i < 4 && place != kPlaces.end()) stands.push_back(int(place - kPlaces.begin()));
     }
-    // Firm above light, smooth left of rough; in the prompt's order where the conditions have other names.
-    const bool known = condition && stands.size() == 4;
-    for (int i = 0; i < count; ++i) places_.push_back(known && i < 4 ? stands[std::size_t(i)] : i);
     arrange();
     for (auto* target : targets_) target->show();
     update();
@@ -133,13 +138,11 @@ int ParticipantField::smallestSide() const {
 void ParticipantField::arrange() {
     if (content_ != Content::Targets || targets_.empty()) return;
     const int count = int(targets_.size());
-    std::vector<int> order(std::size_t(count), 0);  // which target stands where
-    for (int i = 0; i < count; ++i) order[std::size_t(places_[std::size_t(i)])] = i;
-    const int columns = kind_ == PromptKind::Scale ? std::min(6, count) : count <= 3 ? count : count <= 10 ? 2 : 3;
+    const int columns = kind_ == PromptKind::Scale ? std::min(6, count) : fieldColumns(count);
     std::vector<std::vector<int>> rows;
     for (int i = 0; i < count; ++i) {
         if (i % columns == 0) rows.emplace_back();
-        rows.back().push_back(order[std::size_t(i)]);
+        rows.back().push_back(i);
     }
     std::vector<double> weights(rows.size(), 1.0);
     if (kind_ == PromptKind::Condition && rows.size() == 3) weights.back() = kLowRow;

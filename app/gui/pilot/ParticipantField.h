@@ -21,8 +21,14 @@ constexpr double kTarget_mm = 20;
 
 /// What is drawn beside a condition's words; nothing for a condition of another name.
 [[nodiscard]] QStringList iconsOf(const std::string& key);
+/// The prompt with its targets in the order in which they stand: firm above light, smooth left of rough; as it is where
+/// its conditions have other names.
+[[nodiscard]] PilotPrompt asItStands(PilotPrompt prompt);
 /// "rough, firm" of "rough-high"; another name as it is.
 [[nodiscard]] QString conditionWords(const std::string& key);
+
+/// In how many columns so many targets stand, unless they are a scale.
+[[nodiscard]] int fieldColumns(int count);
 
 class ParticipantField final : public QWidget {
     Q_OBJECT
@@ -60,7 +66,6 @@ private:
     Content content_ = Content::Nothing;
     PromptKind kind_ = PromptKind::GoOn;
     std::vector<AnswerTarget*> targets_;
-    std::vector<int> places_;  ///< of a Condition prompt: where each target stands
     QString word_;
     QStringList wordIcons_;
     int words_px_ = 28, key_px_ = 20, gap_px_ = 24;

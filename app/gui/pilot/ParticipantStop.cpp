@@ -67,14 +67,14 @@ void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     painter.setPen(style.ink);
     const int room = width() * 9 / 10;
     const auto keys = tr("Space · Esc · Pause");
-    const auto foot = tr("It stops at once.\nYou are not asked why.\nIt goes on only when you say so.");
-    const auto longest = tr("It goes on only when you say so.");
+    const auto foot = tr("It stops at once. No one asks why.\nIt goes on only when you say so.");
+    const auto longest = tr("It stops at once. No one asks why.");
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
     const auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
     const QFontMetrics above(word), below(lines);
-    const int footHigh = below.lineSpacing() * 3;
+    const int footHigh = below.lineSpacing() * 2 + below.descent();
     const bool hasFoot = height() > above.height() + below.height() + 2 * footHigh + lines.pixelSize() * 2;
-    const int top = (height() - above.height() - below.height()) / 2;
+    const int top = int((height() - above.height() - below.height()) * 0.43);
     painter.setFont(word);
     painter.drawText(QRect(0, top, width(), above.height()), Qt::AlignCenter, text());
     painter.setFont(lines);

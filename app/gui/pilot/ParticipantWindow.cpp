@@ -23,6 +23,7 @@ constexpr double kHead_px = 20, kTitle_px = 37, kWords_px = 28, kStop_px = 92, k
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
 constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
+constexpr const char* kDone = "done";               // the target that ends Several
 constexpr const char* kStopsAs = "stopsAs";         // StopKeys looks for it
 
 QFont withPixels(int px, QFont::Weight weight = QFont::Normal) {
@@ -198,8 +199,9 @@ void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
         emit changed();
         return;
     }
-    prompt_ = prompt;
-    keys_ = AnswerKeys(set_, prompt);
+    prompt_ = asItStands(prompt);
+    if (prompt.kind == PromptKind::Several) prompt_.targets.push_back({kDone, tr("Done").toStdString()});
+    keys_ = AnswerKeys(set_, prompt_);
     id_ = id;
     asking_ = true;
     stopped_ = false;
@@ -209,6 +211,7 @@ void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
     since_.start();
     if (painted_) desk_.targetsShown(id_, std::chrono::steady_clock::now());
     if (prompt.within) ticking_.start();
+    if (prompt.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // from the series before
     emit changed();
 }
 
@@ -284,7 +287,10 @@ void ParticipantWindow::showState() {
             field_->showDot();
             return say(tr("Feel what comes"), qtext(screen_.text));
         case ScreenState::Interval:
-            field_->showWord(screen_.interval == 2 ? tr("second") : tr("first"), {});
+            if (screen_.interval == 0)
+                field_->showDot();
+            else
+                field_->showWord(screen_.interval == 2 ? tr("second") : tr("first"), {});
             return say(tr("Feel what comes"), qtext(screen_.text));
         case ScreenState::Named: {
             const auto verdict = !screen_.right ? tr("This is") : *screen_.right ? tr("Right. This was") : tr("This was");
@@ -293,7 +299,7 @@ void ParticipantWindow::showState() {
         }
         case ScreenState::Break:
             field_->clear();
-            return say(tr("Break"), qtext(screen_.text));
+            return say(tr("Break"), screen_.text.empty() ? tr("Take your time.") : qtext(screen_.text));
         case ScreenState::Ended:
             field_->clear();
             return say(tr("That was all. Thank you."), qtext(screen_.text));
@@ -329,7 +335,7 @@ void ParticipantWindow::arrange() {
     // From the foot: the time bar, what is held; from the head: the question. The targets have the rest.
     const auto small = withPixels(std::max(11, int(kSmall_px * text)));
     const int smallHigh = QFontMetrics(small).height();
-    const int timeTop = bottom - px(kMargin) - smallHigh / 2;
+    const int timeTop = bottom - px(kMargin);
     timeWord_->setFont(small);
     const int wordWide = QFontMetrics(small).horizontalAdvance(timeWord_->text()) + 2;
     timeWord_->setGeometry(margin, timeTop - smallHigh / 2, wordWide, smallHigh);
@@ -348,8 +354,7 @@ void ParticipantWindow::arrange() {
     const int rows = count == 0                              ? 0
                      : prompt_.kind == PromptKind::Scale     ? (count + 5) / 6
                      : count <= 3                            ? 1
-                     : count <= 10                           ? (count + 1) / 2
-                                                             : (count + 2) / 3;
+                                                             : (count + fieldColumns(count) - 1) / fieldColumns(count);
     const int wanted = rows * least + std::max(0, rows - 1) * gap;
     int title_px = int(kTitle_px * text);
     int fieldTop = 0;
@@ -395,7 +400,7 @@ void ParticipantWindow::choose(int target, SteadyTime at) {
     if (!asking_ || isStopTest()) return;
     const auto index = std::size_t(target);
     PilotAnswer answer;
-    if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != "done") {
+    if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != kDone) {
         field_->setChosen(target, !field_->chosen(target));
         return;
     }
@@ -471,7 +476,7 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     if (prompt_.kind == PromptKind::Several && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
         PilotAnswer answer;
         for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
-            if (field_->chosen(int(i)) && prompt_.targets[i].key != "done")
+            if (field_->chosen(int(i)) && prompt_.targets[i].key != kDone)
                 answer.keys.push_back(prompt_.targets[i].key);
         }
         return give(std::move(answer), at);

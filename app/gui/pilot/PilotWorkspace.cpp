@@ -31,25 +31,26 @@ constexpr int kMostStops = 3;  // of the participant: the third ends the session
 constexpr int kOnePress_ms = 100;
 constexpr const char* kProtocol = "pilot-identification";
 
-enum PilotStep { kChecklist, kSkin, kStopTest, kThresholds, kTraining, kTest, kRatings, kAfter, kSteps };
+enum PilotStep { kChecklist, kStopTest, kSkin, kThresholds, kTraining, kTest, kRatings, kAfter, kSteps };
 
 using State = StepList::State;
 
-/// Where a phase stands on the path; nothing for one that is no step of its own.
-std::optional<int> stepOf(const std::string& phase) {
-    if (phase == "checklist") return kChecklist;
-    if (phase == "skin" || phase == "electrodes" || phase == "impedance") return kSkin;
-    if (phase == "stop-test") return kStopTest;
-    if (phase == "ascending" || phase == "detection" || phase == "range") return kThresholds;
-    if (phase == "familiarisation" || phase == "training") return kTraining;
-    if (phase == "test" || phase == "drift" || phase == "break") return kTest;
-    if (phase == "ratings") return kRatings;
-    if (phase == "after" || phase == "ended") return kAfter;
+/// Where a phase, or what the operator is asked in none, stands on the path; `now`: the step so far.
+std::optional<int> stepOf(const std::string& name, int now) {
+    if (name == "checklist") return kChecklist;
+    if (name == "stop-test") return kStopTest;
+    if (name == "erythema" || name == "oedema") return now >= kRatings ? kAfter : now >= kThresholds ? now : int(kSkin);
+    if (name == "electrode-lot" || name == "electrodes-untouched") return kSkin;
+    if (name == "ascending" || name == "detection" || name == "range") return kThresholds;
+    if (name == "familiarisation" || name == "training") return kTraining;
+    if (name == "test" || name == "drift" || name == "break") return kTest;
+    if (name == "ratings") return kRatings;
+    if (name == "ended") return kAfter;
     return {};
 }
 
 // The design's minutes at which each step begins; the end of the session is the last.
-constexpr double kBegins_min[kSteps + 1] = {0, 4, 10, 12, 23, 30, 58, 62, 66};
+constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 }  // namespace
 
@@ -117,7 +118,7 @@ QWidget* PilotWorkspace::buildPath() {
     top->addWidget(title_);
     top->addWidget(subtitle_);
     column->addLayout(top);
-    steps_ = new StepList({tr("Checklist"), tr("Skin and electrodes"), tr("Stop test"), tr("Thresholds and range"),
+    steps_ = new StepList({tr("Checklist"), tr("Stop test"), tr("Skin and electrodes"), tr("Thresholds and range"),
                            tr("Training"), tr("Test"), tr("Ratings"), tr("Electrodes off, skin")},
                           path);
     column->addWidget(steps_);
@@ -293,7 +294,7 @@ bool PilotWorkspace::stopAsParticipant(const char* by) {
 void PilotWorkspace::show(const PilotScreen& screen) {
     screen_ = screen;
     page_->show(screen);
-    if (const auto step = stepOf(screen.phase); step && *step > step_) reach(*step);
+    if (const auto step = stepOf(screen.phase, step_); step && *step > step_) reach(*step);
     if (step_ == kTest && screen.phase == "test" && screen.trial > 0) {
         const int each = screen.blocks > 0 ? screen.trials / screen.blocks : screen.trials;
         steps_->setNote(kTest, tr("block %1 · trial %2 of %3")
@@ -308,8 +309,9 @@ void PilotWorkspace::show(const PilotScreen& screen) {
 
 void PilotWorkspace::asked(const PilotPrompt& prompt, quint64 id) {
     page_->ask(prompt, id);
+    if (prompt.name == "stop-test" && step_ < kStopTest) reach(kStopTest);
     if (prompt.to != PromptTo::Participant) {
-        if (const auto step = stepOf(prompt.name); step && *step > step_) reach(*step);
+        if (const auto step = stepOf(prompt.name, step_); step && *step > step_) reach(*step);
         // On the only screen the question comes up where the operator can reach it.
         if (window_ && ScreenChoice::isOnly() && strip_ != nullptr) {
             strip_->question().ask(prompt, id);

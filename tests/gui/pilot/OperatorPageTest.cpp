@@ -24,7 +24,7 @@ protected:
     Operator8b() {
         page.resize(880, 720);
         page.begin(true, true);
-        page.show();
+        page.setVisible(true);
         EXPECT_TRUE(QTest::qWaitForWindowExposed(&page));
     }
     ~Operator8b() override {

@@ -104,13 +104,31 @@ TEST_F(Desk, AStopEndsTheWaitAndGoesToTheOutputFirst) {
     const auto said = answer.get();
     ASSERT_FALSE(said);
     EXPECT_EQ(said.error().code, ErrorCode::Stopped);
-    const auto again = desk.ask(goOnPrompt("Go on?"));
-    ASSERT_FALSE(again) << "until the session shows something";
-    EXPECT_EQ(again.error().code, ErrorCode::Stopped);
-    desk.show({});
+    ask(goOnPrompt("Go on?", PromptTo::Operator));
+    desk.answerAsOperator(asked, with("go-on"));
+    EXPECT_TRUE(answer.get()) << "one stop, one question";
+}
+
+TEST_F(Desk, AStopBetweenTwoQuestionsEndsTheNextOne) {
+    RecordProperty("hazard", "H2");
+    EXPECT_TRUE(desk.stopBy("participant"));
+    const auto said = desk.ask(goOnPrompt("Go on?"));
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().code, ErrorCode::Stopped);
+    EXPECT_TRUE(desk.stopBy("participant"));
+    desk.show({});  // the session knows of it, and has gone on
     ask(goOnPrompt("Go on?", PromptTo::Operator));
     desk.answerAsOperator(asked, with("go-on"));
     EXPECT_TRUE(answer.get());
+}
+
+TEST_F(Desk, ACancelledSessionAsksNothingMore) {
+    ask(goOnPrompt("Go on?"));
+    desk.cancel();
+    EXPECT_FALSE(answer.get());
+    const auto again = desk.ask(goOnPrompt("Go on?"));
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().code, ErrorCode::Stopped);
 }
 
 TEST_F(Desk, AfterTheSessionAStopLeadsNowhere) {

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using namespace std::chrono_literals;
 
 TEST_F(Seated, EachKeyOfEachSetAnswersItsTarget) {
-    const std::vector<std::string> places{"rough-high", "rough-low", "smooth-high", "smooth-low", "none", "not-sure"};
+    const std::vector<std::string> places{"smooth-high", "rough-high", "smooth-low", "rough-low", "none", "not-sure"};
     const std::pair<gui::KeySet, std::vector<Qt::Key>> sets[] = {
         {gui::KeySet::Figures, {Qt::Key_1, Qt::Key_2, Qt::Key_3, Qt::Key_4, Qt::Key_5, Qt::Key_6}},
         {gui::KeySet::LeftHand, {Qt::Key_W, Qt::Key_E, Qt::Key_S, Qt::Key_D, Qt::Key_X, Qt::Key_C}},
@@ -32,7 +32,7 @@ TEST_F(Seated, EachKeyOfEachSetAnswersItsTarget) {
 }
 
 TEST_F(Seated, KeysStandWhereTheTargetsDo) {
-    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt({"smooth-high", "rough-high", "smooth-low", "rough-low"})));
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // in whatever order the study has them
     const auto& firm = target("smooth-high");
     const auto& light = target("smooth-low");
     EXPECT_EQ(firm.x(), light.x());
@@ -71,8 +71,8 @@ TEST_F(Seated, OnePressIsTheAnswer) {
     key(Qt::Key_2);
     const auto said = answered();
     ASSERT_TRUE(said);
-    EXPECT_THAT(said->keys, ElementsAre("rough-high"));
-    EXPECT_EQ(window.findChild<gui::AnswerTarget*>("rough-low"), nullptr) << "the targets are gone";
+    EXPECT_THAT(said->keys, ElementsAre("smooth-high"));
+    EXPECT_TRUE(window.field().targets().empty()) << "the targets are gone";
 }
 
 TEST_F(Seated, WhatComesBeforeTheTargetsIsEarlyAndNoAnswer) {
@@ -89,7 +89,7 @@ TEST_F(Seated, WhatComesBeforeTheTargetsIsEarlyAndNoAnswer) {
     EXPECT_FALSE(isAnswered());
     const auto early = desk.takeEarly();
     ASSERT_EQ(early.size(), 3U);
-    EXPECT_EQ(early[0].key, "smooth-high");
+    EXPECT_EQ(early[0].key, "smooth-low");
     EXPECT_EQ(early[1].key, "");
     EXPECT_EQ(early[2].key, "");
     EXPECT_TRUE(desk.takeEarly().empty());
@@ -131,7 +131,7 @@ TEST_F(Seated, WithoutTheKeysNoPresentationStarts) {
     EXPECT_TRUE(desk.takeEarly().empty());
 }
 
-TEST_F(Seated, EveryStopOfTheirsStopsAtOnce) {
+TEST_F(Seated, EveryStopOfTheirsStopsAtOnceInRealTime) {
     RecordProperty("hazard", "H2");
     auto* target = window.findChild<gui::ParticipantStop*>();
     const std::pair<const char*, std::function<void()>> hands[] = {
@@ -146,7 +146,9 @@ TEST_F(Seated, EveryStopOfTheirsStopsAtOnce) {
             stops.clear();
             desk.show(testScreen(ScreenState::Feel));
             QCoreApplication::processEvents();
-            if (asking) ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+            if (asking) {
+                ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+            }
             const auto pressed = std::chrono::steady_clock::now();
             hand();
             ASSERT_FALSE(stops.empty()) << by << ": before the event returned";

@@ -32,8 +32,8 @@ class Seated : public testing::Test {
 protected:
     Seated() {
         desk.stop = [this](const char* by) {
+            if (stops.empty()) stoppedAt = std::chrono::steady_clock::now();
             stops.emplace_back(by);
-            stoppedAt = std::chrono::steady_clock::now();
         };
         desk.begin(nullptr);
         desk.show(testScreen(ScreenState::Rest));
