@@ -46,7 +46,7 @@ int usage(const std::string& sentence) {
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness,  kEncode,
                                           kMeasure, kConvert,     kAnalyze, kReport,     kVerify,
-                                          kHid,     kScienceMode, kSensor,  kCertificate};
+                                          kHid,     kScienceMode, kSensor,  kCertificate, kStudy};
     return all;
 }
 

@@ -62,6 +62,6 @@ void printJson(const nlohmann::json& value);
 
 // Defined one per file, in app/cli/<Name>Command.cpp.
 extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kReport, kVerify,
-    kHid, kScienceMode, kSensor, kCertificate;
+    kHid, kScienceMode, kSensor, kCertificate, kStudy;
 
 }  // namespace tacto::cli

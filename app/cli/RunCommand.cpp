@@ -10,6 +10,7 @@
 #include "app/cli/Verdicts.h"
 #include "app/report/Report.h"
 #include "app/run/AllDrivers.h"
+#include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
 #include "app/run/SignalStop.h"
 #include "app/scripting/engine/Arming.h"
@@ -36,6 +37,7 @@ void declareRun(QCommandLineParser& parser) {
     parser.addOption({"reviewer", "Who checks it, for its report.", "NAME"});
     parser.addOption({"ambient", "Ambient conditions, for its report: \"22.5 °C, 45 % RH\".", "TEXT"});
     parser.addOption({"out", "Folder for the session, its reports and its captures.", "DIR"});
+    parser.addOption({"passphrase-file", "Whose first line opens the study, for sessions of one.", "F"});
     parser.addOption({"report", "Which report is written: none, html or pdf; both where left out.", "KIND"});
     parser.addOption({"json", "Prints one JSON value."});
 }
@@ -150,7 +152,42 @@ private:
     bool drawn_ = false;
 };
 
-RunResult runScript(ProtocolRun& run, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
+/// A run of a protocol, with or without a study around it.
+struct Running {
+    std::unique_ptr<ProtocolRun> alone;
+    std::unique_ptr<PilotRun> session;
+
+    [[nodiscard]] ProtocolRun& run() const { return session ? session->run() : *alone; }
+    [[nodiscard]] Result<void> start(RunRequest hooks) const {
+        return session ? session->start(std::move(hooks)) : alone->start(std::move(hooks));
+    }
+    [[nodiscard]] RunResult finish() const { return session ? session->finish() : alone->finish(); }
+};
+
+Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Registry& registry) {
+    Running running;
+    if (!isPilotProtocol(order.script.name) || !order.script.shipped) {
+        auto alone = ProtocolRun::prepare(std::move(order), registry);
+        if (!alone) return failure(alone);
+        running.alone = std::move(*alone);
+        return running;
+    }
+    PilotOrder pilot;
+    pilot.study = order.out;
+    if (parser.isSet("passphrase-file")) {
+        auto passphrase = Passphrase::fromFile(parser.value("passphrase-file").toStdString());
+        if (!passphrase) return failure(passphrase);
+        pilot.passphrase = std::move(*passphrase);
+    }
+    auto session = PilotRun::prepare(std::move(order), std::move(pilot), registry);
+    if (!session) return failure(session);
+    running.session = std::move(*session);
+    for (const auto& remark : running.session->remarks()) say(stderr, "{}\n", lines(remark));
+    return running;
+}
+
+RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
+    auto& run = running.run();
     ProgressLine line;
     TerminalOperator desk(answers, interrupts, [&line] { line.clear(); });
     RunRequest hooks;
@@ -160,13 +197,13 @@ RunResult runScript(ProtocolRun& run, const std::map<std::string, std::string>& 
         line.clear();
         say(stderr, "{}\n", lines(text));
     };
-    if (const auto started = run.start(std::move(hooks)); !started) return run.finish();
+    if (const auto started = running.start(std::move(hooks)); !started) return running.finish();
     interrupts.onStop([&run] { run.script()->stop("operator (signal)"); });
     if (interrupts.signalled()) run.script()->stop("operator (signal)");
     static_cast<void>(run.script()->wait());
     interrupts.onStop({});
     line.clear();
-    return run.finish();
+    return running.finish();
 }
 
 int exitFor(const RunResult& result) {
@@ -264,9 +301,9 @@ int runRun(const QCommandLineParser& parser) {
     const auto seed = order->seed;
     const auto answers = order->settings.answers;
     auto registry = allDrivers()();
-    auto prepared = ProtocolRun::prepare(std::move(*order), registry);
+    auto prepared = prepareRun(std::move(*order), parser, registry);
     if (!prepared) return failWith(prepared.error());
-    auto& running = **prepared;
+    const auto& running = *prepared;
     if (!shipped) say(stderr, "The script is {}.\n", origin);
 
     const auto result = runScript(running, answers, interrupts);
@@ -284,9 +321,9 @@ int runRun(const QCommandLineParser& parser) {
                      {"simulated", result.simulated},
                      {"marks", result.marks},
                      {"devices", devicesJson(result.devices)},
-                     {"seed", seed},
+                     {"seed", running.session ? running.session->session().stage().settings().seed : seed},
                      {"session", result.session.string()},
-                     {"report", writeReports(running.files(), *reports)},
+                     {"report", running.session ? json(nullptr) : writeReports(running.run().files(), *reports)},
                      {"results", outcome.results},
                      {"reasons", outcome.reasons},
                      {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
@@ -306,7 +343,8 @@ int runRun(const QCommandLineParser& parser) {
 const Command kRun{
     "run",
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
-    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--report none|html|pdf] [--json]",
+    "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--out DIR] [--passphrase-file F] [--report "
+    "none|html|pdf] [--json]",
     "Runs a protocol script, records it and writes its report",
     true,
     declareRun,

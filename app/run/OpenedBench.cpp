@@ -1,5 +1,7 @@
 #include "app/run/OpenedBench.h"
 
+#include <algorithm>
+
 #include "app/run/KnownCalibration.h"
 #include "app/run/OpenDevices.h"
 #include "app/run/ScopeStatement.h"
@@ -64,7 +66,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
     const auto& limits = order.limits;
     for (std::size_t i = 0; i < limits.sets.size(); ++i)
         about.limitSets.push_back({limits.sets[i].id, limits.sha256[i], limits.from[i]});
-    about.mode = nameOf(OutputMode::BenchLoad);
+    about.mode = nameOf(order.mode);
     about.wallStart = wallTimeUtc();
     return about;
 }
@@ -89,11 +91,16 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     if (!devices) return failure(devices);
     const auto certificate = stateOscilloscope(*devices);
     opened->about = aboutSession(*devices, order);
-    auto session = makeRunSession(order.out, order.about.protocol.empty() ? "live" : order.about.protocol,
-                                  opened->about, *opened->clock);
+    const auto identities = devices->identities();
+    const bool simulated = std::ranges::all_of(identities, &DeviceIdentity::simulated);
+    auto session = order.makeSession
+                       ? order.makeSession(opened->about, *opened->clock, simulated)
+                       : makeRunSession(order.out, order.about.protocol.empty() ? "live" : order.about.protocol,
+                                        opened->about, *opened->clock);
     if (!session) return failure(session);
     opened->files = std::move(session->files);
     opened->session = std::move(session->writer);
+    opened->seal = std::move(session->seal);
     if (auto warned = warnOfProfile(order.profile, *devices, *opened); !warned) return failure(warned);
     if (auto kept = keepCertificate(certificate, *opened->session, opened->clock->now()); !kept) return failure(kept);
     if (!certificate.used && !certificate.text.empty()) opened->warnings.push_back(certificate.text);
@@ -103,6 +110,10 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     config.clock = opened->clock;
     config.profile = order.profile;
     config.limits = order.limits.sets;
+    config.mode = order.mode;
+    config.person = order.person;
+    config.virtualParticipant = order.virtualParticipant;
+    config.rehearsal = order.rehearsal;
     config.session = opened->session.get();
     config.tap = opened->tap.get();
     config.stops = order.stops;

@@ -36,7 +36,13 @@ struct BenchOrder {
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched
-    SessionAbout about = {};             ///< of a protocol: its script and parameters; aboutSession() adds the rest
+    OutputMode mode = OutputMode::BenchLoad;
+    std::optional<PersonSetup> person = {};  ///< of Person
+    bool virtualParticipant = false;         ///< as BenchConfig says, both
+    bool rehearsal = false;
+    /// Makes the session file in place of makeRunSession(); empty: that does. The flag: every device is simulated.
+    std::function<Result<RunSession>(const SessionAbout&, const Clock&, bool)> makeSession = {};
+    SessionAbout about = {};  ///< of a protocol: its script and parameters; aboutSession() adds the rest
 };
 
 struct OpenedBench {
@@ -45,7 +51,8 @@ struct OpenedBench {
     RunFiles files;
     SessionAbout about;
     std::unique_ptr<SessionWriter> session;
-    std::unique_ptr<Bench> bench;  // Ends before what it writes to
+    std::shared_ptr<const RowSeal> seal;  ///< of the session; null: its rows are not sealed
+    std::unique_ptr<Bench> bench;         // Ends before what it writes to
     /// What the operator should know before anything is delivered, a sentence each; what a report needs of it is in the
     /// session.
     std::vector<std::string> warnings;

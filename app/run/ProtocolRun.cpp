@@ -47,7 +47,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     RunOrder& order = run->order_;
     order.needed = order.declaration.needs;
-    order.declaredLoad = declaredLoad(order.settings.parameters);
+    order.declaredLoad = order.ownLoad.empty() ? declaredLoad(order.settings.parameters) : order.ownLoad;
     order.about = aboutScript(order);
     auto opened = openBench(order, registry, std::move(tap));
     if (!opened) return failure(opened);
@@ -132,7 +132,7 @@ RunResult ProtocolRun::finish() {
     }
     // Of what is on disk, as everything else (hazard H8). A script that was given up still holds its bench, whose marks
     // are missing then.
-    const auto reader = SessionReader::open(result.session);
+    const auto reader = SessionReader::open(result.session, opened_->seal);
     auto marks = reader ? sessionMarks(*reader) : failure(reader);
     result.marks = marks ? std::move(*marks) : originMarks(about, {});
     if (!marks) result.marks.push_back("The other marks cannot be read: " + marks.error().message);

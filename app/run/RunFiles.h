@@ -26,6 +26,7 @@ struct RunFiles {
 struct RunSession {
     RunFiles files;
     std::unique_ptr<SessionWriter> writer;
+    std::shared_ptr<const RowSeal> seal = nullptr;  ///< null: its rows are not sealed
 };
 /// The files of a run and its session, begun: another program that begins one in the same second gets another name.
 /// Errors: as prepareRunFiles() and SessionWriter::create().

@@ -14,6 +14,8 @@ namespace {
 
 constexpr Seconds kArmWithin{2};
 constexpr Instant kCaptureGrace = std::chrono::seconds(1);
+constexpr Instant kPresentedGrace = std::chrono::seconds(1);
+constexpr Instant kPresentedLook = std::chrono::milliseconds(1);
 
 }  // namespace
 
@@ -243,6 +245,44 @@ Result<void> Bench::wait(Seconds duration) {
     if (*passed) return s.refusal();
     return {};
 }
+
+Result<Presented> Bench::present(const Presentation& presentation) {
+    auto& s = *state_;
+    if (const auto valid = validate(presentation); !valid) return failure(valid);
+    if (const auto settable = s.levels.checkSettable(presentation.level); !settable) return failure(settable);
+    const Instant now = s.time.now();
+    if (!(presentation.notBefore <= now + toInstant(Presentation::kLongest))) {
+        return fail(ErrorCode::InvalidArgument, "a presentation that begins in {:.3g} s; at most {} s is accepted",
+                    toSeconds(presentation.notBefore - now), Presentation::kLongest.count());
+    }
+    if (const auto ready = s.readyToPresent(); !ready) return failure(ready);
+    s.loop->present(presentation);
+    std::optional<Presented> ended;
+    const auto isOver = [&] {
+        ended = s.loop->presented();
+        return ended.has_value();
+    };
+    const Instant until = std::max(now, presentation.notBefore) + toInstant(presentation.duration);
+    const auto passed = s.time.advance(until + kPresentedGrace, isOver);
+    // A stop or a fault ends the wait first: the loop says what was delivered until then.
+    for (const Instant last = s.time.now() + kPresentedGrace; !ended && !isOver() && s.time.now() < last;)
+        s.time.pass(last, kPresentedLook);
+    if (!ended) {
+        disarm();
+        if (!passed) return failure(passed);
+        return fail(ErrorCode::Timeout, "the presentation did not end within {:.3g} s", toSeconds(s.time.now() - now));
+    }
+    s.levels.presented(presentation.level, *ended);
+    if (!passed && passed.error().code == ErrorCode::Io) return failure(passed);
+    return std::move(*ended);
+}
+
+Result<void> Bench::accept(Milliamps level) { return state_->levels.accept(level); }
+Result<void> Bench::reportDiscomfort(Milliamps level) { return state_->levels.reportDiscomfort(level); }
+Result<void> Bench::beginAscending() { return state_->levels.ascend(true); }
+Result<void> Bench::endAscending() { return state_->levels.ascend(false); }
+Result<Milliamps> Bench::levelCeiling() { return state_->levels.ceiling(); }
+Result<PermittedLevel> Bench::levelLimit(Seconds interval) const { return state_->levels.limit(interval); }
 
 void Bench::idle(Seconds duration) noexcept {
     auto& s = *state_;

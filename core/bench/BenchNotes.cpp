@@ -58,6 +58,13 @@ Result<void> BenchNotes::arming(const ArmRequest& request, const GateSetup& setu
     return noted ? Result<void>{} : failure(noted);
 }
 
+Result<void> BenchNotes::level(const char* kind, Milliamps level, Milliamps ceiling) const {
+    if (session_ == nullptr) return {};
+    const auto noted =
+        session_->event(clock_.now(), kind, {{"level_ma", level.value()}, {"ceiling_ma", ceiling.value()}});
+    return noted ? Result<void>{} : failure(noted);
+}
+
 void BenchNotes::marks(const RoughnessFlags& flags, std::optional<bool> calibrated,
                        const Profile& profile) const noexcept {
     if (session_ == nullptr) return;

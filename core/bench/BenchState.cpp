@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bench/BenchPerson.h"
 #include "core/bench/ReportRecord.h"
 #include "core/devices/DeviceUri.h"
 
@@ -27,7 +28,7 @@ ProgrammedTrain programmedFor(const Capture& capture, const Telemetry& now) {
 }  // namespace
 
 Bench::State::State(BenchConfig given)
-    : config(std::move(given)),
+    : config(withStatedCalibration(std::move(given))),
       notes(config.session, *config.clock),
       gate(*config.clock),
       order(config.stops, config.asked) {}
@@ -58,6 +59,7 @@ Bench::State::~State() {
 }
 
 Result<void> Bench::State::open() {
+    if (const auto fits = checkWhere(config); !fits) return fits;
     if (const auto valid = validate(config.profile.encoding); !valid) return valid;
     if (const auto taken = takeUpRecord(); !taken) return taken;
     if (config.devices.sensor) {
@@ -180,6 +182,15 @@ Result<void> Bench::State::rest() {
 Result<void> Bench::State::refusal() {
     refusalsSeen = loop->refusals();
     return fail(ErrorCode::LimitExceeded, "{}", loop->telemetry().lastRefusal.view());
+}
+
+Result<void> Bench::State::readyToPresent() const {
+    if (const auto well = health(); !well) return well;
+    if (driving != DriveSource::Off)
+        return fail(ErrorCode::NotArmed, "nothing is presented while the output is driven; drive it off first");
+    const auto state = interlock.state();
+    if (state == InterlockState::Armed || state == InterlockState::Delivering) return {};
+    return fail(ErrorCode::NotArmed, "nothing is presented while {}; arm first", nameOf(state));
 }
 
 Result<std::unique_ptr<FingerInput>> Bench::State::makeFinger(const Profile& profile) {

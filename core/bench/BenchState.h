@@ -8,6 +8,7 @@
 
 #include "core/bench/ArmingTerms.h"
 #include "core/bench/BenchCalibration.h"
+#include "core/bench/BenchLevels.h"
 #include "core/bench/BenchNotes.h"
 #include "core/bench/BenchOrder.h"
 #include "core/bench/BenchOutput.h"
@@ -44,6 +45,8 @@ struct Bench::State {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
     }
     [[nodiscard]] Result<void> refusal();
+    /// Whether something may be presented now. Errors: NotArmed; as health().
+    [[nodiscard]] Result<void> readyToPresent() const;
     [[nodiscard]] Result<std::unique_ptr<FingerInput>> makeFinger(const Profile& profile);
     [[nodiscard]] std::unique_ptr<TrainPlanner> makePlanner(const Profile& profile);
     /// Null where there is no such device, or it reports nothing.
@@ -67,7 +70,8 @@ struct Bench::State {
     std::atomic<DriveSource> driving{DriveSource::Off};
     std::uint64_t refusalsSeen = 0;  // by the caller of drive(), wait() and capture()
 
-    BenchTime time{*config.clock, output, order};  // Last: its threads end first
+    BenchTime time{*config.clock, output, order};  // Its threads end first
+    BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:
     [[nodiscard]] Result<void> takeUpRecord();

@@ -40,6 +40,12 @@ void ControlLoop::arm(ArmCommand command) {
     inbox_.arm(std::move(command));
 }
 
+void ControlLoop::present(Presentation presentation) {
+    presentation_.expect();
+    pausedSince_.store(paused_.load(std::memory_order_acquire), std::memory_order_release);
+    inbox_.present(std::move(presentation));
+}
+
 /// Before anything else: what was approved before a silence must not be written after it, whichever thread wakes first.
 void ControlLoop::beat(Instant now) noexcept {
     const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
@@ -71,7 +77,7 @@ void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
 /// Output goes on only while its owner waits for it and what it does is recorded.
 void ControlLoop::watchOwner(Instant now) noexcept {
     if (!mayPutOut(parts_.interlock.state())) return;
-    if (drive_.source != DriveSource::Off && !order_.attended(now))
+    if ((drive_.source != DriveSource::Off || presentation_.active()) && !order_.attended(now))
         return endOrder(now, "unattended", "the program that ordered the output did not look after it for 2 s");
     if (journal_.standsStillFor() > kUnrecorded)
         endOrder(now, "unrecorded", "the disk stood still for 2 s, and nothing is put out that is not recorded");
@@ -105,7 +111,10 @@ void ControlLoop::step(Instant now) noexcept {
     arming_.armOnCapture(now);
     watchForSilence(now);
     updateWish(now);
-    if (parts_.massager != nullptr)
+    levels_.serve(parts_.gate);
+    if (presentation_.active())
+        goOnPresenting(now);
+    else if (parts_.massager != nullptr)
         sendBurst(now);
     else
         sendTrain(now);
@@ -122,10 +131,12 @@ void ControlLoop::takeCommands(Instant now) noexcept {
         journal_.drive(now, drive_);
     }
     if (taken->arm) {
+        presentation_.end(now, PresentationEnd::Stopped, "the output was armed again");
         order_.armFor(taken->arm->asked);
         arming_.begin(std::move(*taken->arm));
         planner_->wantNothing();
     }
+    if (taken->presentation) presentation_.begin(std::move(*taken->presentation), *planner_);
     if (taken->confirmed) arming_.confirm(std::move(*taken->confirmed));
     if (taken->load && parts_.stimulator != nullptr) trip(judge_.load(*taken->load, mayPost(false), now), now);
     if (taken->amplitude && parts_.stimulator != nullptr) trip(judge_.amplitude(*taken->amplitude), now);
@@ -186,6 +197,7 @@ void ControlLoop::judgeReports() noexcept {
 void ControlLoop::judge(const TrainReport& report) noexcept {
     const Instant now = report.statusAt;
     taps_.push(report);
+    presentation_.read(report);
     if (report.outcome == TrainOutcome::LoopSilent) {
         if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
         return;
@@ -225,6 +237,7 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
 void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     const Instant now = report.statusAt;
     taps_.push(report);
+    presentation_.read(report);
     if (report.outcome == TrainOutcome::LoopSilent) {
         if (mayPost(false)) trip(FaultCause::LoopSilent, report.error.view(), now);
         return;
@@ -289,14 +302,7 @@ void ControlLoop::sendTrain(Instant now) noexcept {
     if (parts_.stimulator == nullptr || !parts_.stimulator->idle()) return;
     const auto due = planner_->due();
     if (!due || *due >= now + kPeriod || !mayPost(false)) return;
-    const bool readsBack = parts_.stimulator->device().traits().readsBack;
-    if (readsBack && now - load_.impedanceAt > Interlock::kImpedanceAge) {
-        // The reading is old: one check pulse first; the train follows when it was judged.
-        auto check = parts_.gate.approveCheck(now);
-        if (!check) return trip(FaultCause::LimitBroken, check.error().message, now);
-        if (!mayPost(true)) return;
-        return postCheck(std::move(*check), now);
-    }
+    if (const auto until = readingUntil(); until && now > *until) return renewReading(now);
     planner_->armedOn(load_.reference);
     auto planned = planner_->plan(now, load_.impedance);
     if (!planned) return refused(now, planned.error().message);
@@ -315,6 +321,49 @@ void ControlLoop::sendBurst(Instant now) noexcept {
     if (!beginDelivery()) return;
     journal_.planned(*planned, shown_.roughness, shown_.pressure);
     parts_.massager->post(std::move(planned->approved), planned->onset, planned->command.interval);
+}
+
+/// When the reading of |Z| grows old; nothing where none is taken.
+std::optional<Instant> ControlLoop::readingUntil() const noexcept {
+    if (parts_.stimulator == nullptr || !parts_.stimulator->device().traits().readsBack) return std::nullopt;
+    return load_.impedanceAt + Interlock::kImpedanceAge;
+}
+
+/// One check pulse; the train follows when it was judged.
+void ControlLoop::renewReading(Instant now) noexcept {
+    auto check = parts_.gate.approveCheck(now);
+    if (!check) return trip(FaultCause::LimitBroken, check.error().message, now);
+    if (!mayPost(true)) return;
+    postCheck(std::move(*check), now);
+}
+
+bool ControlLoop::outputIdle() const noexcept {
+    return (parts_.stimulator == nullptr || parts_.stimulator->idle()) &&
+           (parts_.massager == nullptr || parts_.massager->idle());
+}
+
+void ControlLoop::goOnPresenting(Instant now) noexcept {
+    const auto reason = parts_.interlock.reason();
+    const bool paused = pausedSince_.load(std::memory_order_acquire) || paused_.load(std::memory_order_acquire);
+    const auto due = presentation_.next(
+        {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, outputIdle(), readingUntil()});
+    if (due == PresentationRun::Due::Check) return renewReading(now);
+    // Also before an empty one: what the bench shows does not tell them apart.
+    if (!presentation_.begun() || !beginDelivery()) return;  // the next turn finds out why
+    if (due == PresentationRun::Due::Train) sendPresented(now);
+}
+
+void ControlLoop::sendPresented(Instant now) noexcept {
+    auto planned = presentation_.plan(*planner_, parts_.gate, now);
+    if (!planned) return refused(now, planned.error().message);
+    if (!mayPost(false)) return;
+    presentation_.posted();
+    if (auto* burst = std::get_if<PlannedVibration>(&*planned))
+        return parts_.massager->post(std::move(burst->approved), burst->onset, burst->interval);
+    auto& train = std::get<PlannedLevel>(*planned);
+    journal_.planned(train);
+    judge_.expect(train.expected);
+    post(std::move(train.approved), train.onset, train.expected);
 }
 
 /// False when a stop came in between.

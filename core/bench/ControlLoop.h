@@ -2,8 +2,9 @@
 // train to the stimulator's session → commands → telemetry.
 //
 // It is the gate's only caller, and the only one to move the interlock forward; any thread may stop it. Its parts: the
-// inbox of what other threads set, the order that it carries out, the finger, the arming sequence, the judge of what
-// was delivered, the exposure, the journal, and the taps of displays.
+// inbox of what other threads set, the participant's word on levels, the order and the presentation that it carries
+// out, the finger, the arming sequence, the judge of what was delivered, the exposure, the journal, and the taps of
+// displays.
 //
 // Thread-safety: step() has one caller. arm(), armed(), drive(), replaceFinger() and replacePlanner() may be called
 // from another thread; the newest setting wins and takes effect in the next step. telemetry() any thread.
@@ -19,10 +20,12 @@
 #include "core/bench/DeliveryJudge.h"
 #include "core/bench/ExposureWatch.h"
 #include "core/bench/FingerWatch.h"
+#include "core/bench/LevelDesk.h"
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/MassagerSession.h"
 #include "core/bench/OrderWatch.h"
+#include "core/bench/PresentationRun.h"
 #include "core/bench/SampleTaps.h"
 #include "core/bench/StimulatorSession.h"
 
@@ -59,7 +62,16 @@ public:
     /// Nothing while the check goes on, then success or why not. Taken once.
     [[nodiscard]] std::optional<Result<void>> armed() { return arming_.result(); }
     void drive(const DriveCommand& command) { inbox_.drive(command); }
-    void pauseOutput(bool paused) noexcept { paused_.store(paused, std::memory_order_release); }
+    /// What has passed validate() is presented at once, if the bench is armed and drives nothing. presented() tells the
+    /// end: nothing while it goes on. Taken once.
+    void present(Presentation presentation);
+    [[nodiscard]] std::optional<Presented> presented() { return presentation_.result(); }
+    /// Where the participant's word on levels is handed in.
+    [[nodiscard]] LevelDesk& levels() noexcept { return levels_; }
+    void pauseOutput(bool paused) noexcept {
+        paused_.store(paused, std::memory_order_release);
+        if (paused) pausedSince_.store(true, std::memory_order_release);
+    }
     /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
     void replaceFinger(std::unique_ptr<FingerInput> finger, RBefore before) {
         inbox_.finger({std::move(finger), before});
@@ -117,6 +129,11 @@ private:
     void updateWish(Instant now) noexcept;
     void sendTrain(Instant now) noexcept;
     void sendBurst(Instant now) noexcept;
+    void goOnPresenting(Instant now) noexcept;
+    void sendPresented(Instant now) noexcept;
+    [[nodiscard]] bool outputIdle() const noexcept;
+    [[nodiscard]] std::optional<Instant> readingUntil() const noexcept;
+    void renewReading(Instant now) noexcept;
     [[nodiscard]] bool beginDelivery() noexcept;
     /// `expected` is the amplitude that should come out, in V or mA; nothing for a check pulse: what is programmed.
     void post(ApprovedTrain&& train, Instant onset, std::optional<double> expected) noexcept;
@@ -130,9 +147,12 @@ private:
 
     Parts parts_;
     std::atomic<bool> paused_{false};
+    std::atomic<bool> pausedSince_{false};  // the presentation was asked for
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
     LoopInbox inbox_;
+    LevelDesk levels_;
+    PresentationRun presentation_;
     OrderWatch order_;
     ExposureWatch exposure_;
 

@@ -20,6 +20,10 @@ void LoopInbox::drive(const DriveCommand& command) {
     put([&](Settings& s) { s.drive = command; });
 }
 
+void LoopInbox::present(Presentation presentation) {
+    put([&](Settings& s) { s.presentation = std::move(presentation); });
+}
+
 void LoopInbox::finger(NextFinger next) {
     put([&](Settings& s) {
         if (s.finger) next.before = s.finger->before;

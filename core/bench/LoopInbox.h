@@ -11,6 +11,7 @@
 #include "core/bench/ArmingSequence.h"
 #include "core/bench/CaptureLoad.h"
 #include "core/bench/FingerInput.h"
+#include "core/bench/Presentation.h"
 #include "core/bench/Telemetry.h"
 #include "core/bench/TrainPlanner.h"
 
@@ -30,6 +31,7 @@ struct NextFinger {
 class LoopInbox {
 public:
     struct Settings {
+        std::optional<Presentation> presentation;
         std::optional<ArmCommand> arm;
         std::optional<DriveCommand> drive;
         std::optional<NextFinger> finger;
@@ -41,6 +43,7 @@ public:
 
     void arm(ArmCommand command);
     void drive(const DriveCommand& command);
+    void present(Presentation presentation);
     /// Of two in one step the first was never used: what counts is what R was for before it.
     void finger(NextFinger next);
     void planner(std::unique_ptr<TrainPlanner> next);

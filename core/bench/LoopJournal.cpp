@@ -97,6 +97,13 @@ void LoopJournal::planned(const PlannedTrain& train, double roughness, double pr
              {"rounded_by", train.rounding.amplitude}});
 }
 
+void LoopJournal::planned(const PlannedLevel& train) noexcept {
+    command(train.onset, "train",
+            {{"interval_s", train.approved.interval().count()},
+             {"amplitude", siValue(train.approved.train().amplitude)},
+             {"expected_ma", train.expected}});
+}
+
 void LoopJournal::planned(const PlannedBurst& burst, double roughness, double pressure) noexcept {
     command(burst.onset, "burst",
             {{"amplitude_v", burst.command.amplitude.value()},

@@ -42,6 +42,7 @@ public:
 
     /// What was planned from R and P, before it is handed over.
     void planned(const PlannedTrain& train, double roughness, double pressure) noexcept;
+    void planned(const PlannedLevel& train) noexcept;  ///< of a presentation
     void planned(const PlannedBurst& burst, double roughness, double pressure) noexcept;
     /// One row for each train: what was programmed, by which approval, and what was read back. `name`: a literal.
     void train(const TrainReport& report, const char* name) noexcept;

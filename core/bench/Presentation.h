@@ -30,10 +30,10 @@ using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 
 struct Presentation {
     StimulusLevel level = Milliamps(0);
-    std::vector<Seconds> onsets;  ///< from the beginning, ascending, at least `interval` apart; 1 to kMostTrains
-    Seconds interval{0};          ///< > 0, that each train is judged at: the shortest at which another may follow
-    Seconds duration{0};          ///< of the whole, at least kTail after the last onset, at most kLongest
-    Instant notBefore{0};         ///< of the bench's clock: it begins then, or as soon after as the bench is ready
+    std::vector<Seconds> onsets{};  ///< from the beginning, ascending, at least `interval` apart; 1 to kMostTrains
+    Seconds interval{0};            ///< > 0, that each train is judged at: the shortest at which another may follow
+    Seconds duration{0};            ///< of the whole, at least kTail after the last onset, at most kLongest
+    Instant notBefore{0};           ///< of the bench's clock: it begins then, or as soon after as the bench is ready
 
     static constexpr std::size_t kMostTrains = 64;
     static constexpr Seconds kLongest{60};
@@ -84,7 +84,7 @@ struct Presented {
     std::string reason;  ///< one sentence; empty when complete
     Instant began{0};    ///< its onsets count from then; never before `notBefore`. Of no meaning where it never began
     Instant ended{0};
-    std::vector<PresentedTrain> trains;  ///< those that were delivered, also of a void one
+    std::vector<PresentedTrain> trains;  ///< those that were delivered and read before its end, also of a void one
     std::optional<Ohms> impedance;       ///< the last reading of |Z| at its end
     [[nodiscard]] bool isVoid() const noexcept { return end != PresentationEnd::Complete; }
 };

@@ -31,14 +31,51 @@ Result<void> staysNear(std::string_view what, double programmed, double command)
                 programmed, what, command);
 }
 
-Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) {
-    if (auto near = staysNear("the amplitude", levelOf(programmed), levelOf(command)); !near) return near;
+Result<void> timesStayNear(const PulseTrain& programmed, const PulseTrain& command) {
     if (auto near = staysNear("the phase width", programmed.phaseWidth.count(), command.phaseWidth.count()); !near)
         return near;
     return staysNear("the gap", programmed.interPhaseGap.count(), command.interPhaseGap.count());
 }
 
+Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) {
+    if (auto near = staysNear("the amplitude", levelOf(programmed), levelOf(command)); !near) return near;
+    return timesStayNear(programmed, command);
+}
+
+/// As SafetyGate: what decimal steps lose in binary.
+bool onGrid(double value, double step) noexcept {
+    return step == 0 || std::abs(value / step - std::round(value / step)) <= 1e-6;
+}
+
+Result<void> canBeSet(Milliamps level, const SourceTraits& source) {
+    const double mA = level.value();
+    if (!(mA > 0 && mA <= source.amplitudeMax)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "a level of {} mA; above 0 to {:g} mA, the device's largest, is accepted", mA, source.amplitudeMax);
+    }
+    if (onGrid(mA, source.amplitudeStep)) return {};
+    return fail(ErrorCode::InvalidArgument, "a level of {} mA; multiples of the device's step, {:g} mA, are accepted",
+                mA, source.amplitudeStep);
+}
+
 }  // namespace
+
+Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits& source, const KnownLines& calibration,
+                              Milliamps level) {
+    if (source.drive != Drive::Current)
+        return fail(ErrorCode::Unsupported, "a level of {} mA of a voltage source; a current source is needed",
+                    level.value());
+    if (auto settable = canBeSet(level, source); !settable) return failure(settable);
+    PulseTrain wanted = profile.train;
+    wanted.amplitude = level;
+    PulseTrain programmed = programmedFor(wanted, calibration);
+    programmed.amplitude = level;
+    if (auto near = timesStayNear(programmed, wanted); !near) return failure(near);
+    auto rounded = roundToDevice(programmed, gridOf(source));
+    if (!rounded) return failure(rounded);
+    rounded->train.amplitude = level;
+    return rounded->train;
+}
 
 TrainPlanner::TrainPlanner(const EncodingProfile& profile, const SourceTraits& source, SafetyGate& gate,
                            const KnownLines& calibration)
@@ -63,6 +100,15 @@ Result<PlannedBurst> TrainPlanner::planBurst(Instant now) {
     if (!approved) return failure(approved);
     series_.delivered();
     return PlannedBurst{std::move(*approved), onset, command};
+}
+
+Result<PlannedLevel> TrainPlanner::planLevel(Milliamps level, Seconds interval, Instant onset) {
+    const auto train = levelTrain(encoder().profile(), source_, calibration_, level);
+    if (!train) return failure(train);
+    auto approved = gate_.approve(TrainRequest{*train, programmed(interval), onset});
+    if (!approved) return failure(approved);
+    const double expected = calibration_ ? calibration_->amplitude.delivered(level.value()) : level.value();
+    return PlannedLevel{std::move(*approved), onset, expected};
 }
 
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {

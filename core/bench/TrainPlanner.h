@@ -23,6 +23,13 @@ struct PlannedTrain {
     double expected;        ///< amplitude that should come out, V or mA: the command, to the device's step
 };
 
+/// A train at a level of the device's own grid: nothing is encoded.
+struct PlannedLevel {
+    ApprovedTrain approved;
+    Instant onset;
+    double expected;  ///< amplitude that should come out, mA
+};
+
 struct PlannedBurst {
     ApprovedBurst approved;
     Instant onset;
@@ -56,8 +63,15 @@ public:
     /// where the calibration would program more than 20 % beside the command (hazard H1: it may be wrong).
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
+    /// Has a train at `level` judged, for that onset. What is wanted by want() is not touched. Errors: as
+    /// levelTrain() and SafetyGate::approve().
+    [[nodiscard]] Result<PlannedLevel> planLevel(Milliamps level, Seconds interval, Instant onset);
+
     /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().
     [[nodiscard]] Result<PlannedBurst> planBurst(Instant now);
+
+    /// A time as it must be kept so that it comes out as `wanted`.
+    [[nodiscard]] Seconds programmed(Seconds wanted) const noexcept { return programmedFor(wanted, calibration_); }
 
 private:
     [[nodiscard]] const Encoder& encoder() const noexcept { return series_.encoder(); }
@@ -68,6 +82,13 @@ private:
     TrainSeries series_;  // what is wanted, under the limits on a step
     std::optional<Ohms> armed_;
 };
+
+/// The profile's train at a level that the device can set: the amplitude is programmed as it is, phase width and gap as
+/// the calibration says, to the device's step. Its kind is that of a person's accepted levels. Errors: Unsupported for
+/// a voltage source; InvalidArgument for a level that is not above 0 and on the grid; as roundToDevice(); LimitExceeded
+/// where the calibration would program a time more than 20 % beside the profile's.
+[[nodiscard]] Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits& source,
+                                            const KnownLines& calibration, Milliamps level);
 
 /// The grid of a device as core/encoding rounds to it.
 [[nodiscard]] DeviceGrid gridOf(const SourceTraits& source) noexcept;

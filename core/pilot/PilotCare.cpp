@@ -78,7 +78,7 @@ Result<void> PilotCare::checklist() {
         if (auto held = stopTest(by); !held) return held;
     }
     if (auto held = skin("before"); !held) return held;
-    return stage_.settings().unit == LevelUnit::Milliamps ? electrodes() : Result<void>();
+    return stage_.settings().unit == LevelUnit::Current ? electrodes() : Result<void>();
 }
 
 Result<void> PilotCare::machine() {
@@ -103,7 +103,7 @@ Result<void> PilotCare::machine() {
 /// Pressed once, and seen off in time.
 Result<void> PilotCare::stopTest(PromptTo by) {
     const auto name = fmt::format("{} {}", part(), nameOf(by));
-    if (auto armed = stage_.ready(); !armed) return armed;
+    if (auto armed = stage_.arm(); !armed) return armed;
     auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
     prompt.name = "stop-test";
     const auto asked = stage_.participant().ask(prompt);

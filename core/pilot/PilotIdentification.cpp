@@ -136,7 +136,7 @@ void PilotIdentification::keep(const PlannedTrial& planned, const StageTrial& tr
     kept.response = answer.response;
     kept.attempt = answer.attempt;
     kept.rt_s = answer.rt_s;
-    if (stage_.settings().unit == LevelUnit::Milliamps) kept.current = Milliamps(trial.level);
+    if (stage_.settings().unit == LevelUnit::Current) kept.current = Milliamps(trial.level);
     kept.interval_s = planned.condition ? trial.presentation.interval.count() : kNaN;
     kept.trains = trial.level > 0 ? trial.presentation.onsets.size() : 0;
     stimulated_.push_back(stage_.stimulated() - lengthOf(trial));

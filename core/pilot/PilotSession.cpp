@@ -50,6 +50,19 @@ Result<void> PilotSession::begin(bool withTrials) {
     return care_.checklist();
 }
 
+Result<void> PilotSession::beforeBlock(int block) {
+    const bool done = stage_.record().find(row::kImpedance, fmt::format("block {}", block)) != nullptr;
+    if (!done && stillApproved) {
+        const auto approved = stillApproved();
+        if (!approved) {
+            auto kept = stage_.record().write(row::kGate, fmt::format("block {} approval", block),
+                                              {{"holds", false}, {"said", approved.error().message}});
+            return kept ? stage_.end(PilotEnd::Stopped, approved.error().message) : kept;
+        }
+    }
+    return care_.beforeBlock(block);
+}
+
 nlohmann::json PilotSession::participantJson() const {
     const auto& settings = stage_.settings();
     return {{"code", settings.code}, {"virtual", settings.isVirtual}};
@@ -93,7 +106,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     results["thresholds"] = thresholds_.toJson();
     results["drift"] = identification_.driftJson();
     nlohmann::json presented = nlohmann::json::array();
-    const char* unit = stage_.settings().unit == LevelUnit::Milliamps ? "current_ma" : "intensity";
+    const char* unit = stage_.settings().unit == LevelUnit::Current ? "current_ma" : "intensity";
     for (const auto& each : identification_.presented())
         presented.push_back({{"name", each.name}, {unit, each.level}, {"interval_s", each.interval.count()}});
     results["presented"] = std::move(presented);
@@ -148,7 +161,7 @@ Result<std::string> PilotSession::headlineText() const {
     PresentedRange range;
     const auto& measured = thresholds_.rangeJson();
     const auto number = [&measured](const char* key) { return numberOr(measured, key); };
-    if (stage_.settings().unit == LevelUnit::Milliamps) {
+    if (stage_.settings().unit == LevelUnit::Current) {
         range.low = Milliamps(number("min_ma"));
         range.high = Milliamps(number("max_ma"));
         range.lowVoltage = Volts(number("min_v"));

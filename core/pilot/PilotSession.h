@@ -7,6 +7,7 @@
 // Thread-safety: one caller, the script's thread; cancel() from any thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,11 @@ public:
     [[nodiscard]] Result<void> begin(bool withTrials);
     /// Of a part that is not the first: what its first row says.
     void resumesFrom(std::string part, std::string chainHead);
+
+    /// Asks before each block whether the study is still approved. Empty: nothing is asked.
+    std::function<Result<void>()> stillApproved;
+    /// Approval and electrodes. Errors: Stopped with the gate's sentence, when the session has ended.
+    [[nodiscard]] Result<void> beforeBlock(int block);
 
     [[nodiscard]] PilotStage& stage() noexcept { return stage_; }
     [[nodiscard]] PilotCare& care() noexcept { return care_; }

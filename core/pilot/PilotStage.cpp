@@ -262,6 +262,7 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
 // Arming, and reaching the levels of a resumed session again
 
 Result<void> PilotStage::arm() {
+    if (armed_) return {};
     ArmRequest request;
     request.declaredLoadConfirmed = true;
     request.operatorConfirmed = true;
@@ -279,9 +280,7 @@ Result<void> PilotStage::arm() {
 }
 
 Result<void> PilotStage::ready() {
-    if (!armed_) {
-        if (auto armed = arm(); !armed) return armed;
-    }
+    if (auto armed = arm(); !armed) return armed;
     if (!rampDue_) return {};
     rampDue_ = false;
     return ramp();

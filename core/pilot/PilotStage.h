@@ -75,6 +75,8 @@ public:
     [[nodiscard]] Result<Json> ask(const char* kind, const std::string& name, const PilotPrompt& prompt);
     /// Arms, after the participant's own levels were reached again where the session was resumed.
     [[nodiscard]] Result<void> ready();
+    /// Arms and presents nothing: for the test of the STOPs.
+    [[nodiscard]] Result<void> arm();
     /// Output off. Nothing is presented until ready().
     void rest() noexcept;
     /// Lets time pass, in a break too. Errors: Stopped.
@@ -118,7 +120,6 @@ private:
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> askToGoOn(const std::string& text);
     [[nodiscard]] Result<void> ramp();
-    [[nodiscard]] Result<void> arm();
 
     Bench& bench_;
     PilotParticipant& participant_;

@@ -68,7 +68,7 @@ Result<void> PilotThresholds::ascendingLimits() {
     while (const auto next = limits->next()) {
         if (auto done = present(*limits, *next); !done) return done;
     }
-    if (liveSeries_ > 0 && stage_.settings().unit == LevelUnit::Milliamps) {
+    if (liveSeries_ > 0 && stage_.settings().unit == LevelUnit::Current) {
         if (auto ended = stage_.bench().endAscending(); !ended) return ended;
     }
     ascending_ = limits->result();
@@ -94,7 +94,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
         if (!held) return failure(held);
         // A series that was broken off goes on at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
-        if (begins && stage_.settings().unit == LevelUnit::Milliamps) {
+        if (begins && stage_.settings().unit == LevelUnit::Current) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
         }
         liveSeries_ = next.series;
@@ -245,7 +245,7 @@ Result<void> PilotThresholds::range() {
 
 nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
     const double ohm = stage_.impedance();
-    const bool current = stage_.settings().unit == LevelUnit::Milliamps;
+    const bool current = stage_.settings().unit == LevelUnit::Current;
     const char* low = current ? "min_ma" : "min_intensity";
     const char* high = current ? "max_ma" : "max_intensity";
     nlohmann::json out{{"usable", found.usable},

@@ -11,8 +11,13 @@ using namespace gate;
 namespace {
 // 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
 constexpr double kLevelRounding = 1e-9;
+constexpr double kNoCap = std::numeric_limits<double>::infinity();
 
-double milliamps(const PulseTrain& train) noexcept { return siValue(train.amplitude) * 1e3; }
+/// Not by way of amperes: 4.5 mA would come back as more than 4.5, and more than a limit of 4.5.
+double milliamps(const PulseTrain& train) noexcept {
+    const auto* current = std::get_if<Milliamps>(&train.amplitude);
+    return current != nullptr ? current->value() : siValue(train.amplitude) * 1e3;
+}
 
 PulseTrain kindOf(PulseTrain train) noexcept {
     train.amplitude = Milliamps(0);
@@ -22,7 +27,7 @@ PulseTrain kindOf(PulseTrain train) noexcept {
 /// A level beside what the person permits, in mA.
 struct AskedLevel {
     bool inVolts;
-    double level, discomfort, ceiling, step;
+    double level, discomfort, cap, ceiling, step;
     bool ascending;
 };
 
@@ -35,6 +40,11 @@ constexpr Rule<AskedLevel> kLevelRules[] = {
      [](auto& a) {
          return fail(ErrorCode::LimitExceeded,
                      "current would be {:.4g} mA; this person's discomfort limit is {:.4g} mA", a.level, a.discomfort);
+     }},
+    {LevelCap, [](auto& a) { return !(a.level <= a.cap * (1 + kLevelRounding)); },
+     [](auto& a) {
+         return fail(ErrorCode::LimitExceeded, "current would be {:.4g} mA; the study's cap is {:.4g} mA", a.level,
+                     a.cap);
      }},
     {LevelRamp, [](auto& a) { return !(a.level <= a.ceiling * (1 + kLevelRounding)); },
      [](auto& a) {
@@ -50,13 +60,15 @@ constexpr Rule<Result<void>> kAcceptanceRules[] = {
 };
 }  // namespace
 
-void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep) noexcept {
+void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap) noexcept {
     *this = AcceptedLevels{};
     discomfort_ = discomfortLimit.value();
+    cap_ = cap ? cap->value() : kNoCap;
     step_ = rampStep.value();
 }
 
-void AcceptedLevels::resume(Milliamps discomfortLimit, Milliamps rampStep) noexcept {
+void AcceptedLevels::resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap) noexcept {
+    cap_ = cap ? cap->value() : kNoCap;
     discomfort_ = std::min(discomfort_, discomfortLimit.value());
     step_ = rampStep.value();
 }
@@ -65,11 +77,11 @@ bool AcceptedLevels::sameKind(const PulseTrain& train) const noexcept { return k
 
 Milliamps AcceptedLevels::ceilingFor(const PulseTrain& train) const noexcept {
     const double accepted = !sameKind(train) ? 0 : ascending_ ? seriesLast_ : highest_;
-    return Milliamps(std::min(accepted + step_, discomfort_));
+    return Milliamps(std::min({accepted + step_, discomfort_, cap_}));
 }
 
 Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
-    return judge(kLevelRules, AskedLevel{!isCurrent(train.amplitude), milliamps(train), discomfort_,
+    return judge(kLevelRules, AskedLevel{!isCurrent(train.amplitude), milliamps(train), discomfort_, cap_,
                                          ceilingFor(train).value(), step_, ascending_});
 }
 

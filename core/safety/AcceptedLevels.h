@@ -4,10 +4,13 @@
 // same current feels different, so acceptance is kept for one kind and starts again from zero when it changes. A level
 // above the highest accepted one may be at most one ramp step above it; an accepted level may be entered in one step;
 // in a series of ascending limits the ceiling is the series' last accepted level plus one step; nothing exceeds the
-// discomfort limit, which only falls.
+// discomfort limit, which only falls, or the cap of the study.
 //
 // Thread-safety: none; one caller (the gate's). Never allocates, except ceilings' error texts.
 #pragma once
+
+#include <limits>
+#include <optional>
 
 #include "core/base/Result.h"
 #include "core/encoding/PulseTrain.h"
@@ -17,9 +20,9 @@ namespace tacto {
 class AcceptedLevels {
 public:
     /// A new participant: nothing accepted.
-    void begin(Milliamps discomfortLimit, Milliamps rampStep) noexcept;
+    void begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
     /// The same participant again with other settings: keeps what was accepted and the lower discomfort limit.
-    void resume(Milliamps discomfortLimit, Milliamps rampStep) noexcept;
+    void resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
 
     /// Errors: LimitExceeded naming the level, the ceiling and which rule set it.
     [[nodiscard]] Result<void> permits(const PulseTrain& train) const;
@@ -44,6 +47,7 @@ private:
     [[nodiscard]] bool sameKind(const PulseTrain& train) const noexcept;
     // All in mA.
     double discomfort_ = 0;
+    double cap_ = std::numeric_limits<double>::infinity();  // Infinite: the study has none
     double step_ = 0;
     double highest_ = 0;     // Of kind_, in this session
     double seriesLast_ = 0;  // Of kind_, in this ascending series

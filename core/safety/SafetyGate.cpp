@@ -165,9 +165,9 @@ Result<void> SafetyGate::configure(const GateSetup& setup) {
         const auto [known, isNew] = s.people.try_emplace(person.participant);
         s.levels = &known->second;
         if (isNew) {
-            s.levels->begin(person.discomfortLimit, person.rampStep);
+            s.levels->begin(person.discomfortLimit, person.rampStep, person.cap);
         } else {
-            s.levels->resume(person.discomfortLimit, person.rampStep);
+            s.levels->resume(person.discomfortLimit, person.rampStep, person.cap);
         }
     }
     s.setup = setup;

@@ -207,6 +207,10 @@ constexpr Rule<Personal> kPersonRules[] = {
      [](auto& p) {
          return invalid("the ramp step is {} mA; a finite current above 0 is needed", p.person.rampStep.value());
      }},
+    {PersonCap, [](auto& p) { return p.person.cap && !positive(p.person.cap->value()); },
+     [](auto& p) {
+         return invalid("the study's cap is {} mA; a finite current above 0 is needed", p.person.cap->value());
+     }},
     {PersonImpedanceBounds,
      [](auto& p) {
          const double low = p.person.impedanceLow.value();

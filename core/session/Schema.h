@@ -20,6 +20,9 @@ inline constexpr int kSchemaVersion = 1;
 /// The same tables with annotations behind the end mark: a program that does not know them says that it is too old,
 /// instead of calling the session damaged.
 inline constexpr int kAnnotatedVersion = 2;
+/// The same tables with sealed rows (SealedRow.h).
+inline constexpr int kSealedVersion = 3;
+inline constexpr int kNewestVersion = kSealedVersion;
 
 /// The kinds of `entries` rows.
 namespace kind {

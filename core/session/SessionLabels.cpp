@@ -128,6 +128,12 @@ Result<void> takesLabels(const std::filesystem::path& session, const SessionRead
             "session {} has no end mark: it is being recorded, or was broken off. It is kept as it is, without changes",
             name);
     }
+    if (reader.sealed()) {
+        return fail(ErrorCode::Unsupported,
+                    "session {} is sealed: operator, sample, tags and note would stand in it unsealed. It is kept as it "
+                    "is; the study's own notes are sealed",
+                    name);
+    }
     std::error_code error;
     const auto writable = std::filesystem::perms::owner_write | std::filesystem::perms::group_write |
                           std::filesystem::perms::others_write;

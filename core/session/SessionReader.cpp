@@ -9,6 +9,7 @@
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
+#include "core/session/SealedRow.h"
 #include "core/session/SessionLabels.h"
 #include "core/session/SessionSource.h"
 
@@ -29,12 +30,31 @@ std::string hexOf(std::span<const std::byte> bytes) {
 }  // namespace
 
 struct SessionReader::State {
-    explicit State(SessionSource opened) : source(std::move(opened)) {}
+    State(SessionSource opened, std::shared_ptr<const RowSeal> key) : source(std::move(opened)), seal(std::move(key)) {}
     SessionSource source;
+    std::shared_ptr<const RowSeal> seal;  // Null where there is none or it is not needed
+    std::filesystem::path path;
     SessionAbout about;
     std::string head;
     Instant lastAt{0};
     bool closed = false;
+
+    [[nodiscard]] bool locked() const noexcept { return source.sealed() && seal == nullptr; }
+    [[nodiscard]] Result<void> unlocked(std::string_view what) const {
+        if (!locked()) return {};
+        return fail(ErrorCode::Unsupported, "{} of session {} are sealed; they open with the study's passphrase", what,
+                    path.filename().string());
+    }
+
+    [[nodiscard]] Result<SessionRow> row(std::int64_t seq, std::string_view kind, Instant at, std::string_view name,
+                                         std::string_view text) const {
+        auto body = parsed(text, seq);
+        if (!body) return failure(body);
+        if (!source.sealed()) return SessionRow{seq, at, std::string(name), std::move(*body)};
+        auto inside = openedRow(seal.get(), seq, kind, at, name, std::move(*body));
+        if (!inside) return failure(inside);
+        return SessionRow{seq, inside->at, std::move(inside->name), std::move(inside->body), inside->sealed};
+    }
 
     /// Calls `visit(const SessionRow&)` for every row of a kind.
     template <class Visit>
@@ -46,10 +66,9 @@ struct SessionReader::State {
             auto more = rows->step();
             if (!more) return failure(more);
             if (!*more) return {};
-            auto body = parsed(rows->text(3), rows->integer(0));
-            if (!body) return failure(body);
-            visit(
-                SessionRow{rows->integer(0), Instant(rows->integer(1)), std::string(rows->text(2)), std::move(*body)});
+            auto found = row(rows->integer(0), kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
+            if (!found) return failure(found);
+            visit(std::move(*found));
         }
     }
 
@@ -74,12 +93,37 @@ struct SessionReader::State {
             auto more = rows->step();
             if (!more) return failure(more);
             if (!*more) return {};
-            const auto chunk = parseChunkHead(rows->text(1));
+            const auto chunk = chunkHead(rows->integer(0), rows->text(1));
             if (!chunk) return failure(chunk);
-            auto unpacked = unpackChunk(*chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
+            auto unpacked = unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3),
+                                   block);
             if (!unpacked) return unpacked;
             if (!visit(*chunk, block)) return {};
         }
+    }
+
+    [[nodiscard]] Result<ChunkHead> chunkHead(std::int64_t seq, std::string_view text) const {
+        if (!source.sealed()) return parseChunkHead(text);
+        auto body = parsed(text, seq);
+        if (!body) return failure(body);
+        const auto inside = sealedText(seq, *body);
+        if (!inside) return failure(inside);
+        return parseChunkHead(dumpJson(*inside));
+    }
+    [[nodiscard]] Result<nlohmann::json> sealedText(std::int64_t seq, const nlohmann::json& body) const {
+        auto at = source.database().number(fmt::format("SELECT t_ns FROM entries WHERE seq={}", seq));
+        if (!at) return failure(at);
+        auto inside = openedRow(seal.get(), seq, kind::kChunk, Instant(*at), "", body);
+        if (!inside) return failure(inside);
+        return std::move(inside->body);
+    }
+    [[nodiscard]] Result<void> unpack(std::int64_t seq, const ChunkHead& head, std::size_t columns,
+                                      std::span<const std::byte> stamps, std::span<const std::byte> data,
+                                      SampleBlock& into) const {
+        if (!source.sealed()) return unpackChunk(head, columns, stamps, data, into);
+        const auto opened = openedBulk(*seal, seq, kind::kChunk, data);
+        if (!opened) return failure(opened);
+        return unpackOpenedChunk(head, columns, *opened, into);
     }
 
     [[nodiscard]] Result<std::vector<SessionStreamInfo>> declared() const {
@@ -112,27 +156,36 @@ SessionReader::SessionReader(SessionReader&&) noexcept = default;
 SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
 SessionReader::~SessionReader() = default;
 
-Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
+Result<SessionReader> SessionReader::open(const std::filesystem::path& path, std::shared_ptr<const RowSeal> seal) {
     auto source = SessionSource::open(path);
     if (!source) return failure(source);
-    auto state = std::make_unique<State>(std::move(*source));
+    auto state = std::make_unique<State>(std::move(*source), std::move(seal));
+    state->path = path;
     bool found = false;
     auto about = state->forEach(kind::kAbout, [&](const SessionRow& row) {
         if (!found) state->about = aboutFrom(row.body);
+        if (!found && row.sealed) state->about.parameters = {{"sealed", true}};
         found = true;
     });
     if (!about) return failure(about);
     if (!found) return fail(ErrorCode::ParseError, "{} is damaged: its first row is missing", path.string());
     auto last = state->source.database().prepare(
-        "SELECT hash, kind, t_ns FROM entries WHERE kind<>'annotation' ORDER BY seq DESC LIMIT 1");
+        "SELECT hash, kind, t_ns, seq, name, body FROM entries WHERE kind<>'annotation' ORDER BY seq DESC LIMIT 1");
     if (!last) return failure(last);
     if (auto row = last->step(); !row) return failure(row);
     state->head = hexOf(last->blob(0));
     state->closed = last->text(1) == kind::kEnd;
     state->lastAt = Instant(last->integer(2));
+    if (state->source.sealed()) {
+        const auto row = state->row(last->integer(3), last->text(1), state->lastAt, last->text(4), last->text(5));
+        if (!row) return failure(row);
+        state->lastAt = row->at;
+    }
     return SessionReader(std::move(state));
 }
 
+bool SessionReader::sealed() const noexcept { return state_->source.sealed(); }
+bool SessionReader::locked() const noexcept { return state_->locked(); }
 const SessionAbout& SessionReader::about() const noexcept { return state_->about; }
 bool SessionReader::closed() const noexcept { return state_->closed; }
 const std::string& SessionReader::chainHead() const noexcept { return state_->head; }
@@ -140,6 +193,14 @@ Instant SessionReader::lastAt() const noexcept { return state_->lastAt; }
 
 Result<SessionLabels> SessionReader::labels() const {
     SessionLabels labels;
+    if (state_->source.sealed()) {
+        if (state_->locked()) labels.note = "sealed";
+        auto read = state_->forEach(kind::kReport, [&](const SessionRow& row) {
+            if (row.name == "notes") applyLabels(row.body, labels);
+        });
+        if (!read) return failure(read);
+        return labels;
+    }
     auto rows = state_->source.database().prepare(
         "SELECT seq, body FROM entries WHERE kind='annotation' OR (kind='report' AND name='notes') ORDER BY seq");
     if (!rows) return failure(rows);
@@ -163,7 +224,8 @@ Result<std::vector<SessionTrial>> SessionReader::trials() const {
     std::vector<SessionTrial> trials;
     auto read = state_->forEach(kind::kTrial, [&](const SessionRow& row) {
         trials.push_back(
-            {row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name, valueOr(row.body, "measured")});
+            {row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name, valueOr(row.body, "measured"),
+             row.sealed});
     });
     if (!read) return failure(read);
     return trials;
@@ -172,8 +234,8 @@ Result<std::vector<SessionTrial>> SessionReader::trials() const {
 Result<std::vector<SessionVerdict>> SessionReader::verdicts() const {
     std::vector<SessionVerdict> verdicts;
     auto read = state_->forEach(kind::kVerdict, [&](const SessionRow& row) {
-        verdicts.push_back({row.seq, row.at, row.name, textOr(row.body, "verdict"), textsOr(row.body, "reasons"),
-                            valueOr(row.body, "results")});
+        verdicts.push_back({row.seq, row.at, row.name, row.sealed ? row.name : textOr(row.body, "verdict"),
+                            textsOr(row.body, "reasons"), valueOr(row.body, "results"), row.sealed});
     });
     if (!read) return failure(read);
     return verdicts;
@@ -189,6 +251,7 @@ Result<std::vector<SessionCaptureInfo>> SessionReader::captures() const {
         info.rate_hz = numberOr(row.body, "rate_hz");
         info.samples = countOr(row.body, "samples");
         info.simulated = flagOr(row.body, "simulated");
+        info.sealed = row.sealed;
         for (const auto& channel : valueOr(row.body, "channels")) info.channels.push_back(textOr(channel, "name"));
         captures.push_back(std::move(info));
     });
@@ -197,19 +260,24 @@ Result<std::vector<SessionCaptureInfo>> SessionReader::captures() const {
 }
 
 Result<Capture> SessionReader::capture(std::int64_t seq) const {
+    if (auto open = state_->unlocked("the captures"); !open) return failure(open);
     auto rows = state_->source.database().prepare(
-        "SELECT e.body, c.data FROM captures c JOIN entries e ON e.seq = c.seq WHERE c.seq=?");
+        "SELECT e.body, c.data, e.t_ns FROM captures c JOIN entries e ON e.seq = c.seq WHERE c.seq=?");
     if (!rows) return failure(rows);
     rows->bind(1, seq);
     auto found = rows->step();
     if (!found) return failure(found);
     if (!*found) return fail(ErrorCode::NotFound, "row {} of the session is not a capture", seq);
-    const auto body = parsed(rows->text(0), seq);
-    if (!body) return failure(body);
-    return unpackCapture(*body, rows->blob(1));
+    const auto row = state_->row(seq, kind::kCapture, Instant(rows->integer(2)), "", rows->text(0));
+    if (!row) return failure(row);
+    if (!state_->source.sealed()) return unpackCapture(row->body, rows->blob(1));
+    const auto opened = openedBulk(*state_->seal, seq, kind::kCapture, rows->blob(1));
+    if (!opened) return failure(opened);
+    return unpackCapture(row->body, *opened);
 }
 
 Result<std::vector<SessionStreamInfo>> SessionReader::streams() const {
+    if (auto open = state_->unlocked("the samples"); !open) return failure(open);
     auto streams = state_->declared();
     if (!streams) return streams;
     for (auto& info : *streams) {
@@ -240,12 +308,14 @@ Result<SampleBlock> SessionReader::samples(int stream) const {
 }
 
 Result<void> SessionReader::forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const {
+    if (auto open = state_->unlocked("the samples"); !open) return failure(open);
     const auto info = state_->stream(stream);
     if (!info) return failure(info);
     return state_->forEachChunk(*info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block); });
 }
 
 Result<std::string> SessionReader::reproducibleText() const {
+    if (auto open = state_->unlocked("the rows"); !open) return failure(open);
     std::string text = dumpJson(reproducible(state_->about)) + "\n";
     auto rows = state_->source.database().prepare(
         "SELECT seq, kind, t_ns, name, body, digest FROM entries "
@@ -255,8 +325,16 @@ Result<std::string> SessionReader::reproducibleText() const {
         auto more = rows->step();
         if (!more) return failure(more);
         if (!*more) return text;
-        text += fmt::format("{} {} {} {} {} {}\n", rows->integer(0), rows->text(1), rows->integer(2), rows->text(3),
-                            rows->text(4), hexOf(rows->blob(5)));
+        if (!state_->source.sealed()) {
+            text += fmt::format("{} {} {} {} {} {}\n", rows->integer(0), rows->text(1), rows->integer(2), rows->text(3),
+                                rows->text(4), hexOf(rows->blob(5)));
+            continue;
+        }
+        const auto row = state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3),
+                                     rows->text(4));
+        if (!row) return failure(row);
+        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which differs.
+        text += fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
     }
 }
 

@@ -1,5 +1,8 @@
 // SessionReader.h - gives back what a session file holds. Never changes the file.
 //
+// Of a sealed session (SealedRow.h) a reader without its key gives the rows that there are, marked as sealed, with what
+// they show; what cannot be given at all (samples, captures) is refused as Unsupported.
+//
 // A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut. An
 // older schema is migrated in a private copy. Reading does not judge: that is verifySession(), SessionVerify.h.
 //
@@ -16,6 +19,7 @@
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
 #include "core/measure/Capture.h"
+#include "core/session/RowSeal.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -23,12 +27,17 @@ namespace tacto {
 class SessionReader {
 public:
     /// Errors: NotFound; Unsupported for a file that is not a session or was made by a newer program; ParseError for
-    /// one that is damaged beyond opening; Io.
-    [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path);
+    /// one that is damaged beyond opening, or that `seal` does not open; Io.
+    [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path,
+                                                    std::shared_ptr<const RowSeal> seal = nullptr);
     SessionReader(SessionReader&&) noexcept;
     SessionReader& operator=(SessionReader&&) noexcept;
     ~SessionReader();
 
+    /// Whether its rows are sealed (SealedRow.h).
+    [[nodiscard]] bool sealed() const noexcept;
+    /// True when its rows are sealed and no key was given: about() lacks parameters, seed and profile then.
+    [[nodiscard]] bool locked() const noexcept;
     [[nodiscard]] const SessionAbout& about() const noexcept;
     /// True when the session was closed in order; false after a crash, or while it is still being written.
     [[nodiscard]] bool closed() const noexcept;
@@ -37,7 +46,8 @@ public:
     [[nodiscard]] const std::string& chainHead() const noexcept;
     /// When the recording's last row was written: how long the session is.
     [[nodiscard]] Instant lastAt() const noexcept;
-    /// As entered before it began, with what was changed since. Errors: as the lists.
+    /// As entered before it began, with what was changed since; the note reads "sealed" where they are. Errors: as the
+    /// lists.
     [[nodiscard]] Result<SessionLabels> labels() const;
 
     // Each list is in the order written. Errors: ParseError naming the row; Io.

@@ -107,17 +107,18 @@ Result<SessionSource> SessionSource::open(const std::filesystem::path& path) {
     }
     const auto version = source->database().number("PRAGMA user_version");
     if (!version) return failure(version);
-    if (*version < kSchemaVersion || *version > kAnnotatedVersion) {
+    if (*version < kSchemaVersion || *version > kNewestVersion) {
         if (*version < kSchemaVersion) source = openCopy(path);
-        if (*version > kAnnotatedVersion || !source) {
+        if (*version > kNewestVersion || !source) {
             return fail(ErrorCode::Unsupported, "{} cannot be read: {}", path.string(),
-                        *version > kAnnotatedVersion
+                        *version > kNewestVersion
                             ? fmt::format("it has session format {}, made by a newer Tactoscope; this program reads up "
                                           "to {}",
-                                          *version, kAnnotatedVersion)
+                                          *version, kNewestVersion)
                             : source.error().message);
         }
     }
+    source->sealed_ = *version == kSealedVersion;
     source->hadJournal_ = journal && std::filesystem::file_size(beside(path, "-wal"), error) > 32;
     return source;
 }

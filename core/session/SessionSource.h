@@ -28,6 +28,8 @@ public:
     [[nodiscard]] const Database& database() const noexcept { return database_; }
     /// True when rows lay in a journal: the writer was killed, or still runs.
     [[nodiscard]] bool hadJournal() const noexcept { return hadJournal_; }
+    /// True when its rows are sealed (SealedRow.h).
+    [[nodiscard]] bool sealed() const noexcept { return sealed_; }
 
 private:
     /// A folder that goes with its last owner.
@@ -45,6 +47,7 @@ private:
     std::shared_ptr<PrivateFolder> copy_;  // Before database_: removed after it is closed
     Database database_;
     bool hadJournal_ = false;
+    bool sealed_ = false;
 };
 
 }  // namespace tacto

@@ -8,6 +8,7 @@
 
 #include "core/session/Durable.h"
 #include "core/session/Schema.h"
+#include "core/session/SealedRow.h"
 
 namespace tacto {
 
@@ -53,7 +54,8 @@ Result<SessionStore> SessionStore::attach(Database database) {
     return SessionStore(std::move(database), Statements{std::move(*entry), std::move(*chunk), std::move(*capture)});
 }
 
-Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Instant at, std::string_view about) {
+Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Instant at, std::string_view about,
+                                          std::shared_ptr<const RowSeal> seal) {
     for (const char* suffix : {"", "-wal"}) {
         const auto taken = withSuffix(path, suffix);
         if (std::filesystem::exists(taken)) {
@@ -71,8 +73,13 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         if (!database) return failure(database);
         if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced as a whole
         if (auto schema = createSchema(*database); !schema) return failure(schema);
+        if (seal != nullptr) {
+            auto set = database->execute(fmt::format("PRAGMA user_version={}", kSealedVersion));
+            if (!set) return failure(set);
+        }
         auto store = attach(std::move(*database));
         if (!store) return failure(store);
+        store->seal_ = seal;
         if (auto row = store->add(kind::kAbout, at, "", about); !row) return failure(row);
         if (auto written = store->commit(); !written) return failure(written);
         // Without it the rows would be in the draft's journal, which is not published.
@@ -87,6 +94,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         if (!opened) return failure(opened);
         opened->head_ = store->head_;
         opened->seq_ = store->seq_;
+        opened->seal_ = seal;
         return opened;
     }();
     removeDraft(draft);
@@ -95,11 +103,17 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
 }
 
 Result<SessionStore> SessionStore::annotate(const std::filesystem::path& path) {
+    auto store = continued(path);
+    if (!store) return store;
+    auto set = store->database_->execute(fmt::format("PRAGMA user_version={}", kAnnotatedVersion));
+    if (!set) return failure(set);
+    return store;
+}
+
+Result<SessionStore> SessionStore::continued(const std::filesystem::path& path) {
     auto database = Database::open(path.string(), SQLITE_OPEN_READWRITE);
     if (!database) return failure(database);
-    if (auto set = database->execute(fmt::format("PRAGMA synchronous=FULL; PRAGMA user_version={}", kAnnotatedVersion));
-        !set)
-        return failure(set);
+    if (auto set = database->execute("PRAGMA synchronous=FULL"); !set) return failure(set);
     Digest head;
     std::int64_t seq = 0;
     {
@@ -165,12 +179,27 @@ Result<void> SessionStore::begin(Durability durability) {
     return written;
 }
 
-SessionStore::Row SessionStore::seal(std::string_view kind, Instant at, std::string_view name, std::string_view body,
+SessionStore::Row SessionStore::chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                                      const std::optional<Digest>& digest) {
     const Digest hash = chainHash(head_, {seq_ + 1, kind, at.count(), name, body, digest});
     Row row{seq_ + 1, at, kind, name, body, digest, head_, hash};
     head_ = hash;
     ++seq_;
+    return row;
+}
+
+Result<SessionStore::Row> SessionStore::put(std::string_view kind, Instant at, std::string_view name,
+                                            std::string_view body, const std::optional<Digest>& digest) {
+    OutsideRow outside;
+    if (seal_ != nullptr) {
+        outside = sealedRow(*seal_, seq_ + 1, kind, at, name, body);
+        at = outside.at;
+        name = outside.name;
+        body = outside.body;
+    }
+    auto row = chain(kind, at, name, body, digest);
+    if (auto written = write(row); !written) return failure(written);
+    row.name = row.body = {};  // they go with `outside`
     return row;
 }
 
@@ -196,12 +225,13 @@ Result<void> SessionStore::write(const QueuedChunk& chunk) {
     insert.bind(1, chunk.row.seq);
     insert.bind(2, std::int64_t{chunk.head.stream});
     insert.bind(3, chunk.head.index);
-    if (chunk.head.line) {
+    if (chunk.head.line || seal_ != nullptr) {
         insert.bindNull(4);
     } else {
         insert.bind(4, std::as_bytes(std::span(chunk.block.t_s)));
     }
-    insert.bind(5, std::as_bytes(std::span(chunk.block.values)));
+    insert.bind(5, seal_ != nullptr ? std::span<const std::byte>(chunk.sealed)
+                                    : std::as_bytes(std::span(chunk.block.values)));
     if (auto ran = insert.run(); !ran) return ran;
     auto row = chunk.row;
     row.body = chunk.body;  // the string may have moved since it was sealed
@@ -218,18 +248,18 @@ Result<void> SessionStore::writeAll(const std::vector<QueuedChunk>& chunks) {
 Result<std::int64_t> SessionStore::add(std::string_view kind, Instant at, std::string_view name,
                                        std::string_view body) {
     if (auto begun = begin(background_); !begun) return failure(begun);
-    const auto row = seal(kind, at, name, body, std::nullopt);
-    if (auto written = write(row); !written) return failure(written);
-    return row.seq;
+    const auto row = put(kind, at, name, body);
+    if (!row) return failure(row);
+    return row->seq;
 }
 
 Result<std::int64_t> SessionStore::addNow(std::string_view kind, Instant at, std::string_view name,
                                           std::string_view body) {
     if (auto begun = begin(Durability::PowerLoss); !begun) return failure(begun);
-    const auto row = seal(kind, at, name, body, std::nullopt);
-    if (auto written = write(row); !written) return failure(written);
+    const auto row = put(kind, at, name, body);
+    if (!row) return failure(row);
     if (auto done = commit(); !done) return failure(done);
-    return row.seq;
+    return row->seq;
 }
 
 void SessionStore::queueChunk(Instant at, ChunkHead head, SampleBlock& block) {
@@ -240,7 +270,15 @@ void SessionStore::queueChunk(Instant at, ChunkHead head, SampleBlock& block) {
     head.crc = crc32(parts);
     chunk.head = head;
     chunk.body = toJsonText(head);
-    chunk.row = seal(kind::kChunk, at, "", chunk.body, bulkDigest(parts));
+    if (seal_ == nullptr) {
+        chunk.row = chain(kind::kChunk, at, "", chunk.body, bulkDigest(parts));
+    } else {
+        chunk.sealed = sealedBulk(*seal_, seq_ + 1, kind::kChunk, parts);
+        auto outside = sealedRow(*seal_, seq_ + 1, kind::kChunk, at, "", chunk.body);
+        chunk.body = std::move(outside.body);
+        const std::span<const std::byte> stored[] = {chunk.sealed};
+        chunk.row = chain(kind::kChunk, outside.at, "", chunk.body, bulkDigest(stored));
+    }
     std::swap(chunk.block, block);
     queued_.push_back(std::move(chunk));
     if (!spare_.empty()) {
@@ -252,13 +290,22 @@ void SessionStore::queueChunk(Instant at, ChunkHead head, SampleBlock& block) {
 Result<std::int64_t> SessionStore::addCapture(Instant at, std::string_view body, const Digest& digest,
                                               std::span<const std::byte> data) {
     if (auto begun = begin(background_); !begun) return failure(begun);
-    const auto row = seal(kind::kCapture, at, "", body, digest);
+    std::vector<std::byte> sealed;
+    auto stored = digest;
+    if (seal_ != nullptr) {
+        const std::span<const std::byte> parts[] = {data};
+        sealed = sealedBulk(*seal_, seq_ + 1, kind::kCapture, parts);
+        const std::span<const std::byte> outside[] = {sealed};
+        stored = bulkDigest(outside);
+        data = sealed;
+    }
     auto& insert = statements_->capture;
-    insert.bind(1, row.seq);
+    insert.bind(1, seq_ + 1);
     insert.bind(2, data);
     if (auto ran = insert.run(); !ran) return failure(ran);
-    if (auto written = write(row); !written) return failure(written);
-    return row.seq;
+    const auto row = put(kind::kCapture, at, "", body, stored);
+    if (!row) return failure(row);
+    return row->seq;
 }
 
 Result<void> SessionStore::commit() {

@@ -18,6 +18,7 @@
 #include "core/session/Chunk.h"
 #include "core/session/CommitThread.h"
 #include "core/session/Database.h"
+#include "core/session/RowSeal.h"
 
 namespace tacto {
 
@@ -28,11 +29,14 @@ public:
 
     /// Makes the file with `about` (JSON) as row 1. See SessionWriter::create().
     [[nodiscard]] static Result<SessionStore> create(const std::filesystem::path& path, Instant at,
-                                                     std::string_view about);
+                                                     std::string_view about,
+                                                     std::shared_ptr<const RowSeal> seal = nullptr);
 
     /// Opens a session that no one writes, to add annotations after its last row. Errors: ParseError for one that is
     /// damaged; Io.
     [[nodiscard]] static Result<SessionStore> annotate(const std::filesystem::path& path);
+    /// Opens a file that no one writes, to add rows after its last one (core/session/Ledger.h). Errors: as annotate().
+    [[nodiscard]] static Result<SessionStore> continued(const std::filesystem::path& path);
 
     /// What commit() promises for rows that were not added by addNow(). PowerLoss unless set.
     void setBackground(Durability durability) noexcept { background_ = durability; }
@@ -83,7 +87,8 @@ private:
     struct QueuedChunk {
         ChunkHead head;
         SampleBlock block;
-        std::string body;  // What row.body looks at
+        std::vector<std::byte> sealed;  // In place of the block, where rows are sealed
+        std::string body;               // What row.body looks at
         Row row;
     };
 
@@ -91,8 +96,11 @@ private:
         : database_(std::move(database)), statements_(std::move(statements)) {}
     [[nodiscard]] static Result<SessionStore> attach(Database database);
     /// Gives a row its number and hash.
-    [[nodiscard]] Row seal(std::string_view kind, Instant at, std::string_view name, std::string_view body,
+    [[nodiscard]] Row chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                            const std::optional<Digest>& digest);
+    /// The same, sealed where rows are, and writes it.
+    [[nodiscard]] Result<Row> put(std::string_view kind, Instant at, std::string_view name, std::string_view body,
+                                  const std::optional<Digest>& digest = std::nullopt);
     [[nodiscard]] Result<void> write(const Row& row);
     [[nodiscard]] Result<void> write(const QueuedChunk& chunk);
     [[nodiscard]] Result<void> writeAll(const std::vector<QueuedChunk>& chunks);
@@ -106,9 +114,10 @@ private:
 
     std::optional<Database> database_;      // Nothing once closed
     std::optional<Statements> statements_;  // After database_: destroyed before it
+    std::shared_ptr<const RowSeal> seal_;    // Null: rows are stored as they are
     Digest head_{};
     std::int64_t seq_ = 0;
-    std::vector<QueuedChunk> queued_;   // Sealed, not yet written
+    std::vector<QueuedChunk> queued_;   // In the chain, not yet written
     std::vector<QueuedChunk> written_;  // Being written by committing_
     std::vector<SampleBlock> spare_;    // Empty, with room: keeps a steady state from allocating
     bool inTransaction_ = false;

@@ -98,6 +98,7 @@ struct SessionRow {
     Instant at{0};
     std::string name;     ///< event kind, command, measured quantity; a log line's level
     nlohmann::json body;  ///< a log line's text is body["text"]
+    bool sealed = false;  ///< and there is no key: name and body hold what is shown (SealedRow.h)
 };
 
 struct SessionTrial {
@@ -106,6 +107,7 @@ struct SessionTrial {
     Instant at{0};
     std::string condition;
     nlohmann::json measured;
+    bool sealed = false;  ///< as SessionRow's; the condition reads "sealed"
 };
 
 struct SessionVerdict {
@@ -115,6 +117,7 @@ struct SessionVerdict {
     std::string verdict;  ///< "pass", "fail", "indeterminate", "stopped"; "none": found, and not judged
     std::vector<std::string> reasons;
     nlohmann::json results;
+    bool sealed = false;  ///< as SessionRow's; subject and verdict read "sealed"
 };
 
 /// A capture without its samples; SessionReader::capture(seq) reads those.
@@ -126,6 +129,7 @@ struct SessionCaptureInfo {
     std::uint64_t samples = 0;
     std::vector<std::string> channels;
     bool simulated = false;
+    bool sealed = false;  ///< as SessionRow's; only seq, at and trial are known
 };
 
 }  // namespace tacto

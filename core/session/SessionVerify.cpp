@@ -40,7 +40,8 @@ struct StreamSeen {
 /// One pass over the rows, in the order they were written.
 class Inspection {
 public:
-    Inspection(const Database& database, VerifyReport& report) : database_(database), report_(report) {}
+    Inspection(const Database& database, bool sealed, VerifyReport& report)
+        : database_(database), sealed_(sealed), report_(report) {}
 
     [[nodiscard]] Result<void> run() {
         if (auto done = checkPages(); !done) return done;
@@ -131,6 +132,9 @@ private:
             previous = stored.value_or(hash);
             const auto body = parseJson(entry.body, fmt::format("row {} ({})", entry.seq, entry.kind), kRowLimits);
             if (!body) problem("{}", body.error().message);
+            if (sealed_ && entry.t_ns % 1'000'000'000 != 0)
+                problem("row {} ({}) tells its time finer than a second", entry.seq, entry.kind);
+            if (sealed_ && body && body->is_object() && body->contains("sealed")) ++sealedRows_;
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             if (annotates) {
@@ -147,6 +151,9 @@ private:
                 fmt::format("Operator, sample, tags or note were changed {} {} after the recording ended.",
                             annotations_, annotations_ == 1 ? "time" : "times"));
         report_.closed = lastKind == kind::kEnd;
+        if (sealed_)
+            report_.notes.push_back(fmt::format(
+                "{} of its rows are sealed: that they are those recorded is known, what they say is not.", sealedRows_));
         return {};
     }
 
@@ -167,7 +174,7 @@ private:
             }
         } else if (entry.kind == kind::kChunk) {
             ++report_.chunks;
-            return checkChunk(entry, chunk);
+            return sealed_ ? checkSealedChunk(entry, body, chunk) : checkChunk(entry, chunk);
         } else if (entry.kind == kind::kCapture) {
             ++report_.captures;
             return checkCapture(entry, body, capture);
@@ -223,6 +230,33 @@ private:
         return {};
     }
 
+    /// How many samples it holds is sealed too.
+    [[nodiscard]] Result<void> checkSealedChunk(const Entry& entry, const nlohmann::json& body, Statement& row) {
+        const auto number = countOr(body, "stream");
+        const auto index = static_cast<std::int64_t>(countOr(body, "index"));
+        if (number < 1 || number > streams_.size()) {
+            problem("row {} holds samples of stream {}, which is not declared", entry.seq, number);
+            return {};
+        }
+        auto& stream = streams_[number - 1];
+        const auto name = fmt::format("chunk {} of stream '{}'", index, stream.name);
+        if (index != stream.nextIndex) problem("{} follows chunk {}: samples are missing", name, stream.nextIndex - 1);
+        stream.nextIndex = index + 1;
+        row.reset();
+        row.bind(1, entry.seq);
+        auto there = row.step();
+        if (!there) return failure(there);
+        if (!*there) {
+            problem("the samples of {} are missing", name);
+            return {};
+        }
+        if (row.integer(0) != static_cast<std::int64_t>(number) || row.integer(1) != index || !row.isNull(2))
+            problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
+        const std::span<const std::byte> parts[] = {row.blob(3)};
+        if (entry.digest != bulkDigest(parts)) problem("the samples of {} were altered: their hash is wrong", name);
+        return {};
+    }
+
     [[nodiscard]] Result<void> checkCapture(const Entry& entry, const nlohmann::json& body, Statement& row) {
         if (countOr(body, "trial") > report_.trials) {
             problem("capture {} belongs to trial {}, which is missing", entry.seq, countOr(body, "trial"));
@@ -236,8 +270,9 @@ private:
             return {};
         }
         const std::span<const std::byte> parts[] = {row.blob(0)};
-        if (crc32(parts) != countOr(body, "crc32")) problem("capture {} does not match its CRC-32", entry.seq);
         if (entry.digest != bulkDigest(parts)) problem("capture {} was altered: its hash is wrong", entry.seq);
+        if (sealed_) return {};
+        if (crc32(parts) != countOr(body, "crc32")) problem("capture {} does not match its CRC-32", entry.seq);
         if (auto unpacked = unpackCapture(body, parts[0]); !unpacked) {
             problem("capture {}: {}", entry.seq, unpacked.error().message);
         }
@@ -256,10 +291,12 @@ private:
     }
 
     const Database& database_;
+    const bool sealed_;
     VerifyReport& report_;
     std::vector<StreamSeen> streams_;
     Digest head_{};  // of the recording: without annotations
     int annotations_ = 0;
+    std::uint64_t sealedRows_ = 0;
     SampleBlock scratch_;
     std::size_t found_ = 0;
 };
@@ -281,7 +318,7 @@ Result<VerifyReport> verifySession(const std::filesystem::path& path) {
         report.problems.push_back(error.message);
         return report;
     }
-    Inspection inspection(source->database(), report);
+    Inspection inspection(source->database(), source->sealed(), report);
     if (auto done = inspection.run(); !done) {
         if (done.error().code != ErrorCode::ParseError) return failure(done);
         inspection.problem("the database is damaged: {}", done.error().message);

@@ -119,14 +119,14 @@ SessionWriter::SessionWriter(std::unique_ptr<State> state) : state_(std::move(st
 SessionWriter::~SessionWriter() { static_cast<void>(close("left open by the program")); }
 
 Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesystem::path& path, SessionAbout about,
-                                                             const Clock& clock) {
+                                                             const Clock& clock, std::shared_ptr<const RowSeal> seal) {
     if (about.wallStart.empty()) {
         about.wallStart = wallTimeUtc();
         about.wallStartAt = clock.now();
     }
     if (about.profileSha256.empty()) about.profileSha256 = sha256Hex(about.profileJson);
     about.virtualClock = clock.isVirtual();
-    auto store = SessionStore::create(path, clock.now(), dumpJson(toJson(about)));
+    auto store = SessionStore::create(path, clock.now(), dumpJson(toJson(about)), std::move(seal));
     if (!store) return failure(store);
     return std::unique_ptr<SessionWriter>(new SessionWriter(std::make_unique<State>(path, clock, std::move(*store))));
 }

@@ -26,6 +26,7 @@
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
 #include "core/measure/Capture.h"
+#include "core/session/RowSeal.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -33,10 +34,12 @@ namespace tacto {
 class SessionWriter {
 public:
     /// Makes the file, with `about` as its first row. A crash inside leaves no session or a valid one.
-    /// `clock` is the session's and must outlive the writer.
+    /// `clock` is the session's and must outlive the writer. With a `seal`, what the rows say is stored sealed
+    /// (SealedRow.h).
     /// Errors: InvalidArgument when `path` exists (never overwritten); Io naming the path and the reason.
     [[nodiscard]] static Result<std::unique_ptr<SessionWriter>> create(const std::filesystem::path& path,
-                                                                       SessionAbout about, const Clock& clock);
+                                                                       SessionAbout about, const Clock& clock,
+                                                                       std::shared_ptr<const RowSeal> seal = nullptr);
     /// Closes as close() does, where that was not called.
     ~SessionWriter();
     SessionWriter(const SessionWriter&) = delete;

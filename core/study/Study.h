@@ -27,6 +27,7 @@
 #include "core/seal/Passphrase.h"
 #include "core/seal/Secret.h"
 #include "core/session/RowSeal.h"
+#include "core/session/SessionTypes.h"
 #include "core/study/Gates.h"
 #include "core/study/Participant.h"
 #include "core/study/StudySettings.h"
@@ -100,8 +101,8 @@ public:
 
     /// Makes the study's folder and key file; `settings.id` and the approval's protocolSha256 are filled in.
     /// A lost passphrase is lost data: the caller says so. Blocks about a second (Argon2id).
-    /// Errors: InvalidArgument for settings that are not accepted, an empty passphrase, or a folder that holds
-    /// something; Io.
+    /// Errors: InvalidArgument for settings that are not accepted; Unsupported for a folder that holds something, or
+    /// that the key folder lies in; Io.
     [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
                                               const Passphrase& passphrase);
     [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
@@ -150,6 +151,8 @@ public:
     /// Errors: kGateRefused when the approval's participants are all enrolled; InvalidArgument for a code that is
     /// taken.
     [[nodiscard]] Result<Participant> enrol(Participant participant);
+    /// In a rehearsal: the virtual participant of that seed, enrolled and consented by itself where it is not there yet.
+    [[nodiscard]] Result<Participant> admitVirtual(std::uint64_t seed);
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
     /// The participant takes part no more; the data stay.
     [[nodiscard]] Result<void> leave(std::string_view code);
@@ -169,6 +172,9 @@ public:
     /// What opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;
+    /// The events of all parts of a session, in order, opened: what resuming, results and exports go by. A part whose
+    /// file was never made has none. Errors: as sealOf() and SessionReader.
+    [[nodiscard]] Result<std::vector<SessionRow>> events(const StudySession& session) const;
 
     /// Under the study's key: survives a withdrawal.
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);

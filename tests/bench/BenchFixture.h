@@ -45,6 +45,7 @@ protected:
         config.today = today_;
         config.person = person_;
         config.mode = person_ ? OutputMode::Person : OutputMode::BenchLoad;
+        config.virtualParticipant = person_.has_value();  // the devices are simulated
         auto bench = Bench::create(std::move(config));
         ASSERT_TRUE(bench) << bench.error().message;
         bench_ = std::move(*bench);

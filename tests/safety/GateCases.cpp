@@ -85,6 +85,8 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         "a hundredth");
     add(PersonDiscomfort, person([](auto& s) { s.person->discomfortLimit = Milliamps(0); }), "discomfort limit");
     add(PersonRampStep, person([](auto& s) { s.person->rampStep = Milliamps(kNaN); }), "ramp step");
+    add(PersonCap, person([](auto& s) { s.person->cap = Milliamps(0); }), "the study's cap is 0 mA");
+    add(PersonCap, person([](auto& s) { s.person->cap = Milliamps(kNaN); }), "the study's cap");
     add(PersonImpedanceBounds, person([](auto& s) { s.person->impedanceLow = Ohms(20'000); }), "impedance range");
     add(PersonVoltageSource, person([](auto& s) { s.source = voltageSource(); }), "voltage source is refused");
     add(PersonMonophasicCheck, person([](auto& s) { s.check.shape = PulseShape::Monophasic; }), "monophasic check");

@@ -207,6 +207,12 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         return one.permits(milliamps(0.3)).has_value() &&
                refuses(one.permits(milliamps(0.31)), ErrorCode::LimitExceeded, "discomfort limit");
     });
+    add(LevelCap, "a level above the study's cap", [] {
+        AcceptedLevels one;
+        one.begin(Milliamps(5), Milliamps(0.5), Milliamps(0.2));
+        return one.permits(milliamps(0.2)).has_value() && one.ceilingFor(milliamps(0.2)) == Milliamps(0.2) &&
+               refuses(one.permits(milliamps(0.3)), ErrorCode::LimitExceeded, "the study's cap is 0.2 mA");
+    });
     add(LevelRamp, "a level above the ramp",
         [=] { return refuses(levels().permits(milliamps(0.51)), ErrorCode::LimitExceeded, "ramp rule"); });
     add(LevelAccept, "accepting a level that was not permitted", [=] {

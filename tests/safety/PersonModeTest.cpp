@@ -167,6 +167,19 @@ TEST(PersonMode, LevelsAreNotAcceptedOnABenchLoad) {
     EXPECT_FALSE(rig.gate.levelCeiling(milliamps(1)));
 }
 
+TEST(AcceptedLevels, ALimitPermitsItsOwnLevelOnTheDeviceGrid) {
+    RecordProperty("hazard", "H6");
+    for (int k = 1; k <= 260; ++k) {
+        const double level = 0.5 * k;
+        AcceptedLevels levels;
+        levels.begin(Milliamps(level), Milliamps(1000));
+        EXPECT_TRUE(levels.permits(milliamps(level))) << level;
+        levels.begin(Milliamps(1000), Milliamps(1000), Milliamps(level));
+        EXPECT_TRUE(levels.permits(milliamps(level))) << level;
+        EXPECT_FALSE(levels.permits(milliamps(level + 0.5))) << level;
+    }
+}
+
 TEST(AcceptedLevels, DecimalStepsMeetTheirCeiling) {
     AcceptedLevels levels;
     levels.begin(Milliamps(5), Milliamps(0.1));

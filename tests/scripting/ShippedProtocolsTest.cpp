@@ -28,8 +28,27 @@ std::vector<std::string> shippedNames() {
 
 TEST(ShippedProtocols, AreThoseThatShouldBe) {
     EXPECT_EQ(shippedNames(),
-              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager", "sensor-calibration",
+              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager",
+                                        "pilot-identification", "pilot-thresholds", "sensor-calibration",
                                         "separability", "stimulator-calibration", "transitions", "variation"}));
+}
+
+/// Sessions of a study need one: tests/cli/PilotTest.cpp runs them.
+std::vector<std::string> namesWithoutStudy() {
+    auto names = shippedNames();
+    std::erase_if(names, [](const std::string& name) { return name.starts_with("pilot-"); });
+    return names;
+}
+
+TEST(ShippedProtocols, OfAStudyAreRefusedWithoutOne) {
+    for (const auto* name : {"pilot-thresholds", "pilot-identification"}) {
+        RunBench rig;
+        const auto outcome = runShipped(rig, name, {});
+        ASSERT_TRUE(outcome.error) << name;
+        EXPECT_NE(outcome.error->message.find("in a session of a study only"), std::string::npos)
+            << outcome.error->message;
+        EXPECT_TRUE(rig.outputOff());
+    }
 }
 
 class EveryShippedProtocol : public ::testing::TestWithParam<std::string> {};
@@ -54,11 +73,12 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     EXPECT_GE(reader.reportItems().value().size(), 2U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(shippedNames()), [](const auto& tested) {
-    std::string name = tested.param;
-    std::replace(name.begin(), name.end(), '-', '_');  // no test's name may hold one
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(namesWithoutStudy()),
+                         [](const auto& tested) {
+                             std::string name = tested.param;
+                             std::replace(name.begin(), name.end(), '-', '_');  // no test's name may hold one
+                             return name;
+                         });
 
 TEST(Separability, OfTheSimulatedFingerPasses) {
     RunBench rig;

@@ -60,5 +60,6 @@ struct HostFunction {
 [[nodiscard]] std::vector<HostFunction> plotFunctions();
 [[nodiscard]] std::vector<HostFunction> reportFunctions();
 [[nodiscard]] std::vector<HostFunction> randomFunctions();
+[[nodiscard]] std::vector<HostFunction> pilotFunctions();
 
 }  // namespace tacto

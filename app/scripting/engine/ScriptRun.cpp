@@ -14,6 +14,7 @@
 #include "app/scripting/engine/MemoryGuard.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/engine/ScriptThread.h"
+#include "core/pilot/PilotSession.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -141,6 +142,7 @@ void ScriptRun::State::stop(const char* by) noexcept {
     }
     woken.notify_all();
     if (request.operatorDesk != nullptr) request.operatorDesk->cancel();
+    if (request.pilot != nullptr) request.pilot->cancel();
     thread->interrupt();
 }
 

@@ -31,6 +31,7 @@
 namespace tacto {
 
 class Bench;
+class PilotSession;
 class SessionWriter;
 
 /// How far a progress(list, label) loop is.
@@ -54,6 +55,7 @@ struct RunRequest {
     Bench* bench = nullptr;            ///< not used elsewhere until the run is over, stop() apart
     StopMark asked = {};               ///< of the bench's stops(): when the operator asked for the run
     SessionWriter* session = nullptr;  ///< null records nothing
+    PilotSession* pilot = nullptr;     ///< what the object `pilot` works on; null: there is none
     /// What owns the two, held for as long as the script's thread runs: an abandoned one may never end. Null: they
     /// outlive the thread anyhow.
     std::shared_ptr<void> owner = nullptr;

@@ -20,6 +20,11 @@ ScriptSession::ScriptSession(const RunRequest& request) : request_(request), ran
     if (request.bench != nullptr) chosen_ = request.bench->profile();
 }
 
+Result<PilotSession*> ScriptSession::pilot() {
+    if (request_.pilot != nullptr) return request_.pilot;
+    return fail(ErrorCode::Unsupported, "this runs in a session of a study only; --out names its folder");
+}
+
 Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
     if (request_.operatorDesk == nullptr) {
         return fail(ErrorCode::NotFound, "this run has no operator to answer \"{}\"; give --set {}=...", question.text,

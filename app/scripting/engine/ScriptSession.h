@@ -24,6 +24,7 @@
 #include "core/base/Random.h"
 #include "core/bench/Bench.h"
 #include "core/measure/InstrumentStatement.h"
+#include "core/pilot/PilotSession.h"
 
 namespace tacto {
 
@@ -36,6 +37,8 @@ public:
 
     [[nodiscard]] Bench& bench() noexcept { return *request_.bench; }
     [[nodiscard]] ScopeSeen& scopeSeen() noexcept { return scopeSeen_; }
+    /// Errors: Unsupported outside a session of a study.
+    [[nodiscard]] Result<PilotSession*> pilot();
     [[nodiscard]] SessionWriter* writer() noexcept { return request_.session; }
     [[nodiscard]] Random& random() noexcept { return random_; }
     [[nodiscard]] Instant now() const { return request_.bench->clock().now(); }

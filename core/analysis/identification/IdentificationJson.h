@@ -15,8 +15,8 @@
 namespace tacto {
 
 /// {"labels", "columns", "confusion", "n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits",
-/// "it_corrected_bits", "texture", "pressure", "catch", "no_answer", "blocks", "shares", "learning", "sequence"}.
-/// The caller adds what it alone knows: participant, parts, range, drift, predicted, ...
+/// "it_corrected_bits", "texture", "pressure", "catch", "no_answer", "blocks", "shares", "learning", "sequence",
+/// "median_rt_s"}. The caller adds what it alone knows: participant, parts, range, drift, predicted, ...
 [[nodiscard]] nlohmann::json toJson(const Identification& found);
 /// {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits"}
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
@@ -27,9 +27,9 @@ namespace tacto {
 /// {"people", "accuracy": {"median", "min", "max"}, "it_corrected_bits", "above_chance": {"k", "n", "share",
 /// "prevalence", "prevalence_at_least"}}
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);
-/// {"encodings", "pairs": [{"a", "b", "difference"}], "order", "preferred"}
+/// {"encodings", "pairs": [{"a", "b", "difference"}], "preferred"}
 [[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);
-/// {"sessions": [...], "trend", "smallest_change"}
+/// {"sessions", "against_first", "trend_per_day", "smallest_change"}
 [[nodiscard]] nlohmann::json toJson(const OverSessions& sessions);
 
 }  // namespace tacto

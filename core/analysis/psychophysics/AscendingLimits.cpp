@@ -31,7 +31,7 @@ Result<StrengthWord> strengthWordFrom(std::string_view text) {
 }
 
 Result<AscendingLimits> AscendingLimits::create(const LevelGrid& grid, std::uint64_t seed) {
-    if (grid.unit() == LevelUnit::Milliamps && grid.step() > kLargestRise_ma) {
+    if (grid.unit() == LevelUnit::Current && grid.step() > kLargestRise_ma) {
         return fail(ErrorCode::InvalidArgument,
                     "levels would rise by the device's step of {} mA; at most {} mA at a time is accepted", grid.step(),
                     kLargestRise_ma);
@@ -65,7 +65,7 @@ void AscendingLimits::chooseEmptyPlace() {
 
 std::size_t AscendingLimits::above(std::size_t index) const noexcept {
     double rise = kRise * grid_.level(index);
-    if (grid_.unit() == LevelUnit::Milliamps) rise = std::min(rise, kLargestRise_ma);
+    if (grid_.unit() == LevelUnit::Current) rise = std::min(rise, kLargestRise_ma);
     return std::min(index + std::max<std::size_t>(1, grid_.atOrBelow(rise)), ceiling_);
 }
 

@@ -59,7 +59,7 @@ std::size_t LevelGrid::nearest(double value) const noexcept {
 }
 
 std::string LevelGrid::textOf(double level) const {
-    return unit_ == LevelUnit::Milliamps ? fmt::format("{:.4g} mA", level) : fmt::format("intensity {:.4g}", level);
+    return unit_ == LevelUnit::Current ? fmt::format("{:.4g} mA", level) : fmt::format("intensity {:.4g}", level);
 }
 
 }  // namespace tacto

@@ -17,7 +17,7 @@
 
 namespace tacto {
 
-enum class LevelUnit { Milliamps, Intensity };
+enum class LevelUnit { Current, Intensity };
 
 /// What keeps levels from being higher.
 enum class LevelLimit {
@@ -27,7 +27,7 @@ enum class LevelLimit {
     TooStrong,     ///< the participant called a level too strong
     Confirmation,  ///< the participant did not want the highest level for half an hour
 };
-inline constexpr Word<LevelUnit> kLevelUnits[] = {{"current_ma", LevelUnit::Milliamps},
+inline constexpr Word<LevelUnit> kLevelUnits[] = {{"current_ma", LevelUnit::Current},
                                                   {"intensity", LevelUnit::Intensity}};
 inline constexpr Word<LevelLimit> kLevelLimits[] = {{"device", LevelLimit::Device},
                                                     {"gate", LevelLimit::Gate},

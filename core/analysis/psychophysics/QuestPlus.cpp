@@ -15,6 +15,7 @@ constexpr double kPriorBelowFelt_db = 1;
 constexpr double kEasyTimes = 1.5;
 constexpr std::size_t kEasyEvery = 8;
 constexpr std::size_t kMostAlike = 3;
+constexpr double kEdgeWeight = 0.025;
 
 double decibels(double level) noexcept { return 20 * std::log10(level); }
 double levelOf(double db) noexcept { return std::pow(10.0, db / 20); }
@@ -220,6 +221,7 @@ QuestPlusResult QuestPlus::result() const {
     out.sd_db = sd_db();
     out.slope = 0;
     for (std::size_t i = 0; i < posterior_.size(); ++i) out.slope += posterior_[i] * kSlopes[i % kSlopes.size()];
+    out.atEdge = weightOf(0) > kEdgeWeight || weightOf(alphas_.size() - 1) > kEdgeWeight;
     out.intervals = shares_;
     out.trials = trials_;
     return out;

@@ -67,7 +67,7 @@ Result<VirtualObserver> VirtualObserver::create(const VirtualObserverSettings& s
 
 VirtualObserver::VirtualObserver(const VirtualObserverSettings& settings) noexcept : settings_(settings) {
     const auto& who = settings_.who;
-    const double unit = settings_.unit == LevelUnit::Milliamps ? 1 : kVirtualFullIntensity.value();
+    const double unit = settings_.unit == LevelUnit::Current ? 1 : kVirtualFullIntensity.value();
     detection_ = who.detection.value() / unit;
     attention_ = who.attention.value() / unit;
     tooStrong_ = who.discomfort.value() / unit;

@@ -35,7 +35,7 @@ struct VirtualObserverSettings {
     std::uint64_t seed = 1;
     double adaptation = 0;        ///< a, 0 to 10: thresholds rise to 1 + a
     Seconds adaptationTime{300};  ///< τ, of stimulation; > 0
-    LevelUnit unit = LevelUnit::Milliamps;
+    LevelUnit unit = LevelUnit::Current;
 };
 
 /// One condition as it is delivered.

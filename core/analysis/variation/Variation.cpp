@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/variation/IndexedWork.h"
 #include "core/analysis/variation/VariationBench.h"
 
@@ -143,10 +144,8 @@ void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, s
         anyNone = anyNone || row.back() > 0;
     }
     out.pooledInformation = informationTransfer(table);
-    // (r - 1)(c - 1) / (2 n ln 2), over the answers that occur at all
-    const double rows = static_cast<double>(conditions);
-    const double columns = rows + (anyNone ? 1 : 0);
-    out.informationBias = trials > 0 ? (rows - 1) * (columns - 1) / (2 * n * std::log(2.0)) : std::nan("");
+    // over the answers that occur at all
+    out.informationBias = informationBias(conditions, conditions + (anyNone ? 1 : 0), trials);
 }
 
 /// Each participant into one group of those who are served, refused, and so on.

@@ -65,8 +65,4 @@ struct IdentificationTask {
                                                                     const Observer& observer, std::size_t trials,
                                                                     Random& random);
 
-/// Mutual information of rows and columns in bits, from counts or from probabilities with rows of equal weight; NaN
-/// for a table without entries.
-[[nodiscard]] double informationTransfer(std::span<const std::vector<double>> table);
-
 }  // namespace tacto

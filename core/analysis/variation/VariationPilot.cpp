@@ -2,28 +2,11 @@
 
 #include <cmath>
 
+#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/statistics/Prevalence.h"
 #include "core/analysis/variation/VariationTrials.h"
 
 namespace tacto {
-
-std::size_t aboveChanceFrom(std::size_t trials, double chance) noexcept {
-    std::size_t low = 0, high = trials + 1;
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (binomialAtLeast(middle, trials, chance) <= kAboveChanceLevel) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
-}
-
-double prevalenceAtLeast(std::size_t k, std::size_t n) noexcept {
-    const double theta =
-        truncatedBetaQuantile(static_cast<double>(k + 1), static_cast<double>(n - k + 1), kAboveChanceLevel, 1 - 0.95);
-    return (theta - kAboveChanceLevel) / (1 - kAboveChanceLevel);
-}
 
 PilotOutlook outlookOf(const PilotPeople& population, std::size_t people, std::size_t trials, double chance) {
     PilotOutlook out;

@@ -1,9 +1,8 @@
 // VariationPilot.h - what a pilot of a few people can show: the paper plans three to five.
 //
 // A person shows the effect when they are served and their right answers lie above chance, p < 0.05 in a one-sided
-// exact binomial test. What k of n such people say of everybody is the Bayesian prevalence (Ince et al. 2021,
-// doi:10.7554/eLife.62461): with an even prior, and a test that lets 5 % through who cannot do it,
-// θ = 0.05 + 0.95·γ is Beta(k + 1, n - k + 1) between 0.05 and 1, where γ is the share of people who can.
+// exact binomial test (statistics/Binomial.h). What k of n such people say of everybody is the Bayesian prevalence
+// (statistics/Prevalence.h).
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -14,8 +13,6 @@
 #include "core/analysis/statistics/Estimate.h"
 
 namespace tacto {
-
-inline constexpr double kAboveChanceLevel = 0.05;
 
 /// The population that a pilot draws from.
 struct PilotPeople {
@@ -37,11 +34,5 @@ struct PilotOutlook {
 /// `people` and `trials` ≥ 1; `chance` above 0, below 1.
 [[nodiscard]] PilotOutlook outlookOf(const PilotPeople& population, std::size_t people, std::size_t trials,
                                      double chance);
-
-/// Lower end of a one-sided 95 % interval of the share γ when `k` of `n` people were above chance; k ≤ n.
-[[nodiscard]] double prevalenceAtLeast(std::size_t k, std::size_t n) noexcept;
-
-/// Fewest right answers of `trials` with P(X ≥ k) ≤ 0.05 by chance; trials + 1 where no number is enough.
-[[nodiscard]] std::size_t aboveChanceFrom(std::size_t trials, double chance) noexcept;
 
 }  // namespace tacto

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/Binomial.h"
+
 namespace tacto {
 
 namespace {

@@ -30,12 +30,6 @@ struct TrialsWanted {
 /// Errors: InvalidArgument naming the field, its value and what is accepted.
 [[nodiscard]] Result<void> validate(const TrialsWanted& wanted);
 
-/// P(X ≥ k) for X ~ Binomial(n, p).
-[[nodiscard]] double binomialAtLeast(std::size_t k, std::size_t n, double p) noexcept;
-
-/// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.
-[[nodiscard]] double truncatedBetaQuantile(double a, double b, double from, double q) noexcept;
-
 /// Probability, over the `accuracies`, that the Wilson interval of n trials is at most `width` wide.
 [[nodiscard]] double widthReached(std::span<const double> accuracies, std::size_t n, double width) noexcept;
 /// ... that its lower end lies above `chance`.

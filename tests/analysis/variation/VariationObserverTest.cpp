@@ -105,15 +105,5 @@ TEST(VariationObserver, SampledAnswersAgreeWithTheProbabilities) {
     }
 }
 
-TEST(VariationObserver, InformationIsThatOfKnownTables) {
-    const std::vector<std::vector<double>> perfect = {{9, 0, 0, 0}, {0, 9, 0, 0}, {0, 0, 9, 0}, {0, 0, 0, 9}};
-    const std::vector<std::vector<double>> none = {{5, 5}, {5, 5}};
-    const std::vector<std::vector<double>> channel = {{0.9, 0.1}, {0.1, 0.9}};
-    EXPECT_NEAR(informationTransfer(perfect), 2, 1e-12);
-    EXPECT_NEAR(informationTransfer(none), 0, 1e-12);
-    EXPECT_NEAR(informationTransfer(channel), 1 + 0.9 * std::log2(0.9) + 0.1 * std::log2(0.1), 1e-12);
-    EXPECT_TRUE(std::isnan(informationTransfer(std::vector<std::vector<double>>{{0, 0}})));
-}
-
 }  // namespace
 }  // namespace tacto

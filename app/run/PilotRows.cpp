@@ -1,0 +1,46 @@
+#include "app/run/PilotRows.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/session/SessionReader.h"
+
+namespace tacto {
+
+namespace {
+
+/// As wallTimeUtc() writes it; the beginning of 1970 for another text.
+std::chrono::sys_seconds wallTimeFrom(const std::string& iso) {
+    int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
+    if (std::sscanf(iso.c_str(), "%d-%d-%dT%d:%d:%d", &year, &month, &day, &hour, &minute, &second) != 6) return {};
+    using namespace std::chrono;
+    const sys_days days{std::chrono::year(year) / month / day};
+    return days + hours(hour) + minutes(minute) + seconds(second);
+}
+
+}  // namespace
+
+Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
+    PilotRows rows;
+    rows.lastAt = session.parts.back().begun;
+    for (const auto& part : session.parts) {
+        const auto path = study.pathOf(part.file);
+        if (!std::filesystem::exists(path)) continue;
+        const auto seal = study.sealOf(part.file);
+        if (!seal) return failure(seal);
+        const auto reader = SessionReader::open(path, *seal);
+        if (!reader) return failure(reader);
+        auto events = reader->events();
+        if (!events) return failure(events);
+        std::ranges::move(*events, std::back_inserter(rows.events));
+        const auto& about = reader->about();
+        if (!rows.seed) rows.seed = about.seed;
+        rows.chainHead = reader->chainHead();
+        auto last = wallTimeFrom(about.wallStart);
+        if (!about.virtualClock) last += std::chrono::floor<std::chrono::seconds>(reader->lastAt());
+        rows.lastAt = std::max(rows.lastAt, last);
+    }
+    return rows;
+}
+
+}  // namespace tacto

@@ -1,0 +1,29 @@
+// PilotRows.h - the rows of a session of a study, those of all its parts.
+//
+// Thread-safety: as Study.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/session/SessionTypes.h"
+#include "core/study/Study.h"
+
+namespace tacto {
+
+struct PilotRows {
+    std::vector<SessionRow> events;     ///< in order
+    std::optional<std::uint64_t> seed;  ///< of the first part
+    std::string chainHead;              ///< of the last part
+    /// When the last row was written. On a virtual clock a session's time runs ahead of the wall's, so a part counts
+    /// from its beginning.
+    std::chrono::sys_seconds lastAt{};
+};
+
+/// A part that was booked and never made holds none. Errors: Unsupported without the participant's key; as
+/// SessionReader.
+[[nodiscard]] Result<PilotRows> pilotRows(const Study& study, const StudySession& session);
+
+}  // namespace tacto

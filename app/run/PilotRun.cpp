@@ -1,0 +1,310 @@
+#include "app/run/PilotRun.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/base/JsonFields.h"
+#include "core/base/SystemTime.h"
+#include "core/session/SessionReader.h"
+
+namespace tacto {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kVirtual = "virtual:";
+constexpr std::chrono::hours kResumedWithin{2};
+
+std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
+
+/// A number as it was declared; NaN where the script declares none of that name.
+double numberOf(const RunOrder& order, const char* name) { return numberOr(order.settings.parameters, name); }
+
+Result<std::optional<std::uint64_t>> virtualSeed(const std::string& participant) {
+    if (!participant.starts_with(kVirtual)) return std::optional<std::uint64_t>();
+    const auto digits = std::string_view(participant).substr(kVirtual.size());
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+    if (error == std::errc() && end == digits.data() + digits.size()) return std::optional(seed);
+    return fail(ErrorCode::NotFound, "the participant is \"{}\"; virtual: and a whole number from 0 is expected",
+                participant);
+}
+
+bool isSimulated(const DeviceUri& uri) { return uri.scheme == "sim"; }
+
+/// `sim:` is a current source with the P24's grid, unless it says otherwise.
+void fitSource(DeviceUri& uri) {
+    if (!isSimulated(uri) || (!uri.path.empty() && uri.path != "stimulator")) return;
+    const auto has = [&uri](std::string_view key) {
+        return std::ranges::any_of(uri.parameters, [key](const auto& each) { return each.first == key; });
+    };
+    if (has("mode")) return;
+    uri.parameters.emplace_back("mode", "current");
+    if (!has("step")) uri.parameters.emplace_back("step", "0.5mA");
+}
+
+/// Of a virtual participant to the checklist: no, but for the item that the settings name.
+Result<std::vector<ExclusionAnswer>> simulatedAnswers(const RunOrder& order) {
+    auto answers = nothingExcludes();
+    const auto yes = textOf(order, "exclusions");
+    if (yes.empty()) return answers;
+    const auto at = std::ranges::find(answers, yes, &ExclusionAnswer::key);
+    if (at == answers.end()) {
+        std::vector<std::string> keys;
+        for (const auto& answer : answers) keys.push_back(answer.key);
+        return fail(ErrorCode::InvalidArgument, "exclusions is \"{}\"; one of {} is expected", yes,
+                    fmt::join(keys, ", "));
+    }
+    at->yes = true;
+    return answers;
+}
+
+}  // namespace
+
+bool isPilotProtocol(const std::string& name) noexcept {
+    return name == "pilot-thresholds" || name == "pilot-identification";
+}
+
+PilotRun::~PilotRun() {
+    run_.reset();  // the script first: it calls the session
+}
+
+// The study
+
+Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot) {
+    const auto participant = textOf(order, "participant");
+    if (participant.empty())
+        return fail(ErrorCode::NotFound, "no participant is named; --set participant=CODE or virtual:SEED is expected");
+    if (pilot.study.empty())
+        return fail(ErrorCode::NotFound, "no study is named; --out with the study's folder is expected");
+    const auto seed = virtualSeed(participant);
+    if (!seed) return failure(seed);
+    const bool simulated = std::ranges::all_of(order.uris, isSimulated);
+    if (*seed && !simulated)
+        return fail(kGateRefused, "{} is a virtual participant; only simulated devices are accepted", participant);
+    if (!Study::isThere(pilot.study)) {
+        if (!*seed)
+            return fail(ErrorCode::NotFound, "there is no study in {}; study create makes one", pilot.study.string());
+        auto made = Study::createRehearsal(pilot.study);
+        if (!made) return failure(made);
+        study_.emplace(std::move(*made));
+        remarks_.push_back("A rehearsal was made in " + pilot.study.string() + "; its participants are simulated.");
+    } else {
+        auto opened = Study::open(pilot.study, pilot.passphrase ? &*pilot.passphrase : nullptr, Study::Access::Change);
+        if (!opened) return failure(opened);
+        study_.emplace(std::move(*opened));
+        if (!study_->hasKey())
+            return fail(ErrorCode::NotFound, "the study in {} is sealed; --passphrase-file is expected",
+                        pilot.study.string());
+    }
+    auto found = study_->find(participant);
+    if (!found && *seed && study_->isRehearsal()) {
+        Participant enrolled;
+        enrolled.virtualSeed = *seed;
+        found = study_->enrol(std::move(enrolled));
+        if (!found) return failure(found);
+        const Consent consent{study_->settings().consentVersion, study_->today(), "simulated"};
+        if (auto given = study_->consent(found->code, consent); !given) return given;
+        remarks_.push_back(participant + " was enrolled as " + found->code +
+                           " and consented by itself, as it does in rehearsals only.");
+    }
+    if (!found) return failure(found);
+    who_ = std::move(*found);
+    if (!who_.virtualSeed && pilot.people == nullptr)
+        return fail(ErrorCode::NotFound, "{} is a person, who needs the window: tactoscope, Pilot", who_.code);
+    if (!study_->isRehearsal() && order.settings.given.contains("blocks"))
+        return fail(kGateRefused, "the number of blocks is the study's, {}; --set blocks is for rehearsals",
+                    study_->settings().blocks);
+    return {};
+}
+
+Result<void> PilotRun::chooseSession(const RunOrder& order) {
+    unfinished_ = study_->unfinished(who_.id);
+    if (!unfinished_) return {};
+    const auto wanted = textOf(order, "unfinished");
+    if (wanted == "end") {
+        if (auto ended = study_->endSession(unfinished_->id, StudySessionState::Stopped, ""); !ended) return ended;
+        remarks_.push_back(fmt::format("Session {} of {} was ended as stopped.", unfinished_->number, who_.code));
+        unfinished_.reset();
+        return {};
+    }
+    if (wanted != "resume")
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
+                    unfinished_->number, who_.code, unfinished_->protocol);
+    if (unfinished_->protocol != order.script.name)
+        return fail(ErrorCode::NotFound,
+                    "session {} of {} is of {}; it goes on with that protocol, or ends with "
+                    "--set unfinished=end",
+                    unfinished_->number, who_.code, unfinished_->protocol);
+    auto rows = pilotRows(*study_, *unfinished_);
+    if (!rows) return failure(rows);
+    earlier_ = std::move(*rows);
+    return mayResume();
+}
+
+Result<void> PilotRun::mayResume() const {
+    const auto now = SystemTime::real().wall();
+    if (now - earlier_.lastAt <= kResumedWithin) return {};
+    return fail(kGateRefused,
+                "session {} of {} was broken off {:.1f} h ago; it can go on within 2 h, and is ended with --set "
+                "unfinished=end",
+                unfinished_->number, who_.code,
+                std::chrono::duration<double, std::ratio<3600>>(now - earlier_.lastAt).count());
+}
+
+// The bench
+
+Result<VirtualObserver> PilotRun::observerFor(const RunOrder& order) const {
+    PopulationModel model;
+    const auto take = [&order](double& into, const char* name) {
+        if (const double value = numberOf(order, name); std::isfinite(value)) into = value;
+    };
+    take(model.detection_ma.median, "detection");
+    take(model.attention_ma.median, "attention");
+    take(model.discomfort_ma, "discomfort");
+    take(model.intolerance_ma.median, "intolerance");
+    take(model.noise_jnd, "noise");
+    if (auto sound = validate(model); !sound) return failure(sound);
+    const auto& study = study_->settings();
+    VirtualObserverSettings settings;
+    settings.who = drawParticipant(model, *who_.virtualSeed, 0, Micros(study.train.width_us), study.electrode.area);
+    settings.seed = *who_.virtualSeed;
+    take(settings.adaptation, "adaptation");
+    settings.unit = settings_.unit;
+    return VirtualObserver::create(settings);
+}
+
+void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
+    const auto& study = study_->settings();
+    auto& profile = order.profile;
+    profile.electrodeArea = study.electrode.area;
+    auto& train = profile.encoding.train;
+    train.shape = study.train.shape == "monophasic" ? PulseShape::Monophasic : PulseShape::SymmetricBiphasic;
+    train.phaseWidth = Micros(study.train.width_us);
+    train.interPhaseGap = Micros(study.train.gap_us);
+    train.pulses = study.train.pulses;
+    if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
+
+    settings_.code = who_.code;
+    settings_.isVirtual = who_.virtualSeed.has_value();
+    settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
+    if (earlier_.seed) order.seed = *earlier_.seed;  // The session's, whatever the command says now
+    settings_.seed = order.seed;
+    settings_.encoding = study.encodings.empty() ? "standard" : study.encodings.front();
+    settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;
+    settings_.cap = settings_.unit == LevelUnit::Intensity ? 1 : study.cap_mA;
+    settings_.shortest = profile.encoding.intervalMin;
+    settings_.longest = profile.encoding.intervalMax;
+    settings_.window = 2 * settings_.longest;
+    settings_.assignment = settings_.encoding == "swapped" ? Assignment::Swapped : profile.encoding.assignment;
+    settings_.conditions = profile.encoding.conditions;
+    settings_.blocks = study.blocks;
+    if (order.settings.given.contains("blocks")) settings_.blocks = static_cast<int>(numberOf(order, "blocks"));
+    settings_.perCondition = study.perCondition;
+    settings_.catchTrials = study.catchTrials;
+
+    order.mode = OutputMode::Person;
+    PersonSetup person;
+    person.participant = who_.code;
+    person.consentRecorded = !who_.consents.empty();
+    person.discomfortLimit = Milliamps(2 * study.cap_mA);  // Until something is called too strong; the cap is lower
+    person.rampStep = Milliamps(1);
+    person.cap = Milliamps(study.cap_mA);
+    person.impedanceLow = profile.loadLow;
+    person.impedanceHigh = profile.loadHigh;
+    order.person = person;
+    order.virtualParticipant = settings_.isVirtual;
+    order.rehearsal = study_->isRehearsal();
+    order.realtime = order.realtime || pilot.people != nullptr;
+    std::ranges::for_each(order.uris, fitSource);
+    if (order.uris.empty()) {
+        order.uris.push_back({"sim", "", {}});
+        fitSource(order.uris.back());
+    }
+    order.makeSession = [this](const SessionAbout& about, const Clock& clock, bool simulated) {
+        return makeSession(about, clock, simulated);
+    };
+
+    request_.code = who_.code;
+    request_.script = {order.script.name, order.script.sha256};
+    request_.encoding = settings_.encoding;
+    request_.codeConfirmed = pilot.codeConfirmed || settings_.isVirtual;
+    request_.exclusions = pilot.exclusions;
+    if (!settings_.isVirtual) return;
+    if (auto answers = simulatedAnswers(order)) request_.exclusions = std::move(*answers);
+}
+
+Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, bool simulated) {
+    request_.devicesSimulated = simulated;
+    auto begun = unfinished_ ? study_->continueSession(unfinished_->id, request_) : study_->beginSession(request_);
+    if (!begun) return failure(begun);
+    begun_ = std::move(*begun);
+    auto writer = SessionWriter::create(begun_->path, about, clock, begun_->seal);
+    if (!writer) return failure(writer);
+    RunSession made;
+    made.files.session = begun_->path;
+    made.writer = std::move(*writer);
+    made.seal = begun_->seal;
+    return made;
+}
+
+Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder pilot, Registry& registry,
+                                                    std::shared_ptr<BenchTap> tap) {
+    std::unique_ptr<PilotRun> made(new PilotRun());
+    const auto answers = simulatedAnswers(order);
+    if (!answers) return failure(answers);
+    if (textOf(order, "participant").starts_with(kVirtual)) {  // Before a rehearsal is made for it
+        if (auto held = exclusionGate(*answers); !held) return failure(held);
+    }
+    if (auto opened = made->openStudy(order, pilot); !opened) return failure(opened);
+    if (auto chosen = made->chooseSession(order); !chosen) return failure(chosen);
+    made->fitOrder(order, pilot);
+    const VirtualObserver* truth = nullptr;
+    PilotParticipant* people = pilot.people;
+    if (made->settings_.isVirtual) {
+        auto observer = made->observerFor(order);
+        if (!observer) return failure(observer);
+        order.ownLoad = observer->settings().who.skin.text();
+        std::vector<std::string> names;
+        for (const auto& each : made->settings_.conditions) names.push_back(each.name);
+        made->virtual_ = std::make_unique<VirtualPilotParticipant>(std::move(*observer), std::move(names));
+        truth = &made->virtual_->observer();
+        if (people == nullptr) people = made->virtual_.get();
+    }
+    auto run = ProtocolRun::prepare(std::move(order), registry, std::move(tap));
+    if (!run) return failure(run);
+    made->run_ = std::move(*run);
+    const auto& opened = made->run_->opened();
+    made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->earlier_.events);
+    const auto parts = static_cast<int>(made->begun_->session.parts.size());
+    made->session_ =
+        std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
+    if (made->unfinished_) made->session_->resumesFrom(made->unfinished_->parts.back().file, made->earlier_.chainHead);
+    auto* raw = made.get();
+    made->session_->stillApproved = [raw] { return raw->study_->stillApproved(); };
+    return made;
+}
+
+Result<void> PilotRun::start(RunRequest hooks) {
+    hooks.pilot = session_.get();
+    return run_->start(std::move(hooks));
+}
+
+RunResult PilotRun::finish() {
+    auto result = run_->finish();
+    const auto ended = session_->stage().ended();
+    if (result.outcome.abandoned || ended == PilotEnd::Unfinished) return result;
+    std::string head;
+    if (const auto reader = SessionReader::open(begun_->path, begun_->seal)) head = reader->chainHead();
+    const auto state = ended == PilotEnd::Complete ? StudySessionState::Complete : StudySessionState::Stopped;
+    if (auto noted = study_->endSession(begun_->session.id, state, head); !noted) {
+        result.troubles.push_back(noted.error());
+        if (!result.outcome.error) result.outcome.error = noted.error();
+    }
+    return result;
+}
+
+}  // namespace tacto

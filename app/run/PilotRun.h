@@ -1,0 +1,84 @@
+// PilotRun.h - a run of a pilot protocol: the study it belongs to, the session that is begun or gone on with, and the
+// protocol's run on a bench for that participant. Command line and window run sessions through this.
+//
+// Every gate is asked before anything is made or presented (core/study/Gates.h, core/pilot/PilotCare.h).
+//
+// Thread-safety: as ProtocolRun.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run/PilotRows.h"
+#include "app/run/ProtocolRun.h"
+#include "core/pilot/PilotSession.h"
+#include "core/pilot/VirtualPilotParticipant.h"
+#include "core/study/Study.h"
+
+namespace tacto {
+
+/// Whether a protocol is one of a study's sessions.
+[[nodiscard]] bool isPilotProtocol(const std::string& name) noexcept;
+
+/// Where and with whom.
+struct PilotOrder {
+    std::filesystem::path study;
+    std::optional<Passphrase> passphrase;
+    /// The participant's and operator's windows; null: headless, and then a person is refused.
+    PilotParticipant* people = nullptr;
+    bool codeConfirmed = false;  ///< a person read the code on their screen
+    /// Empty: a virtual participant's, who answers no to each but those of `--set exclusions`.
+    std::vector<ExclusionAnswer> exclusions;
+};
+
+class PilotRun {
+public:
+    /// The participant, `unfinished` and the rest are settings of `order`. Where `pilot.study` holds no study and the
+    /// participant is virtual, a rehearsal is made there.
+    /// Errors: NotFound for a study, code or passphrase that cannot be used, a person without a window, and an
+    /// unfinished session that the settings say nothing of; Stopped for a gate; as ProtocolRun::prepare().
+    [[nodiscard]] static Result<std::unique_ptr<PilotRun>> prepare(RunOrder order, PilotOrder pilot, Registry& registry,
+                                                                   std::shared_ptr<BenchTap> tap = nullptr);
+    ~PilotRun();
+    PilotRun(const PilotRun&) = delete;
+    PilotRun& operator=(const PilotRun&) = delete;
+
+    /// As ProtocolRun::start().
+    [[nodiscard]] Result<void> start(RunRequest hooks);
+    /// As ProtocolRun::finish(); then the ledger says how the session ended.
+    [[nodiscard]] RunResult finish();
+
+    [[nodiscard]] ProtocolRun& run() noexcept { return *run_; }
+    [[nodiscard]] PilotSession& session() noexcept { return *session_; }
+    [[nodiscard]] const Study& study() const noexcept { return *study_; }
+    /// What was done by itself, a sentence each: a rehearsal made, a participant enrolled, a session ended.
+    [[nodiscard]] const std::vector<std::string>& remarks() const noexcept { return remarks_; }
+
+private:
+    PilotRun() = default;
+    [[nodiscard]] Result<void> openStudy(const RunOrder& order, const PilotOrder& pilot);
+    [[nodiscard]] Result<void> chooseSession(const RunOrder& order);
+    [[nodiscard]] Result<void> mayResume() const;
+    [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
+    void fitOrder(RunOrder& order, const PilotOrder& pilot);
+    [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock, bool simulated);
+
+    std::optional<Study> study_;
+    Participant who_;
+    std::optional<StudySession> unfinished_;  // That is gone on with
+    std::optional<BegunSession> begun_;
+    SessionRequest request_;
+    PilotRows earlier_;
+    PilotSettings settings_;
+    std::vector<std::string> remarks_;
+
+    std::unique_ptr<VirtualPilotParticipant> virtual_;
+    std::unique_ptr<ProtocolRun> run_;
+    std::unique_ptr<PilotRecord> record_;  // Written to by the script: ends after it, see ~PilotRun
+    std::unique_ptr<PilotSession> session_;
+};
+
+}  // namespace tacto

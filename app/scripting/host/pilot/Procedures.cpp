@@ -1,0 +1,64 @@
+// The procedures of a pilot session; what each does stands in core/pilot.
+#include "app/scripting/engine/ScriptSession.h"
+#include "app/scripting/host/pilot/PilotObject.h"
+
+namespace tacto::host::pilot {
+
+Result<Json> ascendingLimits(ScriptSession& session, const Arguments&) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->thresholds().ascendingLimits());
+}
+
+Result<Json> detection(ScriptSession& session, const Arguments& arguments) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    const auto method = detectionMethodFrom(arguments.text("options.method"));
+    if (!method) return failure(method);
+    return done((*pilot)->thresholds().detection(*method));
+}
+
+Result<Json> range(ScriptSession& session, const Arguments&) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    if (auto found = (*pilot)->thresholds().range(); !found) return failure(found);
+    return Json((*pilot)->thresholds().rangeJson());
+}
+
+Result<Json> familiarise(ScriptSession& session, const Arguments&) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->identification().familiarise());
+}
+
+Result<Json> train(ScriptSession& session, const Arguments&) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->identification().train());
+}
+
+Result<Json> beforeBlock(ScriptSession& session, const Arguments& arguments) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->beforeBlock(arguments.whole("block")));
+}
+
+Result<Json> driftCheck(ScriptSession& session, const Arguments& arguments) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->identification().driftCheck(arguments.whole("block")));
+}
+
+Result<Json> testBlock(ScriptSession& session, const Arguments& arguments) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->identification().testBlock(arguments.whole("block")));
+}
+
+Result<Json> takeBreak(ScriptSession& session, const Arguments& arguments) {
+    auto pilot = session.pilot();
+    if (!pilot) return failure(pilot);
+    return done((*pilot)->identification().takeBreak(arguments.whole("block"), Seconds(arguments.number("seconds"))));
+}
+
+}  // namespace tacto::host::pilot

@@ -1,0 +1,84 @@
+#include "core/analysis/identification/IdentificationFile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/Csv.h"
+#include "core/base/Text.h"
+
+namespace tacto {
+
+namespace {
+
+bool isMissing(std::string_view field) { return field.empty() || field == "n/a"; }
+
+/// A whole number from 1; `fallback` where there is no such column or value. Errors: ParseError.
+Result<std::size_t> countIn(const NamedRows& rows, std::optional<std::size_t> column, std::string_view name,
+                            std::size_t fallback) {
+    if (!column || isMissing(rows[*column])) return fallback;
+    constexpr double kMost = 1e6;
+    const auto number = parseNumber(rows[*column]);
+    if (!number || !(*number >= 1) || !(*number <= kMost) || *number != std::floor(*number)) {
+        return rows.refuse("{} '{}'; a whole number from 1 was expected", name, rows[*column].substr(0, 40));
+    }
+    return static_cast<std::size_t>(*number);
+}
+
+}  // namespace
+
+Result<std::vector<IdentificationTrial>> readIdentificationTrials(const std::filesystem::path& path) {
+    const auto text = readTextFile(path);
+    if (!text) return failure(text);
+    return parseIdentificationTrials(*text, path.string());
+}
+
+Result<std::vector<IdentificationTrial>> parseIdentificationTrials(std::string_view text, std::string_view name) {
+    NamedRows rows(text, name, "columns condition and response were expected", "a row per trial");
+    const auto condition = rows.column({"condition", "trial_type"});
+    if (!condition) return failure(condition);
+    const auto response = rows.column({"response"});
+    if (!response) return failure(response);
+    const auto number = rows.find({"number", "trial"}), block = rows.find({"block"}), phase = rows.find({"phase"}),
+               attempt = rows.find({"attempt"}), time = rows.find({"response_time", "rt_s"});
+
+    std::vector<IdentificationTrial> trials;
+    auto more = rows.next();
+    for (; more && *more; more = rows.next()) {
+        IdentificationTrial trial;
+        trial.condition = std::string(rows[*condition]);
+        if (isMissing(trial.condition)) return rows.refuse("the condition is empty; a name was expected");
+        if (!isMissing(rows[*response])) trial.response = std::string(rows[*response]);
+        if (trial.response == "not_sure") trial.response = kNotSureResponse;
+        if (phase && !isMissing(rows[*phase])) {
+            const auto named = trialPhaseFrom(rows[*phase]);
+            if (!named) return rows.refuse("{}", named.error().message);
+            trial.phase = *named;
+        }
+        struct Count {
+            std::optional<std::size_t> column;
+            std::string_view name;
+            std::size_t fallback;
+            std::size_t* target;
+        };
+        for (const auto& count :
+             {Count{number, "number", trials.size() + 1, &trial.number}, Count{block, "block", 1, &trial.block},
+              Count{attempt, "attempt", 1, &trial.attempt}}) {
+            const auto read = countIn(rows, count.column, count.name, count.fallback);
+            if (!read) return failure(read);
+            *count.target = *read;
+        }
+        if (time && !isMissing(rows[*time])) {
+            const auto seconds = parseNumber(rows[*time]);
+            if (!seconds || !(*seconds >= 0) || !std::isfinite(*seconds)) {
+                return rows.refuse("response time '{}'; a number of seconds from 0 was expected",
+                                   rows[*time].substr(0, 40));
+            }
+            trial.rt_s = *seconds;
+        }
+        trials.push_back(std::move(trial));
+    }
+    if (!more) return failure(more);
+    return trials;
+}
+
+}  // namespace tacto

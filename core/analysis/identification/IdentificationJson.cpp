@@ -1,0 +1,143 @@
+#include "core/analysis/identification/IdentificationJson.h"
+
+#include "core/analysis/statistics/StatisticsJson.h"
+
+namespace tacto {
+
+using nlohmann::json;
+
+namespace {
+
+json featureJson(const std::optional<FeatureFigures>& feature) {
+    if (!feature) return nullptr;
+    json out = toJson(feature->figures);
+    out["values"] = feature->values;
+    out["confusion"] = feature->confusion;
+    out["d_prime"] = numberOrNull(feature->dPrime);
+    out["criterion"] = numberOrNull(feature->criterion);
+    return out;
+}
+
+json medianAndRange(const Statistics& of) {
+    return {{"median", numberOrNull(of.median)}, {"min", numberOrNull(of.min)}, {"max", numberOrNull(of.max)}};
+}
+
+json sequenceJson(const BlockFigures& after) {
+    return {{"n", after.n}, {"hits", after.hits}, {"accuracy", toJson(wilsonInterval(after.hits, after.n))}};
+}
+
+}  // namespace
+
+json toJson(const ConfusionFigures& figures) {
+    return {{"n", figures.n},
+            {"hits", figures.hits},
+            {"accuracy", toJson(figures.accuracy)},
+            {"p_chance", numberOrNull(figures.pChance)},
+            {"it_bits", numberOrNull(figures.it_bits)},
+            {"it_bias_bits", numberOrNull(figures.itBias_bits)},
+            {"it_corrected_bits", numberOrNull(figures.itCorrected_bits)}};
+}
+
+json toJson(const Identification& found) {
+    json blocks = json::array(), shares = json::array(), times = json::array();
+    for (const auto& block : found.blocks)
+        blocks.push_back({{"block", block.block}, {"n", block.n}, {"hits", block.hits}});
+    for (const auto& share : found.shares)
+        shares.push_back({{"response", share.response}, {"n", share.n}, {"share", toJson(share.share)}});
+    for (const double time : found.medianResponseTime_s) times.push_back(numberOrNull(time));
+    json out = toJson(found.all);
+    out["labels"] = found.labels;
+    out["columns"] = found.columns;
+    out["confusion"] = found.confusion;
+    out["texture"] = featureJson(found.texture);
+    out["pressure"] = featureJson(found.pressure);
+    out["catch"] = {
+        {"n", found.catches.n}, {"false_alarms", found.catches.falseAlarms}, {"rate", toJson(found.catches.rate)}};
+    out["no_answer"] = found.noAnswer;
+    out["blocks"] = std::move(blocks);
+    out["shares"] = std::move(shares);
+    out["learning"] = toJson(found.learning);
+    out["sequence"] = {{"after_same", sequenceJson(found.afterSame)}, {"after_other", sequenceJson(found.afterOther)}};
+    out["median_rt_s"] = std::move(times);
+    return out;
+}
+
+json toJson(const IdentificationTrial& trial) {
+    return {{"number", trial.number},
+            {"phase", nameOf(trial.phase)},
+            {"block", trial.block},
+            {"condition", trial.condition},
+            {"response", trial.response.empty() ? json(nullptr) : json(trial.response)},
+            {"attempt", trial.attempt},
+            {"rt_s", numberOrNull(trial.rt_s)}};
+}
+
+json toJson(const GoodnessOfFit& fit) { return {{"g", numberOrNull(fit.g)}, {"p", numberOrNull(fit.p)}}; }
+
+json toJson(const FewPeople& people) {
+    json rows = json::array();
+    for (const auto& person : people.people) {
+        json row = toJson(person.figures);
+        row["name"] = person.name;
+        row["usable"] = person.usable;
+        rows.push_back(std::move(row));
+    }
+    return {{"people", std::move(rows)},
+            {"accuracy", medianAndRange(people.accuracy)},
+            {"it_corrected_bits", medianAndRange(people.itCorrected_bits)},
+            {"above_chance",
+             {{"k", people.aboveChance},
+              {"n", people.people.size()},
+              {"share", toJson(people.share)},
+              {"prevalence", toJson(people.prevalence)},
+              {"prevalence_at_least", numberOrNull(people.prevalenceAtLeast)}}}};
+}
+
+json toJson(const EncodingComparison& compared) {
+    json encodings = json::array(), pairs = json::array();
+    for (const auto& result : compared.encodings) {
+        encodings.push_back({{"encoding", result.encoding},
+                             {"n", result.n},
+                             {"hits", result.hits},
+                             {"accuracy", toJson(wilsonInterval(result.hits, result.n))},
+                             {"training_blocks", result.trainingBlocks},
+                             {"median_rt_s", numberOrNull(result.medianResponse_s)},
+                             {"naturalness", numberOrNull(result.naturalness)}});
+    }
+    for (const auto& pair : compared.pairs)
+        pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"difference", toJson(pair.difference)}});
+    return {{"encodings", std::move(encodings)},
+            {"pairs", std::move(pairs)},
+            {"preferred", compared.preferred.empty() ? json(nullptr) : json(compared.preferred)}};
+}
+
+json toJson(const OverSessions& compared) {
+    json sessions = json::array(), changes = json::array();
+    for (const auto& session : compared.sessions) {
+        sessions.push_back({{"number", session.number},
+                            {"days", session.days},
+                            {"detection_ma", toJson(session.detection_ma)},
+                            {"too_strong_ma", numberOrNull(session.tooStrong.value())},
+                            {"min_ma", numberOrNull(session.low.value())},
+                            {"max_ma", numberOrNull(session.high.value())},
+                            {"impedance_ohm", numberOrNull(session.impedance.value())},
+                            {"n", session.n},
+                            {"hits", session.hits},
+                            {"accuracy", toJson(wilsonInterval(session.hits, session.n))},
+                            {"it_corrected_bits", numberOrNull(session.itCorrected_bits)},
+                            {"naturalness", numberOrNull(session.naturalness)}});
+    }
+    for (const auto& change : compared.againstFirst) {
+        changes.push_back({{"number", change.number},
+                           {"accuracy", toJson(change.accuracy)},
+                           {"detection", toJson(change.detection)},
+                           {"too_strong", numberOrNull(change.tooStrong)},
+                           {"impedance", numberOrNull(change.impedance)}});
+    }
+    return {{"sessions", std::move(sessions)},
+            {"against_first", std::move(changes)},
+            {"trend_per_day", toJson(compared.trend)},
+            {"smallest_change", numberOrNull(compared.smallestChange)}};
+}
+
+}  // namespace tacto

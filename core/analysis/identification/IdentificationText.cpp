@@ -1,0 +1,57 @@
+#include "core/analysis/identification/IdentificationText.h"
+
+#include <cmath>
+
+#include "core/analysis/statistics/Binomial.h"
+
+namespace tacto {
+
+namespace {
+
+std::string countWord(std::size_t n) {
+    constexpr std::string_view kWords[] = {"zero", "one", "two", "three", "four", "five", "six"};
+    return n < std::size(kWords) ? std::string(kWords[n]) : std::to_string(n);
+}
+
+/// " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty where nothing is known.
+std::string rangeText(const PresentedRange& range) {
+    if (range.lowIntensity && range.highIntensity) {
+        return fmt::format(" between intensity {:.2f} and {:.2f}", *range.lowIntensity, *range.highIntensity);
+    }
+    if (!range.low || !range.high) return {};
+    auto text = fmt::format(" between {:.1f} and {:.1f} mA", range.low->value(), range.high->value());
+    const double low_v = range.lowVoltage.value(), high_v = range.highVoltage.value();
+    if (!std::isfinite(low_v) || !std::isfinite(high_v)) return text;
+    text += fmt::format(", {:.0f} to {:.0f} V", low_v, high_v);
+    const double ohm = range.impedance.value();
+    if (std::isfinite(ohm))
+        text += ohm < 1000 ? fmt::format(" at {:.0f} Ω", ohm) : fmt::format(" at {:.1f} kΩ", ohm / 1000);
+    return text;
+}
+
+/// Half of the Wilson interval at that share of right answers, in %.
+double reach_pct(std::size_t n, double share) {
+    const auto interval = wilsonInterval(static_cast<std::size_t>(std::lround(share * static_cast<double>(n))), n);
+    return 50 * (interval.high - interval.low);
+}
+
+}  // namespace
+
+std::string headline(const std::string& name, const Identification& found, const PresentedRange& range) {
+    const auto& all = found.all;
+    if (all.n == 0) return fmt::format("{} answered no test trial.", name);
+    return fmt::format(
+        "{} told the {} apart in {} of {} trials ({:.0f} %, 95 % interval {:.0f} to {:.0f} %, chance {:.0f} %){}.",
+        name, countWord(found.labels.size()), all.hits, all.n, 100 * all.accuracy.value, 100 * all.accuracy.low,
+        100 * all.accuracy.high, 100 * all.chance, rangeText(range));
+}
+
+std::string precisionSentence(std::size_t n, double chance) {
+    const std::size_t from = aboveChanceFrom(n, chance);
+    const auto clear = from > n ? fmt::format("not even {} right of {} are above chance", n, n)
+                                : fmt::format("{} right of {} is above chance", from, n);
+    return fmt::format("{} trials: ± {:.0f} % at 85 %, ± {:.0f} % at 50 %; {}.", n, reach_pct(n, 0.85),
+                       reach_pct(n, 0.5), clear);
+}
+
+}  // namespace tacto

@@ -1,0 +1,18 @@
+// BenchPerson.h - on which devices a person, human or virtual, may be, and what stands in for a calibration there.
+//
+// Thread-safety: pure functions.
+#pragma once
+
+#include "core/bench/Bench.h"
+
+namespace tacto {
+
+/// Errors: InvalidArgument for a virtual participant on a device, and for a human being on a simulation outside a
+/// rehearsal; with one sentence.
+[[nodiscard]] Result<void> checkWhere(const BenchConfig& config);
+
+/// In person mode a simulated stimulator of which no calibration is known states its own. Nothing else is changed, and
+/// no other device is asked.
+[[nodiscard]] BenchConfig withStatedCalibration(BenchConfig config);
+
+}  // namespace tacto

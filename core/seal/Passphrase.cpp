@@ -1,0 +1,61 @@
+#include "core/seal/Passphrase.h"
+
+#include <array>
+#include <fcntl.h>
+#include <sodium.h>
+#include <unistd.h>
+
+#include "core/seal/SealedText.h"
+
+namespace tacto {
+
+static_assert(Passphrase::kSaltBytes == crypto_pwhash_SALTBYTES);
+
+PassphraseCost PassphraseCost::moderate() noexcept {
+    return {crypto_pwhash_OPSLIMIT_MODERATE, crypto_pwhash_MEMLIMIT_MODERATE};
+}
+PassphraseCost PassphraseCost::least() noexcept { return {crypto_pwhash_OPSLIMIT_MIN, crypto_pwhash_MEMLIMIT_MIN}; }
+
+Result<Passphrase> Passphrase::from(std::string_view text) {
+    if (text.empty()) return fail(ErrorCode::InvalidArgument, "the passphrase is empty; at least one character is expected");
+    return Passphrase(Secret(std::as_bytes(std::span(text))));
+}
+
+Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
+    constexpr std::size_t kLongest = 4096;
+    // Read without a stream: its buffer would keep the passphrase.
+    const int in = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (in < 0) return fail(ErrorCode::NotFound, "the passphrase file {} cannot be read", file.string());
+    Secret held(kLongest);
+    auto* at = reinterpret_cast<char*>(held.bytes().data());
+    std::size_t size = 0;
+    while (size < kLongest) {
+        const auto more = ::read(in, at + size, kLongest - size);
+        if (more <= 0) break;
+        size += static_cast<std::size_t>(more);
+    }
+    ::close(in);
+    auto line = std::string_view(at, size);
+    line = line.substr(0, line.find('\n'));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.empty() || line.size() == kLongest) {
+        return fail(ErrorCode::NotFound, "the passphrase file {} holds {}; one line with the passphrase is expected",
+                    file.string(), line.empty() ? "nothing in its first line" : "too long a line");
+    }
+    return from(line);
+}
+
+Result<Secret> Passphrase::keyFor(std::span<const std::byte> salt, const PassphraseCost& cost) const {
+    Secret key(kKeyBytes);
+    if (salt.size() != kSaltBytes ||
+        crypto_pwhash(reinterpret_cast<unsigned char*>(key.bytes().data()), key.size(),
+                      reinterpret_cast<const char*>(text_.bytes().data()), text_.size(),
+                      reinterpret_cast<const unsigned char*>(salt.data()), cost.passes(), cost.bytes(),
+                      crypto_pwhash_ALG_ARGON2ID13) != 0) {
+        return fail(ErrorCode::Io, "the passphrase cannot be turned into a key: {} MB of memory are needed",
+                    cost.bytes() / 1'000'000);
+    }
+    return key;
+}
+
+}  // namespace tacto

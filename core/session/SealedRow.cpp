@@ -1,0 +1,194 @@
+#include "core/session/SealedRow.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "core/base/JsonFields.h"
+#include "core/session/Schema.h"
+#include "core/session/SessionTypes.h"
+
+namespace tacto {
+
+namespace {
+
+using Keys = std::span<const std::string_view>;
+
+/// What rows of a kind show; events of a name have rules of their own.
+struct ShownOfKind {
+    std::string_view kind;
+    bool name;
+    Keys keys;
+};
+constexpr std::string_view kAboutKeys[] = {"program_version", "protocol",  "protocol_sha256", "devices",      "limit_sets",
+                                           "simulated",       "mode",      "wall_start",      "virtual_clock"};
+constexpr std::string_view kTrialKeys[] = {"number"};
+constexpr std::string_view kChunkKeys[] = {"stream", "index"};
+constexpr std::string_view kCaptureKeys[] = {"trial"};
+constexpr ShownOfKind kShownOfKinds[] = {{kind::kAbout, true, kAboutKeys},
+                                         {kind::kTrial, false, kTrialKeys},
+                                         {kind::kChunk, true, kChunkKeys},
+                                         {kind::kCapture, true, kCaptureKeys},
+                                         {kind::kLog, true, {}}};
+
+struct ShownOfEvent {
+    std::string_view name;
+    Keys keys;  ///< texts among them are shown without their numbers
+    bool whole = false;
+};
+constexpr std::string_view kTextKeys[] = {"text"};
+constexpr std::string_view kArmingKeys[] = {"limits", "calibrated", "mode"};
+constexpr ShownOfEvent kShownOfEvents[] = {
+    {"interlock", kTextKeys},
+    {"fault", kTextKeys},
+    {"refused", kTextKeys},
+    {"stale", kTextKeys},
+    {"arming", kArmingKeys},
+    {"calibration", {}, true},
+    {kCertificateEvent, {}, true},
+    {kMarksEvent, {}, true},
+    {kMarkEvent, {}, true},
+    // Their names say how far the session went; the bodies are sealed.
+    {kOperatorMarkEvent, {}},
+    {"device report", {}},
+    {"keep-alive", {}},
+    {"settings", {}},
+    {"plan", {}},
+    {"gate", {}},
+    {"stop-test", {}},
+    {"skin", {}},
+    {"impedance", {}},
+    {"phase", {}},
+    {"trial-begin", {}},
+    {"answer", {}},
+    {"no-answer", {}},
+    {"answer-early", {}},
+    {"estimate", {}},
+    {"range", {}},
+    {"drift", {}},
+    {"break-begin", {}},
+    {"break-end", {}},
+    {"focus-lost", {}},
+    {"participant-stop", {}},
+    {"operator-stop", {}},
+    {"pause", {}},
+    {"continue", {}},
+    {"resumed", {}},
+    {"rating", {}},
+    {"side-effect", {}},
+    {"note", {}},
+    {"adverse-event", {}},
+    {"session-end", {}},
+};
+
+constexpr const char* kSealedKey = "sealed";
+constexpr const char* kSealedName = "sealed";
+
+/// A level in a sentence tells what was felt: every number becomes "…".
+std::string withoutNumbers(std::string_view text) {
+    std::string out;
+    bool inNumber = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto isDigit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+        const bool goesOn = inNumber && (text[i] == '.' || text[i] == ',') && isDigit(i + 1);
+        if (isDigit(i) || goesOn) {
+            if (!inNumber) out += "…";
+            inNumber = true;
+            continue;
+        }
+        inNumber = false;
+        out += text[i];
+    }
+    return out;
+}
+
+nlohmann::json shownKeys(const nlohmann::json& body, Keys keys, bool hideNumbers) {
+    auto shown = nlohmann::json::object();
+    for (const auto key : keys) {
+        const auto found = body.find(key);
+        if (found == body.end()) continue;
+        shown[std::string(key)] = hideNumbers && found->is_string()
+                                      ? nlohmann::json(withoutNumbers(found->get_ref<const std::string&>()))
+                                      : *found;
+    }
+    return shown;
+}
+
+struct Shown {
+    bool name = false;
+    nlohmann::json body = nlohmann::json::object();
+};
+
+Shown shownOf(std::string_view kind, std::string_view name, std::string_view body) {
+    const auto parsed = [&] {
+        auto json = parseJson(body, "a row", kRowLimits);
+        return json && json->is_object() ? *std::move(json) : nlohmann::json::object();
+    };
+    if (kind == kind::kEvent) {
+        const auto* rule = std::ranges::find(kShownOfEvents, name, &ShownOfEvent::name);
+        if (rule == std::end(kShownOfEvents)) return {};
+        if (rule->whole) return {true, parsed()};
+        return {true, rule->keys.empty() ? nlohmann::json::object() : shownKeys(parsed(), rule->keys, true)};
+    }
+    const auto* rule = std::ranges::find(kShownOfKinds, kind, &ShownOfKind::kind);
+    if (rule == std::end(kShownOfKinds)) return {};
+    return {rule->name, rule->keys.empty() ? nlohmann::json::object() : shownKeys(parsed(), rule->keys, false)};
+}
+
+std::string bulkKind(std::string_view kind) { return fmt::format("{} bytes", kind); }
+
+}  // namespace
+
+Instant wholeSecond(Instant at) noexcept { return std::chrono::floor<std::chrono::seconds>(at); }
+
+OutsideRow sealedRow(const RowSeal& seal, std::int64_t seq, std::string_view kind, Instant at, std::string_view name,
+                     std::string_view body) {
+    if (kind == kind::kStream || kind == kind::kEnd) return {wholeSecond(at), std::string(name), std::string(body)};
+    auto shown = shownOf(kind, name, body);
+    const auto inside =
+        fmt::format("{{\"t_ns\":{},\"name\":{},\"body\":{}}}", at.count(), dumpJson(nlohmann::json(name)), body);
+    shown.body[kSealedKey] = seal.sealText(seq, kind, inside);
+    return {wholeSecond(at), shown.name ? std::string(name) : std::string(), dumpJson(shown.body)};
+}
+
+Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_view kind, Instant at,
+                            std::string_view name, nlohmann::json body) {
+    const bool isPlain = kind == kind::kStream || kind == kind::kEnd || kind == kind::kAnnotation;
+    if (isPlain) return InsideRow{at, std::string(name), std::move(body), false};
+    if (seal == nullptr) {
+        const bool nameIsShown = kind == kind::kEvent ? !name.empty() : shownOf(kind, name, "{}").name;
+        if (body.is_object()) body[kSealedKey] = true;
+        return InsideRow{at, nameIsShown ? std::string(name) : kSealedName, std::move(body), true};
+    }
+    const auto text = seal->openText(seq, kind, textOr(body, kSealedKey));
+    if (!text) return fail(ErrorCode::ParseError, "row {} of the session: {}", seq, text.error().message);
+    auto inside = parseJson(*text, fmt::format("row {} of the session", seq), kRowLimits);
+    if (!inside) return failure(inside);
+    const auto exact = valueOr(*inside, "t_ns");
+    if (!exact.is_number_integer() || wholeSecond(Instant(exact.get<std::int64_t>())) != at)
+        return fail(ErrorCode::ParseError, "row {} of the session tells another time inside than outside", seq);
+    return InsideRow{Instant(exact.get<std::int64_t>()), textOr(*inside, "name"), valueOr(*inside, "body"), false};
+}
+
+std::vector<std::byte> sealedBulk(const RowSeal& seal, std::int64_t seq, std::string_view kind,
+                                  std::span<const std::span<const std::byte>> parts) {
+    return seal.sealBytes(seq, bulkKind(kind), parts);
+}
+
+Result<std::vector<std::byte>> openedBulk(const RowSeal& seal, std::int64_t seq, std::string_view kind,
+                                          std::span<const std::byte> sealed) {
+    auto opened = seal.openBytes(seq, bulkKind(kind), sealed);
+    if (!opened) return fail(ErrorCode::ParseError, "the samples of row {}: {}", seq, opened.error().message);
+    return opened;
+}
+
+Result<void> unpackOpenedChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> opened,
+                               SampleBlock& into) {
+    const std::size_t stamps = head.line ? 0 : head.samples * sizeof(double);
+    if (stamps > opened.size()) {
+        return fail(ErrorCode::ParseError, "chunk {} of stream {} holds {} bytes, not {} time stamps", head.index,
+                    head.stream, opened.size(), head.samples);
+    }
+    return unpackChunk(head, columns, opened.first(stamps), opened.subspan(stamps), into);
+}
+
+}  // namespace tacto

@@ -1,0 +1,161 @@
+#include "core/study/Gates.h"
+
+#include <algorithm>
+
+namespace tacto {
+
+namespace {
+
+constexpr ExclusionItem kExclusionItems[] = {
+    {"implant", "Do you have an active implant, such as a pacemaker or a pump?"},
+    {"epilepsy", "Do you have epilepsy, or did you ever have a seizure?"},
+    {"pregnancy", "Are you pregnant, or could you be?"},
+    {"heart", "Do you have heart trouble?"},
+    {"bleeding", "Do you have a bleeding disorder, or take blood thinners?"},
+    {"skin", "Is the skin at the site broken, inflamed or numb, or is there metal or swelling under it?"},
+    {"alcohol", "Did you have alcohol or sedatives today?"},
+    {"allergy", "Did your skin ever react to electrode gel or adhesive?"},
+    {"age", "Are you under age?"},
+    {"hf", "Is short-wave or surgical high-frequency equipment within 1 m?"},
+};
+
+constexpr auto kClockTolerance = std::chrono::minutes(5);
+
+std::string utcText(std::chrono::sys_seconds at) {
+    const auto day = std::chrono::floor<std::chrono::days>(at);
+    const std::chrono::hh_mm_ss time(at - day);
+    return fmt::format("{} {:02}:{:02} UTC", dateText(std::chrono::year_month_day(day)), time.hours().count(),
+                       time.minutes().count());
+}
+
+/// How a sentence names a participant: by code where it is known.
+std::string shownName(const Participant& participant) {
+    return participant.code.empty() ? fmt::format("participant {}", participant.id) : participant.code;
+}
+
+}  // namespace
+
+std::span<const ExclusionItem> exclusionItems() noexcept { return kExclusionItems; }
+
+std::vector<ExclusionAnswer> nothingExcludes() {
+    std::vector<ExclusionAnswer> all;
+    for (const auto& item : kExclusionItems) all.push_back({std::string(item.key), false});
+    return all;
+}
+
+Result<void> exclusionGate(std::span<const ExclusionAnswer> answers) {
+    for (const auto& answer : answers) {
+        if (std::ranges::find(kExclusionItems, answer.key, &ExclusionItem::key) != std::end(kExclusionItems)) continue;
+        return fail(ErrorCode::InvalidArgument, "the exclusion checklist has no item \"{}\"", answer.key);
+    }
+    std::size_t open = 0;
+    for (const auto& item : kExclusionItems) {
+        const auto given = std::ranges::count(answers, std::string(item.key), &ExclusionAnswer::key);
+        if (given != 1) ++open;
+    }
+    if (open != 0) {
+        return fail(kGateRefused, "{} of the {} questions of the exclusion checklist are not answered; each is asked",
+                    open, std::size(kExclusionItems));
+    }
+    if (std::ranges::any_of(answers, &ExclusionAnswer::yes)) {
+        return fail(kGateRefused,
+                    "an answer to the exclusion checklist is yes: there is no session today; every answer must be no");
+    }
+    return {};
+}
+
+Result<void> approvalGate(const StudySettings& settings, CalibrationDate today) {
+    const auto& approval = settings.approval;
+    if (approval.reference.empty())
+        return fail(kGateRefused, "the study has no approval; a committee's reference is needed");
+    if (!(today >= approval.from)) {
+        return fail(kGateRefused, "approval {} begins on {}, and today is {}; sessions can begin from that day on",
+                    approval.reference, dateText(approval.from), dateText(today));
+    }
+    if (!(today <= approval.expires)) {
+        return fail(kGateRefused, "approval {} expired on {}, and today is {}; an amendment with a later day is needed",
+                    approval.reference, dateText(approval.expires), dateText(today));
+    }
+    if (const auto now = protocolHash(settings); now != approval.protocolSha256) {
+        return fail(kGateRefused,
+                    "the study's settings and scripts hash to {:.12}…, and approval {} is for {:.12}…; a change needs an "
+                    "amendment",
+                    now, approval.reference, approval.protocolSha256);
+    }
+    return {};
+}
+
+Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script) {
+    if (settings.kind == StudyKind::Rehearsal) return {};
+    const auto approved = std::ranges::find(settings.scripts, script.name, &ScriptHash::name);
+    if (approved == settings.scripts.end()) {
+        return fail(kGateRefused, "the script {} is none of those that approval {} names; an amendment is needed",
+                    script.name, settings.approval.reference);
+    }
+    if (approved->sha256 != script.sha256) {
+        return fail(kGateRefused,
+                    "the script {} hashes to {:.12}…, and approval {} is for {:.12}…; a changed script needs an amendment",
+                    script.name, script.sha256, settings.approval.reference, approved->sha256);
+    }
+    return {};
+}
+
+Result<void> participantGate(const StudySettings& settings, const Participant& participant) {
+    if (participant.state != ParticipantState::Active) {
+        return fail(kGateRefused, "{} has {} the study; only an active participant takes part", shownName(participant),
+                    participant.state == ParticipantState::Left ? "left" : "withdrawn from");
+    }
+    if (settings.kind == StudyKind::Study && participant.sessions >= settings.sessionsMax) {
+        return fail(kGateRefused, "{} has had {} sessions, and approval {} allows {}", shownName(participant),
+                    participant.sessions, settings.approval.reference, settings.sessionsMax);
+    }
+    return {};
+}
+
+Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
+                     std::chrono::sys_seconds now) {
+    if (settings.kind == StudyKind::Rehearsal || !lastSession) return {};
+    const double hours = std::chrono::duration<double, std::ratio<3600>>(now - *lastSession).count();
+    if (hours >= settings.gapMin_h) return {};
+    return fail(kGateRefused, "the last session began {:.1f} h ago; at least {:g} h must lie between two sessions", hours,
+                settings.gapMin_h);
+}
+
+Result<void> consentGate(const StudySettings& settings, const Participant& participant, CalibrationDate today) {
+    const auto name = shownName(participant);
+    if (participant.consents.empty()) {
+        return fail(kGateRefused, "{} has given no consent; a dated consent to version {} is needed", name,
+                    settings.consentVersion);
+    }
+    const auto current = std::ranges::find(participant.consents, settings.consentVersion, &Consent::version);
+    if (current == participant.consents.end()) {
+        return fail(kGateRefused, "{} has consented to version {}, and version {} is in force; consent to it is needed",
+                    name, participant.consents.back().version, settings.consentVersion);
+    }
+    if (current->by.empty() || !current->date.ok() || !(current->date <= today)) {
+        return fail(kGateRefused,
+                    "the consent of {} is dated {} and taken by \"{}\"; a day no later than {} and initials are needed",
+                    name, dateText(current->date), current->by, dateText(today));
+    }
+    return {};
+}
+
+Result<void> clockGate(std::chrono::sys_seconds ledgerLast, std::chrono::sys_seconds now) {
+    if (now + kClockTolerance >= ledgerLast) return {};
+    return fail(kGateRefused, "the clock says {}, and the ledger's last row is of {}; set the clock", utcText(now),
+                utcText(ledgerLast));
+}
+
+Result<void> simulationGate(const StudySettings& settings, const Participant& participant, bool devicesSimulated) {
+    if (participant.virtualSeed && !devicesSimulated) {
+        return fail(kGateRefused, "{} is a virtual participant; only simulated devices are accepted",
+                    shownName(participant));
+    }
+    if (!participant.virtualSeed && devicesSimulated && settings.kind == StudyKind::Study) {
+        return fail(kGateRefused, "{} is a person and the devices are simulated; that is accepted in a rehearsal only",
+                    shownName(participant));
+    }
+    return {};
+}
+
+}  // namespace tacto

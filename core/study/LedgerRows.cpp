@@ -1,0 +1,237 @@
+#include "core/study/LedgerRows.h"
+
+#include <algorithm>
+
+#include "core/base/JsonFields.h"
+#include "core/seal/SealedText.h"
+#include "core/study/SessionSeal.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr AcceptedText kLedgerText{.mayBeEmpty = true, .mostBytes = 2000};
+
+RecordFields<Participant> buildParticipantFields() {
+    using P = Participant;
+    RecordFields<P> all;
+    all.word("group", &P::group, kParticipantGroups);
+    all.number("virtual", &P::virtualSeed);
+    all.texts({{"age", &P::age}, {"sex", &P::sex}, {"handedness", &P::handedness}}, kLedgerText);
+    return all;
+}
+const RecordFields<Participant>& participantFields() {
+    static const auto fields = buildParticipantFields();
+    return fields;
+}
+
+RecordFields<Consent> buildConsentFields() {
+    using C = Consent;
+    RecordFields<C> all;
+    all.text("version", &C::version, kLedgerText);
+    all.add("date", &C::date, dateKind());
+    all.text("by", &C::by, kLedgerText);
+    return all;
+}
+const RecordFields<Consent>& consentFields() {
+    static const auto fields = buildConsentFields();
+    return fields;
+}
+
+RecordFields<AdverseEvent> buildAdverseEventFields() {
+    using A = AdverseEvent;
+    RecordFields<A> all;
+    all.texts({{"what", &A::what}, {"action", &A::action}, {"outcome", &A::outcome}}, kLedgerText);
+    all.number("severity", &A::severity, {.low = 1, .high = 4});
+    all.flag("serious", &A::serious);
+    all.number("relation", &A::relation, {.low = 1, .high = 5});
+    all.flag("reported", &A::reported);
+    return all;
+}
+const RecordFields<AdverseEvent>& adverseEventFields() {
+    static const auto fields = buildAdverseEventFields();
+    return fields;
+}
+
+/// One pass over the ledger.
+class Replay {
+public:
+    Replay(const std::string& study, const StudyKeys* keys) : study_(study), keys_(keys) {}
+
+    [[nodiscard]] Result<void> take(const SessionRow& row) {
+        state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
+        if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
+            state.settingsSha256 = textOr(row.body, "sha256");
+            return {};
+        }
+        if (row.name == ledger::kEnrolled) return enrolled(row);
+        if (row.name == ledger::kAdverseEvent) return adverseEvent(row);
+        if (row.name == ledger::kExported) return {};
+        auto* participant = state.participant(textOr(row.body, "participant"));
+        if (participant == nullptr) return unfit(row, "an unknown participant");
+        if (row.name == ledger::kConsent) return consent(row, *participant);
+        if (row.name == ledger::kLeft) {
+            participant->state = ParticipantState::Left;
+            return {};
+        }
+        if (row.name == ledger::kWithdrawn) {
+            withdrawn(*participant);
+            return {};
+        }
+        if (row.name == ledger::kSessionBegun) return sessionBegun(row, *participant);
+        auto* session = state.session(textOr(row.body, "session"));
+        if (session == nullptr) return unfit(row, "an unknown session");
+        if (row.name == ledger::kSessionPart) {
+            session->parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
+            return {};
+        }
+        if (row.name == ledger::kSessionEnded) return sessionEnded(row, *session);
+        return unfit(row, "nothing that this program knows");
+    }
+
+    LedgerState state;
+
+private:
+    static std::chrono::seconds wholeSeconds(Instant at) noexcept {
+        return std::chrono::floor<std::chrono::seconds>(at);
+    }
+    static tl::unexpected<Error> unfit(const SessionRow& row, std::string_view what) {
+        return fail(ErrorCode::ParseError, "row {} ({}) of the ledger is about {}", row.seq, row.name, what);
+    }
+    /// Nothing where there is no key for it.
+    [[nodiscard]] Result<std::optional<nlohmann::json>> opened(const SessionRow& row, const std::string& id) const {
+        const auto* entry = keys_ != nullptr ? keys_->byId(id) : nullptr;
+        if (entry == nullptr) return std::nullopt;
+        auto content = openedInLedger(study_, subkey(entry->key, 0), row.seq, row.name, row.body);
+        if (!content) return failure(content);
+        return std::optional(std::move(*content));
+    }
+
+    [[nodiscard]] Result<void> enrolled(const SessionRow& row) {
+        Participant participant;
+        const auto id = textOr(row.body, "participant");
+        if (id.empty() || state.participant(id) != nullptr) return unfit(row, "a participant who is there already");
+        const auto content = opened(row, id);
+        if (!content) return failure(content);
+        participant.readable = content->has_value();
+        if (*content) {
+            if (auto read = participantFields().read(**content, participant, RecordPlace{}); !read) return read;
+            participant.code = keys_->byId(id)->code;
+        }
+        participant.id = id;
+        participant.enrolled = static_cast<int>(state.participants.size()) + 1;
+        state.participants.push_back(std::move(participant));
+        return {};
+    }
+
+    [[nodiscard]] Result<void> consent(const SessionRow& row, Participant& participant) {
+        const auto content = opened(row, participant.id);
+        if (!content) return failure(content);
+        if (!*content) return {};
+        auto read = consentFields().read(**content, RecordPlace{});
+        if (!read) return failure(read);
+        participant.consents.push_back(std::move(*read));
+        return {};
+    }
+
+    /// What the key may still open, until it is destroyed, is shown no more.
+    void withdrawn(Participant& participant) {
+        Participant left;
+        left.id = participant.id;
+        left.enrolled = participant.enrolled;
+        left.sessions = participant.sessions;
+        left.state = ParticipantState::Withdrawn;
+        left.readable = false;
+        participant = std::move(left);
+        for (auto& session : state.sessions) {
+            if (session.participant != participant.id) continue;
+            session.code.clear();
+            session.encoding.clear();
+        }
+    }
+
+    [[nodiscard]] Result<void> sessionBegun(const SessionRow& row, Participant& participant) {
+        StudySession session;
+        session.id = textOr(row.body, "session");
+        if (session.id.empty() || state.session(session.id) != nullptr) return unfit(row, "a session that is there already");
+        const auto content = opened(row, participant.id);
+        if (!content) return failure(content);
+        if (*content) session.encoding = textOr(**content, "encoding");
+        session.participant = participant.id;
+        session.code = participant.code;
+        session.number = ++participant.sessions;
+        session.protocol = textOr(row.body, "protocol");
+        session.parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
+        state.sessions.push_back(std::move(session));
+        return {};
+    }
+
+    [[nodiscard]] Result<void> sessionEnded(const SessionRow& row, StudySession& session) {
+        const auto ended = valueFor(kStudySessionStates, textOr(row.body, "state"));
+        if (!ended) return unfit(row, "a state that this program does not know");
+        session.state = *ended;
+        state.heads[textOr(row.body, "file")] = textOr(row.body, "head");
+        return {};
+    }
+
+    [[nodiscard]] Result<void> adverseEvent(const SessionRow& row) {
+        if (keys_ == nullptr) return {};
+        const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
+        if (!content) return failure(content);
+        auto event = adverseEventFields().read(*content, RecordPlace{});
+        if (!event) return failure(event);
+        state.adverseEvents.emplace_back(textOr(row.body, "session"), std::move(*event));
+        return {};
+    }
+
+    const std::string& study_;
+    const StudyKeys* keys_;
+};
+
+}  // namespace
+
+Participant* LedgerState::participant(std::string_view id) noexcept {
+    const auto found = std::ranges::find(participants, id, &Participant::id);
+    return found == participants.end() ? nullptr : &*found;
+}
+
+StudySession* LedgerState::session(std::string_view id) noexcept {
+    const auto found = std::ranges::find(sessions, id, &StudySession::id);
+    return found == sessions.end() ? nullptr : &*found;
+}
+
+const StudySession* LedgerState::sessionOfFile(std::string_view file) const noexcept {
+    for (const auto& session : sessions) {
+        if (std::ranges::find(session.parts, file, &StudyPart::file) != session.parts.end()) return &session;
+    }
+    return nullptr;
+}
+
+std::string sealedInLedger(const std::string& study, const Secret& key, std::int64_t seq, std::string_view name,
+                           const nlohmann::json& content) {
+    return SessionSeal(study, "ledger", Secret(key.bytes())).sealText(seq, name, dumpJson(content));
+}
+
+Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
+                                      std::string_view name, const nlohmann::json& body) {
+    const auto text = SessionSeal(study, "ledger", Secret(key.bytes())).openText(seq, name, textOr(body, "sealed"));
+    if (!text) return fail(ErrorCode::ParseError, "row {} ({}) of the ledger: {}", seq, name, text.error().message);
+    return parseJson(*text, fmt::format("row {} of the ledger", seq), kRowLimits);
+}
+
+nlohmann::json toJson(const Participant& participant) { return participantFields().write(participant); }
+nlohmann::json toJson(const Consent& consent) { return consentFields().write(consent); }
+nlohmann::json toJson(const AdverseEvent& event) { return adverseEventFields().write(event); }
+
+Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys) {
+    const auto rows = ledger.events();
+    if (!rows) return failure(rows);
+    Replay replay(study, keys);
+    for (const auto& row : *rows) {
+        if (auto taken = replay.take(row); !taken) return failure(taken);
+    }
+    replay.state.head = ledger.chainHead();
+    return std::move(replay.state);
+}
+
+}  // namespace tacto

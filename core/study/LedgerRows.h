@@ -1,0 +1,69 @@
+// LedgerRows.h - what the ledger of a study says: its rows, written by their names in one place, and the state that
+// their replay gives. What a row says of a person is sealed under that person's key.
+//
+//   study, amendment      {settings, sha256, reference}      enrolled  {participant, sealed}
+//   consent               {participant, sealed}              left, withdrawn  {participant, sessions}
+//   session-begun         {session, file, participant, number, protocol, script_sha256, sealed}
+//   session-part          {session, file, participant, after, head}
+//   session-ended         {session, participant, state, file, head}
+//   adverse-event, exported   {session, sealed under the study's key}
+//
+// Thread-safety: values.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/session/SessionReader.h"
+#include "core/study/Study.h"
+#include "core/study/StudyKeys.h"
+
+namespace tacto {
+
+namespace ledger {
+inline constexpr const char* kStudy = "study";
+inline constexpr const char* kAmendment = "amendment";
+inline constexpr const char* kEnrolled = "enrolled";
+inline constexpr const char* kConsent = "consent";
+inline constexpr const char* kLeft = "left";
+inline constexpr const char* kWithdrawn = "withdrawn";
+inline constexpr const char* kSessionBegun = "session-begun";
+inline constexpr const char* kSessionPart = "session-part";
+inline constexpr const char* kSessionEnded = "session-ended";
+inline constexpr const char* kAdverseEvent = "adverse-event";
+inline constexpr const char* kExported = "exported";
+}  // namespace ledger
+
+struct LedgerState {
+    std::string settingsSha256;  ///< of study.json, as last written
+    std::vector<Participant> participants;
+    std::vector<StudySession> sessions;             ///< without `answered`
+    std::map<std::string, std::string> heads;       ///< of ended files: file to chain head
+    std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
+    std::chrono::sys_seconds last{};                ///< of the newest row
+    std::string head;
+
+    [[nodiscard]] Participant* participant(std::string_view id) noexcept;
+    [[nodiscard]] StudySession* session(std::string_view id) noexcept;
+    [[nodiscard]] const StudySession* sessionOfFile(std::string_view file) const noexcept;
+};
+
+/// A sealed part of a ledger's row.
+[[nodiscard]] std::string sealedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
+                                         std::string_view name, const nlohmann::json& content);
+[[nodiscard]] Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
+                                                    std::string_view name, const nlohmann::json& body);
+
+/// What a participant's row in the ledger seals.
+[[nodiscard]] nlohmann::json toJson(const Participant& participant);
+[[nodiscard]] nlohmann::json toJson(const Consent& consent);
+[[nodiscard]] nlohmann::json toJson(const AdverseEvent& event);
+
+/// `keys` may be null. Errors: ParseError naming a row that does not fit the ones before it or does not open.
+[[nodiscard]] Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys);
+
+}  // namespace tacto

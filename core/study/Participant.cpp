@@ -1,0 +1,62 @@
+#include "core/study/Participant.h"
+
+#include <algorithm>
+
+#include "core/seal/SealedText.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr std::string_view kCodeAlphabet = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+/// Without those that are taken for one another when written by hand.
+constexpr std::string_view kDrawn = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ";
+constexpr std::size_t kShortestCode = 3;
+constexpr std::size_t kLongestCode = 16;
+
+}  // namespace
+
+std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept {
+    // ISO 7064, MOD 37,36: hybrid system with modulus 36.
+    unsigned p = 36;
+    for (const char c : lettersAndDigits) {
+        const auto value = kCodeAlphabet.find(c);
+        if (value == std::string_view::npos) return std::nullopt;
+        p = (p + static_cast<unsigned>(value)) % 36;
+        if (p == 0) p = 36;
+        p = p * 2 % 37;
+    }
+    return kCodeAlphabet[(37 - p) % 36];
+}
+
+Result<std::string> checkedCode(std::string_view text) {
+    std::string stored;
+    std::string checked;
+    for (const char c : text) {
+        const char upper = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        stored += upper;
+        if (upper != '-') checked += upper;
+    }
+    const auto refused = [&](std::string_view what) {
+        return fail(ErrorCode::NotFound,
+                    "\"{}\" is no participant's code: {}; a code as P-7K3D is expected, whose last character checks the "
+                    "others",
+                    text.substr(0, 40), what);
+    };
+    if (checked.size() < kShortestCode || checked.size() > kLongestCode || stored.size() > 2 * kLongestCode)
+        return refused(fmt::format("it has {} letters and digits, not {} to {}", checked.size(), kShortestCode,
+                                   kLongestCode));
+    const auto check = checkCharacter(std::string_view(checked).substr(0, checked.size() - 1));
+    if (!check || kCodeAlphabet.find(checked.back()) == std::string_view::npos)
+        return refused("it holds something else than letters, digits and hyphens");
+    if (*check != checked.back()) return refused("its check character is wrong");
+    return stored;
+}
+
+std::string newCode() {
+    std::string drawn = "P";
+    for (int i = 0; i < 3; ++i) drawn += kDrawn[randomBelow(static_cast<std::uint32_t>(kDrawn.size()))];
+    return fmt::format("P-{}{}", drawn.substr(1), checkCharacter(drawn).value_or('?'));
+}
+
+}  // namespace tacto

@@ -1,0 +1,95 @@
+#include "core/study/StudyFiles.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/base/Csv.h"
+#include "core/base/JsonFields.h"
+#include "core/session/Digest.h"
+#include "core/session/Durable.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr int kStudyVersion = 1;
+
+std::filesystem::path draftOf(const StudyFiles& files) {
+    auto draft = files.settings();
+    return draft += ".new";
+}
+
+}  // namespace
+
+std::filesystem::path StudyFiles::session(std::string_view file) const {
+    return sessions() / fmt::format("{}.tacto", file);
+}
+
+std::string studyText(const StudySettings& settings) {
+    auto json = studyFields().write(settings);
+    json["version"] = kStudyVersion;
+    if (settings.kind == StudyKind::Rehearsal) json["note"] = "A rehearsal: its keys lie beside this file and are no secret.";
+    return dumpJson(json, 2) + "\n";
+}
+
+Result<StudySettings> parseStudy(std::string_view text, const std::string& source) {
+    auto json = parseJson(text, source);
+    if (!json) return failure(json);
+    if (auto object = expectObject(*json, source); !object) return failure(object);
+    const auto version = valueOr(*json, "version");
+    if (!version.is_number_unsigned())
+        return fail(ErrorCode::ParseError, "{} says no version; it is no study of Tactoscope's", source);
+    if (version.get<std::uint64_t>() > kStudyVersion) {
+        return fail(ErrorCode::Unsupported,
+                    "{} has version {}, made by a newer Tactoscope; this program reads up to {}", source,
+                    version.get<std::uint64_t>(), kStudyVersion);
+    }
+    json->erase("version");
+    json->erase("note");
+    auto settings = studyFields().read(*json, RecordPlace{.file = source});
+    if (!settings) return tl::unexpected<Error>(asParseError(settings.error()));
+    const auto isHex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+    if (settings->id.size() != 16 || !std::ranges::all_of(settings->id, isHex))
+        return fail(ErrorCode::ParseError, "{}: the id is \"{}\"; 16 hexadecimal digits are expected", source,
+                    settings->id);
+    return settings;
+}
+
+Result<void> draftStudy(const StudyFiles& files, std::string_view text) {
+    const auto draft = draftOf(files);
+    {
+        std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+        out << text;
+        out.flush();
+        if (!out) return fail(ErrorCode::Io, "{} cannot be written", draft.string());
+    }
+    return syncFile(draft);
+}
+
+Result<void> publishStudy(const StudyFiles& files) {
+    std::error_code error;
+    std::filesystem::rename(draftOf(files), files.settings(), error);
+    if (error) return fail(ErrorCode::Io, "{} cannot be replaced: {}", files.settings().string(), error.message());
+    syncFolderOf(files.settings());
+    return {};
+}
+
+Result<std::string> readStudy(const StudyFiles& files, std::string_view sha256) {
+    auto text = readTextFile(files.settings());
+    if (text && sha256Hex(*text) == sha256) return text;
+    if (auto draft = readTextFile(draftOf(files)); draft && sha256Hex(*draft) == sha256) return draft;
+    if (!text) return text;
+    return fail(ErrorCode::ParseError,
+                "{} is not what the ledger says: it was changed outside the program; put it back from your copy",
+                files.settings().string());
+}
+
+bool liesInside(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+    const auto within = std::filesystem::weakly_canonical(std::filesystem::absolute(folder, error), error);
+    const auto [end, ignored] = std::mismatch(within.begin(), within.end(), whole.begin(), whole.end());
+    return end == within.end();
+}
+
+}  // namespace tacto

@@ -1,0 +1,223 @@
+#include "core/study/StudyKeys.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/Csv.h"
+#include "core/base/JsonFields.h"
+#include "core/seal/SealedText.h"
+#include "core/session/Durable.h"
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kKeyFileVersion = 1;
+constexpr const char* kKeyFileFormat = "tactoscope study keys";
+constexpr const char* kNoSecret = "The keys of a rehearsal with virtual participants: they are no secret.";
+constexpr std::size_t kIdBytes = 16;
+constexpr std::size_t kCodeBytes = 32;
+constexpr std::size_t kEntryBytes = kIdBytes + kCodeBytes + kKeyBytes;
+
+std::string boundTo(const std::string& study) { return study + "\nkeys"; }
+
+tl::unexpected<Error> ioError(const fs::path& file) {
+    return fail(ErrorCode::Io, "the key file {} cannot be written: {}", file.string(), std::strerror(errno));
+}
+
+void put(std::span<std::byte> into, std::string_view text) { std::memcpy(into.data(), text.data(), text.size()); }
+
+std::string textIn(std::span<const std::byte> bytes) {
+    const auto* at = reinterpret_cast<const char*>(bytes.data());
+    return {at, ::strnlen(at, bytes.size())};
+}
+
+bool writeWhole(int file, std::string_view text) {
+    while (!text.empty()) {
+        const auto written = ::write(file, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return ::fsync(file) == 0;
+}
+
+/// Overwrites what was in a file that has lost its name.
+void overwrite(int file) noexcept {
+    struct stat about {};
+    if (::fstat(file, &about) != 0) return;
+    const std::string zeros(static_cast<std::size_t>(about.st_size), '\0');
+    if (::lseek(file, 0, SEEK_SET) == 0) static_cast<void>(writeWhole(file, zeros));
+}
+
+/// A file of this account alone takes the place of `file`.
+Result<void> replace(const fs::path& file, std::string_view text) {
+    auto draft = file;
+    draft += ".new";
+    ::unlink(draft.c_str());
+    const int out = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (out < 0) return ioError(file);
+    bool written = writeWhole(out, text);
+    const int error = errno;
+    ::close(out);
+    const int old = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    written = written && ::rename(draft.c_str(), file.c_str()) == 0;
+    if (!written) {
+        if (old >= 0) ::close(old);
+        ::unlink(draft.c_str());
+        errno = error != 0 ? error : errno;
+        return ioError(file);
+    }
+    syncFolderOf(file);
+    if (old >= 0) {
+        overwrite(old);
+        ::close(old);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<StudyKeys> StudyKeys::create(const fs::path& file, const std::string& study, const Passphrase* passphrase,
+                                    const PassphraseCost& cost) {
+    std::error_code error;
+    if (fs::exists(file, error))
+        return fail(ErrorCode::InvalidArgument, "the key file {} exists; it is never overwritten", file.string());
+    if (passphrase != nullptr) {
+        fs::create_directories(file.parent_path(), error);
+        if (error) {
+            return fail(ErrorCode::Io, "the key folder {} cannot be made: {}", file.parent_path().string(),
+                        error.message());
+        }
+        static_cast<void>(::chmod(file.parent_path().c_str(), 0700));
+    }
+    StudyKeys keys(file, study);
+    keys.study_ = Secret::random(kKeyBytes);
+    if (passphrase != nullptr) {
+        const auto salt = Secret::random(keys.salt_.size());
+        std::ranges::copy(salt.bytes(), keys.salt_.begin());
+        auto lock = passphrase->keyFor(keys.salt_, cost);
+        if (!lock) return failure(lock);
+        keys.lock_ = std::move(*lock);
+    }
+    if (auto written = keys.write(); !written) return failure(written);
+    return keys;
+}
+
+Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study, const Passphrase* passphrase,
+                                  const PassphraseCost& cost) {
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+        return fail(ErrorCode::NotFound, "the key file {} of the study is not there; put it back from your copy",
+                    file.string());
+    }
+    const auto text = readTextFile(file);
+    if (!text) return failure(text);
+    const auto json = parseJson(*text, file.string());
+    if (!json) return failure(json);
+    if (textOr(*json, "format") != kKeyFileFormat)
+        return fail(ErrorCode::ParseError, "{} is no key file of a study", file.string());
+    if (countOr(*json, "version") != kKeyFileVersion) {
+        return fail(ErrorCode::Unsupported, "the key file {} has version {}, made by a newer Tactoscope; this program "
+                    "reads {}", file.string(), countOr(*json, "version"), kKeyFileVersion);
+    }
+    if (textOr(*json, "study") != study) {
+        return fail(ErrorCode::NotFound, "the key file {} belongs to study {}, not to {}", file.string(),
+                    textOr(*json, "study"), study);
+    }
+    StudyKeys keys(file, study);
+    const auto stored = bytesOfBase64(textOr(*json, passphrase != nullptr ? "sealed" : "keys"));
+    if (!stored || stored->empty())
+        return fail(ErrorCode::ParseError, "the key file {} is damaged: it holds no keys", file.string());
+    if (passphrase == nullptr) {
+        if (auto taken = keys.take(Secret(*stored)); !taken) return failure(taken);
+        return keys;
+    }
+    const auto salt = bytesOfBase64(textOr(*json, "salt"));
+    if (!salt || salt->size() != keys.salt_.size())
+        return fail(ErrorCode::ParseError, "the key file {} is damaged: its salt is not 16 bytes", file.string());
+    std::ranges::copy(*salt, keys.salt_.begin());
+    auto lock = passphrase->keyFor(keys.salt_, cost);
+    if (!lock) return failure(lock);
+    keys.lock_ = std::move(*lock);
+    const auto content = openSecret(*keys.lock_, boundTo(study), kTextBlock, *stored);
+    if (!content) {
+        return fail(ErrorCode::NotFound,
+                    "the passphrase does not open the key file {}: it is wrong, or the file was altered", file.string());
+    }
+    if (auto taken = keys.take(*content); !taken) return failure(taken);
+    return keys;
+}
+
+const StudyKeys::Entry* StudyKeys::byId(std::string_view id) const noexcept {
+    const auto found = std::ranges::find(entries_, id, &Entry::id);
+    return found == entries_.end() ? nullptr : &*found;
+}
+
+Result<void> StudyKeys::add(const std::string& id, const std::string& code) {
+    if (id.size() != kIdBytes || code.empty() || code.size() >= kCodeBytes)
+        return fail(ErrorCode::InvalidArgument, "the code \"{}\" has {} characters; up to {} are accepted", code,
+                    code.size(), kCodeBytes - 1);
+    entries_.push_back({id, code, Secret::random(kKeyBytes)});
+    auto written = write();
+    if (!written) entries_.pop_back();
+    return written;
+}
+
+Result<void> StudyKeys::destroy(std::string_view id) {
+    const auto found = std::ranges::find(entries_, id, &Entry::id);
+    if (found == entries_.end()) return {};
+    auto gone = std::move(*found);
+    entries_.erase(found);
+    auto written = write();
+    if (!written) entries_.push_back(std::move(gone));  // the file still has it
+    return written;
+}
+
+Secret StudyKeys::content() const {
+    Secret all(kKeyBytes + entries_.size() * kEntryBytes);
+    std::ranges::copy(study_.bytes(), all.bytes().begin());
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const auto place = all.bytes().subspan(kKeyBytes + i * kEntryBytes, kEntryBytes);
+        put(place.first(kIdBytes), entries_[i].id);
+        put(place.subspan(kIdBytes, kCodeBytes), entries_[i].code);
+        std::ranges::copy(entries_[i].key.bytes(), place.subspan(kIdBytes + kCodeBytes).begin());
+    }
+    return all;
+}
+
+Result<void> StudyKeys::take(const Secret& content) {
+    const auto bytes = content.bytes();
+    if (bytes.size() < kKeyBytes || (bytes.size() - kKeyBytes) % kEntryBytes != 0)
+        return fail(ErrorCode::ParseError, "the key file {} is damaged: it holds {} bytes of keys", file_.string(),
+                    bytes.size());
+    study_ = Secret(bytes.first(kKeyBytes));
+    for (std::size_t at = kKeyBytes; at < bytes.size(); at += kEntryBytes) {
+        const auto place = bytes.subspan(at, kEntryBytes);
+        entries_.push_back({textIn(place.first(kIdBytes)), textIn(place.subspan(kIdBytes, kCodeBytes)),
+                            Secret(place.subspan(kIdBytes + kCodeBytes))});
+    }
+    return {};
+}
+
+Result<void> StudyKeys::write() const {
+    nlohmann::json json{{"format", kKeyFileFormat}, {"version", kKeyFileVersion}, {"study", studyId_}};
+    const auto all = content();
+    if (lock_) {
+        const std::span<const std::byte> parts[] = {all.bytes()};
+        json["salt"] = base64Text(salt_);
+        json["sealed"] = base64Text(sealBytes(*lock_, boundTo(studyId_), kTextBlock, parts));
+    } else {
+        json["note"] = kNoSecret;
+        json["keys"] = base64Text(all.bytes());
+    }
+    return replace(file_, dumpJson(json, 2) + "\n");
+}
+
+}  // namespace tacto

@@ -1,0 +1,65 @@
+// StudyKeys.h - the keys of a study: the study's own and one of each participant, with the code that belongs to it.
+//
+// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600. What the passphrase opens is
+// binary, so that no key passes through a parser: 32 bytes of the study's key, then 80 bytes a participant (16 of the
+// id, 32 of the code, 32 of the key). A rehearsal's file has no passphrase and says that it is no secret.
+//
+// Every change writes a new file, which takes the old one's place; the old one's bytes are overwritten.
+//
+// Thread-safety: one caller at a time.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Result.h"
+#include "core/seal/Passphrase.h"
+#include "core/seal/Secret.h"
+
+namespace tacto {
+
+class StudyKeys {
+public:
+    struct Entry {
+        std::string id;
+        std::string code;
+        Secret key;
+    };
+
+    /// `passphrase` null: a rehearsal's. Errors: InvalidArgument where there is a file already; Io.
+    [[nodiscard]] static Result<StudyKeys> create(const std::filesystem::path& file, const std::string& study,
+                                                  const Passphrase* passphrase, const PassphraseCost& cost);
+    /// Errors: NotFound for a file that is not there, belongs to another study, or that the passphrase does not open;
+    /// Unsupported for one of a newer version; ParseError; Io.
+    [[nodiscard]] static Result<StudyKeys> open(const std::filesystem::path& file, const std::string& study,
+                                                const Passphrase* passphrase, const PassphraseCost& cost);
+
+    [[nodiscard]] const Secret& study() const noexcept { return study_; }
+    [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
+    /// Null where there is none.
+    [[nodiscard]] const Entry* byId(std::string_view id) const noexcept;
+
+    /// A new participant with a key of their own. Errors: Io; nothing is kept then.
+    [[nodiscard]] Result<void> add(const std::string& id, const std::string& code);
+    /// Code and key are gone from memory and file. Errors: Io.
+    [[nodiscard]] Result<void> destroy(std::string_view id);
+
+private:
+    StudyKeys(std::filesystem::path file, std::string study) : file_(std::move(file)), studyId_(std::move(study)) {}
+    [[nodiscard]] Secret content() const;
+    [[nodiscard]] Result<void> take(const Secret& content);
+    [[nodiscard]] Result<void> write() const;
+
+    std::filesystem::path file_;
+    std::string studyId_;
+    std::array<std::byte, Passphrase::kSaltBytes> salt_{};
+    std::optional<Secret> lock_;  // Made of the passphrase; nothing in a rehearsal
+    Secret study_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace tacto

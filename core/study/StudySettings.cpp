@@ -1,0 +1,190 @@
+#include "core/study/StudySettings.h"
+
+#include <algorithm>
+
+#include "core/base/JsonFields.h"
+#include "core/base/Text.h"
+#include "core/session/Digest.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr Word<StudyKind> kStudyKinds[] = {{"study", StudyKind::Study}, {"rehearsal", StudyKind::Rehearsal}};
+constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electrodes}, {"massager", Modality::Massager}};
+constexpr Word<ElectrodeSite> kElectrodeSites[] = {{"forearm", ElectrodeSite::Forearm},
+                                                   {"residual limb's end", ElectrodeSite::ResidualLimbEnd},
+                                                   {"upper arm", ElectrodeSite::UpperArm},
+                                                   {"hand", ElectrodeSite::Hand}};
+constexpr Word<Nerve> kNerves[] = {{"radial", Nerve::Radial}, {"median", Nerve::Median}, {"ulnar", Nerve::Ulnar}};
+constexpr Word<Limb> kLimbs[] = {{"left", Limb::Left}, {"right", Limb::Right}};
+constexpr Word<DataOnRequest> kDataOnRequest[] = {{"destroy", DataOnRequest::Destroy}, {"keep", DataOnRequest::Keep}};
+/// The four conditions of two textures and two pressures. Their names are in the protocol and in no plain text here.
+constexpr std::string_view kTexturePressure = "texture-pressure";
+
+constexpr AcceptedText kShortText{.mostBytes = 200};
+constexpr AcceptedText kOptionalText{.mayBeEmpty = true, .mostBytes = 200};
+
+RecordFields<Approval> approvalFields() {
+    using A = Approval;
+    RecordFields<A> all;
+    all.text("reference", &A::reference, kOptionalText);
+    all.text("committee", &A::committee, kOptionalText);
+    all.add("from", &A::from, dateKind()).required = true;
+    all.add("expires", &A::expires, dateKind()).required = true;
+    all.text("protocol_version", &A::protocolVersion, kOptionalText);
+    all.text("protocol_sha256", &A::protocolSha256, kOptionalText);
+    all.rule([](const A& approval) -> Result<void> {
+        if (approval.from <= approval.expires) return {};
+        return fail(ErrorCode::InvalidArgument, "the approval begins on {} and expires on {}; a later day is expected",
+                    dateText(approval.from), dateText(approval.expires));
+    });
+    return all;
+}
+
+RecordFields<StudyElectrode> electrodeFields() {
+    using E = StudyElectrode;
+    RecordFields<E> all;
+    all.text("type", &E::type, kShortText);
+    all.number("area_cm2", &E::area, {.low = 0, .high = 500, .openLow = true, .unit = "cm²"});
+    all.number("distance_mm", &E::distance_mm, {.low = 0, .high = 500, .openLow = true, .unit = "mm"});
+    return all;
+}
+
+RecordFields<StudyTrain> trainFields() {
+    using T = StudyTrain;
+    RecordFields<T> all;
+    all.text("shape", &T::shape, kShortText);
+    all.number("width_us", &T::width_us, {.low = 10, .high = 1000, .unit = "µs"});
+    all.number("gap_us", &T::gap_us, {.low = 0, .high = 1000, .unit = "µs"});
+    all.number("pulses", &T::pulses, {.low = 1, .high = 1000});
+    all.number("rate_hz", &T::rate_hz, {.low = 0, .high = 1000, .unit = "Hz"});
+    return all;
+}
+
+template <class Named>
+RecordFields<Named> namedHashFields(std::string_view name, std::string Named::*member) {
+    RecordFields<Named> all;
+    all.text(name, member, kShortText);
+    all.text("sha256", &Named::sha256, kShortText);
+    return all;
+}
+
+RecordFields<StudySettings> buildStudyFields() {
+    using S = StudySettings;
+    RecordFields<S> all;
+    all.text("id", &S::id, kOptionalText);
+    all.text("title", &S::title, kShortText).required = true;
+    all.word("kind", &S::kind, kStudyKinds).required = true;
+    all.word("modality", &S::modality, kModalities);
+    all.record("approval", &S::approval, approvalFields()).required = true;
+    all.text("consent_version", &S::consentVersion, kShortText).required = true;
+    all.number("participants_max", &S::participantsMax, {.low = 1, .high = 10'000});
+    all.number("sessions_max", &S::sessionsMax, {.low = 1, .high = 10'000});
+    all.number("gap_min_h", &S::gapMin_h, {.low = 0, .high = 10'000, .unit = "h"});
+    all.number("session_max_min", &S::sessionMax_min, {.low = 1, .high = 240, .unit = "min"});
+    all.number("cap_ma", &S::cap_mA, {.low = 0, .high = 15, .openLow = true, .unit = "mA"});
+    all.list("limits", &S::limits, namedHashFields<StudyLimitSet>("id", &StudyLimitSet::id).kind(), 0, 20);
+    all.word("site", &S::site, kElectrodeSites);
+    all.word("nerve", &S::nerve, kNerves);
+    all.word("limb", &S::limb, kLimbs);
+    all.record("electrode", &S::electrode, electrodeFields());
+    all.record("train", &S::train, trainFields());
+    all.text("conditions", &S::conditions, kShortText);
+    all.list("encodings", &S::encodings, textKind(kShortText), 1, 6);
+    all.number("blocks", &S::blocks, {.low = 1, .high = 20});
+    all.number("per_condition", &S::perCondition, {.low = 1, .high = 20});
+    all.number("catch", &S::catchTrials, {.low = 0, .high = 20});
+    all.flag("blind", &S::blind);
+    all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
+    all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
+    all.rule([](const S& settings) -> Result<void> {
+        if (settings.conditions == kTexturePressure) return {};
+        return fail(ErrorCode::InvalidArgument, "\"conditions\" is \"{}\"; \"{}\" is expected", settings.conditions,
+                    kTexturePressure);
+    });
+    return all;
+}
+
+/// `text` as the JSON of a field that holds `before`.
+Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key, std::string_view text) {
+    const auto refused = [&](std::string_view what) {
+        return fail(ErrorCode::InvalidArgument, "{} is \"{}\"; {} is expected", key, text, what);
+    };
+    if (before.is_boolean()) {
+        if (text == "true" || text == "yes" || text == "on") return true;
+        if (text == "false" || text == "no" || text == "off") return false;
+        return refused("true or false");
+    }
+    if (before.is_number()) {
+        const auto number = parseNumber(text);
+        return number ? Result<nlohmann::json>(*number) : refused("a number");
+    }
+    if (before.is_array()) {
+        auto list = nlohmann::json::array();
+        for (std::size_t from = 0; from <= text.size();) {
+            const auto comma = std::min(text.find(',', from), text.size());
+            list.push_back(std::string(text.substr(from, comma - from)));
+            from = comma + 1;
+        }
+        return list;
+    }
+    if (before.is_object()) return refused("one of its fields, as KEY.FIELD=VALUE,");
+    return nlohmann::json(std::string(text));
+}
+
+}  // namespace
+
+std::string_view nameOf(StudyKind kind) noexcept { return wordFor(kStudyKinds, kind); }
+std::string_view nameOf(Modality modality) noexcept { return wordFor(kModalities, modality); }
+std::string_view nameOf(ElectrodeSite site) noexcept { return wordFor(kElectrodeSites, site); }
+
+const RecordFields<StudySettings>& studyFields() {
+    static const auto fields = buildStudyFields();
+    return fields;
+}
+
+Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value) {
+    constexpr std::string_view kOwnOptions[] = {"id",
+                                                "kind",
+                                                "limits",
+                                                "scripts",
+                                                "approval.reference",
+                                                "approval.from",
+                                                "approval.expires",
+                                                "approval.protocol_sha256"};
+    auto json = studyFields().write(settings);
+    const auto dot = key.find('.');
+    const auto outer = std::string(key.substr(0, dot));
+    const bool known = json.contains(outer) && std::ranges::find(kOwnOptions, key) == std::end(kOwnOptions);
+    auto* field = known ? &json[outer] : nullptr;
+    if (field != nullptr && dot != std::string_view::npos) {
+        const auto inner = std::string(key.substr(dot + 1));
+        field = field->is_object() && field->contains(inner) ? &(*field)[inner] : nullptr;
+    }
+    if (field == nullptr) {
+        std::string names;
+        for (const auto& info : studyFields().infos()) {
+            if (std::ranges::find(kOwnOptions, info.key) != std::end(kOwnOptions) || info.key == "approval") continue;
+            if (info.members.empty()) names += fmt::format("{}{}", names.empty() ? "" : ", ", info.key);
+            for (const auto& member : info.members) names += fmt::format(", {}.{}", info.key, member.key);
+        }
+        return fail(ErrorCode::InvalidArgument, "a study has no setting \"{}\"; there are {}", key, names);
+    }
+    auto next = asJson(*field, key, value);
+    if (!next) return failure(next);
+    *field = *std::move(next);
+    StudySettings changed;
+    if (auto read = studyFields().read(json, changed, RecordPlace{}); !read)
+        return tl::unexpected<Error>(asInvalidArgument(read.error()));
+    settings = std::move(changed);
+    return {};
+}
+
+std::string protocolHash(const StudySettings& settings) {
+    auto json = studyFields().write(settings);
+    for (const char* key : {"id", "approval"}) json.erase(key);
+    return sha256Hex(dumpJson(json));
+}
+
+}  // namespace tacto

@@ -1,0 +1,73 @@
+// Can this participant tell the four tactile conditions apart? Thresholds first, then training, then test blocks
+// without feedback. Each answer is on disk before the next presentation; a session that was broken off goes on with
+// the first trial of its order that has no answer.
+protocol({
+  title: "Pilot session: identification",
+  purpose: "Can this participant tell the four tactile conditions apart?",
+  kind: "pilot-identification",
+  needs: ["stimulator"],
+  parameters: {
+    participant: { label: "Participant: a code, or virtual:SEED", type: "text", value: "" },
+    unfinished: {
+      label: "An unfinished session",
+      type: "choice",
+      choices: { ask: "is named, and nothing is done", resume: "goes on", end: "is ended, and a new one begins" },
+      value: "ask",
+    },
+    blocks: { label: "Blocks of the test (rehearsals)", type: "integer", min: 1, max: 50, value: 5 },
+    exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },
+    method: {
+      label: "Detection by",
+      type: "choice",
+      choices: { quest: "QUEST+", staircase: "weighted staircase" },
+      value: "quest",
+    },
+    detection: { label: "Virtual: perception threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
+    attention: { label: "Virtual: attention threshold, median", unit: "mA", min: 0.1, max: 200, value: 6.9 },
+    discomfort: { label: "Virtual: too strong from, median", unit: "mA", min: 0.2, max: 200, value: 9.8 },
+    intolerance: { label: "Virtual: intolerance threshold, median", unit: "mA", min: 0.2, max: 500, value: 13.8 },
+    noise: { label: "Virtual: noise of what is felt", unit: "JND", min: 0.1, max: 20, value: 1 },
+    adaptation: { label: "Virtual: thresholds rise by at most", min: 0, max: 10, value: 0 },
+  },
+});
+
+const SHORT_BREAK = 60; // s, between blocks
+const LONG_BREAK = 300; // s, after the third block, with a look at the skin
+
+function run(p) {
+  // The order of all trials is drawn and stored; both STOPs, the skin and the electrodes are checked.
+  pilot.begin();
+  pilot.sideEffects("before");
+
+  // What is felt, and from where it is too strong.
+  pilot.ascendingLimits();
+  pilot.detection({ method: p.method });
+  if (!pilot.range().usable) {
+    pilot.skin("after");
+    pilot.sideEffects("after");
+    pilot.finish("no usable range");
+    verdict(pilot.results("identification"));
+    return;
+  }
+
+  // The four conditions with their names, then with feedback.
+  pilot.familiarise();
+  pilot.train();
+
+  // The test: four of each condition and two empty presentations in each block, without feedback.
+  for (const block of progress(pilot.blocks, "Blocks")) {
+    if (block > 1) {
+      pilot.takeBreak(block - 1, block === 4 ? LONG_BREAK : SHORT_BREAK);
+      if (block === 4) pilot.skin("break 3");
+    }
+    pilot.beforeBlock(block);
+    if (block > 1) pilot.driftCheck(block);
+    pilot.testBlock(block);
+  }
+
+  pilot.ratings();
+  pilot.skin("after");
+  pilot.sideEffects("after");
+  pilot.finish("complete");
+  verdict(pilot.results("identification"));
+}

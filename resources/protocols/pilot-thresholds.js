@@ -1,0 +1,49 @@
+// What can this participant feel today, and from where is it too strong? Three steps; each answer is on disk before
+// the next presentation.
+protocol({
+  title: "Pilot session: thresholds",
+  purpose: "Find the currents between which this participant's conditions lie today.",
+  kind: "pilot-thresholds",
+  needs: ["stimulator"],
+  parameters: {
+    participant: { label: "Participant: a code, or virtual:SEED", type: "text", value: "" },
+    unfinished: {
+      label: "An unfinished session",
+      type: "choice",
+      choices: { ask: "is named, and nothing is done", resume: "goes on", end: "is ended, and a new one begins" },
+      value: "ask",
+    },
+    blocks: { label: "Blocks of the test: not used here", type: "integer", min: 1, max: 50, value: 5 },
+    exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },
+    method: {
+      label: "Detection by",
+      type: "choice",
+      choices: { quest: "QUEST+", staircase: "weighted staircase" },
+      value: "quest",
+    },
+    detection: { label: "Virtual: perception threshold, median", unit: "mA", min: 0.1, max: 50, value: 3.5 },
+    attention: { label: "Virtual: attention threshold, median", unit: "mA", min: 0.1, max: 200, value: 6.9 },
+    discomfort: { label: "Virtual: too strong from, median", unit: "mA", min: 0.2, max: 200, value: 9.8 },
+    intolerance: { label: "Virtual: intolerance threshold, median", unit: "mA", min: 0.2, max: 500, value: 13.8 },
+    noise: { label: "Virtual: noise of what is felt", unit: "JND", min: 0.1, max: 20, value: 1 },
+    adaptation: { label: "Virtual: thresholds rise by at most", min: 0, max: 10, value: 0 },
+  },
+});
+
+function run(p) {
+  // Both STOPs, the skin and the electrodes, before anything is presented.
+  pilot.begin({ trials: false });
+  pilot.sideEffects("before");
+
+  // 1. Rising levels, three times, until "too strong".
+  pilot.ascendingLimits();
+  // 2. The detection threshold: "in the first or in the second interval?"
+  pilot.detection({ method: p.method });
+  // 3. The range, accepted for half an hour.
+  pilot.range();
+
+  pilot.skin("after");
+  pilot.sideEffects("after");
+  pilot.finish("complete");
+  verdict(pilot.results("thresholds"));
+}

@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include "core/analysis/identification/IdentificationText.h"
+#include "core/analysis/statistics/Binomial.h"
+
+namespace tacto {
+namespace {
+
+Identification with68Of80() {
+    Identification found;
+    found.labels = {"rough-high", "rough-low", "smooth-high", "smooth-low"};
+    found.all.n = 80;
+    found.all.hits = 68;
+    found.all.chance = 0.25;
+    found.all.accuracy = wilsonInterval(68, 80);
+    return found;
+}
+
+TEST(IdentificationText, HeadlineIsThatOfTheDesign) {
+    PresentedRange range;
+    range.low = Milliamps(4);
+    range.high = Milliamps(6.5);
+    range.lowVoltage = Volts(13.6);
+    range.highVoltage = Volts(22.1);
+    range.impedance = Ohms(3400);
+    EXPECT_EQ(headline("P-7K3M", with68Of80(), range),
+              "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 "
+              "and 6.5 mA, 14 to 22 V at 3.4 kΩ.");
+}
+
+TEST(IdentificationText, WhatIsNotKnownIsLeftOut) {
+    RecordProperty("hazard", "H9");
+    PresentedRange range;
+    EXPECT_EQ(headline("P-7K3M", with68Of80(), range),
+              "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %).");
+    range.lowIntensity = 0.2;
+    range.highIntensity = 0.8;
+    EXPECT_EQ(headline("P-7K3M", with68Of80(), range),
+              "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between "
+              "intensity 0.20 and 0.80.");
+    EXPECT_EQ(headline("P-7K3M", Identification(), range), "P-7K3M answered no test trial.");
+}
+
+TEST(IdentificationText, PrecisionIsThatOfTheDesign) {
+    EXPECT_EQ(precisionSentence(80, 0.25), "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance.");
+    EXPECT_EQ(precisionSentence(40, 0.25),
+              "40 trials: ± 11 % at 85 %, ± 15 % at 50 %; 15 right of 40 is above chance.");
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,56 @@
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "core/analysis/identification/OverSessions.h"
+#include "tests/support/Figures.h"
+
+namespace tacto {
+namespace {
+
+SessionFigures sessionOn(double days, std::size_t hits, Estimate detection = {}) {
+    SessionFigures session;
+    session.number = static_cast<std::size_t>(days) + 1;
+    session.days = days;
+    session.n = 80;
+    session.hits = hits;
+    session.detection_ma = detection;
+    return session;
+}
+
+TEST(OverSessions, TwoSessionsOf80At70PerCentShow14PerCent) {
+    EXPECT_NEAR(smallestChange(80, 0.7), 0.142, 0.0005);
+    EXPECT_TRUE(std::isnan(smallestChange(0, 0.7)));
+}
+
+TEST(OverSessions, EachIsHeldAgainstTheFirst) {
+    const auto found = compareSessions({sessionOn(0, 56, {2, 1.6, 2.5}), sessionOn(7, 68, {3, 2.7, 3.3})});
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_EQ(found->againstFirst.size(), 1U);
+    const auto& change = found->againstFirst[0];
+    EXPECT_NEAR(change.accuracy.value, 0.15, 1e-12);
+    EXPECT_NEAR(change.detection.value, 1.5, 1e-12);
+    EXPECT_NEAR(change.detection.low, 1.5 * std::exp(-std::hypot(std::log(3 / 2.7), std::log(2.5 / 2))), 1e-12);
+    EXPECT_NEAR(change.detection.high, 1.5 * std::exp(std::hypot(std::log(3.3 / 3), std::log(2 / 1.6))), 1e-12);
+    EXPECT_TRUE(std::isnan(change.impedance));
+    EXPECT_TRUE(std::isnan(found->trend.value));  // from three on
+    EXPECT_NEAR(found->smallestChange, smallestChange(80, 124.0 / 160), 1e-12);
+}
+
+TEST(OverSessions, ThreeHaveATrend) {
+    const auto& scipy = test::figuresOf("identification").at("logistic")[0];
+    const auto found = compareSessions({sessionOn(0, 50), sessionOn(3, 61), sessionOn(10, 70)});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->trend.value, scipy.at("value").get<double>(), 1e-8);
+    EXPECT_NEAR(found->trend.low, scipy.at("low").get<double>(), 1e-7);
+}
+
+TEST(OverSessions, RefusesSessionsOutOfOrder) {
+    EXPECT_EQ(compareSessions({sessionOn(7, 5), sessionOn(0, 5)}).error().message,
+              "session 1 lies 0 days after the first; sessions in their order were expected");
+    EXPECT_EQ(compareSessions({sessionOn(0, 81)}).error().message,
+              "session 1 has 81 right answers of 80; at most 80 were expected");
+    EXPECT_TRUE(compareSessions({}));
+}
+
+}  // namespace
+}  // namespace tacto

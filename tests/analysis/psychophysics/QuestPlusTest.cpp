@@ -1,0 +1,215 @@
+#include <chrono>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "core/analysis/psychophysics/QuestPlus.h"
+#include "tests/analysis/psychophysics/Procedures.h"
+#include "tests/support/Figures.h"
+#include "tests/support/InTime.h"
+#include "tests/support/Trials.h"
+
+namespace tacto {
+namespace {
+
+QuestPlusSettings felt(double level) {
+    QuestPlusSettings settings;
+    settings.felt = level;
+    return settings;
+}
+
+TEST(QuestPlus, AsksForTheLevelsAndKnowsThePosteriorOfAnIndependentComputation) {
+    for (const auto& run : test::figuresOf("psychophysics").at("quest_plus")) {
+        const double step = run.at("step").get<double>();
+        const auto levels = run.at("levels").get<std::size_t>();
+        const auto grid = test::gridUpTo(step * static_cast<double>(levels), step);
+        ASSERT_EQ(grid.count(), levels);
+        QuestPlusSettings settings;
+        settings.felt = run.at("felt").get<double>();
+        settings.prior = run.at("prior").get<double>();
+        settings.priorSd_db = run.at("prior_sd_db").get<double>();
+        settings.first = run.at("first").get<double>();
+        settings.least = run.at("least").get<std::size_t>();
+        settings.most = run.at("most").get<std::size_t>();
+        auto quest = QuestPlus::create(grid, settings, 1).value();
+        const auto asked = run.at("asked").get<std::vector<std::size_t>>();
+        const auto right = run.at("right").get<std::vector<bool>>();
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            const auto trial = quest.next();
+            ASSERT_TRUE(trial) << "trial " << i + 1;
+            EXPECT_EQ(trial->number, i + 1);
+            ASSERT_EQ(trial->level, grid.level(asked[i])) << "trial " << i + 1;
+            ASSERT_TRUE(quest.answer(right[i] ? trial->interval : test::other(trial->interval)));
+        }
+        EXPECT_TRUE(quest.done());
+        EXPECT_FALSE(quest.next());
+        const auto posterior = quest.alphaPosterior();
+        const auto expected = run.at("posterior").get<std::vector<double>>();
+        ASSERT_EQ(posterior.size(), expected.size());
+        for (std::size_t i = 0; i < posterior.size(); ++i) EXPECT_NEAR(posterior[i], expected[i], 1e-10);
+        const auto result = quest.result();
+        EXPECT_NEAR(result.estimate.value, run.at("estimate").get<double>(), 1e-9);
+        EXPECT_NEAR(result.estimate.low, run.at("low").get<double>(), 1e-8);
+        EXPECT_NEAR(result.estimate.high, run.at("high").get<double>(), 1e-8);
+        EXPECT_NEAR(result.sd_db, run.at("sd_db").get<double>(), 1e-8);
+        EXPECT_NEAR(result.slope, run.at("slope").get<double>(), 1e-9);
+        EXPECT_NEAR(quest.probabilityAbove(0.9 * result.estimate.value), run.at("above").get<double>(), 1e-9);
+        EXPECT_EQ(result.trials.size(), asked.size());
+    }
+}
+
+TEST(QuestPlus, ModelsEightyPercentRightAtTheThreshold) {
+    EXPECT_NEAR(QuestPlus::probabilityRight(12, 12, 8), 0.5 + 0.48 * (1 - std::exp(-1)), 1e-12);
+    EXPECT_NEAR(QuestPlus::probabilityRight(-200, 12, 2), 0.5, 1e-9);
+    EXPECT_NEAR(QuestPlus::probabilityRight(60, 12, 2), 0.98, 1e-12);
+}
+
+TEST(QuestPlus, NeverAsksFourTimesTheSameAndEndsAsItMust) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const auto who = drawParticipant({}, 11, seed, Micros(200));
+        const auto observer = test::observerFor(who, seed);
+        auto quest = QuestPlus::create(test::gridUpTo(15), felt(who.detection.value() * 1.1), seed).value();
+        test::answerAll(quest, observer);
+        const auto result = quest.result();
+        EXPECT_GE(result.trials.size(), 24U);
+        EXPECT_LE(result.trials.size(), 40U);
+        EXPECT_TRUE(result.trials.size() == 40 || result.sd_db <= 0.8);
+        for (std::size_t i = 3; i < result.trials.size(); ++i) {
+            bool same = true;
+            for (std::size_t k = i - 3; k < i; ++k) same = same && result.trials[k].level == result.trials[i].level;
+            EXPECT_FALSE(same) << "seed " << seed << ", trial " << i + 1;
+        }
+        EXPECT_FALSE(quest.answer(TrialInterval::First));
+    }
+}
+
+TEST(QuestPlus, PresentsInEitherIntervalFiveTimesInTen) {
+    std::size_t alike = 0, changed = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const TwoIntervalOrder order(seed, "detection"), again(seed, "detection"), drift(seed, "drift");
+        for (std::size_t ten = 0; ten < 4; ++ten) {
+            std::size_t first = 0;
+            for (std::size_t i = 1; i <= 10; ++i) {
+                const auto interval = order.of(10 * ten + i);
+                EXPECT_EQ(interval, again.of(10 * ten + i));
+                if (interval == TrialInterval::First) ++first;
+                if (interval == drift.of(10 * ten + i)) ++alike;
+                if (ten > 0 && interval != order.of(i)) ++changed;
+            }
+            EXPECT_EQ(first, 5U);
+        }
+    }
+    EXPECT_NEAR(static_cast<double>(alike) / 8000, 0.5, 0.05) << "another procedure has another order";
+    EXPECT_NEAR(static_cast<double>(changed) / 6000, 0.5, 0.05) << "no ten repeats the one before";
+}
+
+TEST(QuestPlus, CountsTheRightAnswersOfEachInterval) {
+    auto quest = QuestPlus::create(test::gridUpTo(15), felt(4), 1).value();
+    while (quest.next()) ASSERT_TRUE(quest.answer(TrialInterval::First));  // who always says the first
+    const auto shares = quest.result().intervals;
+    EXPECT_EQ(shares.first.right, shares.first.trials);
+    EXPECT_EQ(shares.second.right, 0U);
+    EXPECT_EQ(shares.first.trials + shares.second.trials, quest.result().trials.size());
+}
+
+TEST(QuestPlus, SaysWhenTheThresholdLiesAtTheEndOfWhatItConsidered) {
+    for (const bool right : {false, true}) {
+        auto quest = QuestPlus::create(test::gridUpTo(60), felt(4), 1).value();
+        EXPECT_FALSE(quest.result().atEdge);
+        while (const auto trial = quest.next()) {
+            ASSERT_TRUE(quest.answer(right ? trial->interval : test::other(trial->interval)));
+        }
+        EXPECT_TRUE(quest.result().atEdge);
+    }
+    auto quest = QuestPlus::create(test::gridUpTo(15), felt(4), 1).value();
+    test::answerAll(quest, test::observerFor(test::medianParticipant(), 1));
+    EXPECT_FALSE(quest.result().atEdge);
+}
+
+struct Recovery {
+    std::size_t people = 0;
+    double bias = 0;
+    double sd = 0;
+    double cover = 0;
+    double trials = 0;
+};
+
+/// Through the ascending limits, as in a session; participants of the whole population, within the device's range.
+Recovery recoveryOf(std::size_t people, double step) {
+    Recovery out;
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; out.people < people; ++i) {
+        const auto who = drawParticipant({}, 2024, i, Micros(200));
+        const auto observer = test::observerFor(who, i);
+        const auto grid = test::gridUpTo(15, step);
+        const auto limits = test::ascend(grid, observer, i);
+        if (std::isnan(limits.felt)) continue;
+        auto quest = QuestPlus::create(grid, felt(limits.felt), i).value();
+        test::answerAll(quest, observer);
+        const auto result = quest.result();
+        const double ratio = result.estimate.value / who.detection.value();
+        ++out.people;
+        sum += ratio - 1;
+        squares += (ratio - 1) * (ratio - 1);
+        const bool covered =
+            result.estimate.low <= who.detection.value() && who.detection.value() <= result.estimate.high;
+        out.cover += covered ? 1 : 0;
+        out.trials += static_cast<double>(result.trials.size());
+    }
+    const auto n = static_cast<double>(out.people);
+    out.bias = sum / n;
+    out.sd = std::sqrt(squares / n - out.bias * out.bias);
+    out.cover /= n;
+    out.trials /= n;
+    return out;
+}
+
+TEST(QuestPlus, RecoversTheThresholdsOfVirtualParticipants) {
+    const auto people = test::trials<std::size_t>({.local = 500, .ci = 2000, .campaign = 20'000});
+    const auto found = recoveryOf(people, 0.5);
+    std::printf("bias %.4f, sd %.4f, cover %.4f, %.1f trials\n", found.bias, found.sd, found.cover, found.trials);
+    EXPECT_LE(std::abs(found.bias), 0.03);
+    EXPECT_LE(found.sd, 0.12);
+    EXPECT_GE(found.cover, 0.93);
+}
+
+TEST(QuestPlus, TakesFarLessThanATrialLasts) {
+    const auto begun = std::chrono::steady_clock::now();
+    constexpr int kRuns = 20;
+    for (int run = 0; run < kRuns; ++run) {
+        auto settings = felt(4);
+        settings.least = 40;
+        auto quest = QuestPlus::create(test::gridUpTo(15), settings, static_cast<std::uint64_t>(run)).value();
+        test::answerAll(quest, test::observerFor(test::medianParticipant(), 1));
+    }
+    const Seconds each = (std::chrono::steady_clock::now() - begun) / kRuns;
+    std::printf("a run of 40 trials: %.2f ms\n", 1e3 * each.count());
+    EXPECT_IN_TIME(each < Seconds(0.2));
+}
+
+TEST(QuestPlus, RefusesWhatIsNoSetting) {
+    const auto grid = test::gridUpTo(15);
+    const auto refused = [&](auto change) {
+        auto settings = felt(4);
+        change(settings);
+        return !QuestPlus::create(grid, settings, 1);
+    };
+    const double nan = std::nan("");
+    EXPECT_FALSE(refused([](auto&) {}));
+    for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_TRUE(refused([&](auto& s) { s.felt = bad; })) << bad;
+        EXPECT_TRUE(refused([&](auto& s) { s.priorSd_db = bad; })) << bad;
+    }
+    EXPECT_TRUE(refused([&](auto& s) { s.prior = nan; }));
+    EXPECT_TRUE(refused([&](auto& s) { s.first = -1; }));
+    EXPECT_TRUE(refused([&](auto& s) { s.enough_db = nan; }));
+    EXPECT_TRUE(refused([](auto& s) { s.least = 0; }));
+    EXPECT_TRUE(refused([](auto& s) { s.most = 10; }));
+    auto quest = QuestPlus::create(grid, felt(4), 1).value();
+    EXPECT_FALSE(quest.answer(static_cast<TrialInterval>(5)));
+    EXPECT_EQ(quest.next()->number, 1U);
+    EXPECT_FALSE(trialIntervalFrom("third"));
+    EXPECT_EQ(trialIntervalFrom("second").value(), TrialInterval::Second);
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,30 @@
+// PilotDesk.h - sessions of rehearsals by the built program: undisturbed, killed and resumed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+
+/// Few levels and one block: every path of a session in a fraction of its rows.
+[[nodiscard]] Words shortSession();
+
+class PilotDesk {
+public:
+    /// `run PROTOCOL --device sim: --out STUDY --json` with more words.
+    [[nodiscard]] Ran run(const std::string& protocol, const Words& more, const std::string& study = "study") const;
+    /// The same, killed when it makes something durable for the `sync`-th time. The code is -9 when it was.
+    [[nodiscard]] int runKilled(long sync, const std::string& protocol, const Words& more,
+                                const std::string& study = "study") const;
+    [[nodiscard]] const Desk& desk() const noexcept { return desk_; }
+
+private:
+    [[nodiscard]] Words words(const std::string& protocol, const Words& more, const std::string& study) const;
+    const Desk desk_;
+};
+
+/// Plan and answers of a session's results, without what only says how often it was begun.
+[[nodiscard]] std::string planAndAnswers(const nlohmann::json& value);
+
+}  // namespace tacto::test

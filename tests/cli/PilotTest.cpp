@@ -1,0 +1,161 @@
+// A rehearsal from plan to confusion matrix, and how a session is refused, broken off and gone on with.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "tests/cli/PilotDesk.h"
+
+namespace tacto::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(Pilot, ARehearsalGoesFromPlanToConfusionMatrix) {
+    const PilotDesk desk;
+    const auto ran = desk.run("pilot-identification", {"--set", "participant=virtual:7", "--seed", "1"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("rehearsal was made"));
+    const auto value = jsonOf(ran);
+    EXPECT_TRUE(value["verdict"].is_null());
+    EXPECT_TRUE(value["simulated"].get<bool>());
+    const auto& results = value["results"];
+    EXPECT_TRUE(results["participant"]["virtual"].get<bool>());
+    EXPECT_EQ(results["columns"].size(), 6U);
+    ASSERT_EQ(results["confusion"].size(), 4U);
+    EXPECT_EQ(results["n"], 80);
+    EXPECT_EQ(results["catch"]["n"], 10);
+    EXPECT_EQ(results["blocks"].size(), 5U);
+    EXPECT_FALSE(results["resumed"].get<bool>());
+
+    int hits = 0, n = 0;
+    for (std::size_t row = 0; row < 4; ++row) {
+        for (std::size_t column = 0; column < 6; ++column) {
+            const auto count = results["confusion"][row][column].get<int>();
+            n += count;
+            if (row == column) hits += count;
+        }
+    }
+    EXPECT_EQ(n, 80);
+    EXPECT_EQ(hits, results["hits"]);
+    EXPECT_GT(hits, 40) << "of a virtual participant with a usable range";
+
+    // The trials are those of the plan, each answered once.
+    std::map<int, json> planned;
+    for (const auto& each : results["plan"]) planned[each["number"]] = each;
+    std::set<int> answered;
+    for (const auto& each : results["trials"]) {
+        const int number = each["number"];
+        EXPECT_TRUE(answered.insert(number).second) << number;
+        ASSERT_TRUE(planned.contains(number));
+        EXPECT_EQ(planned[number]["condition"], each["condition"]);
+        EXPECT_EQ(planned[number]["phase"], each["phase"]);
+    }
+    for (const auto& row : results["predicted"]) {
+        double sum = 0;
+        for (const auto& p : row) sum += p.get<double>();
+        EXPECT_NEAR(sum, 1, 1e-6);
+    }
+    EXPECT_GT(results["fit"]["p"].get<double>(), 1e-4);
+    EXPECT_GT(results["truth"]["too_strong_ma"].get<double>(), results["truth"]["detection_ma"].get<double>());
+    EXPECT_LT(results["range"]["max_ma"].get<double>(), results["truth"]["too_strong_ma"].get<double>());
+    EXPECT_EQ(desk.desk().run({"verify", desk.desk().at("study")}).code, 0);
+    EXPECT_TRUE(desk.desk().named("study", ".pdf").empty()) << "no report is written into a study";
+}
+
+TEST(Pilot, ThresholdsComeNearTheTruth) {
+    const PilotDesk desk;
+    const auto ran = desk.run("pilot-thresholds", {"--set", "participant=virtual:7"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto results = jsonOf(ran)["results"];
+    const double truth = results["truth"]["detection_ma"];
+    EXPECT_NEAR(results["detection"]["estimate_ma"]["value"].get<double>(), truth, 0.35 * truth);
+    EXPECT_EQ(results["series"].size(), 3U);
+    EXPECT_GE(results["detection"]["trials"].get<int>(), 24);
+    EXPECT_EQ(results["detection"]["history"].size(), results["detection"]["trials"].get<std::size_t>());
+    EXPECT_TRUE(results["range"]["usable"].get<bool>());
+    EXPECT_NEAR(results["range"]["max_v"].get<double>(),
+                results["range"]["max_ma"].get<double>() * results["range"]["impedance_ohm"].get<double>() / 1000,
+                1e-6);
+}
+
+TEST(Pilot, TheSameSeedGivesTheSameAnswersAndAnotherOtherOnes) {
+    const PilotDesk desk;
+    const auto answers = [&](const char* study, const char* seed) {
+        return planAndAnswers(jsonOf(desk.run("pilot-identification", with(shortSession(), {"--seed", seed}), study)));
+    };
+    const auto first = answers("a", "3");
+    EXPECT_EQ(first, answers("b", "3"));
+    EXPECT_NE(first, answers("c", "4"));
+}
+
+TEST(Pilot, NoUsableRangeIsAResultAndExitsFive) {
+    const PilotDesk desk;
+    const auto ran =
+        desk.run("pilot-identification", {"--set", "participant=virtual:7", "--set", "detection=3", "--set",
+                                          "attention=3.1", "--set", "discomfort=3.3", "--set", "intolerance=3.5"});
+    EXPECT_EQ(ran.code, 5) << ran.err;
+    const auto results = jsonOf(ran)["results"];
+    EXPECT_FALSE(results["range"]["usable"].get<bool>());
+    EXPECT_TRUE(results["range"]["reason"].is_string());
+    EXPECT_EQ(results["n"], 0);
+}
+
+struct RefusedPilot {
+    const char* name;
+    Words words;
+    int code;
+    const char* says;
+};
+
+class PilotRefusal : public testing::TestWithParam<RefusedPilot> {};
+
+TEST_P(PilotRefusal, InASentenceWithNothingMade) {
+    RecordProperty("hazard", "H11");
+    const PilotDesk desk;
+    const auto ran = desk.run("pilot-identification", GetParam().words);
+    EXPECT_EQ(ran.code, GetParam().code) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(GetParam().says));
+    EXPECT_FALSE(std::filesystem::exists(desk.desk().at("study")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, PilotRefusal,
+    testing::Values(RefusedPilot{"ACodeWithoutAStudy", {"--set", "participant=P-7K3M"}, 3, "no study"},
+                    RefusedPilot{"ASeedThatIsNoNumber", {"--set", "participant=virtual:seven"}, 3, "whole number"},
+                    RefusedPilot{"NoParticipant", {}, 3, "participant="},
+                    RefusedPilot{"AnExclusion",
+                                 {"--set", "participant=virtual:7", "--set", "exclusions=epilepsy"},
+                                 4,
+                                 "exclusion checklist"},
+                    RefusedPilot{"AnUnknownExclusion",
+                                 {"--set", "participant=virtual:7", "--set", "exclusions=luck"},
+                                 2,
+                                 "one of"}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Pilot, AnUnfinishedSessionAsksWhatToDoWithItAndCanBeEnded) {
+    const PilotDesk desk;
+    ASSERT_EQ(desk.runKilled(120, "pilot-identification", shortSession()), -9);
+    const auto asked = desk.run("pilot-identification", shortSession());
+    EXPECT_EQ(asked.code, 3) << asked.err;
+    EXPECT_THAT(asked.err, HasSubstr("unfinished=resume"));
+    const auto other = desk.run("pilot-thresholds", with(shortSession(), {"--set", "unfinished=resume"}));
+    EXPECT_EQ(other.code, 3) << other.err;
+    EXPECT_THAT(other.err, HasSubstr("pilot-identification"));
+    const auto ended = desk.run("pilot-identification", with(shortSession(), {"--set", "unfinished=end"}));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(jsonOf(ended)["results"]["parts"], 1);
+    const auto shown = jsonOf(desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}));
+    ASSERT_EQ(shown["sessions"].size(), 2U);
+    EXPECT_EQ(shown["sessions"][0]["state"], "stopped");
+    EXPECT_EQ(shown["sessions"][1]["state"], "complete");
+}
+
+}  // namespace
+}  // namespace tacto::test

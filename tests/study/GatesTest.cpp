@@ -1,0 +1,196 @@
+#include "core/study/Gates.h"
+
+#include "tests/study/StudySupport.h"
+
+namespace tacto {
+namespace {
+
+constexpr CalibrationDate kToday = std::chrono::year(2026) / 11 / 23;
+
+StudySettings approved() {
+    auto settings = test::someStudy();
+    settings.approval.protocolSha256 = protocolHash(settings);
+    return settings;
+}
+
+Participant someone() {
+    Participant participant;
+    participant.code = "P-7K3D";
+    participant.consents = {{"2", std::chrono::year(2026) / 11 / 20, "KL"}};
+    return participant;
+}
+
+void expectRefused(const Result<void>& gate, std::string_view sentence) {
+    ASSERT_FALSE(gate);
+    EXPECT_EQ(gate.error().code, kGateRefused);
+    EXPECT_EQ(gate.error().message, sentence);
+}
+
+TEST(Gates, AnApprovalCountsFromItsFirstToItsLastDay) {
+    RecordProperty("hazard", "H11");
+    const auto settings = approved();
+    EXPECT_TRUE(approvalGate(settings, kToday));
+    EXPECT_TRUE(approvalGate(settings, settings.approval.from));
+    EXPECT_TRUE(approvalGate(settings, settings.approval.expires));
+    expectRefused(approvalGate(settings, std::chrono::year(2026) / 10 / 31),
+                  "approval EC-2026-17 begins on 2026-11-01, and today is 2026-10-31; sessions can begin from that day on");
+    expectRefused(approvalGate(settings, std::chrono::year(2027) / 11 / 1),
+                  "approval EC-2026-17 expired on 2027-10-31, and today is 2027-11-01; an amendment with a later day is "
+                  "needed");
+    auto none = settings;
+    none.approval.reference.clear();
+    expectRefused(approvalGate(none, kToday), "the study has no approval; a committee's reference is needed");
+}
+
+TEST(Gates, AnApprovalIsForTheSettingsAndScriptsThatItWasGivenFor) {
+    RecordProperty("hazard", "H11");
+    auto settings = approved();
+    settings.cap_mA = 14;
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
+    settings = approved();
+    settings.scripts.front().sha256[0] = 'b';
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
+    settings = approved();
+    settings.approval.committee = "EC";  // not a part of the protocol
+    EXPECT_TRUE(approvalGate(settings, kToday));
+}
+
+TEST(Gates, AScriptThatWasChangedNeedsAnAmendment) {
+    RecordProperty("hazard", "H11");
+    auto settings = approved();
+    EXPECT_TRUE(scriptGate(settings, settings.scripts.front()));
+    expectRefused(scriptGate(settings, {"pilot-identification", std::string(64, 'c')}),
+                  "the script pilot-identification hashes to cccccccccccc…, and approval EC-2026-17 is for "
+                  "aaaaaaaaaaaa…; a changed script needs an amendment");
+    expectRefused(scriptGate(settings, {"live", std::string(64, 'a')}),
+                  "the script live is none of those that approval EC-2026-17 names; an amendment is needed");
+    settings.kind = StudyKind::Rehearsal;
+    EXPECT_TRUE(scriptGate(settings, {"live", std::string(64, 'a')}));
+}
+
+TEST(Gates, OnlyAnActiveParticipantTakesPartAndNoMoreOftenThanApproved) {
+    RecordProperty("hazard", "H11");
+    const auto settings = approved();
+    auto participant = someone();
+    participant.sessions = 3;
+    EXPECT_TRUE(participantGate(settings, participant));
+    participant.sessions = 4;
+    expectRefused(participantGate(settings, participant),
+                  "P-7K3D has had 4 sessions, and approval EC-2026-17 allows 4");
+    participant.sessions = 0;
+    participant.state = ParticipantState::Left;
+    expectRefused(participantGate(settings, participant),
+                  "P-7K3D has left the study; only an active participant takes part");
+}
+
+TEST(Gates, SessionsLieFarEnoughApart) {
+    RecordProperty("hazard", "H12");
+    auto settings = approved();
+    const std::chrono::sys_seconds last{std::chrono::hours(400'000)};
+    EXPECT_TRUE(gapGate(settings, std::nullopt, last));
+    EXPECT_TRUE(gapGate(settings, last, last + std::chrono::hours(20)));
+    expectRefused(gapGate(settings, last, last + std::chrono::minutes(19 * 60 + 30)),
+                  "the last session began 19.5 h ago; at least 20 h must lie between two sessions");
+    settings.kind = StudyKind::Rehearsal;
+    EXPECT_TRUE(gapGate(settings, last, last));
+}
+
+TEST(Gates, ConsentIsToTheVersionInForceDatedAndTakenBySomeone) {
+    RecordProperty("hazard", "H11");
+    const auto settings = approved();
+    auto participant = someone();
+    EXPECT_TRUE(consentGate(settings, participant, kToday));
+    participant.consents.front().version = "1";
+    expectRefused(consentGate(settings, participant, kToday),
+                  "P-7K3D has consented to version 1, and version 2 is in force; consent to it is needed");
+    participant.consents.clear();
+    expectRefused(consentGate(settings, participant, kToday),
+                  "P-7K3D has given no consent; a dated consent to version 2 is needed");
+    participant.consents = {{"2", std::chrono::year(2026) / 11 / 24, "KL"}};
+    EXPECT_EQ(consentGate(settings, participant, kToday).error().code, kGateRefused);
+    participant.consents = {{"2", kToday, ""}};
+    EXPECT_EQ(consentGate(settings, participant, kToday).error().code, kGateRefused);
+}
+
+TEST(Gates, EveryItemOfTheChecklistIsAnsweredWithNo) {
+    RecordProperty("hazard", "H12");
+    EXPECT_EQ(exclusionItems().size(), 10U);
+    EXPECT_TRUE(exclusionGate(nothingExcludes()));
+    for (const auto& item : exclusionItems()) {
+        auto answers = nothingExcludes();
+        std::ranges::find(answers, item.key, &ExclusionAnswer::key)->yes = true;
+        const auto gate = exclusionGate(answers);
+        ASSERT_FALSE(gate) << item.key;
+        EXPECT_EQ(gate.error().code, kGateRefused);
+        // Which one it was is sealed.
+        EXPECT_EQ(gate.error().message.find(item.key), std::string::npos);
+        std::erase_if(answers, [&](const auto& answer) { return answer.key == item.key; });
+        EXPECT_EQ(exclusionGate(answers).error().code, kGateRefused) << item.key;
+    }
+    EXPECT_FALSE(exclusionGate({}));
+}
+
+TEST(Gates, AClockThatWasSetBackIsFound) {
+    RecordProperty("hazard", "H8");
+    const std::chrono::sys_seconds last = std::chrono::sys_days(kToday) + std::chrono::hours(12);
+    EXPECT_TRUE(clockGate(last, last - std::chrono::minutes(5)));
+    expectRefused(clockGate(last, last - std::chrono::minutes(6)),
+                  "the clock says 2026-11-23 11:54 UTC, and the ledger's last row is of 2026-11-23 12:00 UTC; set the "
+                  "clock");
+}
+
+TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {
+    RecordProperty("hazard", "H12");
+    auto settings = approved();
+    auto participant = someone();
+    EXPECT_TRUE(simulationGate(settings, participant, false));
+    EXPECT_FALSE(simulationGate(settings, participant, true));
+    participant.virtualSeed = 7;
+    EXPECT_TRUE(simulationGate(settings, participant, true));
+    EXPECT_FALSE(simulationGate(settings, participant, false));
+    settings.kind = StudyKind::Rehearsal;
+    EXPECT_FALSE(simulationGate(settings, participant, false));
+    participant.virtualSeed.reset();
+    EXPECT_TRUE(simulationGate(settings, participant, true));
+}
+
+TEST(StudySettings, AreReadAsWritten) {
+    auto settings = approved();
+    settings.id = "0123456789abcdef";
+    const auto read = studyFields().read(studyFields().write(settings), RecordPlace{});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, settings);
+}
+
+TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
+    auto settings = approved();
+    ASSERT_TRUE(setStudyField(settings, "blocks", "3"));
+    ASSERT_TRUE(setStudyField(settings, "electrode.area_cm2", "5.5"));
+    ASSERT_TRUE(setStudyField(settings, "encodings", "standard,swapped"));
+    ASSERT_TRUE(setStudyField(settings, "site", "forearm"));
+    ASSERT_TRUE(setStudyField(settings, "blind", "false"));
+    EXPECT_EQ(settings.blocks, 3);
+    EXPECT_EQ(settings.electrode.area, SquareCentimetres(5.5));
+    EXPECT_EQ(settings.encodings, (std::vector<std::string>{"standard", "swapped"}));
+    EXPECT_EQ(settings.site, ElectrodeSite::Forearm);
+    EXPECT_FALSE(settings.blind);
+    const auto before = settings;
+    for (const auto& [key, value] : {std::pair{"site", "chest"},
+                                     {"blocks", "0"},
+                                     {"blocks", "2.5"},
+                                     {"cap_ma", "16"},
+                                     {"cap_ma", "nan"},
+                                     {"kind", "rehearsal"},
+                                     {"approval.expires", "2099-01-01"},
+                                     {"approval.protocol_sha256", "x"},
+                                     {"bloks", "3"},
+                                     {"electrode", "5"}}) {
+        const auto set = setStudyField(settings, key, value);
+        ASSERT_FALSE(set) << key << "=" << value;
+        EXPECT_EQ(set.error().code, ErrorCode::InvalidArgument);
+        EXPECT_EQ(settings, before);
+    }
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,182 @@
+// What lies in a study's folder: nothing that tells who or what outside the seals, and damage is found.
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/seal/SealedText.h"
+#include "core/study/StudyVerify.h"
+#include "tests/study/StudySupport.h"
+
+namespace tacto {
+namespace {
+
+class StudyFolder : public test::StudyDesk {
+protected:
+    [[nodiscard]] std::filesystem::path keyFile() const {
+        for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys"))
+            return entry.path();
+        return {};
+    }
+    static void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+    static std::string textOf(const std::filesystem::path& path) {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    static void flip(const std::filesystem::path& path, std::size_t at) {
+        auto bytes = textOf(path);
+        ASSERT_LT(at, bytes.size());
+        bytes[at] = static_cast<char>(bytes[at] ^ 1);
+        write(path, bytes);
+    }
+};
+
+TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
+    RecordProperty("hazard", "H11");
+    std::string code;
+    std::vector<std::string> words{test::kPassphraseText, "rough-high", "smooth-low", "too-strong", "KL", "3412.5",
+                                   "873000000",         "talked"};
+    auto study = make();
+    Participant participant;
+    participant.virtualSeed = 914'667'201;
+    participant.handedness = "left-handed";
+    code = study.enrol(participant)->code;
+    ASSERT_TRUE(study.consent(code, {"2", std::chrono::year(2026) / 11 / 19, "KL"}));
+    words.push_back(code);
+    words.push_back(code.substr(2));
+    words.insert(words.end(), {"914667201", "left-handed", "2026-11-19"});
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    record(begun, false);
+    std::filesystem::copy(folder(), scratch.path() / "crashed", std::filesystem::copy_options::recursive);
+    ASSERT_TRUE(study.exported("/media/stick", "bids"));
+    words.push_back("/media/stick");
+    for (const auto& below : {folder(), scratch.path() / "crashed"}) {
+        const auto all = everythingBelow(below);
+        EXPECT_NE(all.find("Four conditions"), std::string::npos);  // the search does find what is there
+        EXPECT_NE(all.find("trial-begin"), std::string::npos);
+        for (const auto& word : words) EXPECT_EQ(all.find(word), std::string::npos) << word;
+    }
+    // Nor do the bytes of any key, as bytes or as text.
+    const auto words32 = test::somePassphrase();
+    auto reader = Study::open(folder(), &words32, Study::Access::Read, around());
+    ASSERT_TRUE(reader);
+}
+
+TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    struct stat about {};
+    ASSERT_EQ(::stat(keyFile().c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777, 0600U);
+    const auto text = textOf(keyFile());
+    EXPECT_EQ(text.find(code), std::string::npos);
+    EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is no file's business
+}
+
+TEST_F(StudyFolder, KeysInsideItAreRefused) {
+    RecordProperty("hazard", "H11");
+    auto inside = around();
+    inside.keyFolder = folder() / "keys";
+    const auto study = Study::create(folder(), test::someStudy(), test::somePassphrase(), inside);
+    ASSERT_FALSE(study);
+    EXPECT_NE(study.error().message.find("lies inside the study folder"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder()));
+    auto made = make();
+    EXPECT_EQ(made.exported(folder() / "export", "bids").error().code, ErrorCode::InvalidArgument);
+}
+
+TEST_F(StudyFolder, ASecondProgramIsRefusedByName) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto second = open();
+        const bool refused = !second && second.error().code == ErrorCode::Io &&
+                             second.error().message.find("is open in test_study (process") != std::string::npos;
+        const bool readable = openWithoutKey().has_value();
+        ::_exit(refused && readable ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(StudyFolder, ANewerProgramsStudyIsNotOpened) {
+    static_cast<void>(make());
+    auto text = textOf(folder() / "study.json");
+    const auto at = text.find("\"version\": 1");
+    ASSERT_NE(at, std::string::npos);
+    write(folder() / "study.json", text.replace(at, 12, "\"version\": 2"));
+    const auto before = everythingBelow(folder());
+    const auto study = open();
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().code, ErrorCode::Unsupported);
+    EXPECT_NE(study.error().message.find("made by a newer Tactoscope"), std::string::npos);
+    EXPECT_EQ(verifyStudy(folder()).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(everythingBelow(folder()), before);
+}
+
+TEST_F(StudyFolder, SettingsThatWereChangedOutsideAreFound) {
+    RecordProperty("hazard", "H8");
+    static_cast<void>(make());
+    auto text = textOf(folder() / "study.json");
+    const auto at = text.find("2027-10-31");
+    ASSERT_NE(at, std::string::npos);
+    write(folder() / "study.json", text.replace(at, 4, "2099"));
+    const auto study = open();
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+    EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
+}
+
+TEST_F(StudyFolder, ADamagedLedgerIsFound) {
+    RecordProperty("hazard", "H8");
+    {
+        auto study = make();
+        enrolled(study);
+    }
+    EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Intact);
+    const auto at = textOf(folder() / "ledger.tacto").find("\"sealed\":\"");
+    ASSERT_NE(at, std::string::npos);
+    flip(folder() / "ledger.tacto", at + 40);
+    const auto study = open();
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+    EXPECT_NE(study.error().message.find("the ledger of the study in"), std::string::npos);
+    EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
+}
+
+TEST_F(StudyFolder, IsVerifiedWithoutAKeyBeforeAndAfterAWithdrawal) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    const auto problemsOf = [&] {
+        const auto report = verifyStudy(folder());
+        return report ? testing::PrintToString(report->problems) : report.error().message;
+    };
+    EXPECT_EQ(problemsOf(), "{}");
+    ASSERT_TRUE(study.withdraw(code));
+    EXPECT_EQ(problemsOf(), "{}");
+    EXPECT_EQ(verifyStudy(folder())->sessions.size(), 1U);
+    write(folder() / "sessions" / "ffffffffffffffff.tacto", "x");
+    EXPECT_NE(problemsOf().find("is not in the ledger"), std::string::npos);
+    std::filesystem::remove(folder() / "sessions" / "ffffffffffffffff.tacto");
+    std::filesystem::remove(begun.path);
+    EXPECT_NE(problemsOf().find("is missing"), std::string::npos);
+}
+
+TEST_F(StudyFolder, ANewStudyTakesNoFolderThatHoldsSomething) {
+    std::filesystem::create_directory(folder());
+    write(folder() / "notes.txt", "mine");
+    EXPECT_EQ(Study::create(folder(), test::someStudy(), test::somePassphrase(), around()).error().code,
+              ErrorCode::Unsupported);
+    EXPECT_EQ(textOf(folder() / "notes.txt"), "mine");
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "home"));
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,326 @@
+#include "tests/study/StudySupport.h"
+
+namespace tacto {
+namespace {
+
+using Desk = test::StudyDesk;
+
+TEST_F(Desk, WhatWasMadeIsThereForTheNextProgram) {
+    std::string code;
+    {
+        auto study = make();
+        code = enrolled(study, 7);
+        EXPECT_FALSE(study.isRehearsal());
+    }
+    const auto study = open(Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_EQ(study->settings().title, "Four conditions");
+    ASSERT_EQ(study->participants().size(), 1U);
+    const auto participant = study->find(code).value();
+    EXPECT_EQ(participant.virtualSeed, 7U);
+    EXPECT_EQ(participant.consents.front().by, "KL");
+    EXPECT_EQ(study->find("virtual:7")->code, code);
+    EXPECT_EQ(study->find("virtual:8").error().code, ErrorCode::NotFound);
+    EXPECT_TRUE(study->stillApproved());
+}
+
+TEST_F(Desk, ASessionIsBegunSealedEndedAndListed) {
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(begun) << begun.error().message;
+    EXPECT_EQ(begun->session.number, 1);
+    EXPECT_EQ(begun->path, folder() / "sessions" / (begun->session.id + ".tacto"));
+    EXPECT_EQ(begun->session.id.size(), 16U);
+    EXPECT_EQ(study.unfinished(begun->session.participant)->id, begun->session.id);
+    const auto head = record(*begun);
+    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Complete, head));
+    const auto sessions = study.sessions();
+    ASSERT_EQ(sessions.size(), 1U);
+    EXPECT_EQ(sessions[0].state, StudySessionState::Complete);
+    EXPECT_EQ(sessions[0].answered, 3);
+    EXPECT_EQ(sessions[0].code, code);
+    EXPECT_EQ(sessions[0].encoding, "standard");
+    const auto rows = study.events(sessions[0]);
+    ASSERT_TRUE(rows) << rows.error().message;
+    EXPECT_EQ(rows->front().body["order"][0], "rough-high");
+}
+
+TEST_F(Desk, WithoutThePassphraseNothingOfAPersonIsRead) {
+    RecordProperty("hazard", "H11");
+    std::string code;
+    {
+        auto study = make();
+        code = enrolled(study);
+        const auto begun = study.beginSession(test::someRequest(code)).value();
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    }
+    auto study = openWithoutKey();
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_FALSE(study->hasKey());
+    ASSERT_EQ(study->participants().size(), 1U);
+    EXPECT_EQ(study->participants()[0].code, "");
+    EXPECT_FALSE(study->participants()[0].readable);
+    EXPECT_EQ(study->participants()[0].virtualSeed, std::nullopt);
+    EXPECT_EQ(study->sessions()[0].answered, 3);
+    EXPECT_EQ(study->sessions()[0].encoding, "");
+    EXPECT_EQ(study->find(code).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(study->sealOf(study->sessions()[0].id).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(study->leave(code).error().code, ErrorCode::Unsupported);
+}
+
+TEST_F(Desk, AWrongPassphraseIsOneSentence) {
+    RecordProperty("hazard", "H11");
+    static_cast<void>(make());
+    const auto study = open(Study::Access::Change, "correct horse 4712");
+    ASSERT_FALSE(study);
+    EXPECT_EQ(study.error().code, ErrorCode::NotFound);
+    EXPECT_NE(study.error().message.find("does not open the key file"), std::string::npos);
+}
+
+/// Nothing is made when a gate refuses: the ledger stands where it stood.
+class GateOfASession : public Desk {
+protected:
+    void expectRefused(Study& study, const SessionRequest& request, std::string_view part,
+                       ErrorCode code = kGateRefused) {
+        RecordProperty("hazard", "H12");
+        const auto head = study.ledgerHead();
+        const auto begun = study.beginSession(request);
+        ASSERT_FALSE(begun);
+        EXPECT_EQ(begun.error().code, code);
+        EXPECT_NE(begun.error().message.find(part), std::string::npos) << begun.error().message;
+        EXPECT_EQ(study.ledgerHead(), head);
+        EXPECT_TRUE(std::filesystem::is_empty(folder() / "sessions"));
+    }
+};
+
+TEST_F(GateOfASession, EachRefusesWithItsSentence) {
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto request = test::someRequest(code);
+    auto other = request;
+    other.script.sha256 = std::string(64, 'f');
+    expectRefused(study, other, "a changed script needs an amendment");
+    other = request;
+    other.codeConfirmed = false;
+    expectRefused(study, other, "has not confirmed that the code");
+    other = request;
+    other.exclusions.front().yes = true;
+    expectRefused(study, other, "no session today");
+    other = request;
+    other.exclusions.pop_back();
+    expectRefused(study, other, "1 of the 10 questions");
+    other = request;
+    other.devicesSimulated = false;
+    expectRefused(study, other, "only simulated devices are accepted");
+    other = request;
+    other.code = "P-7K3M";
+    expectRefused(study, other, "its check character is wrong", ErrorCode::NotFound);
+    other.code = "P-7K3D";
+    expectRefused(study, other, "the study has no participant P-7K3D", ErrorCode::NotFound);
+    Participant unwilling;
+    unwilling.virtualSeed = 9;
+    other.code = study.enrol(unwilling)->code;
+    expectRefused(study, other, "has given no consent");
+    time.now += std::chrono::hours(24 * 400);
+    expectRefused(study, request, "expired on 2027-10-31");
+    time.now -= std::chrono::hours(24 * 401);
+    expectRefused(study, request, "set the clock");
+    time.now += std::chrono::hours(24);
+    ASSERT_TRUE(study.leave(code));
+    expectRefused(study, request, "has left the study");
+    EXPECT_TRUE(study.stillApproved());
+}
+
+TEST_F(Desk, TheNextSessionWaitsForTheGap) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, ErrorCode::Unsupported);  // unfinished
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
+    time.now += std::chrono::hours(19);
+    EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+    time.now += std::chrono::hours(1);
+    const auto next = study.beginSession(test::someRequest(code));
+    ASSERT_TRUE(next) << next.error().message;
+    EXPECT_EQ(next->session.number, 2);
+}
+
+TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto first = enrolled(study, 1), second = enrolled(study, 2);
+    const auto begun = study.beginSession(test::someRequest(first)).value();
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+    ASSERT_TRUE(std::filesystem::remove(begun.path));
+    record(begun);  // the same rows, other seals
+    const auto next = study.beginSession(test::someRequest(second));
+    ASSERT_FALSE(next);
+    EXPECT_EQ(next.error().code, kGateRefused);
+    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos);
+}
+
+TEST_F(Desk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    record(begun, false);
+    const auto again = study.continueSession(begun.session.id, test::someRequest(code));
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->session.number, 1);
+    EXPECT_EQ(again->session.parts.size(), 2U);
+    EXPECT_NE(again->path, begun.path);
+    record(*again);
+    EXPECT_EQ(study.events(again->session)->size(), 18U);
+    EXPECT_EQ(study.session(begun.session.id)->answered, 6);
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, ""));
+    EXPECT_EQ(study.continueSession(begun.session.id, test::someRequest(code)).error().code, kGateRefused);
+}
+
+TEST_F(Desk, AWithdrawnParticipantLeavesNothingThatOpens) {
+    RecordProperty("hazard", "H11");
+    std::string code, file;
+    std::shared_ptr<const RowSeal> none;
+    std::filesystem::path path;
+    {
+        auto study = make();
+        code = enrolled(study, 1);
+        const auto stays = enrolled(study, 2);
+        const auto begun = study.beginSession(test::someRequest(code)).value();
+        path = begun.path;
+        file = begun.session.id;
+        ASSERT_TRUE(study.endSession(file, StudySessionState::Complete, record(begun)));
+        ASSERT_TRUE(study.withdraw(code));
+        EXPECT_EQ(study.find(code).error().code, ErrorCode::NotFound);
+        EXPECT_TRUE(study.find(stays));
+    }
+    auto study = open();
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_EQ(study->find(code).error().code, ErrorCode::NotFound);
+    EXPECT_EQ(study->sealOf(file).error().code, ErrorCode::Unsupported);
+    EXPECT_FALSE(study->events(study->sessions()[0]));
+    const auto gone = study->participants()[0];
+    EXPECT_EQ(gone.state, ParticipantState::Withdrawn);
+    EXPECT_EQ(gone.sessions, 1);
+    EXPECT_EQ(gone.code, "");
+    EXPECT_TRUE(gone.consents.empty());
+    EXPECT_TRUE(SessionReader::open(path)->locked());
+    EXPECT_TRUE(study->stillApproved());  // the chains stay whole
+    EXPECT_EQ(everythingBelow(scratch.path() / "home").find(code), std::string::npos);
+}
+
+TEST_F(Desk, WhoLeavesKeepsTheirData) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    const auto code = enrolled(study);
+    ASSERT_TRUE(study.leave(code));
+    EXPECT_EQ(study.find(code)->state, ParticipantState::Left);
+    EXPECT_EQ(study.leave(code).error().code, kGateRefused);
+    EXPECT_EQ(study.consent(code, {"2", study.today(), "KL"}).error().code, kGateRefused);
+    EXPECT_TRUE(study.withdraw(code));
+}
+
+TEST_F(Desk, AStudyThatKeepsDataRefusesAWithdrawal) {
+    auto settings = test::someStudy();
+    settings.dataOnRequest = DataOnRequest::Keep;
+    auto study = make(settings);
+    const auto code = enrolled(study);
+    EXPECT_EQ(study.withdraw(code).error().code, kGateRefused);
+    EXPECT_TRUE(study.find(code));
+}
+
+TEST_F(Desk, NoMoreParticipantsThanApproved) {
+    RecordProperty("hazard", "H11");
+    auto settings = test::someStudy();
+    settings.participantsMax = 2;
+    auto study = make(settings);
+    enrolled(study, 1);
+    const auto code = enrolled(study, 2);
+    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);
+    ASSERT_TRUE(study.withdraw(code));
+    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);  // they took part
+}
+
+TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
+    auto study = make();
+    Participant named;
+    named.code = "p-7k3d";
+    EXPECT_EQ(study.enrol(named)->code, "P-7K3D");
+    EXPECT_EQ(study.enrol(named).error().code, ErrorCode::Unsupported);
+    named.code = "P-7K3M";
+    EXPECT_EQ(study.enrol(named).error().code, ErrorCode::NotFound);
+    enrolled(study, 5);
+    Participant twin;
+    twin.virtualSeed = 5;
+    EXPECT_EQ(study.enrol(twin).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(study.participants().size(), 2U);
+}
+
+TEST_F(Desk, AConsentIsNotDatedInTheFuture) {
+    auto study = make();
+    const auto code = enrolled(study);
+    EXPECT_EQ(study.consent(code, {"2", std::chrono::year(2026) / 11 / 25, "KL"}).error().code,
+              ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.consent(code, {"2", study.today(), ""}).error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.find(code)->consents.size(), 1U);
+}
+
+TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
+    RecordProperty("hazard", "H11");
+    auto study = make();
+    auto changed = study.settings();
+    changed.blocks = 4;
+    EXPECT_EQ(study.amend(changed, "EC-2026-17").error().code, ErrorCode::InvalidArgument);
+    ASSERT_TRUE(study.amend(changed, "EC-2026-17 A1"));
+    EXPECT_TRUE(study.stillApproved());
+    const auto again = openWithoutKey();
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->settings().blocks, 4);
+    EXPECT_EQ(again->settings().approval.reference, "EC-2026-17 A1");
+}
+
+TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
+    RecordProperty("hazard", "H12");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    EXPECT_FALSE(study.adverseEvent(begun.session.id, {.what = "redness", .severity = 5}));
+    ASSERT_TRUE(study.adverseEvent(begun.session.id, {.what = "redness", .severity = 2, .relation = 4}));
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
+    ASSERT_TRUE(study.withdraw(code));
+    const auto events = study.adverseEvents().value();
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].first, begun.session.id);
+    EXPECT_EQ(events[0].second.what, "redness");
+    EXPECT_EQ(everythingBelow(folder()).find("redness"), std::string::npos);
+}
+
+TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {
+    std::string code;
+    {
+        auto study = Study::createRehearsal(folder(), {}, around());
+        ASSERT_TRUE(study) << study.error().message;
+        code = study->admitVirtual(3)->code;
+        EXPECT_EQ(study->admitVirtual(3)->code, code);
+        auto request = test::someRequest("virtual:3");
+        request.script = {"anything", "x"};
+        for (int i = 0; i < 6; ++i) {  // neither a gap nor a number is asked for
+            const auto begun = study->beginSession(request);
+            ASSERT_TRUE(begun) << begun.error().message;
+            ASSERT_TRUE(study->endSession(begun->session.id, StudySessionState::Complete, record(*begun)));
+        }
+    }
+    const auto study = openWithoutKey();
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_TRUE(study->hasKey());
+    EXPECT_EQ(study->find("virtual:3")->code, code);
+    EXPECT_NE(everythingBelow(folder()).find("no secret"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "home"));
+    auto real = Study::create(scratch.path() / "real", test::someStudy(), test::somePassphrase(), around());
+    EXPECT_FALSE(real->admitVirtual(3));
+}
+
+}  // namespace
+}  // namespace tacto
