@@ -52,6 +52,7 @@ void BenchController::stop(const char* by) noexcept {
     stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
     stoppedBy_ = by;
+    if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
     if (script_ != nullptr)
         script_->stop(by);
     else if (bench_ != nullptr)
@@ -195,16 +196,59 @@ void BenchController::stopScope() {
     });
 }
 
-void BenchController::run(const RunOrder& order, StopMark asked) {
+/// What is handed to the bench's thread. At once another run is kept from beginning beside it.
+RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
     auto marked = order;
     marked.stops = stops_;
     marked.asked = asked;
     marked.watched = [pulse = pulse_] { return pulse->runs(); };
-    activity_ = Activity::Opening;  // at once: no other run is begun beside it
+    activity_ = Activity::Opening;
     emit changed();
-    thread_.post([this, marked = std::move(marked)] { runOnThread(marked); });
+    return marked;
+}
+
+/// How a run is started and ended, and what it is meanwhile.
+struct BenchController::Prepared {
+    std::shared_ptr<void> owner;
+    ProtocolRun* run = nullptr;
+    std::function<Result<void>(RunRequest hooks)> start;
+    std::function<RunResult()> finish;
+};
+
+void BenchController::run(const RunOrder& order, StopMark asked) {
+    thread_.post([this, marked = begun(order, asked)] {
+        runOnThread(marked, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
+            auto made = ProtocolRun::prepare(marked, registry, std::move(tap));
+            if (!made) return failure(made);
+            const std::shared_ptr<ProtocolRun> run(std::move(*made));
+            return Prepared{run, run.get(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
+                            [run] { return run->finish(); }};
+        });
+    });
+}
+
+void BenchController::runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked) {
+    thread_.post([this, seats, marked = begun(order, asked)] {
+        runOnThread(marked, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
+            PilotOrder pilot;
+            pilot.study = seats.study;
+            pilot.people = seats.people;
+            pilot.codeConfirmed = seats.codeConfirmed;
+            pilot.exclusions = seats.exclusions;
+            auto made = PilotRun::prepare(marked, std::move(pilot), registry, std::move(tap));
+            if (!made) return failure(made);
+            const std::shared_ptr<PilotRun> run(std::move(*made));
+            if (seats.begun) seats.begun(run->run().opened().clock);
+            {
+                const std::scoped_lock lock(benchMutex_);
+                takesStop_ = seats.takesStop;
+            }
+            return Prepared{run, &run->run(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
+                            [run] { return run->finish(); }};
+        });
+    });
 }
 
 void BenchController::order(StopMark asked, std::function<Result<void>(Bench&)> task) {
@@ -298,7 +342,7 @@ void BenchController::closeOnThread() {
     become(Activity::Closed, nullptr, nullptr);
 }
 
-void BenchController::runOnThread(const RunOrder& order) {
+void BenchController::runOnThread(const RunOrder& order, const Prepare& prepare) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
     static_cast<void>(feed_.take());
@@ -307,23 +351,27 @@ void BenchController::runOnThread(const RunOrder& order) {
     auto tap = std::make_shared<BenchTap>();
     auto registry = makeRegistry_();
     const auto end = [&] {
+        {
+            const std::scoped_lock lock(benchMutex_);
+            takesStop_ = nullptr;
+        }
         become(Activity::Closed, nullptr, nullptr);
         tell([this, finished] { emit this->finished(finished); });
     };
-    auto prepared = ProtocolRun::prepare(order, registry, tap);
+    auto prepared = prepare(registry, tap);
     if (!prepared) {
         finished->result.outcome.error = prepared.error();
         finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
         return end();
     }
-    auto& run = **prepared;
+    auto& run = *prepared->run;
     publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
-    if (auto started = run.start(std::move(hooks)); !started) {
+    if (auto started = prepared->start(std::move(hooks)); !started) {
         publishBench(nullptr, nullptr);
-        finished->result = run.finish();
+        finished->result = prepared->finish();
         return end();
     }
     publishBench(&run.bench(), run.script());
@@ -333,7 +381,7 @@ void BenchController::runOnThread(const RunOrder& order) {
     static_cast<void>(run.script()->wait());
     publishBench(nullptr, nullptr);
     become(Activity::Closing, nullptr, tap);
-    finished->result = run.finish();
+    finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
     end();

@@ -44,6 +44,8 @@ QFont AnswerTarget::wordFont(int px) const {
     return font;
 }
 
+int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
+
 int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
 
 /// The words' size, or the largest at which they have room beside the key.
@@ -54,7 +56,7 @@ int AnswerTarget::fittingPx() const {
         const int pad = int(px * kPadShare);
         const bool row = shape_ == Shape::Row;
         const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
-        const int cap = row && !key_.isEmpty() ? int(key_px_ * 2.2) : 0;
+        const int cap = row && !key_.isEmpty() ? int(keyPx() * 2.3) : 0;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + 2 * pad <= width();
         const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
         if (wide && high <= height() - 8) return px;
@@ -129,11 +131,12 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
     }
     if (key_.isEmpty()) return;
     auto font = textFont(TextSize::Body);
-    font.setPixelSize(key_px_);
+    const int key_px = keyPx();
+    font.setPixelSize(key_px);
     const QFontMetrics metrics(font);
-    const int side = std::max(int(key_px_ * 1.6), metrics.horizontalAdvance(key_) + key_px_ / 2);
-    const int margin = key_px_ * 7 / 10;
-    const QRectF cap(width() - margin - side + 0.5, height() - margin - key_px_ * 1.6 + 0.5, side, key_px_ * 1.6);
+    const int side = std::max(int(key_px * 1.6), metrics.horizontalAdvance(key_) + key_px / 2);
+    const int margin = key_px * 7 / 10;
+    const QRectF cap(width() - margin - side + 0.5, height() - margin - key_px * 1.6 + 0.5, side, key_px * 1.6);
     painter.setPen(QPen(c.edge, 1));
     painter.setBrush(c.base);
     painter.drawRoundedRect(cap, kKeyRadius, kKeyRadius);

@@ -39,6 +39,7 @@ protected:
 
 private:
     [[nodiscard]] QFont wordFont(int px) const;
+    [[nodiscard]] int keyPx() const;
     [[nodiscard]] int leastPx() const;
     [[nodiscard]] int fittingPx() const;
     QStringList icons_;

@@ -14,7 +14,11 @@ constexpr int kCardPad = 12, kCardIcon = 16;
 }
 
 FactsCard::FactsCard(const QString& title, const QString& iconName, QWidget* parent)
-    : QFrame(parent), icon_(iconName), picture_(new QLabel(this)), column_(new QVBoxLayout(this)), grid_(new QGridLayout) {
+    : QFrame(parent),
+      icon_(iconName),
+      picture_(new QLabel(this)),
+      column_(new QVBoxLayout(this)),
+      grid_(new QGridLayout) {
     setAccessibleName(title);
     column_->setContentsMargins(kCardPad, kCardPad / 2, kCardPad, kCardPad);
     column_->setSpacing(kCardPad / 2);
@@ -72,8 +76,6 @@ void FactsCard::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) dress();
 }
 
-void FactsCard::dress() {
-    picture_->setPixmap(iconPixmap(icon_, colours().text, kCardIcon, devicePixelRatioF()));
-}
+void FactsCard::dress() { picture_->setPixmap(iconPixmap(icon_, colours().text, kCardIcon, devicePixelRatioF())); }
 
 }  // namespace tacto::gui

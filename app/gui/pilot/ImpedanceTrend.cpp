@@ -149,7 +149,8 @@ void ImpedanceTrend::draw() {
     }
     const double pad = 0.2 * (most - least);
     plot_->yAxis->setRange(std::max(0.0, least - pad), most + 1.4 * pad);
-    now_->setText(ohms_.empty() ? tr("not measured yet") : tr("now %1").arg(quantityText(ohms_.rbegin()->second, "ohm", 3)));
+    now_->setText(ohms_.empty() ? tr("not measured yet")
+                                : tr("now %1").arg(quantityText(ohms_.rbegin()->second, "ohm", 3)));
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -48,8 +48,11 @@ void OperatorAsk::ask(const PilotPrompt& prompt, quint64 id) {
     says->setWordWrap(true);
     setTextSize(*says, TextSize::Body, true);
     column_->addWidget(says);
-    if (prompt.to == PromptTo::Both) column_->addWidget(explanation(tr("The participant has to press it as well."), body_));
-    if (prompt.kind == PromptKind::Text)
+    if (prompt.to == PromptTo::Both)
+        column_->addWidget(explanation(tr("The participant has to press it as well."), body_));
+    if (prompt.name == "stop-test")
+        column_->addWidget(explanation(tr("STOP is what answers it: the red one, or Esc in this window."), body_));
+    else if (prompt.kind == PromptKind::Text)
         addLine(prompt);
     else if (prompt.kind == PromptKind::Several)
         addSeveral(prompt);
@@ -84,9 +87,9 @@ void OperatorAsk::addChoices(const PilotPrompt& prompt) {
             column_->addLayout(row);
         }
         const bool scale = prompt.kind == PromptKind::Scale;
-        const auto words = scale                              ? QString::number(prompt.least + i)
+        const auto words = scale                             ? QString::number(prompt.least + i)
                            : prompt.kind == PromptKind::Hold ? tr("Held")
-                                                              : qtext(prompt.targets[std::size_t(i)].text);
+                                                             : qtext(prompt.targets[std::size_t(i)].text);
         auto* button = new ConfirmButton(words, body_);
         connect(button, &QPushButton::clicked, this, [this, prompt, scale, i] {
             PilotAnswer answer;

@@ -117,8 +117,9 @@ QWidget* OperatorPage::buildBar() {
     now_ = new QPushButton(tr("Break now"), bar);
     now_->setObjectName("breakNow");
     now_->setAutoDefault(false);
-    now_->setToolTip(tr("No further train comes, and the trial under way is repeated after the break. STOP ends a train that is "
-                     "under way."));
+    now_->setToolTip(
+        tr("No further train comes, and the trial under way is repeated after the break. STOP ends a train that is "
+           "under way."));
     connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
     kept_ = new ElidedLabel(bar);
     kept_->setObjectName("answersKept");
@@ -262,6 +263,11 @@ void OperatorPage::setObstacle(const QString& why) {
 void OperatorPage::setBreakDue(bool due) {
     breakDue_ = due;
     after_->setText(due ? tr("End the break") : tr("Break after this trial"));
+}
+
+void OperatorPage::setProgress(const QString& what, int done, int total) {
+    where_->setText(tr("The virtual participant answers: %1, %2 of %3").arg(what.toLower()).arg(done).arg(total));
+    counts_->setText(tr("Nothing is asked of you. Each answer is on disk before the next presentation."));
 }
 
 void OperatorPage::resizeEvent(QResizeEvent* event) {

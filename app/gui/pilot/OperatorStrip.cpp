@@ -3,11 +3,16 @@
 #include <QHBoxLayout>
 #include <QVBoxLayout>
 
+#include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
+
+namespace {
+constexpr int kStripStop_px = 37, kStripKeys_px = 12, kStripStopWide = 160;
+}
 
 OperatorStrip::OperatorStrip(QWidget* parent)
     : QFrame(parent),
@@ -20,7 +25,14 @@ OperatorStrip::OperatorStrip(QWidget* parent)
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     setFrameShape(QFrame::StyledPanel);
-    auto* column = new QVBoxLayout(this);
+    auto* both = new QHBoxLayout(this);
+    auto* column = new QVBoxLayout;
+    both->addLayout(column, 1);
+    auto* stop = new ParticipantStop([this] { emit stopWanted(); }, this);
+    stop->setObjectName("operatorStop");
+    stop->setType(scaledPx(kStripStop_px), scaledPx(kStripKeys_px));
+    stop->setFixedWidth(scaledPx(kStripStopWide));
+    both->addWidget(stop);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
     setTextSize(*where_, TextSize::Body, true);

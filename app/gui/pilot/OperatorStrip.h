@@ -24,6 +24,7 @@ public:
 
 signals:
     void breakWanted(bool due);
+    void stopWanted();  ///< the moment the press goes down
     void abortWanted();
     void closeWanted();
 

@@ -44,7 +44,8 @@ PilotPrompt asItStands(PilotPrompt prompt) {
     const auto end = prompt.targets.begin() + std::ptrdiff_t(kPlaces.size());
     const bool known = std::all_of(prompt.targets.begin(), end,
                                    [&](const PromptTarget& target) { return placeOf(target) != kPlaces.end(); });
-    if (known) std::sort(prompt.targets.begin(), end, [&](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
+    if (known)
+        std::sort(prompt.targets.begin(), end, [&](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
     return prompt;
 }
 
@@ -106,7 +107,7 @@ void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& 
                            scale || (row && !condition && icons.isEmpty() && count <= 6) ? AnswerTarget::Shape::Stacked
                            : condition && i < 4                                          ? AnswerTarget::Shape::Stacked
                            : row                                                         ? AnswerTarget::Shape::Row
-                                                                                         : AnswerTarget::Shape::Stacked);
+                                 : AnswerTarget::Shape::Stacked);
         target->setType(words_px_, key_px_);
         target->setCheckable(kind_ == PromptKind::Several);
         connect(target, &AnswerTarget::wentDown, this, [this, i](SteadyTime at) { emit chosenAt(i, at); });

@@ -20,6 +20,7 @@ namespace {
 constexpr double kWide = 1440, kHigh = 900;
 constexpr double kMargin = 64, kTop = 48, kStopLeft = 968, kStopTop = 120, kStopBottom = 112, kColumn = 776;
 constexpr double kHead_px = 20, kTitle_px = 37, kWords_px = 28, kStop_px = 92, kSmall_px = 14, kGap = 24;
+constexpr double kLargeText = 1.4;  // times the usual
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
 constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
@@ -133,7 +134,8 @@ void ParticipantWindow::setStrip(QWidget* strip) {
 bool ParticipantWindow::stripOpen() const { return strip_ != nullptr && !strip_->isHidden(); }
 
 void ParticipantWindow::openStrip(bool open) {
-    if (strip_ == nullptr || open == stripOpen()) return;
+    if (strip_ == nullptr) return;
+    if (open == stripOpen()) return arrange();  // it may ask something that needs more room
     strip_->setVisible(open);
     if (open) strip_->raise();
     if (!open) setFocus(Qt::OtherFocusReason);
@@ -264,7 +266,7 @@ void ParticipantWindow::showState() {
         } else {
             field_->showTargets(prompt_, keys_);
         }
-        const auto below = prompt_.kind == PromptKind::Hold ? tr("Letting go stops the output.")
+        const auto below = prompt_.kind == PromptKind::Hold   ? tr("Letting go stops the output.")
                            : isStopTest()                     ? tr("Press STOP, or Esc.")
                            : prompt_.kind == PromptKind::Text ? tr("Return gives the answer.")
                            : prompt_.kind == PromptKind::Several
@@ -293,7 +295,9 @@ void ParticipantWindow::showState() {
                 field_->showWord(screen_.interval == 2 ? tr("second") : tr("first"), {});
             return say(tr("Feel what comes"), qtext(screen_.text));
         case ScreenState::Named: {
-            const auto verdict = !screen_.right ? tr("This is") : *screen_.right ? tr("Right. This was") : tr("This was");
+            const auto verdict = !screen_.right   ? tr("This is")
+                                 : *screen_.right ? tr("Right. This was")
+                                                  : tr("This was");
             field_->showWord(conditionWords(screen_.named), iconsOf(screen_.named));
             return say(verdict, qtext(screen_.text));
         }
@@ -314,7 +318,7 @@ void ParticipantWindow::arrange() {
     const int stopLeft = int(std::lround(kStopLeft / kWide * width()));
     const int column = std::min(int(std::lround(kColumn / kWide * width())), stopLeft - margin - px(kGap));
     const int foot = stripOpen() ? strip_->sizeHint().height() : 0;
-    if (stripOpen()) strip_->setGeometry(0, height() - foot, width(), foot);
+    if (stripOpen()) strip_->setGeometry(0, height() - foot, width(), foot);  // as high as what it asks needs
     const int bottom = height() - foot;
 
     const auto head = withPixels(int(kHead_px * text));
@@ -351,14 +355,14 @@ void ParticipantWindow::arrange() {
     const int gap = px(kGap);
     const bool asks = asking_ && prompt_.kind != PromptKind::Hold && prompt_.kind != PromptKind::Text && !isStopTest();
     const int count = asks ? targetCount(prompt_) : 0;
-    const int rows = count == 0                              ? 0
-                     : prompt_.kind == PromptKind::Scale     ? (count + 5) / 6
-                     : count <= 3                            ? 1
-                                                             : (count + fieldColumns(count) - 1) / fieldColumns(count);
+    const int rows = count == 0                          ? 0
+                     : prompt_.kind == PromptKind::Scale ? (count + 5) / 6
+                     : count <= 3                        ? 1
+                                                         : (count + fieldColumns(count) - 1) / fieldColumns(count);
     const int wanted = rows * least + std::max(0, rows - 1) * gap;
     int title_px = int(kTitle_px * text);
     int fieldTop = 0;
-    bool hasBelow = true;
+    bool hasBelow = text < kLargeText * s;  // with large text the targets take the room first
     for (;;) {
         const auto font = withPixels(title_px, QFont::Bold);
         title_->setFont(font);

@@ -37,8 +37,8 @@ QString rangeWords(const nlohmann::json& range) {
     const double low_v = numberIn(range, "min_v"), high_v = numberIn(range, "max_v");
     const double ohm = numberIn(range, "impedance_ohm");
     if (std::isfinite(low_v) && std::isfinite(high_v) && std::isfinite(ohm))
-        words += QObject::tr(", %1 to %2 V at %3")
-                     .arg(decimals(low_v, 0), decimals(high_v, 0), quantityText(ohm, "ohm", 3));
+        words +=
+            QObject::tr(", %1 to %2 V at %3").arg(decimals(low_v, 0), decimals(high_v, 0), quantityText(ohm, "ohm", 3));
     return words;
 }
 
@@ -127,7 +127,7 @@ void PilotResult::show(const FinishedRun& run, const QString& folder) {
     const auto& outcome = run.result.outcome;
     const auto& results = outcome.results;
     const auto said = resultSentence(results);
-    head_->setText(!said.isEmpty()  ? said
+    head_->setText(!said.isEmpty() ? said
                    : outcome.error ? tr("The session ended before there was a result.")
                                    : tr("The session has ended."));
     QStringList why;
@@ -190,8 +190,8 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
         putText(*matrix_, r, 0, label.is_string() ? qtext(label.get<std::string>()) : QString(), false);
         const auto& row = counts[std::size_t(r)];
         for (int i = 0; row.is_array() && i < int(columns.size()) && std::size_t(i) < row.size(); ++i) {
-            putText(*matrix_, r, i + 1, row[std::size_t(i)].is_number() ? QString::number(row[std::size_t(i)].get<int>()) : "–",
-                    true);
+            putText(*matrix_, r, i + 1,
+                    row[std::size_t(i)].is_number() ? QString::number(row[std::size_t(i)].get<int>()) : "–", true);
             if (label != columns[std::size_t(i)]) continue;
             auto font = matrix_->font();
             font.setBold(true);

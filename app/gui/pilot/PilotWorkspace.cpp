@@ -54,7 +54,8 @@ constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 }  // namespace
 
-PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
+PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
     setObjectName("pilotWorkspace");
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
@@ -192,6 +193,7 @@ void PilotWorkspace::connectPage() {
 void PilotWorkspace::connectStrip() {
     connect(strip_, &OperatorStrip::breakWanted, this, &PilotWorkspace::wantBreak);
     connect(strip_, &OperatorStrip::abortWanted, this, [this] { controller_.stop("operator (abort)"); });
+    connect(strip_, &OperatorStrip::stopWanted, this, [this] { controller_.stop("operator (STOP)"); });
     connect(strip_, &OperatorStrip::closeWanted, this, [this] { window_->openStrip(false); });
     connect(&strip_->question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
         desk_.answerAsOperator(id, answer);
@@ -210,8 +212,7 @@ Result<RunOrder> PilotWorkspace::order(const Rehearsal& asked, bool goOn) const 
     if (!source) return failure(source);
     auto declaration = readDeclaration(*source);
     if (!declaration) return failure(declaration);
-    std::map<std::string, std::string> given{
-        {"participant", asked.person ? std::string("window") : fmt::format("virtual:{}", asked.seed)}};
+    std::map<std::string, std::string> given{{"participant", fmt::format("virtual:{}", asked.seed)}};
     if (goOn)
         given["unfinished"] = "resume";
     else
@@ -222,12 +223,12 @@ Result<RunOrder> PilotWorkspace::order(const Rehearsal& asked, bool goOn) const 
     order.script = std::move(*source);
     order.declaration = std::move(*declaration);
     order.settings = std::move(*settings);
-    auto uri = DeviceUri::parse(asked.massager ? "sim:massager" : "sim:");
+    auto uri = DeviceUri::parse("sim:");
     if (!uri) return failure(uri);
     order.uris.push_back(std::move(*uri));
+    order.needed = order.declaration.needs;
     order.seed = asked.seed;
     order.realtime = asked.person;
-    order.out = asked.folder.toStdString();
     order.notes = controller_.day().notes();
     order.profile = controller_.profile();
     order.limits = controller_.limits();
@@ -259,7 +260,14 @@ void PilotWorkspace::begin(const Rehearsal& asked, bool goOn) {
     if (asked.person) openWindow();
     showFacts();
     showTheirs();
-    controller_.run(*made, mark);
+    PilotSeats seats;
+    seats.study = asked.folder.toStdString();
+    if (asked.person) {
+        seats.people = &desk_;
+        seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
+        seats.takesStop = [this](const char* by) { return desk_.testsOperatorsStop() && desk_.stopBy(by); };
+    }
+    controller_.runPilot(*made, seats, mark);
     emit runningChanged();
 }
 
@@ -297,10 +305,9 @@ void PilotWorkspace::show(const PilotScreen& screen) {
     if (const auto step = stepOf(screen.phase, step_); step && *step > step_) reach(*step);
     if (step_ == kTest && screen.phase == "test" && screen.trial > 0) {
         const int each = screen.blocks > 0 ? screen.trials / screen.blocks : screen.trials;
-        steps_->setNote(kTest, tr("block %1 · trial %2 of %3")
-                                   .arg(screen.block)
-                                   .arg(screen.trial - (screen.block - 1) * each)
-                                   .arg(each));
+        steps_->setNote(
+            kTest,
+            tr("block %1 · trial %2 of %3").arg(screen.block).arg(screen.trial - (screen.block - 1) * each).arg(each));
     }
     if (strip_ != nullptr) strip_->setWhere(whereText(screen));
     left_->setText(timeLeft());
@@ -358,7 +365,11 @@ QString PilotWorkspace::timeLeft() const {
 
 void PilotWorkspace::refresh(const Telemetry& telemetry) {
     if (!running_) return;
-    static_cast<void>(controller_.takeRunFeed());  // its trials name conditions
+    const auto feed = controller_.takeRunFeed();  // its trials name conditions: they are dropped
+    if (feed.progress && !asked_.person) {
+        page_->setProgress(qtext(feed.progress->label), int(feed.progress->done), int(feed.progress->total));
+        reach(kTest);
+    }
     page_->refresh(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
     if (faulted && !std::exchange(seenFault_, true)) {
@@ -373,7 +384,6 @@ void PilotWorkspace::showFacts() {
     who_->setFacts({{tr("Participant"), asked_.person ? tr("you") : tr("virtual")},
                     {tr("Seed"), QString::number(asked_.seed)},
                     {tr("Consent"), tr("rehearsal")},
-                    {tr("Felt through"), asked_.massager ? tr("massager") : tr("electrodes")},
                     {tr("Study"), asked_.folder.section('/', -1)}});
     stops_->setFacts({{tr("Participant"), tr("%1 of %2").arg(participantStops_).arg(kMostStops), true},
                       {tr("Operator"), QString::number(operatorStops_), true},
@@ -395,9 +405,9 @@ void PilotWorkspace::showTheirs() {
     theirs_->setShows(window_->asking() ? Shows::Targets : feels ? Shows::Dot : Shows::Nothing);
     screenCard_->setWords(tr("%1, on “%2”. Their keys: %3.")
                               .arg(window_->says(), new_->screens().chosenName(),
-                                   asked_.keys == KeySet::Figures     ? tr("the figures")
+                                   asked_.keys == KeySet::Figures    ? tr("the figures")
                                    : asked_.keys == KeySet::LeftHand ? tr("the left hand’s")
-                                                                      : tr("the right hand’s")));
+                                                                     : tr("the right hand’s")));
 }
 
 void PilotWorkspace::wantBreak(bool due) {
@@ -442,7 +452,7 @@ void PilotWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
         window_->hide();
         window_.release()->deleteLater();  // perhaps from its own press
     }
-    const bool broke = run->result.outcome.error.has_value();
+    const bool broke = run->result.outcome.error.has_value() || run->result.verdict() == "stopped";
     reach(broke ? step_ : int(kSteps));
     if (broke) steps_->setState(step_, State::Troubled);
     side_->hide();

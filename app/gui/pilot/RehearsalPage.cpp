@@ -32,7 +32,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       folder_(new QLineEdit(newFolder(), this)),
       who_(new QComboBox(this)),
       seed_(new QSpinBox(this)),
-      with_(new QComboBox(this)),
       blocks_(new QSpinBox(this)),
       blind_(new QCheckBox(tr("Hide conditions, levels and answers from the operator until the end"), this)),
       keys_(new QComboBox(this)),
@@ -82,10 +81,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     seed_->setRange(1, kMostSeed);
     seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
     form->addRow(tr("Seed"), seed_);
-    with_->setObjectName("rehearsalDevice");
-    with_->addItem(tr("electrodes, simulated current source"), false);
-    with_->addItem(tr("massager, simulated"), true);
-    form->addRow(tr("Felt through"), with_);
     blocks_->setObjectName("rehearsalBlocks");
     blocks_->setRange(1, kMostBlocks);
     blocks_->setValue(5);
@@ -129,7 +124,6 @@ Rehearsal RehearsalPage::rehearsal() const {
     return {.folder = folder_->text().trimmed(),
             .person = who_->currentData().toBool(),
             .seed = std::uint64_t(seed_->value()),
-            .massager = with_->currentData().toBool(),
             .blocks = blocks_->value(),
             .blind = blind_->isChecked(),
             .keys = KeySet(keys_->currentData().toInt())};

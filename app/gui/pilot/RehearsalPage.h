@@ -22,7 +22,6 @@ struct Rehearsal {
     QString folder;
     bool person = false;     ///< whoever sits at the participant's window answers; else a virtual participant
     std::uint64_t seed = 1;  ///< of plan, order, and the virtual participant
-    bool massager = false;
     int blocks = 5;
     bool blind = true;
     KeySet keys = KeySet::Figures;
@@ -46,7 +45,6 @@ private:
     QLineEdit* folder_;
     QComboBox* who_;
     QSpinBox* seed_;
-    QComboBox* with_;
     QSpinBox* blocks_;
     QCheckBox* blind_;
     QComboBox* keys_;

@@ -177,7 +177,8 @@ void SafetyBar::showBlind(const Telemetry& telemetry) {
     const auto broken = [](const ExposureRow& row) {
         return row.evaluated && !row.within && row.action == LimitAction::Refuse;
     };
-    within_->setText(std::ranges::any_of(rows, broken) ? tr("⚠ Exposure at its limit") : tr("✔ Exposure within limits"));
+    within_->setText(std::ranges::any_of(rows, broken) ? tr("⚠ Exposure at its limit")
+                                                       : tr("✔ Exposure within limits"));
 }
 
 QWidget* SafetyBar::buildButtons() {

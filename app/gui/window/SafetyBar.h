@@ -64,7 +64,7 @@ private:
     ElidedLabel* load_ = nullptr;
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
-    FaultBanner* fault_ = nullptr;  ///< in place of facts and bars
+    FaultBanner* fault_ = nullptr;   ///< in place of facts and bars
     QWidget* blindFacts_ = nullptr;  ///< in place of the bars
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;

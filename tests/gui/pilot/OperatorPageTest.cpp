@@ -95,11 +95,10 @@ TEST_F(Operator8b, ItsPixelsAreTheSameForEveryCondition) {
 
 TEST_F(Operator8b, AQuestionOfTheOperatorsIsAnsweredThere) {
     std::vector<std::string> given;
-    QObject::connect(&page.question(), &gui::OperatorAsk::answered, &page,
-                     [&](quint64 id, const PilotAnswer& answer) {
-                         EXPECT_EQ(id, 7U);
-                         given = answer.keys;
-                     });
+    QObject::connect(&page.question(), &gui::OperatorAsk::answered, &page, [&](quint64 id, const PilotAnswer& answer) {
+        EXPECT_EQ(id, 7U);
+        given = answer.keys;
+    });
     page.ask(yesNoPrompt("implant", "Does the participant have an active implant?", PromptTo::Operator), 7);
     auto* no = find<QPushButton>(page, "No");
     ASSERT_NE(no, nullptr);

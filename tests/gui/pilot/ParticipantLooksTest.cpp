@@ -44,6 +44,10 @@ TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
                                                                    {"smooth-high", feel(6.5, 2)},
                                                                    {"smooth-low", feel(4, 2)},
                                                                    {"catch", {}}};
+    // Once before it counts: letters of 92 px are drawn anew the first time, and differ in their edges then.
+    desk.show(testScreen(ScreenState::Dot));
+    ASSERT_NO_FATAL_FAILURE(ask(prompt));
+    answerBy(Qt::Key_1);
     for (const auto& [name, felt] : conditions) {
         std::vector<QImage> shown;
         desk.show(testScreen(ScreenState::Dot));
@@ -64,10 +68,6 @@ TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
     for (std::size_t i = 1; i < phases.size(); ++i) {
         for (std::size_t phase = 0; phase < phases[i].size(); ++phase)
             EXPECT_TRUE(phases[i][phase] == phases[0][phase]) << conditions[i].first << ", picture " << phase;
-    }
-    if (const auto folder = qEnvironmentVariable("TACTO_SHOTS"); !folder.isEmpty()) {
-        phases[0][1].save(folder + "/identity-0.png");
-        phases[1][1].save(folder + "/identity-1.png");
     }
     EXPECT_FALSE(phases[0][1] == phases[0][3]) << "and the pictures are of the phases";
 }
@@ -95,8 +95,15 @@ std::vector<PilotPrompt> allPrompts() {
                                        {"3", "Possibly natural"},
                                        {"4", "Rather unnatural"},
                                        {"5", "Totally unnatural"}});
-    return {condition,        strengthPrompt(), intervalPrompt(), yesNoPrompt("code", "Is P-7K3M your code?"),
-            goOnPrompt("Go on?", PromptTo::Participant), scale, several, natural, holdPrompt()};
+    return {condition,
+            strengthPrompt(),
+            intervalPrompt(),
+            yesNoPrompt("code", "Is P-7K3M your code?"),
+            goOnPrompt("Go on?", PromptTo::Participant),
+            scale,
+            several,
+            natural,
+            holdPrompt()};
 }
 
 TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {

@@ -1,13 +1,12 @@
 // What a session came to, as the window says it.
 #include <QTableWidget>
+#include <QTest>
 #include <gtest/gtest.h>
 
 #include "app/gui/pilot/PilotResult.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
-
-#include <QTest>
 
 namespace tacto::test {
 namespace {
