@@ -4,43 +4,19 @@
 #include <QScreen>
 #include <QWindow>
 #include <algorithm>
-#include <cmath>
 
+#include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
-#include "app/gui/pilot/ParticipantStop.h"
-#include "app/gui/pilot/ShareBars.h"
-#include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 
-// The picture's lengths, at 1440 x 900.
-constexpr double kWide = 1440, kHigh = 900;
-constexpr double kMargin = 64, kTop = 48, kStopLeft = 968, kStopTop = 120, kStopBottom = 112, kColumn = 776;
-constexpr double kHead_px = 20, kTitle_px = 37, kWords_px = 28, kStop_px = 92, kSmall_px = 14, kGap = 24;
-constexpr double kLargeText = 1.4;  // times the usual
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
 constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
 constexpr const char* kDone = "done";               // the target that ends Several
 constexpr const char* kStopsAs = "stopsAs";         // StopKeys looks for it
-
-QFont withPixels(int px, QFont::Weight weight = QFont::Normal) {
-    auto font = textFont(TextSize::Body, weight);
-    font.setPixelSize(std::max(8, px));
-    return font;
-}
-
-QString phaseTitle(const std::string& phase) {
-    if (phase == "ascending" || phase == "detection" || phase == "range") return QObject::tr("Finding your range");
-    if (phase == "familiarisation") return QObject::tr("Getting to know them");
-    if (phase == "training") return QObject::tr("Training");
-    if (phase == "drift") return QObject::tr("A short check");
-    if (phase == "ratings") return QObject::tr("A few questions");
-    return {};
-}
 
 }  // namespace
 
@@ -48,24 +24,12 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
     : QWidget(parent, Qt::Window),
       desk_(desk),
       stop_(std::move(stop)),
-      block_(new QLabel(this)),
-      blocks_(new ShareBars(this)),
-      note_(new QLabel(this)),
-      title_(new QLabel(this)),
-      below_(new QLabel(this)),
-      field_(new ParticipantField(this)),
-      stopTarget_(new ParticipantStop(
+      face_(new ParticipantFace(
           [this] {
               stop_("participant");
               noteStop();
           },
-          this)),
-      timeWord_(new QLabel(tr("time to answer"), this)),
-      time_(new ShareBars(this)),
-      hold_(new AnswerTarget(this)),
-      line_(new QLineEdit(this)),
-      leastWord_(new QLabel(this)),
-      mostWord_(new QLabel(this)) {
+          this)) {
     setObjectName("participantWindow");
     setWindowTitle(tr("Participant"));
     setAccessibleName(tr("Participant’s screen"));
@@ -73,28 +37,15 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
     setBackgroundRole(QPalette::Window);
     setFocusPolicy(Qt::StrongFocus);
     setProperty(kStopsAs, "participant");
-    for (auto* label : {block_, note_, title_, below_, timeWord_, leastWord_, mostWord_}) {
-        label->setTextFormat(Qt::PlainText);
-        label->setAttribute(Qt::WA_TransparentForMouseEvents);
-    }
-    title_->setObjectName("participantTitle");
-    title_->setWordWrap(true);
-    title_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    below_->setWordWrap(true);
-    for (auto* quiet : {note_, below_, timeWord_, leastWord_, mostWord_}) setTone(*quiet, Tone::Quiet);
-    hold_->hide();
-    line_->hide();
-    connect(field_, &ParticipantField::chosenAt, this, &ParticipantWindow::choose);
-    connect(field_, &ParticipantField::missed, this, [this] {
+    connect(&face_->field(), &ParticipantField::chosenAt, this, &ParticipantWindow::choose);
+    connect(&face_->field(), &ParticipantField::missed, this, [this] {
         if (feels()) noteEarly({});
     });
-    auto* hold = static_cast<AnswerTarget*>(hold_);
-    hold->setObjectName("hold");
-    connect(hold, &AnswerTarget::wentDown, this, &ParticipantWindow::pressHold);
-    connect(hold, &AnswerTarget::cameUp, this, &ParticipantWindow::letGo);
-    connect(line_, &QLineEdit::returnPressed, this, [this] {
+    connect(&face_->hold(), &AnswerTarget::wentDown, this, &ParticipantWindow::pressHold);
+    connect(&face_->hold(), &AnswerTarget::cameUp, this, &ParticipantWindow::letGo);
+    connect(&face_->line(), &QLineEdit::returnPressed, this, [this] {
         PilotAnswer answer;
-        answer.keys.push_back(line_->text().trimmed().toStdString());
+        answer.keys.push_back(face_->line().text().trimmed().toStdString());
         give(std::move(answer), std::chrono::steady_clock::now());
     });
     connect(&desk_, &ParticipantDesk::screenChanged, this, &ParticipantWindow::showScreen);
@@ -106,10 +57,11 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
     judge();
 }
 
-void ParticipantWindow::setNote(const QString& note) {
-    note_->setText(note);
-    arrange();
-}
+void ParticipantWindow::setNote(const QString& note) { face_->setNote(note); }
+
+const ParticipantField& ParticipantWindow::field() const { return face_->field(); }
+
+QString ParticipantWindow::title() const { return face_->title(); }
 
 void ParticipantWindow::showOn(QScreen& screen) {
     setScreen(&screen);
@@ -122,24 +74,16 @@ void ParticipantWindow::takeKeys() {
     if (!isVisible()) return;
     raise();
     activateWindow();
-    if (!line_->isVisible()) setFocus(Qt::OtherFocusReason);
+    if (!face_->line().isVisible()) setFocus(Qt::OtherFocusReason);
 }
 
-void ParticipantWindow::setStrip(QWidget* strip) {
-    strip_ = strip;
-    strip_->setParent(this);
-    strip_->hide();
-}
+void ParticipantWindow::setStrip(QWidget* strip) { face_->setStrip(strip); }
 
-bool ParticipantWindow::stripOpen() const { return strip_ != nullptr && !strip_->isHidden(); }
+bool ParticipantWindow::stripOpen() const { return face_->stripOpen(); }
 
 void ParticipantWindow::openStrip(bool open) {
-    if (strip_ == nullptr) return;
-    if (open == stripOpen()) return arrange();  // it may ask something that needs more room
-    strip_->setVisible(open);
-    if (open) strip_->raise();
+    face_->openStrip(open);
     if (!open) setFocus(Qt::OtherFocusReason);
-    arrange();
     judge();
 }
 
@@ -187,7 +131,7 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
     screen_ = screen;
     stopped_ = false;
     asking_ = false;
-    if (screen.state == ScreenState::Rest) hold_->hide();
+    if (screen.state == ScreenState::Rest) face_->hold().hide();
     showState();
     repaint();  // when it changes is the session's: not with the next frame
     emit changed();
@@ -196,8 +140,7 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
 void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.to == PromptTo::Operator) {
         asking_ = false;
-        say(tr("One moment, please."), tr("The operator has something to do."));
-        field_->clear();
+        face_->say(tr("One moment, please."), tr("The operator has something to do."));
         emit changed();
         return;
     }
@@ -225,194 +168,33 @@ void ParticipantWindow::closeQuestion(quint64 id) {
     emit changed();
 }
 
-void ParticipantWindow::say(const QString& title, const QString& below) {
-    title_->setText(title);
-    below_->setText(below);
-    arrange();
-}
-
-/// The words and the field of what goes on.
 void ParticipantWindow::showState() {
-    const auto shown = asking_ && prompt_.within;
-    timeWord_->setVisible(shown);
-    time_->setVisible(shown);
-    time_->setShares({1});
-    const bool scale = asking_ && prompt_.kind == PromptKind::Scale;
-    leastWord_->setText(scale ? qtext(prompt_.leastText) : QString());
-    mostWord_->setText(scale ? qtext(prompt_.mostText) : QString());
-    line_->setVisible(asking_ && prompt_.kind == PromptKind::Text);
-    block_->setText(screen_.blocks > 0 && screen_.block > 0
-                        ? tr("Block %1 of %2").arg(screen_.block).arg(screen_.blocks)
-                        : phaseTitle(screen_.phase));
-    blocks_->setShares(screen_.blocks > 0 && screen_.block > 0
-                           ? blockShares(screen_.block, screen_.blocks, screen_.trial, screen_.trials)
-                           : std::vector<double>());
-    if (stopped_) {
-        field_->clear();
-        return say(tr("Stopped. The output is off."), tr("It goes on only when you say so."));
-    }
-    if (asking_) {
-        if (prompt_.kind == PromptKind::Hold) {
-            const auto key = QKeySequence(set_ == KeySet::LeftHand ? kHoldKeyLeft : kHoldKey).toString();
-            static_cast<AnswerTarget*>(hold_)->setContent(tr("hold this"), {"hand"}, key, AnswerTarget::Shape::Row);
-            hold_->show();
-            field_->clear();
-        } else if (isStopTest()) {
-            field_->clear();
-        } else if (prompt_.kind == PromptKind::Text) {
-            line_->clear();
-            line_->setFocus();
-            field_->clear();
-        } else {
-            field_->showTargets(prompt_, keys_);
-        }
-        const auto below = prompt_.kind == PromptKind::Hold   ? tr("Letting go stops the output.")
-                           : isStopTest()                     ? tr("Press STOP, or Esc.")
-                           : prompt_.kind == PromptKind::Text ? tr("Return gives the answer.")
-                           : prompt_.kind == PromptKind::Several
-                               ? tr("Touch each that fits, then press Return or “done”.")
-                           : targetCount(prompt_) == 1 ? tr("Touch it, or press its key.")
-                           : prompt_.within            ? tr("Touch one, or press its key. There is time.")
-                                                       : tr("Touch one, or press its key.");
-        return say(qtext(prompt_.text), below);
-    }
-    if (break_ && !feels()) {
-        field_->clear();
-        return say(tr("Break"), tr("It goes on when both of you are ready."));
-    }
-    switch (screen_.state) {
-        case ScreenState::Rest:
-            field_->clear();
-            return say(qtext(screen_.text), {});
-        case ScreenState::Dot:
-        case ScreenState::Feel:
-            field_->showDot();
-            return say(tr("Feel what comes"), qtext(screen_.text));
-        case ScreenState::Interval:
-            if (screen_.interval == 0)
-                field_->showDot();
-            else
-                field_->showWord(screen_.interval == 2 ? tr("second") : tr("first"), {});
-            return say(tr("Feel what comes"), qtext(screen_.text));
-        case ScreenState::Named: {
-            const auto verdict = !screen_.right   ? tr("This is")
-                                 : *screen_.right ? tr("Right. This was")
-                                                  : tr("This was");
-            field_->showWord(conditionWords(screen_.named), iconsOf(screen_.named));
-            return say(verdict, qtext(screen_.text));
-        }
-        case ScreenState::Break:
-            field_->clear();
-            return say(tr("Break"), screen_.text.empty() ? tr("Take your time.") : qtext(screen_.text));
-        case ScreenState::Ended:
-            field_->clear();
-            return say(tr("That was all. Thank you."), qtext(screen_.text));
-    }
+    face_->show({.screen = screen_,
+                 .asked = asking_ ? std::optional(prompt_) : std::nullopt,
+                 .keys = keys_,
+                 .holdKey = QKeySequence(holdKey()).toString(),
+                 .stopped = stopped_,
+                 .pause = break_ && !feels()});
 }
 
-void ParticipantWindow::arrange() {
-    const double s = std::min(width() / kWide, height() / kHigh);
-    const double text = s * scaledPx(1000) / 1000.0;
-    const auto px = [&](double designed) { return int(std::lround(designed * s)); };
-    const int margin = px(kMargin), right = width() - margin;
-    const int stopLeft = int(std::lround(kStopLeft / kWide * width()));
-    const int column = std::min(int(std::lround(kColumn / kWide * width())), stopLeft - margin - px(kGap));
-    const int foot = stripOpen() ? strip_->sizeHint().height() : 0;
-    if (stripOpen()) strip_->setGeometry(0, height() - foot, width(), foot);  // as high as what it asks needs
-    const int bottom = height() - foot;
-
-    const auto head = withPixels(int(kHead_px * text));
-    const int headHigh = QFontMetrics(head).height();
-    for (auto* label : {block_, note_, below_}) label->setFont(head);
-    const int top = px(kTop);
-    block_->setGeometry(margin, top, QFontMetrics(head).horizontalAdvance(block_->text()) + 2, headHigh);
-    const int barsLeft = block_->geometry().right() + px(kGap);
-    blocks_->setGeometry(barsLeft, top + headHigh / 2 - px(4), std::max(0, std::min(px(392), stopLeft - barsLeft)),
-                         std::max(4, px(8)));
-    const int noteWide = QFontMetrics(head).horizontalAdvance(note_->text()) + 2;
-    note_->setGeometry(right - noteWide, top, noteWide, headHigh);
-
-    const int stopTop = std::max(px(kStopTop), top + headHigh + px(12));
-    stopTarget_->setGeometry(stopLeft, stopTop, right - stopLeft, bottom - px(kStopBottom) - stopTop);
-    stopTarget_->setType(int(kStop_px * s), int(kHead_px * text));
-
-    // From the foot: the time bar, what is held; from the head: the question. The targets have the rest.
-    const auto small = withPixels(std::max(11, int(kSmall_px * text)));
-    const int smallHigh = QFontMetrics(small).height();
-    const int timeTop = bottom - px(kMargin);
-    timeWord_->setFont(small);
-    const int wordWide = QFontMetrics(small).horizontalAdvance(timeWord_->text()) + 2;
-    timeWord_->setGeometry(margin, timeTop - smallHigh / 2, wordWide, smallHigh);
-    time_->setGeometry(margin + wordWide + px(14), timeTop - px(4), column - wordWide - px(14), std::max(4, px(8)));
-    const int least = pixelsOf(kTarget_mm, *this);
-    int fieldBottom = bottom - px(kStopBottom) - px(12);
-    if (!hold_->isHidden()) {
-        hold_->setGeometry(margin, fieldBottom - least, column, least);
-        static_cast<AnswerTarget*>(hold_)->setType(int(kWords_px * text), int(kHead_px * text));
-        fieldBottom -= least + px(kGap);
-    }
-
-    const int gap = px(kGap);
-    const bool asks = asking_ && prompt_.kind != PromptKind::Hold && prompt_.kind != PromptKind::Text && !isStopTest();
-    const int count = asks ? targetCount(prompt_) : 0;
-    const int rows = count == 0                          ? 0
-                     : prompt_.kind == PromptKind::Scale ? (count + 5) / 6
-                     : count <= 3                        ? 1
-                                                         : (count + fieldColumns(count) - 1) / fieldColumns(count);
-    const int wanted = rows * least + std::max(0, rows - 1) * gap;
-    int title_px = int(kTitle_px * text);
-    int fieldTop = 0;
-    bool hasBelow = text < kLargeText * s;  // with large text the targets take the room first
-    for (;;) {
-        const auto font = withPixels(title_px, QFont::Bold);
-        title_->setFont(font);
-        const int titleHigh = title_->heightForWidth(column);
-        title_->setGeometry(margin, stopTop, column, titleHigh);
-        const int belowHigh = hasBelow && !below_->text().isEmpty() ? below_->heightForWidth(column) : 0;
-        below_->setVisible(belowHigh > 0);
-        below_->setGeometry(margin, stopTop + titleHigh + px(8), column, belowHigh);
-        fieldTop = stopTop + titleHigh + (belowHigh > 0 ? belowHigh + px(8) : 0) + px(36);
-        if (fieldBottom - fieldTop >= wanted) break;
-        // The targets come first: the second line goes, then the question gets smaller.
-        if (hasBelow)
-            hasBelow = false;
-        else if (title_px > int(kHead_px * s))
-            title_px -= 2;
-        else
-            break;
-    }
-    field_->setGeometry(margin, fieldTop, column, std::max(1, fieldBottom - fieldTop));
-    field_->setType(int(kWords_px * text), int(kHead_px * text), gap);
-    line_->setFont(withPixels(int(kWords_px * text)));
-    line_->setGeometry(margin, fieldTop, column, least);
-    for (auto* end : {leastWord_, mostWord_}) end->setFont(head);
-    const bool ends = !leastWord_->text().isEmpty() || !mostWord_->text().isEmpty();
-    leastWord_->setVisible(ends);
-    mostWord_->setVisible(ends);
-    if (!ends) return;
-    // Below the row of a scale's targets.
-    const int endsTop = std::min(fieldTop + rows * pixelsOf(60, *this) + rows * gap, fieldBottom);
-    leastWord_->setGeometry(margin, endsTop, column / 2, headHigh);
-    mostWord_->setGeometry(margin + column / 2, endsTop, column - column / 2, headHigh);
-    mostWord_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-}
+int ParticipantWindow::holdKey() const { return set_ == KeySet::LeftHand ? kHoldKeyLeft : kHoldKey; }
 
 /// Answered by STOP, and by nothing else.
-bool ParticipantWindow::isStopTest() const { return prompt_.name == "stop-test"; }
+bool ParticipantWindow::isStopTest() const { return isStopTestPrompt(prompt_); }
 
 void ParticipantWindow::choose(int target, SteadyTime at) {
     if (!asking_ || isStopTest()) return;
     const auto index = std::size_t(target);
     PilotAnswer answer;
     if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != kDone) {
-        field_->setChosen(target, !field_->chosen(target));
+        face_->field().setChosen(target, !face_->field().chosen(target));
         return;
     }
     if (prompt_.kind == PromptKind::Scale) {
         answer.value = prompt_.least + target;
     } else if (prompt_.kind == PromptKind::Several) {
         for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
-            if (i != index && field_->chosen(int(i))) answer.keys.push_back(prompt_.targets[i].key);
+            if (i != index && face_->field().chosen(int(i))) answer.keys.push_back(prompt_.targets[i].key);
         }
     } else {
         answer.keys.push_back(prompt_.targets.at(index).key);
@@ -425,11 +207,7 @@ void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
     asking_ = false;
     ticking_.stop();
     desk_.answerAsParticipant(id_, std::move(answer), at);
-    say({}, {});
-    field_->clear();
-    timeWord_->hide();
-    time_->hide();
-    line_->hide();
+    face_->say({}, {});
     setFocus(Qt::OtherFocusReason);
     emit changed();
 }
@@ -447,7 +225,7 @@ void ParticipantWindow::letGo() {
     if (!desk_.holding()) return;
     desk_.setHolding(false);
     stop_("participant let go");
-    hold_->hide();
+    face_->hold().hide();
     noteStop();
 }
 
@@ -459,13 +237,12 @@ void ParticipantWindow::noteEarly(std::optional<int> target) {
 void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     const int key = event->key();
     const auto at = timeOf(*event);
-    const int hold = set_ == KeySet::LeftHand ? kHoldKeyLeft : kHoldKey;
-    if (key == hold && !hold_->isHidden()) {
+    if (key == holdKey() && !face_->hold().isHidden()) {
         if (event->isAutoRepeat()) return;
         heldKey_ = key;
         return pressHold();
     }
-    if (key == Qt::Key_F2 && strip_ != nullptr && !event->isAutoRepeat()) return openStrip(!stripOpen());
+    if (key == Qt::Key_F2 && face_->hasStrip() && !event->isAutoRepeat()) return openStrip(!stripOpen());
     const auto before = pressed_.find(key);
     const bool held = event->isAutoRepeat() || (before != pressed_.end() && at - before->second < kRepeats);
     if (before != pressed_.end() && held) before->second = at;
@@ -480,7 +257,7 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     if (prompt_.kind == PromptKind::Several && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
         PilotAnswer answer;
         for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
-            if (field_->chosen(int(i)) && prompt_.targets[i].key != kDone)
+            if (face_->field().chosen(int(i)) && prompt_.targets[i].key != kDone)
                 answer.keys.push_back(prompt_.targets[i].key);
         }
         return give(std::move(answer), at);
@@ -529,7 +306,7 @@ void ParticipantWindow::judge() {
 void ParticipantWindow::tick() {
     if (!asking_ || !prompt_.within) return;
     const double gone = double(since_.nsecsElapsed()) * 1e-9 / prompt_.within->count();
-    time_->setShares({std::clamp(1 - gone, 0.0, 1.0)});
+    face_->setTimeLeft(std::clamp(1 - gone, 0.0, 1.0));
 }
 
 void ParticipantWindow::closeEvent(QCloseEvent* event) {
@@ -541,7 +318,6 @@ void ParticipantWindow::closeEvent(QCloseEvent* event) {
 
 void ParticipantWindow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::FontChange) arrange();
     if (event->type() != QEvent::ActivationChange) return;
     if (!isActiveWindow() && heldKey_ != 0) letGo();  // its release would go to another window
     if (!isActiveWindow()) pressed_.clear();
@@ -561,7 +337,7 @@ void ParticipantWindow::hideEvent(QHideEvent* event) {
 
 void ParticipantWindow::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    arrange();
+    face_->setGeometry(rect());
     judge();
 }
 

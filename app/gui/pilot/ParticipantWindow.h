@@ -11,8 +11,6 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QLabel>
-#include <QLineEdit>
 #include <QTimer>
 #include <QWidget>
 #include <functional>
@@ -23,9 +21,8 @@
 
 namespace tacto::gui {
 
+class ParticipantFace;
 class ParticipantField;
-class ParticipantStop;
-class ShareBars;
 
 class ParticipantWindow final : public QWidget {
     Q_OBJECT
@@ -47,8 +44,8 @@ public:
     void noteStop();
     /// The operator's break: what the screen says between two trials meanwhile.
     void showBreak(bool on);
-    [[nodiscard]] const ParticipantField& field() const { return *field_; }
-    [[nodiscard]] QString title() const { return title_->text(); }
+    [[nodiscard]] const ParticipantField& field() const;
+    [[nodiscard]] QString title() const;
     /// Targets of a question that wait for an answer.
     [[nodiscard]] bool asking() const { return asking_; }
     /// "Answer", for the operator: what this screen shows.
@@ -74,8 +71,7 @@ private:
     void ask(const PilotPrompt& prompt, quint64 id);
     void closeQuestion(quint64 id);
     void showState();
-    void say(const QString& title, const QString& below);
-    void arrange();
+    [[nodiscard]] int holdKey() const;
     void choose(int target, SteadyTime at);
     void give(PilotAnswer answer, SteadyTime at);
     void pressHold();
@@ -102,20 +98,7 @@ private:
     QElapsedTimer since_;                // the targets were shown
     QTimer ticking_;
 
-    QLabel* block_;
-    ShareBars* blocks_;
-    QLabel* note_;
-    QLabel* title_;
-    QLabel* below_;
-    ParticipantField* field_;
-    ParticipantStop* stopTarget_;
-    QLabel* timeWord_;
-    ShareBars* time_;
-    QWidget* hold_;
-    QLineEdit* line_;
-    QLabel* leastWord_;
-    QLabel* mostWord_;
-    QWidget* strip_ = nullptr;
+    ParticipantFace* face_;
 };
 
 }  // namespace tacto::gui
