@@ -57,8 +57,11 @@ int AnswerTarget::fittingPx() const {
         const bool row = shape_ == Shape::Row;
         const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
         const int cap = row && !key_.isEmpty() ? int(keyPx() * 2.3) : 0;
-        const bool wide = metrics.horizontalAdvance(text()) + icons + cap + 2 * pad <= width();
         const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
+        // Words that reach down to the key stand beside it, not under it.
+        const bool low = !row && !key_.isEmpty() && (height() + high) / 2 > height() - int(keyPx() * 2.3);
+        const int beside = low ? 2 * int(keyPx() * 2.4) : 2 * pad;
+        const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
         if (wide && high <= height() - 8) return px;
     }
     return least;
