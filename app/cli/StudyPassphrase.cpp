@@ -35,7 +35,8 @@ Result<Passphrase> typedPassphrase() {
 }  // namespace
 
 void declarePassphrase(QCommandLineParser& parser) {
-    parser.addOption({"passphrase-file", "File whose first line is the study's passphrase; asked for where left out.", "F"});
+    parser.addOption(
+        {"passphrase-file", "File whose first line is the study's passphrase; asked for where left out.", "F"});
 }
 
 Result<Passphrase> passphraseFor(const QCommandLineParser& parser, const std::filesystem::path& study) {

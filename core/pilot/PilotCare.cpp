@@ -107,16 +107,18 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
     prompt.name = "stop-test";
     const auto asked = stage_.participant().ask(prompt);
-    const auto took = asked ? std::nullopt : stage_.takeStop();
+    constexpr auto kNever = std::chrono::nanoseconds::max();
+    const auto took = asked ? kNever : stage_.takeStop().value_or(kNever);
+    const bool pressed = took != kNever;
     stage_.rest();
-    const double took_ms = took ? std::chrono::duration<double, std::milli>(*took).count() : kNaN;
-    nlohmann::json body{{"by", nameOf(by)}, {"pressed", took.has_value()}, {"off_ms", took_ms}};
+    const double took_ms = pressed ? std::chrono::duration<double, std::milli>(took).count() : kNaN;
+    nlohmann::json body{{"by", nameOf(by)}, {"pressed", pressed}, {"off_ms", took_ms}};
     if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
     if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
-    return gate(name + " stop", took && *took <= kStopIn,
-                took ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted", nameOf(by),
-                                   took_ms)
-                     : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
+    return gate(name + " stop", took <= kStopIn,
+                pressed ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
+                                      nameOf(by), took_ms)
+                        : fmt::format("the {}'s STOP was not pressed in its test", nameOf(by)));
 }
 
 Result<double> PilotCare::measureImpedance(const std::string& name) {

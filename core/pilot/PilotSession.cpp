@@ -111,7 +111,10 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
         presented.push_back({{"name", each.name}, {unit, each.level}, {"interval_s", each.interval.count()}});
     results["presented"] = std::move(presented);
     for (const char* key : {"predicted", "fit", "truth", "plan", "trials"}) results[key] = nullptr;
+    results["notes"] = nlohmann::json::array();
     if (truth_ == nullptr) return results;
+    results["notes"] = {"The participant, the operator, their checklist and the skin are simulated.",
+                        "Response times of a virtual participant are drawn and have no source."};
     results["truth"] = truthJson();
     results["plan"] = identification_.planJson();
     auto trials = nlohmann::json::array();

@@ -48,8 +48,8 @@ std::string silentName(const StageTrial& trial) { return trial.askedAgain ? tria
 std::string_view nameOf(PilotEnd end) noexcept { return wordFor<PilotEnd>(kPilotEnds, end); }
 
 Seconds lengthOf(const StageTrial& trial) {
-    return trial.level > 0 ? static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval
-                           : Seconds(0);
+    const Seconds trains = static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval;
+    return trial.level > 0 ? std::min(trains, trial.presentation.duration) : Seconds(0);
 }
 
 PilotStage::PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings)

@@ -17,7 +17,8 @@ PassphraseCost PassphraseCost::moderate() noexcept {
 PassphraseCost PassphraseCost::least() noexcept { return {crypto_pwhash_OPSLIMIT_MIN, crypto_pwhash_MEMLIMIT_MIN}; }
 
 Result<Passphrase> Passphrase::from(std::string_view text) {
-    if (text.empty()) return fail(ErrorCode::InvalidArgument, "the passphrase is empty; at least one character is expected");
+    if (text.empty())
+        return fail(ErrorCode::InvalidArgument, "the passphrase is empty; at least one character is expected");
     return Passphrase(Secret(std::as_bytes(std::span(text))));
 }
 
@@ -47,11 +48,10 @@ Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
 
 Result<Secret> Passphrase::keyFor(std::span<const std::byte> salt, const PassphraseCost& cost) const {
     Secret key(kKeyBytes);
-    if (salt.size() != kSaltBytes ||
-        crypto_pwhash(reinterpret_cast<unsigned char*>(key.bytes().data()), key.size(),
-                      reinterpret_cast<const char*>(text_.bytes().data()), text_.size(),
-                      reinterpret_cast<const unsigned char*>(salt.data()), cost.passes(), cost.bytes(),
-                      crypto_pwhash_ALG_ARGON2ID13) != 0) {
+    if (salt.size() != kSaltBytes || crypto_pwhash(reinterpret_cast<unsigned char*>(key.bytes().data()), key.size(),
+                                                   reinterpret_cast<const char*>(text_.bytes().data()), text_.size(),
+                                                   reinterpret_cast<const unsigned char*>(salt.data()), cost.passes(),
+                                                   cost.bytes(), crypto_pwhash_ALG_ARGON2ID13) != 0) {
         return fail(ErrorCode::Io, "the passphrase cannot be turned into a key: {} MB of memory are needed",
                     cost.bytes() / 1'000'000);
     }

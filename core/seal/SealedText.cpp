@@ -1,5 +1,6 @@
 #include "core/seal/SealedText.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <sodium.h>
 
@@ -120,9 +121,8 @@ Result<std::string> openText(const Secret& key, std::string_view boundTo, std::s
 
 Secret subkey(const Secret& key, std::uint64_t number) {
     Secret out(kKeyBytes);
-    if (key.size() != kKeyBytes ||
-        crypto_kdf_derive_from_key(raw(out.bytes().data()), kKeyBytes, number, "tactpart",
-                                   raw(key.bytes().data())) != 0)
+    if (key.size() != kKeyBytes || crypto_kdf_derive_from_key(raw(out.bytes().data()), kKeyBytes, number, "tactpart",
+                                                              raw(key.bytes().data())) != 0)
         std::abort();
     return out;
 }

@@ -40,6 +40,9 @@ std::string originOf(const SessionDevice& device) {
 }
 
 Result<Delivered> deliveredIn(const SessionReader& session) {
+    if (session.locked())
+        return fail(ErrorCode::Unsupported,
+                    "what the session delivered is sealed; it opens with the study's passphrase");
     const auto commands = session.commands();
     if (!commands) return failure(commands);
     Delivered delivered;

@@ -35,7 +35,7 @@ struct Delivered {
     double most = 0;   ///< largest amplitude, in `unit`
     std::string unit;  ///< "V", "mA"; empty for a massager and for a session that does not say
 };
-/// Counted from the session's commands. Errors: as SessionReader::commands().
+/// Counted from the session's commands. Errors: as SessionReader::commands(); Unsupported for one that is locked.
 [[nodiscard]] Result<Delivered> deliveredIn(const SessionReader& session);
 
 /// One sentence each. A session all of whose devices are simulated, or that has none and predicts, is "SIMULATED: ...";

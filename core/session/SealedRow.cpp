@@ -19,8 +19,9 @@ struct ShownOfKind {
     bool name;
     Keys keys;
 };
-constexpr std::string_view kAboutKeys[] = {"program_version", "protocol",  "protocol_sha256", "devices",      "limit_sets",
-                                           "simulated",       "mode",      "wall_start",      "virtual_clock"};
+constexpr std::string_view kAboutKeys[] = {
+    "program_version", "protocol", "protocol_sha256", "devices",      "limit_sets",
+    "simulated",       "mode",     "wall_start",      "virtual_clock"};
 constexpr std::string_view kTrialKeys[] = {"number"};
 constexpr std::string_view kChunkKeys[] = {"stream", "index"};
 constexpr std::string_view kCaptureKeys[] = {"trial"};
@@ -119,19 +120,19 @@ struct Shown {
 };
 
 Shown shownOf(std::string_view kind, std::string_view name, std::string_view body) {
-    const auto parsed = [&] {
-        auto json = parseJson(body, "a row", kRowLimits);
-        return json && json->is_object() ? *std::move(json) : nlohmann::json::object();
+    const auto whole = [&] {
+        auto read = parseJson(body, "a row", kRowLimits);
+        return read && read->is_object() ? *std::move(read) : nlohmann::json::object();
     };
     if (kind == kind::kEvent) {
         const auto* rule = std::ranges::find(kShownOfEvents, name, &ShownOfEvent::name);
         if (rule == std::end(kShownOfEvents)) return {};
-        if (rule->whole) return {true, parsed()};
-        return {true, rule->keys.empty() ? nlohmann::json::object() : shownKeys(parsed(), rule->keys, true)};
+        if (rule->whole) return {true, whole()};
+        return {true, rule->keys.empty() ? nlohmann::json::object() : shownKeys(whole(), rule->keys, true)};
     }
     const auto* rule = std::ranges::find(kShownOfKinds, kind, &ShownOfKind::kind);
     if (rule == std::end(kShownOfKinds)) return {};
-    return {rule->name, rule->keys.empty() ? nlohmann::json::object() : shownKeys(parsed(), rule->keys, false)};
+    return {rule->name, rule->keys.empty() ? nlohmann::json::object() : shownKeys(whole(), rule->keys, false)};
 }
 
 std::string bulkKind(std::string_view kind) { return fmt::format("{} bytes", kind); }

@@ -129,10 +129,11 @@ Result<void> takesLabels(const std::filesystem::path& session, const SessionRead
             name);
     }
     if (reader.sealed()) {
-        return fail(ErrorCode::Unsupported,
-                    "session {} is sealed: operator, sample, tags and note would stand in it unsealed. It is kept as it "
-                    "is; the study's own notes are sealed",
-                    name);
+        return fail(
+            ErrorCode::Unsupported,
+            "session {} is sealed: operator, sample, tags and note would stand in it unsealed. It is kept as it "
+            "is; the study's own notes are sealed",
+            name);
     }
     std::error_code error;
     const auto writable = std::filesystem::perms::owner_write | std::filesystem::perms::group_write |

@@ -95,8 +95,8 @@ struct SessionReader::State {
             if (!*more) return {};
             const auto chunk = chunkHead(rows->integer(0), rows->text(1));
             if (!chunk) return failure(chunk);
-            auto unpacked = unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3),
-                                   block);
+            auto unpacked =
+                unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
             if (!unpacked) return unpacked;
             if (!visit(*chunk, block)) return {};
         }
@@ -117,13 +117,13 @@ struct SessionReader::State {
         if (!inside) return failure(inside);
         return std::move(inside->body);
     }
-    [[nodiscard]] Result<void> unpack(std::int64_t seq, const ChunkHead& head, std::size_t columns,
+    [[nodiscard]] Result<void> unpack(std::int64_t seq, const ChunkHead& chunk, std::size_t columns,
                                       std::span<const std::byte> stamps, std::span<const std::byte> data,
                                       SampleBlock& into) const {
-        if (!source.sealed()) return unpackChunk(head, columns, stamps, data, into);
+        if (!source.sealed()) return unpackChunk(chunk, columns, stamps, data, into);
         const auto opened = openedBulk(*seal, seq, kind::kChunk, data);
         if (!opened) return failure(opened);
-        return unpackOpenedChunk(head, columns, *opened, into);
+        return unpackOpenedChunk(chunk, columns, *opened, into);
     }
 
     [[nodiscard]] Result<std::vector<SessionStreamInfo>> declared() const {
@@ -223,9 +223,8 @@ Result<std::vector<SessionRow>> SessionReader::reportItems() const { return stat
 Result<std::vector<SessionTrial>> SessionReader::trials() const {
     std::vector<SessionTrial> trials;
     auto read = state_->forEach(kind::kTrial, [&](const SessionRow& row) {
-        trials.push_back(
-            {row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name, valueOr(row.body, "measured"),
-             row.sealed});
+        trials.push_back({row.seq, static_cast<int>(countOr(row.body, "number")), row.at, row.name,
+                          valueOr(row.body, "measured"), row.sealed});
     });
     if (!read) return failure(read);
     return trials;
@@ -330,11 +329,13 @@ Result<std::string> SessionReader::reproducibleText() const {
                                 rows->text(4), hexOf(rows->blob(5)));
             continue;
         }
-        const auto row = state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3),
-                                     rows->text(4));
+        const auto row =
+            state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3), rows->text(4));
         if (!row) return failure(row);
-        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which differs.
-        text += fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
+        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which
+        // differs.
+        text +=
+            fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
     }
 }
 

@@ -180,7 +180,7 @@ Result<void> SessionStore::begin(Durability durability) {
 }
 
 SessionStore::Row SessionStore::chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
-                                     const std::optional<Digest>& digest) {
+                                      const std::optional<Digest>& digest) {
     const Digest hash = chainHash(head_, {seq_ + 1, kind, at.count(), name, body, digest});
     Row row{seq_ + 1, at, kind, name, body, digest, head_, hash};
     head_ = hash;
@@ -230,8 +230,8 @@ Result<void> SessionStore::write(const QueuedChunk& chunk) {
     } else {
         insert.bind(4, std::as_bytes(std::span(chunk.block.t_s)));
     }
-    insert.bind(5, seal_ != nullptr ? std::span<const std::byte>(chunk.sealed)
-                                    : std::as_bytes(std::span(chunk.block.values)));
+    insert.bind(
+        5, seal_ != nullptr ? std::span<const std::byte>(chunk.sealed) : std::as_bytes(std::span(chunk.block.values)));
     if (auto ran = insert.run(); !ran) return ran;
     auto row = chunk.row;
     row.body = chunk.body;  // the string may have moved since it was sealed

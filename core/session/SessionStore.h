@@ -97,7 +97,7 @@ private:
     [[nodiscard]] static Result<SessionStore> attach(Database database);
     /// Gives a row its number and hash.
     [[nodiscard]] Row chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
-                           const std::optional<Digest>& digest);
+                            const std::optional<Digest>& digest);
     /// The same, sealed where rows are, and writes it.
     [[nodiscard]] Result<Row> put(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                                   const std::optional<Digest>& digest = std::nullopt);
@@ -114,7 +114,7 @@ private:
 
     std::optional<Database> database_;      // Nothing once closed
     std::optional<Statements> statements_;  // After database_: destroyed before it
-    std::shared_ptr<const RowSeal> seal_;    // Null: rows are stored as they are
+    std::shared_ptr<const RowSeal> seal_;   // Null: rows are stored as they are
     Digest head_{};
     std::int64_t seq_ = 0;
     std::vector<QueuedChunk> queued_;   // In the chain, not yet written

@@ -152,8 +152,9 @@ private:
                             annotations_, annotations_ == 1 ? "time" : "times"));
         report_.closed = lastKind == kind::kEnd;
         if (sealed_)
-            report_.notes.push_back(fmt::format(
-                "{} of its rows are sealed: that they are those recorded is known, what they say is not.", sealedRows_));
+            report_.notes.push_back(
+                fmt::format("{} of its rows are sealed: that they are those recorded is known, what they say is not.",
+                            sealedRows_));
         return {};
     }
 

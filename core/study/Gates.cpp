@@ -77,10 +77,11 @@ Result<void> approvalGate(const StudySettings& settings, CalibrationDate today) 
                     approval.reference, dateText(approval.expires), dateText(today));
     }
     if (const auto now = protocolHash(settings); now != approval.protocolSha256) {
-        return fail(kGateRefused,
-                    "the study's settings and scripts hash to {:.12}…, and approval {} is for {:.12}…; a change needs an "
-                    "amendment",
-                    now, approval.reference, approval.protocolSha256);
+        return fail(
+            kGateRefused,
+            "the study's settings and scripts hash to {:.12}…, and approval {} is for {:.12}…; a change needs an "
+            "amendment",
+            now, approval.reference, approval.protocolSha256);
     }
     return {};
 }
@@ -93,9 +94,10 @@ Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script)
                     script.name, settings.approval.reference);
     }
     if (approved->sha256 != script.sha256) {
-        return fail(kGateRefused,
-                    "the script {} hashes to {:.12}…, and approval {} is for {:.12}…; a changed script needs an amendment",
-                    script.name, script.sha256, settings.approval.reference, approved->sha256);
+        return fail(
+            kGateRefused,
+            "the script {} hashes to {:.12}…, and approval {} is for {:.12}…; a changed script needs an amendment",
+            script.name, script.sha256, settings.approval.reference, approved->sha256);
     }
     return {};
 }
@@ -117,8 +119,8 @@ Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::s
     if (settings.kind == StudyKind::Rehearsal || !lastSession) return {};
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - *lastSession).count();
     if (hours >= settings.gapMin_h) return {};
-    return fail(kGateRefused, "the last session began {:.1f} h ago; at least {:g} h must lie between two sessions", hours,
-                settings.gapMin_h);
+    return fail(kGateRefused, "the last session began {:.1f} h ago; at least {:g} h must lie between two sessions",
+                hours, settings.gapMin_h);
 }
 
 Result<void> consentGate(const StudySettings& settings, const Participant& participant, CalibrationDate today) {

@@ -153,7 +153,8 @@ private:
     [[nodiscard]] Result<void> sessionBegun(const SessionRow& row, Participant& participant) {
         StudySession session;
         session.id = textOr(row.body, "session");
-        if (session.id.empty() || state.session(session.id) != nullptr) return unfit(row, "a session that is there already");
+        if (session.id.empty() || state.session(session.id) != nullptr)
+            return unfit(row, "a session that is there already");
         const auto content = opened(row, participant.id);
         if (!content) return failure(content);
         if (*content) session.encoding = textOr(**content, "encoding");

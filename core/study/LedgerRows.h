@@ -41,10 +41,10 @@ inline constexpr const char* kExported = "exported";
 struct LedgerState {
     std::string settingsSha256;  ///< of study.json, as last written
     std::vector<Participant> participants;
-    std::vector<StudySession> sessions;             ///< without `answered`
-    std::map<std::string, std::string> heads;       ///< of ended files: file to chain head
+    std::vector<StudySession> sessions;                               ///< without `answered`
+    std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
-    std::chrono::sys_seconds last{};                ///< of the newest row
+    std::chrono::sys_seconds last{};                                  ///< of the newest row
     std::string head;
 
     [[nodiscard]] Participant* participant(std::string_view id) noexcept;

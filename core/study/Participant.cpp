@@ -38,14 +38,15 @@ Result<std::string> checkedCode(std::string_view text) {
         if (upper != '-') checked += upper;
     }
     const auto refused = [&](std::string_view what) {
-        return fail(ErrorCode::NotFound,
-                    "\"{}\" is no participant's code: {}; a code as P-7K3D is expected, whose last character checks the "
-                    "others",
-                    text.substr(0, 40), what);
+        return fail(
+            ErrorCode::NotFound,
+            "\"{}\" is no participant's code: {}; a code as P-7K3D is expected, whose last character checks the "
+            "others",
+            text.substr(0, 40), what);
     };
     if (checked.size() < kShortestCode || checked.size() > kLongestCode || stored.size() > 2 * kLongestCode)
-        return refused(fmt::format("it has {} letters and digits, not {} to {}", checked.size(), kShortestCode,
-                                   kLongestCode));
+        return refused(
+            fmt::format("it has {} letters and digits, not {} to {}", checked.size(), kShortestCode, kLongestCode));
     const auto check = checkCharacter(std::string_view(checked).substr(0, checked.size() - 1));
     if (!check || kCodeAlphabet.find(checked.back()) == std::string_view::npos)
         return refused("it holds something else than letters, digits and hyphens");

@@ -28,7 +28,8 @@ std::filesystem::path StudyFiles::session(std::string_view file) const {
 std::string studyText(const StudySettings& settings) {
     auto json = studyFields().write(settings);
     json["version"] = kStudyVersion;
-    if (settings.kind == StudyKind::Rehearsal) json["note"] = "A rehearsal: its keys lie beside this file and are no secret.";
+    if (settings.kind == StudyKind::Rehearsal)
+        json["note"] = "A rehearsal: its keys lie beside this file and are no secret.";
     return dumpJson(json, 2) + "\n";
 }
 

@@ -124,8 +124,10 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     if (textOr(*json, "format") != kKeyFileFormat)
         return fail(ErrorCode::ParseError, "{} is no key file of a study", file.string());
     if (countOr(*json, "version") != kKeyFileVersion) {
-        return fail(ErrorCode::Unsupported, "the key file {} has version {}, made by a newer Tactoscope; this program "
-                    "reads {}", file.string(), countOr(*json, "version"), kKeyFileVersion);
+        return fail(ErrorCode::Unsupported,
+                    "the key file {} has version {}, made by a newer Tactoscope; this program "
+                    "reads {}",
+                    file.string(), countOr(*json, "version"), kKeyFileVersion);
     }
     if (textOr(*json, "study") != study) {
         return fail(ErrorCode::NotFound, "the key file {} belongs to study {}, not to {}", file.string(),
@@ -149,7 +151,8 @@ Result<StudyKeys> StudyKeys::open(const fs::path& file, const std::string& study
     const auto content = openSecret(*keys.lock_, boundTo(study), kTextBlock, *stored);
     if (!content) {
         return fail(ErrorCode::NotFound,
-                    "the passphrase does not open the key file {}: it is wrong, or the file was altered", file.string());
+                    "the passphrase does not open the key file {}: it is wrong, or the file was altered",
+                    file.string());
     }
     if (auto taken = keys.take(*content); !taken) return failure(taken);
     return keys;

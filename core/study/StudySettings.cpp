@@ -30,8 +30,8 @@ RecordFields<Approval> approvalFields() {
     RecordFields<A> all;
     all.text("reference", &A::reference, kOptionalText);
     all.text("committee", &A::committee, kOptionalText);
-    all.add("from", &A::from, dateKind()).required = true;
-    all.add("expires", &A::expires, dateKind()).required = true;
+    all.add("from", &A::from, dateKind());
+    all.add("expires", &A::expires, dateKind());
     all.text("protocol_version", &A::protocolVersion, kOptionalText);
     all.text("protocol_sha256", &A::protocolSha256, kOptionalText);
     all.rule([](const A& approval) -> Result<void> {
@@ -74,11 +74,11 @@ RecordFields<StudySettings> buildStudyFields() {
     using S = StudySettings;
     RecordFields<S> all;
     all.text("id", &S::id, kOptionalText);
-    all.text("title", &S::title, kShortText).required = true;
-    all.word("kind", &S::kind, kStudyKinds).required = true;
+    all.text("title", &S::title, kShortText);
+    all.word("kind", &S::kind, kStudyKinds);
     all.word("modality", &S::modality, kModalities);
-    all.record("approval", &S::approval, approvalFields()).required = true;
-    all.text("consent_version", &S::consentVersion, kShortText).required = true;
+    all.record("approval", &S::approval, approvalFields());
+    all.text("consent_version", &S::consentVersion, kShortText);
     all.number("participants_max", &S::participantsMax, {.low = 1, .high = 10'000});
     all.number("sessions_max", &S::sessionsMax, {.low = 1, .high = 10'000});
     all.number("gap_min_h", &S::gapMin_h, {.low = 0, .high = 10'000, .unit = "h"});
@@ -174,8 +174,8 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
     auto next = asJson(*field, key, value);
     if (!next) return failure(next);
     *field = *std::move(next);
-    StudySettings changed;
-    if (auto read = studyFields().read(json, changed, RecordPlace{}); !read)
+    auto changed = settings;
+    if (auto read = studyFields().read({{outer, json[outer]}}, changed, RecordPlace{}); !read)
         return tl::unexpected<Error>(asInvalidArgument(read.error()));
     settings = std::move(changed);
     return {};

@@ -17,9 +17,14 @@ public:
     /// The same, killed when it makes something durable for the `sync`-th time. The code is -9 when it was.
     [[nodiscard]] int runKilled(long sync, const std::string& protocol, const Words& more,
                                 const std::string& study = "study") const;
+    /// The same on a disk that is full once a file has `bytes`. The exit code; stderr goes to `said`.
+    [[nodiscard]] int runOnFullDisk(unsigned long bytes, std::string& said, const std::string& protocol,
+                                    const Words& more, const std::string& study = "study") const;
     [[nodiscard]] const Desk& desk() const noexcept { return desk_; }
 
 private:
+    [[nodiscard]] int execute(const Words& environment, Words all, unsigned long largestFile,
+                              const std::string& errors) const;
     [[nodiscard]] Words words(const std::string& protocol, const Words& more, const std::string& study) const;
     const Desk desk_;
 };

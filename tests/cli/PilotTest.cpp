@@ -157,5 +157,35 @@ TEST(Pilot, AnUnfinishedSessionAsksWhatToDoWithItAndCanBeEnded) {
     EXPECT_EQ(shown["sessions"][1]["state"], "complete");
 }
 
+TEST(Pilot, AFullDiskEndsTheSessionWithoutOutputAndItGoesOnOnceThereIsRoom) {
+    RecordProperty("hazard", "H8");
+    const PilotDesk desk;
+    const auto whole = desk.run("pilot-identification", shortSession(), "whole");
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    std::string said;
+    EXPECT_EQ(desk.runOnFullDisk(250'000, said, "pilot-identification", shortSession()), 3) << said;
+    EXPECT_THAT(said, HasSubstr("cannot be written"));
+    const auto ran = desk.run("pilot-identification", with(shortSession(), {"--set", "unfinished=resume"}));
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto value = jsonOf(ran);
+    EXPECT_TRUE(value["results"]["resumed"].get<bool>());
+    EXPECT_EQ(value["results"]["parts"], 2);
+    EXPECT_EQ(planAndAnswers(value), planAndAnswers(jsonOf(whole)));
+}
+
+TEST(Pilot, StudyTrialsSaysWhatIsOpen) {
+    const PilotDesk desk;
+    ASSERT_EQ(desk.runKilled(400, "pilot-identification", shortSession()), -9);
+    const auto shown = jsonOf(desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}));
+    const std::string code = shown["participants"][0]["code"];
+    const auto ran = desk.desk().run({"study", "trials", desk.desk().at("study"), code, "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto trials = jsonOf(ran);
+    EXPECT_EQ(trials["code"], code);
+    EXPECT_EQ(trials["session"], 1);
+    EXPECT_GT(trials["plan"].size(), 18U);
+    EXPECT_LE(trials["open"].size(), 1U) << "at most one trial is begun and not answered";
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -1,5 +1,4 @@
 #include "core/study/Gates.h"
-
 #include "tests/study/StudySupport.h"
 
 namespace tacto {
@@ -32,11 +31,13 @@ TEST(Gates, AnApprovalCountsFromItsFirstToItsLastDay) {
     EXPECT_TRUE(approvalGate(settings, kToday));
     EXPECT_TRUE(approvalGate(settings, settings.approval.from));
     EXPECT_TRUE(approvalGate(settings, settings.approval.expires));
-    expectRefused(approvalGate(settings, std::chrono::year(2026) / 10 / 31),
-                  "approval EC-2026-17 begins on 2026-11-01, and today is 2026-10-31; sessions can begin from that day on");
-    expectRefused(approvalGate(settings, std::chrono::year(2027) / 11 / 1),
-                  "approval EC-2026-17 expired on 2027-10-31, and today is 2027-11-01; an amendment with a later day is "
-                  "needed");
+    expectRefused(
+        approvalGate(settings, std::chrono::year(2026) / 10 / 31),
+        "approval EC-2026-17 begins on 2026-11-01, and today is 2026-10-31; sessions can begin from that day on");
+    expectRefused(
+        approvalGate(settings, std::chrono::year(2027) / 11 / 1),
+        "approval EC-2026-17 expired on 2027-10-31, and today is 2027-11-01; an amendment with a later day is "
+        "needed");
     auto none = settings;
     none.approval.reference.clear();
     expectRefused(approvalGate(none, kToday), "the study has no approval; a committee's reference is needed");

@@ -1,6 +1,7 @@
 // A session whose rows are sealed: what it shows, what its key opens, and that a change is found without the key.
 #include <sqlite3.h>
 
+#include "core/session/Origin.h"
 #include "core/session/SessionSummary.h"
 #include "core/session/SessionVerify.h"
 #include "core/study/SessionSeal.h"
@@ -83,11 +84,12 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
     EXPECT_EQ(reader->verdicts()->front().verdict, "sealed");
     EXPECT_TRUE(reader->captures()->front().sealed);
     EXPECT_EQ(reader->labels()->note, "sealed");
-    for (const auto& code : {reader->streams().error().code, reader->samples(1).error().code,
-                             reader->capture(reader->captures()->front().seq).error().code,
-                             reader->reproducibleText().error().code})
+    for (const auto& code :
+         {reader->streams().error().code, reader->samples(1).error().code,
+          reader->capture(reader->captures()->front().seq).error().code, reader->reproducibleText().error().code})
         EXPECT_EQ(code, ErrorCode::Unsupported);
     EXPECT_EQ(summarise(path)->verdict, "sealed");
+    EXPECT_EQ(deliveredIn(*reader).error().code, ErrorCode::Unsupported);  // and not: nothing
 }
 
 TEST_F(SealedSession, OpensWithItsOwnKeyInItsOwnFileOnly) {

@@ -1,9 +1,8 @@
-#include "core/seal/SealedText.h"
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include "core/seal/Passphrase.h"
+#include "core/seal/SealedText.h"
 #include "tests/support/Support.h"
 
 namespace tacto {

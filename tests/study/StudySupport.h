@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
@@ -81,7 +82,7 @@ protected:
         return made->code;
     }
     /// The session file as a pilot session writes it; the value is its chain head.
-    std::string record(const BegunSession& begun, bool whole = true) const {
+    static std::string record(const BegunSession& begun, const std::function<void()>& beforeClosing = {}) {
         VirtualClock clock;
         SessionAbout about;
         about.protocol = "pilot-identification";
@@ -97,7 +98,8 @@ protected:
         EXPECT_TRUE(session.event(clock.now(), "plan", {{"order", {"rough-high", "smooth-low"}}}));
         for (int trial = 0; trial < 3; ++trial) {
             clock.advanceTo(toInstant(1.25 + 9.5 * trial));
-            EXPECT_TRUE(session.event(clock.now(), "trial-begin", {{"number", trial + 1}, {"condition", "rough-high"}}));
+            EXPECT_TRUE(
+                session.event(clock.now(), "trial-begin", {{"number", trial + 1}, {"condition", "rough-high"}}));
             EXPECT_TRUE(session.command(clock.now(), "delivered", {{"amplitude_ma", 4.5}}));
             SampleBlock block;
             block.t_s = {1.0 + trial, 1.7 + trial};
@@ -117,11 +119,9 @@ protected:
         EXPECT_TRUE(session.verdict(clock.now(), "rough-high", "none", {}, {}));
         EXPECT_TRUE(session.reportItem(clock.now(), {{"kind", "notes"}, {"note", "talked of rough-high"}}));
         EXPECT_TRUE(session.log(clock.now(), "info", "rough-high next"));
-        if (whole) {
-            EXPECT_TRUE(session.close());
-            return session.chainHead();
-        }
         EXPECT_TRUE(session.flush());
+        if (beforeClosing) beforeClosing();
+        EXPECT_TRUE(session.close());
         return session.chainHead();
     }
     /// Everything in a folder, as bytes.

@@ -166,7 +166,7 @@ TEST_F(Desk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
     auto study = make();
     const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
-    record(begun, false);
+    record(begun);
     const auto again = study.continueSession(begun.session.id, test::someRequest(code));
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->session.number, 1);

@@ -45,7 +45,7 @@ struct SimulatedG {
     std::size_t larger = 0;
     std::size_t equal = 0;
     void add(double simulated) {
-        const double tolerance = kSameG * (1 + g);
+        const double tolerance = kSameG * (1 + simulated);  // `g` may be infinite
         if (std::abs(simulated - g) <= tolerance) {
             ++equal;
         } else if (simulated > g) {

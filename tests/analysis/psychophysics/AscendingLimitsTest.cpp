@@ -114,36 +114,30 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
 }
 
 TEST(AscendingLimits, AFeltEmptyPresentationRepeatsTheLastLevelAndReplacesItsAnswer) {
-    auto limits = AscendingLimits::create(test::gridUpTo(15), 3).value();
-    double last = 0;
-    bool claimed = false, repeated = false;
-    while (const auto asked = limits.next()) {
-        if (asked->series > 1) break;
-        if (asked->empty() && last > 0 && !claimed) {
-            claimed = true;
-            // Felt before, and not on the repetition: the first level felt is a later one.
-            ASSERT_TRUE(limits.answer(StrengthWord::Weak));
-            continue;
-        }
-        if (claimed && !repeated && !asked->empty()) {
-            EXPECT_EQ(asked->level, last);
-            repeated = true;
-            ASSERT_TRUE(limits.answer(StrengthWord::Nothing));
-            EXPECT_TRUE(std::isnan(limits.result().series[0].felt));
-            continue;
-        }
-        if (!asked->empty()) last = asked->level;
-        ASSERT_TRUE(limits.answer(asked->empty() || (!claimed && last < 0.5) ? StrengthWord::Nothing
-                                  : claimed && last < 6                      ? StrengthWord::Nothing
-                                                                             : StrengthWord::Weak));
-        if (!claimed && last > 0) {
-            EXPECT_FALSE(std::isnan(limits.result().series[0].felt));
-        }
+    const auto grid = test::gridUpTo(15);
+    // What comes does not depend on the answers before an empty one is felt.
+    auto rehearsal = AscendingLimits::create(grid, 3).value();
+    const auto order = presented(rehearsal, [](const auto&) { return StrengthWord::Nothing; });
+    std::size_t empty = 1;
+    while (order[empty - 1].empty() || !order[empty].empty()) ++empty;  // The first empty one after a level
+    const double before = order[empty - 1].level;
+
+    auto limits = AscendingLimits::create(grid, 3).value();
+    const auto first = [&] { return limits.result().series[0]; };
+    for (std::size_t i = 0; i < empty; ++i) {
+        ASSERT_TRUE(limits.answer(order[i].level == before ? StrengthWord::Weak : StrengthWord::Nothing));
     }
-    EXPECT_TRUE(repeated);
-    EXPECT_EQ(limits.result().series[0].felt, 6);
-    EXPECT_EQ(limits.result().series[0].feltEmpty, 1U);
-    EXPECT_FALSE(limits.result().series[0].marked());
+    EXPECT_EQ(first().felt, before);
+    ASSERT_TRUE(limits.next()->empty());
+    ASSERT_TRUE(limits.answer(StrengthWord::Weak));
+    while (limits.next()->empty()) ASSERT_TRUE(limits.answer(StrengthWord::Nothing));
+    EXPECT_EQ(limits.next()->level, before) << "once more";
+    ASSERT_TRUE(limits.answer(StrengthWord::Nothing));
+    EXPECT_TRUE(std::isnan(first().felt)) << "not felt this time";
+    presented(limits, sure(6, 99));
+    EXPECT_EQ(first().felt, 6);
+    EXPECT_EQ(first().feltEmpty, 1U);
+    EXPECT_FALSE(first().marked());
 }
 
 TEST(AscendingLimits, ASecondFeltEmptyPresentationMarksTheSeriesWhichStillEnds) {

@@ -1,0 +1,155 @@
+#include "core/study/StudyBook.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "core/base/JsonFields.h"
+#include "core/seal/SealedText.h"
+#include "core/session/SessionReader.h"
+#include "core/study/SessionSeal.h"
+
+namespace tacto {
+
+CalibrationDate localDay(std::chrono::sys_seconds at) {
+    const std::time_t now = at.time_since_epoch().count();
+    std::tm here{};
+    ::localtime_r(&now, &here);
+    return {std::chrono::year(here.tm_year + 1900), std::chrono::month(static_cast<unsigned>(here.tm_mon + 1)),
+            std::chrono::day(static_cast<unsigned>(here.tm_mday))};
+}
+
+std::string headOf(const std::filesystem::path& file) {
+    const auto reader = SessionReader::open(file);
+    return reader ? reader->chainHead() : std::string();
+}
+
+CalibrationDate StudyBook::today() const { return localDay(now()); }
+
+Result<void> StudyBook::read() {
+    const auto ledgerFile = SessionReader::open(files.ledger());
+    if (!ledgerFile) return failure(ledgerFile);
+    auto replayed = replay(*ledgerFile, settings.id, keys ? &*keys : nullptr);
+    if (!replayed) return failure(replayed);
+    known = std::move(*replayed);
+    return {};
+}
+
+Result<void> StudyBook::changeable() const {
+    if (!ledger) {
+        return fail(ErrorCode::Unsupported, "the study in {} was opened for reading; it is not changed",
+                    files.folder.string());
+    }
+    if (!keys) {
+        return fail(ErrorCode::Unsupported, "the study in {} is opened without its passphrase; it is needed here",
+                    files.folder.string());
+    }
+    return {};
+}
+
+Result<void> StudyBook::append(const char* name, nlohmann::json body, const Secret* key,
+                               const nlohmann::json& content) {
+    if (key != nullptr) body["sealed"] = sealedInLedger(settings.id, *key, ledger->next(), name, content);
+    auto row = ledger->append(now(), name, body);
+    if (!row) return failure(row);
+    return read();
+}
+
+Result<const StudyKeys::Entry*> StudyBook::keyOf(std::string_view participant) const {
+    const auto* entry = keys ? keys->byId(participant) : nullptr;
+    if (entry == nullptr) {
+        return fail(ErrorCode::Unsupported,
+                    "there is no key of participant {}: it was destroyed, or the study is "
+                    "opened without its passphrase",
+                    participant);
+    }
+    return entry;
+}
+
+Result<void> StudyBook::appendOf(const Participant& participant, const char* name, nlohmann::json body,
+                                 const nlohmann::json& content) {
+    const auto entry = keyOf(participant.id);
+    if (!entry) return failure(entry);
+    body["participant"] = participant.id;
+    const auto key = subkey((*entry)->key, 0);
+    return append(name, std::move(body), &key, content);
+}
+
+Result<Participant> StudyBook::find(std::string_view code) const {
+    if (!keys) {
+        return fail(ErrorCode::Unsupported, "a participant is found by code only with the study's passphrase");
+    }
+    const auto usable = [](const Participant& one) { return one.state != ParticipantState::Withdrawn; };
+    if (code.starts_with(kVirtualPrefix)) {
+        for (const auto& one : known.participants) {
+            if (usable(one) && one.virtualSeed && fmt::format("{}{}", kVirtualPrefix, *one.virtualSeed) == code)
+                return one;
+        }
+        return fail(ErrorCode::NotFound, "the study has no participant {}; enrol it first", code);
+    }
+    const auto stored = checkedCode(code);
+    if (!stored) return failure(stored);
+    for (const auto& one : known.participants) {
+        if (usable(one) && one.code == *stored) return one;
+    }
+    return fail(ErrorCode::NotFound, "the study has no participant {}; a code that is enrolled is expected", *stored);
+}
+
+Result<void> StudyBook::recordGate() const {
+    for (const auto& [file, head] : known.heads) {
+        if (head.empty() || headOf(files.session(file)) == head) continue;
+        return fail(kGateRefused,
+                    "the record of session {} is not the one that the ledger notes: it is gone or was changed; put "
+                    "it back from your copy",
+                    file);
+    }
+    return clockGate(known.last, now());
+}
+
+Result<void> StudyBook::stillApproved() const {
+    if (auto sound = recordGate(); !sound) return sound;
+    return approvalGate(settings, today());
+}
+
+Result<void> StudyBook::gates(const SessionRequest& request, Participant participant, bool again) const {
+    if (auto holds = stillApproved(); !holds) return holds;
+    if (auto holds = scriptGate(settings, request.script); !holds) return holds;
+    if (again) --participant.sessions;
+    if (auto holds = participantGate(settings, participant); !holds) return holds;
+    std::optional<std::chrono::sys_seconds> last;
+    for (const auto& session : known.sessions) {
+        if (!again && session.participant == participant.id) last = session.parts.back().begun;
+    }
+    if (auto holds = gapGate(settings, last, now()); !holds) return holds;
+    if (auto holds = consentGate(settings, participant, today()); !holds) return holds;
+    if (!request.codeConfirmed) {
+        return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
+    }
+    if (auto holds = exclusionGate(request.exclusions); !holds) return holds;
+    return simulationGate(settings, participant, request.devicesSimulated);
+}
+
+Result<std::shared_ptr<const RowSeal>> StudyBook::sealFor(const StudySession& session, std::string_view file) const {
+    const auto entry = keyOf(session.participant);
+    if (!entry) return failure(entry);
+    return std::make_shared<SessionSeal>(settings.id, std::string(file),
+                                         subkey((*entry)->key, static_cast<std::uint64_t>(session.number)));
+}
+
+Result<BegunSession> StudyBook::begun(std::string_view id) {
+    const auto* session = known.session(id);
+    if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
+    const auto file = session->parts.back().file;
+    auto seal = sealFor(*session, file);
+    if (!seal) return failure(seal);
+    return BegunSession{*session, files.session(file), std::move(*seal)};
+}
+
+Result<void> StudyBook::finishWithdrawals() {
+    for (const auto& one : known.participants) {
+        if (one.state != ParticipantState::Withdrawn) continue;
+        if (auto destroyed = keys->destroy(one.id); !destroyed) return destroyed;
+    }
+    return {};
+}
+
+}  // namespace tacto

@@ -1,0 +1,45 @@
+#include "core/study/StudyLock.h"
+
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <sys/stat.h>
+
+namespace tacto {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The process that holds a lock on `file`, as the system lists it.
+std::optional<std::int64_t> holderOf(const fs::path& file) {
+    struct stat about {};
+    if (::stat(file.c_str(), &about) != 0) return std::nullopt;
+    std::ifstream locks("/proc/locks");
+    const auto inode = fmt::format(":{}", about.st_ino);
+    for (std::string number, kind, mode, access, process, place, rest;
+         locks >> number >> kind >> mode >> access >> process >> place; std::getline(locks, rest)) {
+        std::int64_t id = 0;
+        const bool isHere = kind == "FLOCK" && place.ends_with(inode);
+        if (isHere && std::from_chars(process.data(), process.data() + process.size(), id).ec == std::errc() && id > 0)
+            return id;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<LockedFile> lockStudy(const StudyFiles& files) {
+    constexpr std::size_t kLockBytes = 1;
+    auto locked = LockedFile::open(files.lock(), kLockBytes, 0600);
+    if (locked) return std::move(*locked);
+    if (locked.error().why != LockedFile::Refusal::Held) {
+        return fail(ErrorCode::Io, "the study in {} cannot be opened for changes: its lock {} cannot be taken",
+                    files.folder.string(), files.lock().string());
+    }
+    const auto holder = holderOf(files.lock());
+    return fail(ErrorCode::Io, "the study in {} is open in {}; end that first. Nothing was changed",
+                files.folder.string(), holder ? programOf(*holder) : "another program");
+}
+
+}  // namespace tacto

@@ -1,0 +1,130 @@
+// study and verify STUDY: the contract of pilot.md section 10, as a user types it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/RunCli.h"
+#include "tests/cli/Shape.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class StudyCli : public testing::Test {
+protected:
+    void SetUp() override { passphrase = desk.write("passphrase", "correct horse 4711\n"); }
+    [[nodiscard]] Ran study(Words words) const {
+        words.insert(words.begin(), "study");
+        words.insert(words.end(), {"--passphrase-file", passphrase, "--json"});
+        return desk.run(words);
+    }
+    [[nodiscard]] Ran create(const std::string& expires = "2099-12-31", const Words& more = {}) const {
+        Words words{"create", desk.at("study"), "--title",   "Four conditions", "--approval",        "EC-17",
+                    "--from", "2026-01-01",     "--expires", expires,           "--consent-version", "2"};
+        words.insert(words.end(), more.begin(), more.end());
+        return study(words);
+    }
+    [[nodiscard]] std::string at() const { return desk.at("study"); }
+    const Desk desk;
+    std::string passphrase;
+};
+
+TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
+    RecordProperty("hazard", "H11");
+    const auto made = create("2099-12-31", {"--set", "blocks=3"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("A lost passphrase or key file is lost data"));
+    const auto enrolled = study({"enrol", at(), "--virtual", "7"});
+    ASSERT_EQ(enrolled.code, 0) << enrolled.err;
+    const auto code = jsonOf(enrolled)["code"].get<std::string>();
+    ASSERT_EQ(study({"enrol", at(), "P-7K3D"}).code, 0);
+    ASSERT_EQ(study({"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}).code, 0);
+    auto shown = jsonOf(study({"show", at()}));
+    EXPECT_EQ(shown["title"], "Four conditions");
+    EXPECT_EQ(shown["rehearsal"], false);
+    EXPECT_EQ(shown["approval"],
+              Json({{"reference", "EC-17"}, {"from", "2026-01-01"}, {"expires", "2099-12-31"}, {"valid", true}}));
+    EXPECT_EQ(shown["consent_version"], "2");
+    EXPECT_EQ(
+        shown["participants"],
+        Json::array(
+            {{{"code", code}, {"virtual", 7}, {"state", "active"}, {"consent", "2"}, {"sessions", 0}},
+             {{"code", "P-7K3D"}, {"virtual", nullptr}, {"state", "active"}, {"consent", nullptr}, {"sessions", 0}}}));
+    EXPECT_EQ(shown["withdrawn"], 0);
+    EXPECT_EQ(shown["sessions"], Json::array());
+    EXPECT_EQ(shown["ledger_head"].get<std::string>().size(), 64U);
+
+    const auto sealed = desk.run({"study", "show", at(), "--json"});
+    ASSERT_EQ(sealed.code, 0) << sealed.err;
+    EXPECT_THAT(sealed.out, testing::Not(HasSubstr(code)));
+    EXPECT_EQ(jsonOf(sealed)["participants"].size(), 2U);
+
+    EXPECT_EQ(study({"withdraw", at(), code, "--confirm", "P-7K3D"}).code, 2);
+    ASSERT_EQ(study({"withdraw", at(), code, "--confirm", code}).code, 0);
+    ASSERT_EQ(study({"leave", at(), "P-7K3D"}).code, 0);
+    EXPECT_EQ(study({"leave", at(), "P-7K3D"}).code, 4);
+    EXPECT_EQ(study({"leave", at(), code}).code, 3);
+    shown = jsonOf(study({"show", at()}));
+    EXPECT_EQ(shown["withdrawn"], 1);
+    EXPECT_EQ(shown["participants"].size(), 1U);
+    EXPECT_EQ(shown["participants"][0]["state"], "left");
+
+    const auto verified = desk.run({"verify", at(), "--json"});
+    EXPECT_EQ(verified.code, 0) << verified.out;
+    EXPECT_EQ(jsonOf(verified)["status"], "intact");
+    EXPECT_EQ(jsonOf(verified)["ledger"]["head"], shown["ledger_head"]);
+}
+
+TEST_F(StudyCli, BadInputIsOneSentenceAndChangesNothing) {
+    RecordProperty("hazard", "H12");
+    ASSERT_EQ(create("2026-02-01").code, 0);
+    EXPECT_EQ(jsonOf(desk.run({"study", "show", at(), "--json"}))["approval"]["valid"], false);
+    const auto before = desk.files("study");
+    const auto expect = [&](const Ran& ran, int code, const char* part) {
+        EXPECT_EQ(ran.code, code) << ran.err;
+        EXPECT_THAT(ran.err, HasSubstr(part));
+        EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+        EXPECT_EQ(desk.files("study"), before);
+    };
+    expect(create(), 3, "holds a study");
+    expect(study({"leave", at(), "P-7K3M"}), 3, "its check character is wrong");
+    expect(study({"leave", at(), "P-7K3D"}), 3, "has no participant");
+    expect(desk.run({"study", "leave", at(), "P-7K3D"}), 3, "passphrase is needed");
+    expect(desk.run({"study", "enrol", at(), "--passphrase-file", desk.write("other", "wrong")}), 3,
+           "the passphrase does not open");
+    expect(desk.run({"study", "enrol", at(), "--passphrase-file", desk.write("study-no", "")}), 3, "holds nothing");
+    expect(study({"show", desk.at("nowhere")}), 3, "there is no study");
+    expect(study({"consent", at(), "P-7K3D", "--version", "2", "--date", "20.11.2026", "--by", "KL"}), 2, "--date");
+    expect(study({"enrol", at(), "--virtual", "-1"}), 2, "virtual");
+    expect(study({"dance", at()}), 2, "there is no \"dance\"");
+    expect(study({"leave", at()}), 2, "STUDY and CODE");
+    expect(study({"leave", at(), "P-7K3D", "--virtual", "3"}), 2, "takes no --virtual");
+    Words other{"create", desk.at("second"), "--title",   "T",          "--approval",        "A",
+                "--from", "2026-02-01",      "--expires", "2026-01-01", "--consent-version", "1"};
+    expect(study(other), 2, "begins on");
+    other[9] = "2099-01-01";
+    other.insert(other.end(), {"--set", "site=chest"});
+    expect(study(other), 2, "\"site\" is \"chest\"");
+    EXPECT_FALSE(std::filesystem::exists(desk.at("second")));
+}
+
+TEST_F(StudyCli, ADamagedOneIsFoundWithoutThePassphrase) {
+    RecordProperty("hazard", "H8");
+    ASSERT_EQ(create().code, 0);
+    ASSERT_EQ(study({"enrol", at()}).code, 0);
+    auto ledger = contentOf(desk.at("study/ledger.tacto"));
+    const auto place = ledger.find("\"sealed\":\"");
+    ASSERT_LT(place, ledger.size());
+    ledger[place + 50] = static_cast<char>(ledger[place + 50] ^ 1);
+    desk.write("study/ledger.tacto", ledger);
+    const auto verified = desk.run({"verify", at(), "--json"});
+    EXPECT_EQ(verified.code, 1);
+    EXPECT_EQ(jsonOf(verified)["status"], "damaged");
+    const auto enrolled = study({"enrol", at()});
+    EXPECT_EQ(enrolled.code, 3);
+    EXPECT_THAT(enrolled.err, HasSubstr("the ledger of the study in"));
+}
+
+}  // namespace
+}  // namespace tacto::test
