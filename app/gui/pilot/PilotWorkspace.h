@@ -39,6 +39,8 @@ public:
     [[nodiscard]] bool blind() const { return running_ && asked_.blind; }
     /// For the safety bar of a blind session: "Participant’s STOP: not pressed", and what else there is to say of it.
     [[nodiscard]] QString stopWords() const;
+    /// Pause and Resume of the safety bar: a break at once, and its end.
+    void pauseSession(bool pause) { pause ? breakNow() : wantBreak(false); }
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by);
     /// Null while no session runs.

@@ -333,8 +333,13 @@ void MainWindow::noteBlind() {
     for (auto* action : navigation_->actions()) {
         const bool allowed = !blind || action == navigation_->actions().at(kPilot);
         action->setEnabled(allowed);
-        if (!allowed) action->setToolTip(tr("Hidden until the session ends: it would show what is delivered."));
+        if (!action->data().isValid()) action->setData(action->toolTip());
+        action->setToolTip(allowed ? action->data().toString()
+                                   : tr("Hidden until the session ends: it would show what is delivered."));
     }
+    const bool pauses = pilot_->running() && pilot_->participantWindow() != nullptr;
+    safety_->setPauseInstead(pauses ? [this](bool pause) { pilot_->pauseSession(pause); }
+                                    : std::function<void(bool)>());
     docks_->setHidden(blind);
     safety_->setBlind(blind);
 }

@@ -256,7 +256,12 @@ void SafetyBar::showState(const Telemetry& telemetry) {
     state_ = telemetry.state;
     if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
-    block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
+    // An empty presentation delivers nothing: while blind it looks as any other.
+    const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
+    if (hidden)
+        block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
+    else
+        block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
 }
 
@@ -333,9 +338,10 @@ void SafetyBar::showButtons(InterlockState state) {
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
-    const bool paused = state == InterlockState::Paused;
+    if (!pauseInstead_) pausedInstead_ = false;
+    const bool paused = state == InterlockState::Paused || pausedInstead_;
     pause_->setMeaning(paused ? tr("Res&ume") : tr("&Pause"), paused);
-    pause_->setEnabled(state == InterlockState::Delivering || state == InterlockState::Paused);
+    pause_->setEnabled(pauseInstead_ || state == InterlockState::Delivering || state == InterlockState::Paused);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
@@ -353,6 +359,10 @@ void SafetyBar::pressAction() {
 
 void SafetyBar::pressPause() {
     if (!pause_->listens()) return;
+    if (pauseInstead_) {
+        pausedInstead_ = !pausedInstead_;
+        return pauseInstead_(pausedInstead_);
+    }
     if (state_ == InterlockState::Paused)
         controller_.resume();
     else

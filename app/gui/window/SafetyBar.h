@@ -9,6 +9,7 @@
 #include <QFrame>
 #include <QLabel>
 #include <QPushButton>
+#include <functional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
@@ -32,6 +33,8 @@ public:
     /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
     void setBlind(bool blind);
     void setParticipantsStop(const QString& words);
+    /// What Pause and Resume do in place of the bench's own: a session holds itself back. Empty: the bench's.
+    void setPauseInstead(std::function<void(bool pause)> pause) { pauseInstead_ = std::move(pause); }
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
@@ -69,6 +72,8 @@ private:
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;
     bool blind_ = false;
+    std::function<void(bool)> pauseInstead_;
+    bool pausedInstead_ = false;
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;
