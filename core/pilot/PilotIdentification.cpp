@@ -117,7 +117,12 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     trial.screen.state = ScreenState::Feel;
     trial.screen.phase = nameOf(planned.phase);
     trial.screen.block = static_cast<int>(planned.block);
-    trial.screen.blocks = stage_.settings().blocks;
+    if (planned.phase == TrialPhase::Test) trial.screen.blocks = stage_.settings().blocks;
+    for (const auto& each : plan_) {  // where it stands among those of its phase
+        if (textOr(each, "phase") != nameOf(planned.phase)) continue;
+        ++trial.screen.trials;
+        if (countOr(each, "number") <= planned.number) ++trial.screen.trial;
+    }
     return trial;
 }
 

@@ -263,6 +263,11 @@ protected:
                  press(window, "Settings");
                  press(window, "Read the limits…");
              }},
+            {"Study folder",
+             [this] {
+                 page(4);
+                 press(window, "Choose…");
+             }},
             {"Close",  // asked with the output off: what follows stops anew
              [this] {
                  window.controller().disarm();

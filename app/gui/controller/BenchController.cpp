@@ -52,6 +52,7 @@ void BenchController::stop(const char* by) noexcept {
     stops_->raise();  // first, and whatever there is to switch off: see StopCounter.h
     const std::scoped_lock lock(benchMutex_);
     stoppedBy_ = by;
+    if (script_ != nullptr && takesStop_ && takesStop_(by)) return;
     if (script_ != nullptr)
         script_->stop(by);
     else if (bench_ != nullptr)
@@ -198,17 +199,62 @@ void BenchController::stopScope() {
     });
 }
 
-std::uint64_t BenchController::run(const RunOrder& order, StopMark asked) {
+/// What is handed to the bench's thread. At once another run is kept from beginning beside it.
+RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     profile_ = order.profile;
     operator_.prepare(order.settings.answers);
     auto marked = order;
     marked.stops = stops_;
     marked.asked = asked;
     marked.watched = [pulse = pulse_] { return pulse->runs(); };
-    activity_ = Activity::Opening;  // at once: no other run is begun beside it
-    const auto number = ++lastRun_;
+    activity_ = Activity::Opening;
     emit changed();
-    thread_.post([this, marked = std::move(marked), number] { runOnThread(marked, number); });
+    return marked;
+}
+
+/// How a run is started and ended, and what it is meanwhile.
+struct BenchController::Prepared {
+    std::shared_ptr<void> owner;
+    ProtocolRun* run = nullptr;
+    std::function<Result<void>(RunRequest hooks)> start;
+    std::function<RunResult()> finish;
+};
+
+std::uint64_t BenchController::run(const RunOrder& order, StopMark asked) {
+    const auto number = ++lastRun_;
+    thread_.post([this, number, marked = begun(order, asked)] {
+        runOnThread(marked, number, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
+            auto made = ProtocolRun::prepare(marked, registry, std::move(tap));
+            if (!made) return failure(made);
+            const std::shared_ptr<ProtocolRun> run(std::move(*made));
+            return Prepared{run, run.get(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
+                            [run] { return run->finish(); }};
+        });
+    });
+    return number;
+}
+
+std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked) {
+    const auto number = ++lastRun_;
+    thread_.post([this, number, seats, marked = begun(order, asked)] {
+        runOnThread(marked, number, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
+            PilotOrder pilot;
+            pilot.study = seats.study;
+            pilot.people = seats.people;
+            pilot.codeConfirmed = seats.codeConfirmed;
+            pilot.exclusions = seats.exclusions;
+            auto made = PilotRun::prepare(marked, std::move(pilot), registry, std::move(tap));
+            if (!made) return failure(made);
+            const std::shared_ptr<PilotRun> run(std::move(*made));
+            if (seats.begun) seats.begun(run->run().opened().clock);
+            {
+                const std::scoped_lock lock(benchMutex_);
+                takesStop_ = seats.takesStop;
+            }
+            return Prepared{run, &run->run(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
+                            [run] { return run->finish(); }};
+        });
+    });
     return number;
 }
 
@@ -303,7 +349,7 @@ void BenchController::closeOnThread() {
     become(Activity::Closed, nullptr, nullptr);
 }
 
-void BenchController::runOnThread(const RunOrder& order, std::uint64_t number) {
+void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare) {
     closeOnThread();
     become(Activity::Opening, nullptr, nullptr);
     static_cast<void>(feed_.take());
@@ -313,6 +359,10 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number) {
     auto tap = std::make_shared<BenchTap>();
     auto registry = makeRegistry_();
     const auto end = [&] {
+        {
+            const std::scoped_lock lock(benchMutex_);
+            takesStop_ = nullptr;
+        }
         tell([this, finished] {
             activity_ = Activity::Closed;
             open_.reset();
@@ -321,20 +371,20 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number) {
             emit this->finished(finished);
         });
     };
-    auto prepared = ProtocolRun::prepare(order, registry, tap);
+    auto prepared = prepare(registry, tap);
     if (!prepared) {
         finished->result.outcome.error = prepared.error();
         finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
         return end();
     }
-    auto& run = **prepared;
+    auto& run = *prepared->run;
     publishBench(&run.bench(), nullptr);  // from here on a stop reaches it
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
-    if (auto started = run.start(std::move(hooks)); !started) {
+    if (auto started = prepared->start(std::move(hooks)); !started) {
         publishBench(nullptr, nullptr);
-        finished->result = run.finish();
+        finished->result = prepared->finish();
         return end();
     }
     publishBench(&run.bench(), run.script());
@@ -344,7 +394,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number) {
     static_cast<void>(run.script()->wait());
     publishBench(nullptr, nullptr);
     become(Activity::Closing, nullptr, tap);
-    finished->result = run.finish();
+    finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
     end();

@@ -26,6 +26,7 @@
 #include "app/gui/controller/TaskThread.h"
 #include "app/gui/controller/WindowOperator.h"
 #include "app/gui/controller/WindowPulse.h"
+#include "app/run/PilotRun.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/BenchTap.h"
 
@@ -39,6 +40,20 @@ enum class Activity {
     Live,     ///< a bench is open for looking and driving by hand
     Running,  ///< a protocol has it
     Closing,
+};
+
+/// A pilot session and its two people.
+struct PilotSeats {
+    std::filesystem::path study;
+    /// Answers for both people; outlives the run. Null: the virtual participant does.
+    PilotParticipant* people = nullptr;
+    bool codeConfirmed = false;
+    std::vector<ExclusionAnswer> exclusions = {};
+    /// On the bench's thread, with the session's clock, before anything is asked. May be empty.
+    std::function<void(std::shared_ptr<const Clock> clock)> begun = {};
+    /// Whether a stop was taken as the session's own, and so ends no script: a test of the operator's STOP. The output
+    /// is off when it returns true. Any thread; may be empty.
+    std::function<bool(const char* by)> takesStop = {};
 };
 
 /// A run's end, with the reports that were written of it.
@@ -120,6 +135,8 @@ public:
     /// this controller has.
     std::uint64_t run(const RunOrder& order, StopMark asked);
     std::uint64_t run(const RunOrder& order) { return run(order, mark()); }
+    /// The same for a session of a study.
+    std::uint64_t runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked);
     [[nodiscard]] RunFeed takeRunFeed() { return feed_.take(); }
     [[nodiscard]] WindowOperator& windowOperator() noexcept { return operator_; }
 
@@ -150,7 +167,11 @@ private:
     void scopeFailed(const Error& error);
     void openOnThread(const LiveOrder& order, StopMark asked);
     void closeOnThread();
-    void runOnThread(const RunOrder& order, std::uint64_t number);
+    /// A run that was prepared: of a protocol by itself, or of a study's session.
+    struct Prepared;
+    using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
+    [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
+    void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
     void publishBench(Bench* bench, ScriptRun* script);
     [[nodiscard]] std::string lastStop() const;
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap);
@@ -172,10 +193,11 @@ private:
 
     // One for this controller and all its benches.
     const std::shared_ptr<StopCounter> stops_ = std::make_shared<StopCounter>();
-    mutable std::mutex benchMutex_;  // held for moments: to swap the pointers, to look, to stop
-    Bench* bench_ = nullptr;         // guarded by benchMutex_
-    ScriptRun* script_ = nullptr;    // guarded by benchMutex_
-    std::string stoppedBy_;          // guarded by benchMutex_: the last stop
+    mutable std::mutex benchMutex_;               // held for moments: to swap the pointers, to look, to stop
+    Bench* bench_ = nullptr;                      // guarded by benchMutex_
+    ScriptRun* script_ = nullptr;                 // guarded by benchMutex_
+    std::string stoppedBy_;                       // guarded by benchMutex_: the last stop
+    std::function<bool(const char*)> takesStop_;  // guarded by benchMutex_: of the session that runs
 
     RunFeedCollector feed_;
     std::atomic<double> speed_{1};

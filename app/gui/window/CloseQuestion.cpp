@@ -22,11 +22,16 @@ QMessageBox* question(const QString& text, QMessageBox::StandardButtons buttons,
 
 }  // namespace
 
-CloseQuestion::CloseQuestion(BenchController& controller, QMainWindow& window, std::vector<ProtocolWorkspace*> runners)
-    : QObject(&window), controller_(controller), window_(window), runners_(std::move(runners)) {}
+CloseQuestion::CloseQuestion(BenchController& controller, QMainWindow& window, std::vector<ProtocolWorkspace*> runners,
+                             std::function<bool()> otherRuns)
+    : QObject(&window),
+      controller_(controller),
+      window_(window),
+      runners_(std::move(runners)),
+      otherRuns_(std::move(otherRuns)) {}
 
 bool CloseQuestion::runs() const {
-    return std::ranges::any_of(runners_, [](const ProtocolWorkspace* one) { return one->running(); });
+    return otherRuns_() || std::ranges::any_of(runners_, [](const ProtocolWorkspace* one) { return one->running(); });
 }
 
 std::vector<ScriptEditor*> CloseQuestion::unsaved() const {

@@ -17,6 +17,7 @@
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/live/LiveWorkspace.h"
+#include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeFiles.h"
@@ -26,7 +27,6 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/ArmQuestion.h"
 #include "app/gui/window/CloseQuestion.h"
-#include "app/gui/window/ComingWorkspace.h"
 #include "app/gui/window/DayDialog.h"
 #include "app/gui/window/DeviceDock.h"
 #include "app/gui/window/DockColumn.h"
@@ -57,7 +57,7 @@ constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
-bool opensDocks(int page) { return page == kLive || page == kPilot; }
+bool opensDocks(int page) { return page == kLive; }
 
 }  // namespace
 
@@ -66,7 +66,12 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
-    new StopKeys([this](const char* by) { controller_.stop(by); }, this);
+    new StopKeys(
+        [this](const char* by) {
+            const bool theirs = pilot_ != nullptr && std::string_view(by).starts_with("participant");
+            theirs ? static_cast<void>(pilot_->stopAsParticipant(by)) : controller_.stop(by);
+        },
+        this);
 
     safety_ = new SafetyBar(controller_, calibrations_, this);
     auto* top = new QToolBar(tr("Safety"), this);
@@ -113,7 +118,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     tour_ = new WelcomeTour(*this);
     const auto all = runners();
-    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()});
+    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [this] { return pilot_->running(); });
     arming_ = new ArmQuestion(controller_, *this);
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
@@ -145,12 +150,10 @@ void MainWindow::buildPages() {
     pages_->addWidget(new ScrollingPage(safetyCheck_, pages_));
     separability_ = new ProtocolWorkspace(controller_, "separability", pages_);
     pages_->addWidget(new ScrollingPage(separability_, pages_));
-    pages_->addWidget(new ComingWorkspace(
-        tr("Pilot"), tr("For operators: thresholds and identification with three to five volunteers."),
-        {tr("Consent, accepted levels and the ramp that approaches them"),
-         tr("Threshold and identification protocols with breaks and stopping rules"),
-         tr("Participants by pseudonym, trials as data")},
-        tr("Nothing in this version can be armed for a person."), pages_));
+    pilot_ = new PilotWorkspace(controller_, pages_);
+    pages_->addWidget(new ScrollingPage(pilot_, pages_));
+    connect(pilot_, &PilotWorkspace::attentionWanted, this, [this] { showWorkspace(kPilot); });
+    connect(pilot_, &PilotWorkspace::runningChanged, this, &MainWindow::noteBlind);
     sessions_ = new SessionsWorkspace(controller_, pages_);
     pages_->addWidget(new ScrollingPage(sessions_, pages_));
     protocols_ = new ProtocolWorkspace(controller_, QString(), pages_);
@@ -209,6 +212,7 @@ std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
 void MainWindow::tick() {
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
+    if (pilot_->blind()) safety_->setParticipantsStop(pilot_->stopWords());
     banner_->refresh(telemetry);
     devices_->refresh(telemetry);
     drive_->refresh(telemetry);
@@ -222,10 +226,11 @@ void MainWindow::tick() {
     if (measured) summary_->refresh(telemetry);
     // One of them takes what a run says: the one it was started from, told apart by themselves.
     for (auto* protocol : runners()) protocol->refresh(telemetry);
+    pilot_->refresh(telemetry);
 }
 
 void MainWindow::showWorkspace(int index) {
-    if (index < 0 || index >= pages_->count()) return;
+    if (index < 0 || index >= pages_->count() || (pilot_->blind() && index != kPilot)) return;
     pages_->setCurrentIndex(index);
     rail_->setCurrent(index);
     docks_->enter(index, opensDocks(index));
@@ -265,6 +270,19 @@ void MainWindow::noteChange() {
 }
 
 void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
+
+/// Lanes, bars and docks show levels and trains as they are delivered.
+void MainWindow::noteBlind() {
+    const bool blind = pilot_->blind();
+    if (blind) showWorkspace(kPilot);
+    rail_->keepTo(blind ? std::optional<int>(kPilot) : std::nullopt,
+                  tr("Hidden until the session ends: it would show what is delivered."));
+    const bool pauses = pilot_->running() && pilot_->participantWindow() != nullptr;
+    safety_->setPauseInstead(pauses ? [this](bool pause) { pilot_->pauseSession(pause); }
+                                    : std::function<void(bool)>());
+    docks_->setHidden(blind);
+    safety_->setBlind(blind);
+}
 
 void MainWindow::checkImpedance() { arming_->ask(ArmDialog::Purpose::CheckImpedance); }
 

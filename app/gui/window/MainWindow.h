@@ -30,6 +30,7 @@ class LiveWorkspace;
 class MarkLine;
 class MeasurementSummary;
 class NoticeBanner;
+class PilotWorkspace;
 class ProtocolWorkspace;
 class RecordingLine;
 class SafetyBar;
@@ -91,6 +92,8 @@ private:
     /// All that run protocols.
     [[nodiscard]] std::array<ProtocolWorkspace*, 5> runners() const;
     void noteChange();
+    /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
+    void noteBlind();
     void showScope();
     void focusWorkspace();
 
@@ -106,6 +109,7 @@ private:
     ProtocolWorkspace* safetyCheck_ = nullptr;
     ProtocolWorkspace* separability_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;
+    PilotWorkspace* pilot_ = nullptr;
     SessionsWorkspace* sessions_ = nullptr;
     DeviceDock* devices_ = nullptr;
     ExposureDock* exposure_ = nullptr;

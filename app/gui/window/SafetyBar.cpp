@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ElidedLabel.h"
@@ -110,6 +111,8 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     row->addWidget(block_);
     row->addWidget(facts_);
     row->addWidget(bars_, 1);
+    blindFacts_ = buildBlindFacts();
+    row->addWidget(blindFacts_, 1);
     row->addWidget(fault_, 1);
     row->addWidget(buttons_);
     row->addWidget(stop_);
@@ -133,6 +136,49 @@ QWidget* SafetyBar::buildFacts() {
     for (auto* label : {load_, device_, calibration_}) column->addWidget(label);
     column->addStretch();
     return holder;
+}
+
+QWidget* SafetyBar::buildBlindFacts() {
+    auto* holder = new QWidget(this);
+    auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(kBarGap);
+    const auto pair = [&](QLabel*& strong, const QString& quiet) {
+        auto* column = new QVBoxLayout;
+        column->setSpacing(0);
+        strong = new ElidedLabel(holder);
+        setTextSize(*strong, TextSize::Body, true);
+        auto* below = new ElidedLabel(quiet, holder);
+        setTextSize(*below, TextSize::Small);
+        setTone(*below, Tone::Quiet);
+        column->addStretch();
+        column->addWidget(strong);
+        column->addWidget(below);
+        column->addStretch();
+        row->addLayout(column, 1);
+    };
+    pair(within_, tr("numbers hidden, the session is blind"));
+    pair(participantsStop_, tr("their third stop ends the session"));
+    within_->setObjectName("exposureWithin");
+    holder->hide();
+    return holder;
+}
+
+void SafetyBar::setBlind(bool blind) {
+    blind_ = blind;
+    pulse_ = 0;
+}
+
+void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
+
+/// Whether a limit is broken, and nothing of how far it is.
+void SafetyBar::showBlind(const Telemetry& telemetry) {
+    const auto rows = telemetry.exposure();
+    const auto broken = [](const ExposureRow& row) {
+        return row.evaluated && !row.within && row.action == LimitAction::Refuse;
+    };
+    within_->setText(std::ranges::any_of(rows, broken) ? tr("⚠ Exposure at its limit")
+                                                       : tr("✔ Exposure within limits"));
 }
 
 QWidget* SafetyBar::buildButtons() {
@@ -196,7 +242,9 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
     showState(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
     facts_->setVisible(!faulted);
-    bars_->setVisible(!faulted);
+    bars_->setVisible(!faulted && !blind_);
+    blindFacts_->setVisible(!faulted && blind_);
+    if (blind_) showBlind(telemetry);
     if (faulted) fault_->show(telemetry);
     fault_->setVisible(faulted);
     showDevice(telemetry);
@@ -206,9 +254,14 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
 
 void SafetyBar::showState(const Telemetry& telemetry) {
     state_ = telemetry.state;
-    if (telemetry.trainsDelivered > trainsSeen_) pulse_ = kFlashFrames;
+    if (telemetry.trainsDelivered > trainsSeen_ && !blind_) pulse_ = kFlashFrames;
     trainsSeen_ = telemetry.trainsDelivered;
-    block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
+    // An empty presentation delivers nothing: while blind it looks as any other.
+    const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
+    if (hidden)
+        block_->show(InterlockState::Armed, tr("The session presents and asks. Space stops."), false);
+    else
+        block_->show(telemetry.state, reasonOf(telemetry), pulse_ > 0);
     if (pulse_ > 0) --pulse_;
 }
 
@@ -285,9 +338,10 @@ void SafetyBar::showButtons(InterlockState state) {
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
     action_->setEnabled(live && state != InterlockState::Disconnected);
-    const bool paused = state == InterlockState::Paused;
+    if (!pauseInstead_) pausedInstead_ = false;
+    const bool paused = state == InterlockState::Paused || pausedInstead_;
     pause_->setMeaning(paused ? tr("Res&ume") : tr("&Pause"), paused);
-    pause_->setEnabled(state == InterlockState::Delivering || state == InterlockState::Paused);
+    pause_->setEnabled(pauseInstead_ || state == InterlockState::Delivering || state == InterlockState::Paused);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
     makePrimary(*action_, state == InterlockState::Faulted);
@@ -305,6 +359,10 @@ void SafetyBar::pressAction() {
 
 void SafetyBar::pressPause() {
     if (!pause_->listens()) return;
+    if (pauseInstead_) {
+        pausedInstead_ = !pausedInstead_;
+        return pauseInstead_(pausedInstead_);
+    }
     if (state_ == InterlockState::Paused)
         controller_.resume();
     else

@@ -9,6 +9,7 @@
 #include <QFrame>
 #include <QLabel>
 #include <QPushButton>
+#include <functional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
@@ -29,6 +30,11 @@ public:
     SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent = nullptr);
     /// Thirty times a second.
     void refresh(const Telemetry& telemetry);
+    /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
+    void setBlind(bool blind);
+    void setParticipantsStop(const QString& words);
+    /// What Pause and Resume do in place of the bench's own: a session holds itself back. Empty: the bench's.
+    void setPauseInstead(std::function<void(bool pause)> pause) { pauseInstead_ = std::move(pause); }
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
@@ -42,6 +48,8 @@ protected:
 private:
     [[nodiscard]] QWidget* buildFacts();
     [[nodiscard]] QWidget* buildButtons();
+    [[nodiscard]] QWidget* buildBlindFacts();
+    void showBlind(const Telemetry& telemetry);
     void giveRoom();
     void showState(const Telemetry& telemetry);
     void showDevice(const Telemetry& telemetry);
@@ -59,7 +67,13 @@ private:
     ElidedLabel* load_ = nullptr;
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
-    FaultBanner* fault_ = nullptr;  ///< in place of facts and bars
+    FaultBanner* fault_ = nullptr;   ///< in place of facts and bars
+    QWidget* blindFacts_ = nullptr;  ///< in place of the bars
+    QLabel* within_ = nullptr;
+    QLabel* participantsStop_ = nullptr;
+    bool blind_ = false;
+    std::function<void(bool)> pauseInstead_;
+    bool pausedInstead_ = false;
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;

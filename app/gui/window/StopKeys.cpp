@@ -67,21 +67,31 @@ bool StopKeys::returnPressed(QObject* watched, bool repeated) {
     return true;
 }
 
+/// "participant" where the key went to a window of the participant's.
+bool StopKeys::isParticipants(const QObject* watched) {
+    const auto* widget = qobject_cast<const QWidget*>(watched);
+    const QObject* window = widget == nullptr ? watched : widget->window();
+    return window->property("stopsAs").toString() == "participant";
+}
+
 /// True when no other widget is to see the key. Called for the window, then for the widget: stopping twice does no
 /// harm.
 bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     const auto* focus = QApplication::focusWidget();
+    const bool theirs = isParticipants(watched);
+    // Each press is one stop of theirs, and their third ends a session; a key that is held has stopped already.
+    if (theirs && key.isAutoRepeat()) return false;
     switch (key.key()) {
         case Qt::Key_Escape:
-            stop_("operator (Esc)");
+            stop_(theirs ? "participant (Esc)" : "operator (Esc)");
             return false;  // it closes dialogs and popups too
         case Qt::Key_Pause:
-            stop_("operator (Pause)");
+            stop_(theirs ? "participant (Pause)" : "operator (Pause)");
             return true;
         case Qt::Key_Space:
             if (takesText(focus) || (watched->isWidgetType() && takesText(static_cast<QWidget*>(watched))))
                 return false;
-            stop_("operator (Space)");
+            stop_(theirs ? "participant (Space)" : "operator (Space)");
             return key.type() == QEvent::KeyPress;
         case Qt::Key_Return:
         case Qt::Key_Enter:

@@ -22,7 +22,8 @@ namespace tacto::gui {
 class StopKeys final : public QObject {
     Q_OBJECT
 public:
-    /// `stop` is called first thing, with "operator (Esc)" and the like.
+    /// `stop` is called first thing, with "operator (Esc)" and the like; with "participant (Esc)" where the key went to
+    /// a window whose property "stopsAs" is "participant".
     StopKeys(std::function<void(const char*)> stop, QObject* parent);
     ~StopKeys() override;
 
@@ -31,6 +32,7 @@ protected:
     void timerEvent(QTimerEvent* event) override;
 
 private:
+    [[nodiscard]] static bool isParticipants(const QObject* watched);
     [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);
     [[nodiscard]] bool returnPressed(QObject* watched, bool repeated);
     static constexpr int kReleased_ms = 150;

@@ -39,6 +39,18 @@ WorkspaceRail::WorkspaceRail(QWidget* parent)
 
 void WorkspaceRail::setCurrent(int index) { workspaces_->actions().at(index)->setChecked(true); }
 
+void WorkspaceRail::keepTo(std::optional<int> index, const QString& reason) {
+    const auto actions = workspaces_->actions();
+    for (int i = 0; i < actions.size(); ++i) {
+        auto* action = actions.at(i);
+        const bool allowed = !index || i == *index;
+        if (!allowed && action->isEnabled()) action->setData(action->toolTip());
+        if (allowed && !action->isEnabled()) action->setToolTip(action->data().toString());
+        if (!allowed) action->setToolTip(reason);
+        action->setEnabled(allowed);
+    }
+}
+
 void WorkspaceRail::fit() {
     for (auto* button : findChildren<RailButton*>()) button->updateGeometry();
 }

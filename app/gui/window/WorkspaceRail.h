@@ -5,6 +5,7 @@
 
 #include <QActionGroup>
 #include <QToolBar>
+#include <optional>
 
 namespace tacto::gui {
 
@@ -15,6 +16,8 @@ public:
     /// One action each, in the order of the window's pages; a menu may hold them too.
     [[nodiscard]] const QActionGroup& workspaces() const noexcept { return *workspaces_; }
     void setCurrent(int index);
+    /// All but one, or none, are out of reach, for a reason that their tool tips say.
+    void keepTo(std::optional<int> index, const QString& reason);
     /// The window has another height: in a low one the buttons are low.
     void fit();
 

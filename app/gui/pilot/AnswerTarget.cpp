@@ -1,0 +1,151 @@
+#include "app/gui/pilot/AnswerTarget.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QTouchEvent>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
+constexpr double kIconShare = 1.75;  // of the words' size
+constexpr double kPadShare = 0.9;
+constexpr int kLeast_px = 11;
+
+}  // namespace
+
+AnswerTarget::AnswerTarget(QWidget* parent) : QAbstractButton(parent) {
+    setFocusPolicy(Qt::NoFocus);  // the window has the keys
+    setAttribute(Qt::WA_AcceptTouchEvents);
+}
+
+void AnswerTarget::setContent(const QString& words, const QStringList& icons, const QString& key, Shape shape) {
+    setText(words);
+    setAccessibleName(key.isEmpty() ? words : tr("%1, key %2").arg(words, key));
+    icons_ = icons;
+    key_ = key;
+    shape_ = shape;
+    update();
+}
+
+void AnswerTarget::setType(int words_px, int key_px) {
+    words_px_ = words_px;
+    key_px_ = key_px;
+    update();
+}
+
+QFont AnswerTarget::wordFont(int px) const {
+    auto font = textFont(TextSize::Body, QFont::DemiBold);
+    font.setPixelSize(std::max(1, px));
+    return font;
+}
+
+int AnswerTarget::keyPx() const { return std::max(kLeast_px, std::min(key_px_, height() / 5)); }
+
+int AnswerTarget::leastPx() const { return std::max(kLeast_px, int(words_px_ * 0.3)); }
+
+/// The words' size, or the largest at which they have room beside the key.
+int AnswerTarget::fittingPx() const {
+    const int least = leastPx();
+    for (int px = words_px_; px > least; --px) {
+        const QFontMetrics metrics(wordFont(px));
+        const int pad = int(px * kPadShare);
+        const bool row = shape_ == Shape::Row;
+        const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
+        const int cap = row && !key_.isEmpty() ? int(keyPx() * 2.3) : 0;
+        const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
+        // Words that reach down to the key stand beside it, not under it.
+        const bool low = !row && !key_.isEmpty() && (height() + high) / 2 > height() - int(keyPx() * 2.3);
+        const int beside = low ? 2 * int(keyPx() * 2.4) : 2 * pad;
+        const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
+        if (wide && high <= height() - 8) return px;
+    }
+    return least;
+}
+
+QSize AnswerTarget::minimumSizeHint() const {
+    const QFontMetrics metrics(wordFont(leastPx()));
+    return {metrics.horizontalAdvance(text()) + 8, metrics.height() + 8};
+}
+
+bool AnswerTarget::event(QEvent* event) {
+    if (event->type() == QEvent::TouchBegin) {
+        emit wentDown(timeOf(*static_cast<QTouchEvent*>(event)));
+        event->accept();  // no press of a mouse is made of it
+        return true;
+    }
+    if (event->type() == QEvent::TouchEnd || event->type() == QEvent::TouchCancel) {
+        emit cameUp();
+        event->accept();
+        return true;
+    }
+    return QAbstractButton::event(event);
+}
+
+void AnswerTarget::mousePressEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton) emit wentDown(timeOf(*event));
+}
+
+void AnswerTarget::mouseReleaseEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton) emit cameUp();
+}
+
+void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto& c = colours();
+    painter.setPen(QPen(isChecked() ? c.text : c.edge, isChecked() ? 2 * kEdge : kEdge));
+    painter.setBrush(isChecked() ? c.selection : c.base);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), kRadius, kRadius);
+
+    const int px = fittingPx();
+    const QFontMetrics words(wordFont(px));
+    const int icon = int(px * kIconShare), pad = int(px * kPadShare);
+    const auto put = [&](const QString& name, int x, int y) {
+        painter.drawPixmap(x, y, iconPixmap(name, c.text, icon, devicePixelRatioF()));
+    };
+    painter.setFont(wordFont(px));
+    painter.setPen(c.text);
+    if (shape_ == Shape::Row) {
+        int x = pad;
+        for (const auto& name : icons_) {
+            put(name, x, (height() - icon) / 2);
+            x += icon + pad / 2;
+        }
+        painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignLeft | Qt::AlignVCenter, text());
+    } else {
+        const int gap = int(px * 0.9);
+        const int high = words.height() + (icons_.isEmpty() ? 0 : icon + gap);
+        int y = (height() - high) / 2;
+        if (!icons_.isEmpty()) {
+            const int row = int(icons_.size()) * icon + (int(icons_.size()) - 1) * gap;
+            int x = (width() - row) / 2;
+            for (const auto& name : icons_) {
+                put(name, x, y);
+                x += icon + gap;
+            }
+            y += icon + gap;
+        }
+        painter.drawText(QRect(0, y, width(), words.height()), Qt::AlignCenter, text());
+    }
+    if (key_.isEmpty()) return;
+    auto font = textFont(TextSize::Body);
+    const int key_px = keyPx();
+    font.setPixelSize(key_px);
+    const QFontMetrics metrics(font);
+    const int side = std::max(int(key_px * 1.6), metrics.horizontalAdvance(key_) + key_px / 2);
+    const int margin = key_px * 7 / 10;
+    const QRectF cap(width() - margin - side + 0.5, height() - margin - key_px * 1.6 + 0.5, side, key_px * 1.6);
+    painter.setPen(QPen(c.edge, 1));
+    painter.setBrush(c.base);
+    painter.drawRoundedRect(cap, kKeyRadius, kKeyRadius);
+    painter.setFont(font);
+    painter.setPen(c.quiet);
+    painter.drawText(cap, Qt::AlignCenter, key_);
+}
+
+}  // namespace tacto::gui

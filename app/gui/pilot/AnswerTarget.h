@@ -1,0 +1,52 @@
+// AnswerTarget.h - one answer on the participant's screen: large, with its key, taken the moment a press goes down on
+// it, by mouse or finger.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QAbstractButton>
+#include <QStringList>
+
+#include "app/gui/pilot/InputTime.h"
+
+namespace tacto::gui {
+
+class AnswerTarget final : public QAbstractButton {
+    Q_OBJECT
+public:
+    /// Words below their icons, or to the right of them.
+    enum class Shape { Stacked, Row };
+    explicit AnswerTarget(QWidget* parent);
+    /// `key` may be empty. Sizes are those of setType().
+    void setContent(const QString& words, const QStringList& icons, const QString& key, Shape shape);
+    /// Pixels of the words and of the key; words shrink where the target is too narrow for them.
+    void setType(int words_px, int key_px);
+    /// As small as the words may get.
+    [[nodiscard]] QSize minimumSizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+
+signals:
+    void wentDown(tacto::gui::SteadyTime at);
+    void cameUp();
+
+protected:
+    bool event(QEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override { event->ignore(); }
+    void keyReleaseEvent(QKeyEvent* event) override { event->ignore(); }
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    [[nodiscard]] QFont wordFont(int px) const;
+    [[nodiscard]] int keyPx() const;
+    [[nodiscard]] int leastPx() const;
+    [[nodiscard]] int fittingPx() const;
+    QStringList icons_;
+    QString key_;
+    Shape shape_ = Shape::Stacked;
+    int words_px_ = 28;
+    int key_px_ = 20;
+};
+
+}  // namespace tacto::gui

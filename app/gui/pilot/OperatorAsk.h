@@ -1,0 +1,41 @@
+// OperatorAsk.h - what a pilot session asks the operator: a checklist item, a skin score, an electrode's lot.
+//
+// Amber at the left, as every question that a run waits for. The buttons take a press of their own: the second half of
+// a double click answers nothing.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QFrame>
+#include <QVBoxLayout>
+
+#include "core/pilot/Prompt.h"
+
+namespace tacto::gui {
+
+class OperatorAsk final : public QFrame {
+    Q_OBJECT
+public:
+    explicit OperatorAsk(QWidget* parent = nullptr);
+    void ask(const PilotPrompt& prompt, quint64 id);
+    void close();
+    [[nodiscard]] bool open() const { return body_ != nullptr; }
+
+signals:
+    void answered(quint64 id, const tacto::PilotAnswer& answer);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void give(PilotAnswer answer);
+    void addChoices(const PilotPrompt& prompt);
+    void addSeveral(const PilotPrompt& prompt);
+    void addLine(const PilotPrompt& prompt);
+    QVBoxLayout* layout_;
+    QWidget* body_ = nullptr;
+    QVBoxLayout* column_ = nullptr;
+    quint64 id_ = 0;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,278 @@
+#include "app/gui/pilot/OperatorPage.h"
+
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "app/gui/pilot/ImpedanceTrend.h"
+#include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kOperatorPad = 16, kLow = 420;  // below this height the plot gives way to question and notes
+constexpr double kTrial_s = 9;                // one trial of the test, as the design counts it
+
+QString phaseName(const std::string& phase) {
+    if (phase == "ascending") return QObject::tr("Rising levels");
+    if (phase == "detection") return QObject::tr("Detection threshold");
+    if (phase == "range") return QObject::tr("Range");
+    if (phase == "drift") return QObject::tr("Drift check");
+    return titled(qtext(phase));
+}
+
+}  // namespace
+
+QString whereText(const PilotScreen& screen) {
+    QStringList words{phaseName(screen.phase)};
+    if (screen.phase.empty()) words = QStringList(QObject::tr("Preparing"));
+    if (screen.block > 0 && screen.blocks > 0)
+        words << QObject::tr("block %1 of %2").arg(screen.block).arg(screen.blocks);
+    else if (screen.block > 0)
+        words << QObject::tr("block %1").arg(screen.block);
+    if (screen.trial > 0 && screen.trials > 0)
+        words << QObject::tr("trial %1 of %2").arg(screen.trial).arg(screen.trials);
+    else if (screen.trial > 0)
+        words << QObject::tr("trial %1").arg(screen.trial);
+    return words.join(", ");
+}
+
+OperatorPage::OperatorPage(QWidget* parent)
+    : QWidget(parent),
+      where_(new QLabel(this)),
+      counts_(new ElidedLabel(this)),
+      hidden_(new ElidedLabel(this)),
+      phase_(new PhaseBar(this)),
+      trend_(new ImpedanceTrend(this)),
+      notes_(new SessionNotes(this)),
+      ask_(new OperatorAsk(this)),
+      obstacle_(new QWidget(this)) {
+    setObjectName("operatorPage");
+    auto* all = new QVBoxLayout(this);
+    all->setContentsMargins(0, 0, 0, 0);
+    all->setSpacing(0);
+    auto* column = new QVBoxLayout;
+    column->setContentsMargins(kOperatorPad, kOperatorPad, kOperatorPad, kOperatorPad / 2);
+    column->setSpacing(kOperatorPad / 4);
+    where_->setObjectName("whereInSession");
+    setTextSize(*where_, TextSize::Large);
+    column->addWidget(where_);
+    for (auto* quiet : {counts_, hidden_}) {
+        setTone(*quiet, Tone::Quiet);
+        column->addWidget(quiet);
+    }
+    column->addSpacing(kOperatorPad / 2);
+    column->addWidget(phase_);
+    auto* row = new QHBoxLayout(obstacle_);
+    row->setContentsMargins(0, 0, 0, 0);
+    obstacleText_ = new QLabel(obstacle_);
+    obstacleText_->setObjectName("presentationObstacle");
+    obstacleText_->setWordWrap(true);
+    setTone(*obstacleText_, Tone::Warning);
+    row->addWidget(obstacleText_, 1);
+    auto* keys = new QPushButton(tr("&Give them the keys"), obstacle_);
+    keys->setAutoDefault(false);
+    keys->setToolTip(tr("Brings the participant’s window to the front."));
+    connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
+    row->addWidget(keys);
+    obstacle_->hide();
+    column->addWidget(obstacle_);
+    column->addWidget(ask_);
+    column->addSpacing(kOperatorPad / 2);
+    column->addWidget(trend_, 1);
+    column->addSpacing(kOperatorPad / 2);
+    column->addWidget(notes_);
+    all->addLayout(column, 1);
+    all->addWidget(buildBar());
+}
+
+QWidget* OperatorPage::buildBar() {
+    auto* bar = new QFrame(this);
+    bar->setObjectName("sessionBar");
+    bar->setAutoFillBackground(true);
+    bar->setBackgroundRole(QPalette::Window);
+    auto* both = new QVBoxLayout(bar);
+    both->setContentsMargins(0, 0, 0, 0);
+    both->setSpacing(0);
+    auto* edge = new QFrame(bar);
+    edge->setFrameShape(QFrame::HLine);
+    edge->setForegroundRole(QPalette::Mid);
+    both->addWidget(edge);
+    auto* row = new QHBoxLayout;
+    row->setContentsMargins(kOperatorPad, kOperatorPad / 2 + 4, kOperatorPad, kOperatorPad / 2 + 4);
+    row->setSpacing(8);
+    after_ = new QPushButton(tr("Break after this trial"), bar);
+    after_->setObjectName("breakAfterTrial");
+    after_->setIcon(icon("break", Ink::Primary));
+    after_->setAutoDefault(false);
+    after_->setToolTip(tr("The trial under way is answered first; the next one waits for you."));
+    makePrimary(*after_);
+    connect(after_, &QPushButton::clicked, this, [this] { emit breakAfterTrialWanted(!breakDue_); });
+    now_ = new QPushButton(tr("Break now"), bar);
+    now_->setObjectName("breakNow");
+    now_->setAutoDefault(false);
+    now_->setToolTip(
+        tr("No further train comes, and the trial under way is repeated after the break. STOP ends a train that is "
+           "under way."));
+    connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
+    kept_ = new ElidedLabel(bar);
+    kept_->setObjectName("answersKept");
+    setTextSize(*kept_, TextSize::Small);
+    setTone(*kept_, Tone::Quiet);
+    kept_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    abort_ = new QPushButton(tr("Abort session…"), bar);
+    abort_->setObjectName("abortSession");
+    abort_->setAutoDefault(false);
+    abort_->setToolTip(tr("First of two steps. Ends the session; what was answered is kept."));
+    connect(abort_, &QPushButton::clicked, this, [this] {
+        abort_->hide();
+        sure_->show();
+    });
+    sure_ = new QWidget(bar);
+    auto* sureRow = new QHBoxLayout(sure_);
+    sureRow->setContentsMargins(0, 0, 0, 0);
+    reallyAbort_ = new ConfirmButton(tr("End it now"), sure_);
+    reallyAbort_->setObjectName("reallyAbort");
+    connect(reallyAbort_, &QPushButton::clicked, this, &OperatorPage::abortWanted);
+    auto* back = new QPushButton(tr("Go on"), sure_);
+    back->setAutoDefault(false);
+    connect(back, &QPushButton::clicked, this, [this] {
+        sure_->hide();
+        abort_->show();
+    });
+    sureRow->addWidget(reallyAbort_);
+    sureRow->addWidget(back);
+    sure_->hide();
+    row->addWidget(after_);
+    row->addWidget(now_);
+    row->addWidget(kept_, 1);
+    row->addWidget(abort_);
+    row->addWidget(sure_);
+    both->addLayout(row);
+    return bar;
+}
+
+void OperatorPage::begin(bool blind, bool simulated) {
+    blind_ = blind;
+    screen_ = {};
+    answered_ = repeated_ = seenTrial_ = seenBlock_ = 0;
+    theirs_.reset();
+    trend_->clear();
+    trend_->setSimulated(simulated);
+    notes_->clear();
+    ask_->close();
+    sure_->hide();
+    abort_->show();
+    setBreakDue(false);
+    setObstacle({});
+    phaseSince_.start();
+    show(screen_);
+}
+
+void OperatorPage::show(const PilotScreen& screen) {
+    const bool test = screen.phase == "test";
+    if (test && screen.trial > 0) {
+        if (screen.trial == seenTrial_ && screen.state == ScreenState::Dot && screen_.state != ScreenState::Dot)
+            ++repeated_;
+        if (screen.trial != seenTrial_) answered_ = std::max(answered_, screen.trial - 1);
+        seenTrial_ = screen.trial;
+        seenBlock_ = screen.block;
+        if (screen.trials > 0) trend_->setPlan(screen.trials, std::max(1, screen.blocks));
+    }
+    if (screen.state != screen_.state || screen.trial != screen_.trial) phaseSince_.start();
+    screen_ = screen;
+    where_->setText(whereText(screen));
+    const bool mayKnow = !blind_ || screen.operatorMayKnow;
+    const auto told = mayKnow ? qtext(screen.operatorText) : QString();
+    hidden_->setText(!told.isEmpty() ? told
+                     : blind_        ? tr("Hidden until the session ends: condition, level, interval, answers")
+                                     : QString());
+    showCounts();
+    refresh({});
+}
+
+void OperatorPage::showCounts() {
+    QStringList words{tr("%1 answered").arg(answered_), tr("%1 repeated").arg(repeated_)};
+    if (screen_.phase == "test" && screen_.blocks > 1 && screen_.block > 0 && screen_.block < screen_.blocks &&
+        screen_.trials > 0) {
+        const int last = int(std::lround(double(screen_.trials) / screen_.blocks * screen_.block));
+        const double minutes = std::max(0, last - screen_.trial + 1) * kTrial_s / 60;
+        words << tr("next break after trial %1, in about %2 min").arg(last).arg(std::max(1, int(std::lround(minutes))));
+    }
+    counts_->setText(words.join(" · "));
+    kept_->setText(answered_ == 1 ? tr("1 answer is on disk and stays.")
+                                  : tr("%1 answers are on disk and stay.").arg(answered_));
+}
+
+void OperatorPage::ask(const PilotPrompt& prompt, quint64 id) {
+    if (prompt.to != PromptTo::Participant) ask_->ask(prompt, id);
+    if (prompt.to == PromptTo::Operator) return;
+    theirs_ = prompt;
+    theirsId_ = id;
+    phaseSince_.start();
+    refresh({});
+}
+
+void OperatorPage::closeQuestion(quint64 id) {
+    ask_->close();
+    if (!theirs_ || theirsId_ != id) return;
+    if (theirs_->kind == PromptKind::Condition && screen_.phase == "test") {
+        answered_ = std::max(answered_, screen_.trial);
+        showCounts();
+    }
+    theirs_.reset();
+    phaseSince_.start();
+    refresh({});
+}
+
+void OperatorPage::refresh(const Telemetry& telemetry) {
+    if (screen_.phase == "test") trend_->note(screen_.trial, telemetry.impedance_ohm);
+    const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
+    if (theirs_) {
+        if (!theirs_->within) return phase_->setPhase(PhaseBar::kAnswer);
+        const double left = std::max(0.0, theirs_->within->count() - gone);
+        return phase_->setPhase(PhaseBar::kAnswer, std::round(left * 10) / 10,
+                                std::min(1.0, gone / theirs_->within->count()));
+    }
+    switch (screen_.state) {
+        case ScreenState::Dot:
+            return phase_->setPhase(PhaseBar::kGetReady);
+        case ScreenState::Feel:
+        case ScreenState::Interval:
+        case ScreenState::Named:
+            return phase_->setPhase(PhaseBar::kTrains);
+        case ScreenState::Rest:
+        case ScreenState::Break:
+            return phase_->setPhase(PhaseBar::kRest);
+        case ScreenState::Ended:
+            return phase_->setPhase(PhaseBar::kNone);
+    }
+}
+
+void OperatorPage::setObstacle(const QString& why) {
+    obstacleText_->setText(why.isEmpty() ? QString() : tr("⚠ No presentation starts: %1.").arg(why));
+    obstacle_->setVisible(!why.isEmpty());
+}
+
+void OperatorPage::setBreakDue(bool due) {
+    breakDue_ = due;
+    after_->setText(due ? tr("End the break") : tr("Break after this trial"));
+}
+
+void OperatorPage::setProgress(const QString& what, int done, int total) {
+    where_->setText(tr("The virtual participant answers: %1, %2 of %3").arg(what.toLower()).arg(done).arg(total));
+    counts_->setText(tr("Nothing is asked of you. Each answer is on disk before the next presentation."));
+}
+
+void OperatorPage::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    trend_->setVisible(height() > scaledPx(kLow));
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,83 @@
+// OperatorPage.h - the operator's side of a session: phase and time left, impedance, notes, break and abort, and the
+// questions that are the operator's. It knows no condition, level, interval or answer, and so shows none; what a
+// session says besides is shown only where the operator is not blind or may know it.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QPushButton>
+#include <QWidget>
+
+#include "app/gui/pilot/OperatorAsk.h"
+#include "app/gui/pilot/PhaseBar.h"
+#include "app/gui/pilot/SessionNotes.h"
+#include "core/bench/Telemetry.h"
+#include "core/pilot/Prompt.h"
+
+namespace tacto::gui {
+
+class ImpedanceTrend;
+
+/// "Test, block 2 of 5, trial 27 of 90".
+[[nodiscard]] QString whereText(const PilotScreen& screen);
+
+class OperatorPage final : public QWidget {
+    Q_OBJECT
+public:
+    explicit OperatorPage(QWidget* parent = nullptr);
+    void begin(bool blind, bool simulated);
+    void show(const PilotScreen& screen);
+    /// To either of the two.
+    void ask(const PilotPrompt& prompt, quint64 id);
+    void closeQuestion(quint64 id);
+    void refresh(const Telemetry& telemetry);
+    /// What keeps the next presentation from starting; empty for nothing.
+    void setObstacle(const QString& why);
+    void setBreakDue(bool due);
+    /// Of a session whose screens are not shown: a virtual participant's.
+    void setProgress(const QString& what, int done, int total);
+    [[nodiscard]] OperatorAsk& question() { return *ask_; }
+    [[nodiscard]] SessionNotes& notes() { return *notes_; }
+    [[nodiscard]] int answered() const { return answered_; }
+
+signals:
+    void breakAfterTrialWanted(bool due);
+    void breakNowWanted();
+    void abortWanted();
+    void keysWanted();  ///< for the participant's window
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    [[nodiscard]] QWidget* buildBar();
+    void showCounts();
+
+    QLabel* where_;
+    QLabel* counts_;
+    QLabel* hidden_;
+    PhaseBar* phase_;
+    ImpedanceTrend* trend_;
+    SessionNotes* notes_;
+    OperatorAsk* ask_;
+    QWidget* obstacle_;
+    QLabel* obstacleText_ = nullptr;
+    QPushButton* after_ = nullptr;
+    QPushButton* now_ = nullptr;
+    QPushButton* abort_ = nullptr;
+    QLabel* kept_ = nullptr;
+    QWidget* sure_ = nullptr;
+    QPushButton* reallyAbort_ = nullptr;
+    PilotScreen screen_;
+    bool blind_ = true;
+    bool breakDue_ = false;
+    int answered_ = 0, repeated_ = 0;
+    int seenTrial_ = 0, seenBlock_ = 0;
+    std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen
+    quint64 theirsId_ = 0;
+    QElapsedTimer phaseSince_;
+};
+
+}  // namespace tacto::gui

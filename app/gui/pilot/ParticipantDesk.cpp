@@ -1,0 +1,191 @@
+#include "app/gui/pilot/ParticipantDesk.h"
+
+#include <utility>
+
+namespace tacto::gui {
+
+ParticipantDesk::ParticipantDesk(QObject* parent) : QObject(parent) {
+    qRegisterMetaType<PilotScreen>();
+    qRegisterMetaType<PilotPrompt>();
+}
+
+void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {
+    const std::scoped_lock lock(mutex_);
+    clock_ = std::move(clock);
+    early_.clear();
+    cancelled_ = stopped_ = false;
+    break_ = false;
+    holding_ = false;
+}
+
+void ParticipantDesk::end() {
+    cancel();
+    const std::scoped_lock lock(stopMutex_);
+    listens_ = false;
+    holding_ = false;
+}
+
+void ParticipantDesk::show(const PilotScreen& screen) {
+    {
+        const std::scoped_lock lock(stopMutex_);
+        listens_ = stop != nullptr;
+    }
+    if (screen.state == ScreenState::Rest) holding_ = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        cancelled_ = stopped_ = false;
+    }
+    emit screenChanged(screen);
+}
+
+bool ParticipantDesk::answered() const {
+    const bool one = open_->to == PromptTo::Operator || participants_;
+    const bool other = open_->to == PromptTo::Participant || operators_;
+    return one && other;
+}
+
+Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
+    std::unique_lock lock(mutex_);
+    const bool theirs = prompt.to != PromptTo::Operator;
+    const auto broken = [&] { return cancelled_ || stopped_ || (theirs && !there_); };
+    if (clock_ && !clock_->isVirtual() && !broken())
+        changed_.wait_for(lock, std::max(Instant(0), prompt.targetsAt - clock_->now()), broken);
+    open_ = prompt;
+    ++id_;
+    shownAt_.reset();
+    participants_.reset();
+    operators_.reset();
+    emit asked(prompt, id_);
+    while (!broken() && !answered()) {
+        const bool limited = prompt.within && shownAt_;
+        if (!limited) {
+            changed_.wait(lock);
+            continue;
+        }
+        const auto until = *shownAt_ + std::chrono::duration_cast<SteadyTime::duration>(*prompt.within);
+        if (changed_.wait_until(lock, until) == std::cv_status::timeout) break;
+    }
+    auto result = outcome(prompt);
+    open_.reset();
+    emit closed(id_);
+    return result;
+}
+
+Result<PilotAnswer> ParticipantDesk::outcome(const PilotPrompt& prompt) {
+    if (cancelled_ || std::exchange(stopped_, false))
+        return fail(ErrorCode::Stopped, "\"{}\" was stopped before it was answered", prompt.name);
+    if (prompt.to != PromptTo::Operator && !there_)
+        return fail(ErrorCode::Device, "\"{}\" was not answered: the participant's screen is gone", prompt.name);
+    if (answered()) return prompt.to == PromptTo::Operator ? *operators_ : *participants_;
+    PilotAnswer none;
+    none.given = false;
+    none.after = *prompt.within;
+    return none;
+}
+
+std::vector<EarlyPress> ParticipantDesk::takeEarly() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(early_, {});
+}
+
+void ParticipantDesk::cancel() noexcept {
+    {
+        const std::scoped_lock lock(mutex_);
+        cancelled_ = true;
+    }
+    changed_.notify_all();
+}
+
+Result<void> ParticipantDesk::ready() const {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return cancelled_ || stopped_ || (there_ && obstacle_.isEmpty() && !break_); });
+    if (cancelled_ || std::exchange(stopped_, false))
+        return fail(ErrorCode::Stopped, "stopped before the presentation began");
+    return {};
+}
+
+void ParticipantDesk::setObstacle(const QString& why) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (std::exchange(obstacle_, why) == why) return;
+    }
+    changed_.notify_all();
+    emit obstacleChanged(why);
+}
+
+void ParticipantDesk::setBreak(bool wanted) {
+    {
+        const std::scoped_lock lock(mutex_);
+        break_ = wanted;
+    }
+    changed_.notify_all();
+}
+
+bool ParticipantDesk::breakWanted() const {
+    const std::scoped_lock lock(mutex_);
+    return break_;
+}
+
+void ParticipantDesk::setScreenThere(bool there) {
+    {
+        const std::scoped_lock lock(mutex_);
+        there_ = there;
+    }
+    changed_.notify_all();
+}
+
+void ParticipantDesk::targetsShown(quint64 id, SteadyTime at) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!open_ || id != id_ || shownAt_) return;
+        shownAt_ = at;
+    }
+    changed_.notify_all();
+}
+
+void ParticipantDesk::answerAsParticipant(quint64 id, PilotAnswer answer, SteadyTime pressed) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!open_ || id != id_ || participants_ || !shownAt_ || open_->to == PromptTo::Operator) return;
+        answer.after = std::max(Seconds(0), Seconds(pressed - *shownAt_));
+        participants_ = std::move(answer);
+    }
+    changed_.notify_all();
+}
+
+void ParticipantDesk::answerAsOperator(quint64 id, PilotAnswer answer) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!open_ || id != id_ || operators_ || open_->to == PromptTo::Participant) return;
+        operators_ = std::move(answer);
+    }
+    changed_.notify_all();
+}
+
+void ParticipantDesk::noteEarly(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    early_.push_back({key, clock_ ? clock_->now() : Instant(0)});
+}
+
+void ParticipantDesk::setHolding(bool holding) { holding_ = holding; }
+
+bool ParticipantDesk::testsOperatorsStop() const {
+    const std::scoped_lock lock(mutex_);
+    return open_ && open_->name == "stop-test" && open_->to == PromptTo::Operator;
+}
+
+bool ParticipantDesk::stopBy(const char* by) {
+    {
+        const std::scoped_lock lock(stopMutex_);
+        if (!listens_) return false;
+        stop(by);
+    }
+    {
+        const std::scoped_lock lock(mutex_);
+        stopped_ = true;
+    }
+    changed_.notify_all();
+    return true;
+}
+
+}  // namespace tacto::gui

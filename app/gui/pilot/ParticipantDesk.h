@@ -1,0 +1,98 @@
+// ParticipantDesk.h - where a pilot session's thread and the windows of its two people meet: the session asks and
+// waits, a window answers, a stop ends the wait.
+//
+// A response time runs from the moment at which a window says that the targets are on the screen to the moment of the
+// press (InputTime.h).
+//
+// Thread-safety: the calls of PilotParticipant as it says; the others on the GUI thread, which also gets the signals.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+
+#include "app/gui/pilot/InputTime.h"
+#include "core/base/Clock.h"
+#include "core/pilot/Participant.h"
+
+namespace tacto::gui {
+
+class ParticipantDesk final : public QObject, public PilotParticipant {
+    Q_OBJECT
+public:
+    explicit ParticipantDesk(QObject* parent = nullptr);
+
+    /// Before a session, with its clock, by which it says when targets appear; on a virtual one, or without any, they
+    /// appear at once. Any thread, while no session has the desk.
+    void begin(std::shared_ptr<const Clock> clock);
+    /// After it: `stop` leads nowhere from here on.
+    void end();
+
+    void show(const PilotScreen& screen) override;
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
+    void delivered(const FeltPresentation& /*felt*/) override {}
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
+    void cancel() noexcept override;
+    [[nodiscard]] bool holding() const noexcept override { return holding_; }
+    /// Waits until nothing is in the way. Errors besides: Stopped, as ask().
+    [[nodiscard]] Result<void> ready() const override;
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
+
+    /// What is in the way of a presentation, half a sentence; empty: nothing.
+    void setObstacle(const QString& why);
+    /// The operator wants a break: no presentation starts until they want it no more.
+    void setBreak(bool wanted);
+    [[nodiscard]] bool breakWanted() const;
+    /// The screen is gone: a question that waits for it ends with Device, and so does the next.
+    void setScreenThere(bool there);
+    /// The targets of question `id` are on the participant's screen since `at`.
+    void targetsShown(quint64 id, SteadyTime at);
+    /// Nothing happens where `id` is not open any more, or that person has answered already.
+    void answerAsParticipant(quint64 id, PilotAnswer answer, SteadyTime pressed);
+    void answerAsOperator(quint64 id, PilotAnswer answer);
+    /// A press before the targets; `key` is what it would have been, or empty.
+    void noteEarly(const std::string& key);
+    void setHolding(bool holding);
+    /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
+    /// shows something before. False where no session listens. Any thread.
+    bool stopBy(const char* by);
+    /// Whether the operator's STOP is what the open question waits for: a test of it, which ends no session.
+    [[nodiscard]] bool testsOperatorsStop() const;
+
+signals:
+    void screenChanged(const tacto::PilotScreen& screen);
+    void asked(const tacto::PilotPrompt& prompt, quint64 id);
+    void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
+    void obstacleChanged(const QString& why);
+
+private:
+    [[nodiscard]] bool answered() const;
+    [[nodiscard]] Result<PilotAnswer> outcome(const PilotPrompt& prompt);
+
+    mutable std::mutex mutex_;
+    mutable std::condition_variable changed_;
+    // Guarded:
+    std::shared_ptr<const Clock> clock_;
+    std::optional<PilotPrompt> open_;
+    quint64 id_ = 0;
+    std::optional<SteadyTime> shownAt_;
+    std::optional<PilotAnswer> participants_, operators_;
+    std::vector<EarlyPress> early_;
+    QString obstacle_;
+    bool break_ = false;
+    bool cancelled_ = false;
+    mutable bool stopped_ = false;  ///< by a person; ends one question
+    bool there_ = true;
+
+    std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end
+    bool listens_ = false;  // guarded by stopMutex_
+    std::atomic<bool> holding_{false};
+};
+
+}  // namespace tacto::gui
+
+Q_DECLARE_METATYPE(tacto::PilotScreen)
+Q_DECLARE_METATYPE(tacto::PilotPrompt)

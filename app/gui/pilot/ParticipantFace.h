@@ -1,0 +1,82 @@
+// ParticipantFace.h - what stands on the participant's screen, and where: progress, the question, the answers, STOP,
+// the time to answer. It is told what goes on and knows nothing else.
+//
+// At 1440 x 900 as the design's picture. Elsewhere the targets get their 20 mm first: the second line goes, then the
+// question gets smaller; STOP keeps its place.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QWidget>
+#include <functional>
+#include <optional>
+
+#include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/pilot/AnswerTarget.h"
+
+namespace tacto::gui {
+
+class ParticipantField;
+class ParticipantStop;
+class ShareBars;
+
+/// Answered by STOP, and by nothing else.
+[[nodiscard]] bool isStopTestPrompt(const PilotPrompt& prompt);
+
+struct ParticipantView {
+    const PilotScreen& screen;
+    std::optional<PilotPrompt> asked;  ///< with its targets as they stand
+    const AnswerKeys& keys;
+    QString holdKey;
+    bool stopped = false;
+    bool pause = false;  ///< the operator's break
+};
+
+class ParticipantFace final : public QWidget {
+    Q_OBJECT
+public:
+    ParticipantFace(std::function<void()> stop, QWidget* parent);
+    void show(const ParticipantView& view);
+    /// Words alone, and no question.
+    void say(const QString& title, const QString& below);
+    void setNote(const QString& note);
+    void setTimeLeft(double share);
+    /// At the lower edge while it is open. Takes the widget.
+    void setStrip(QWidget* strip);
+    [[nodiscard]] bool hasStrip() const { return strip_ != nullptr; }
+    [[nodiscard]] bool stripOpen() const;
+    void openStrip(bool open);
+    [[nodiscard]] QString title() const;
+    [[nodiscard]] ParticipantField& field() { return *field_; }
+    /// What is held while levels rise: there from the question on until it is hidden.
+    [[nodiscard]] AnswerTarget& hold() { return *hold_; }
+    [[nodiscard]] QLineEdit& line() { return *line_; }
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void put(const QString& title, const QString& below);
+    void arrange();
+
+    std::optional<PilotPrompt> asked_;
+    QLabel* block_;
+    ShareBars* blocks_;
+    QLabel* note_;
+    QLabel* title_;
+    QLabel* below_;
+    ParticipantField* field_;
+    ParticipantStop* stopTarget_;
+    QLabel* timeWord_;
+    ShareBars* time_;
+    AnswerTarget* hold_;
+    QLineEdit* line_;
+    QLabel* leastWord_;
+    QLabel* mostWord_;
+    QWidget* strip_ = nullptr;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,215 @@
+#include "app/gui/pilot/ParticipantField.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QScreen>
+#include <algorithm>
+#include <array>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kInch_mm = 25.4, kUsualDpi = 96;
+constexpr std::array kPlaces{"smooth-high", "rough-high", "smooth-low", "rough-low"};  // firm above light
+constexpr double kLowRow = 0.54;  // of the others: "nothing" and "not sure"
+constexpr int kTallestTarget_mm = 60;
+
+}  // namespace
+
+int pixelsOf(double mm, const QWidget& on) {
+    const auto* screen = on.screen();
+    const double said = screen == nullptr ? kUsualDpi : screen->physicalDotsPerInch();
+    const bool plausible = said >= 50 && said <= 400;
+    return int(std::ceil(mm / kInch_mm * (plausible ? said : kUsualDpi)));
+}
+
+QStringList iconsOf(const std::string& key) {
+    if (key == "none") return {"state-disarmed"};
+    if (key == "not-sure") return {"help"};
+    const auto has = [&](const char* word) { return key.find(word) != std::string::npos; };
+    QStringList icons;
+    if (has("smooth") || has("rough")) icons << (has("smooth") ? "smooth" : "rough");
+    if (has("low") || has("high")) icons << (has("high") ? "firm" : "light");
+    return icons.size() == 2 ? icons : QStringList();
+}
+
+PilotPrompt asItStands(PilotPrompt prompt) {
+    if (prompt.kind != PromptKind::Condition || prompt.targets.size() < kPlaces.size()) return prompt;
+    const auto placeOf = [](const PromptTarget& target) { return std::ranges::find(kPlaces, target.key); };
+    const auto end = prompt.targets.begin() + std::ptrdiff_t(kPlaces.size());
+    const bool known = std::all_of(prompt.targets.begin(), end,
+                                   [&](const PromptTarget& target) { return placeOf(target) != kPlaces.end(); });
+    if (known)
+        std::sort(prompt.targets.begin(), end, [&](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
+    return prompt;
+}
+
+QString conditionWords(const std::string& key) {
+    const auto icons = iconsOf(key);
+    if (icons.size() != 2) return qtext(key);
+    return QObject::tr("%1, %2").arg(icons[0] == "rough" ? QObject::tr("rough") : QObject::tr("smooth"),
+                                     icons[1] == "firm" ? QObject::tr("firm") : QObject::tr("light"));
+}
+
+int fieldColumns(int count) { return count <= 3 ? std::max(1, count) : count <= 8 ? 2 : count <= 12 ? 3 : 4; }
+
+ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}
+
+void ParticipantField::drop() {
+    for (auto* target : targets_) {
+        target->hide();
+        target->deleteLater();  // perhaps from its own press
+    }
+    targets_.clear();
+}
+
+void ParticipantField::clear() {
+    drop();
+    content_ = Content::Nothing;
+    update();
+}
+
+void ParticipantField::showDot() {
+    drop();
+    content_ = Content::Dot;
+    update();
+}
+
+void ParticipantField::showWord(const QString& word, const QStringList& icons) {
+    drop();
+    content_ = Content::Word;
+    word_ = word;
+    wordIcons_ = icons;
+    update();
+}
+
+void ParticipantField::showTargets(const PilotPrompt& prompt, const AnswerKeys& keys) {
+    drop();
+    content_ = Content::Targets;
+    kind_ = prompt.kind;
+    const bool condition = kind_ == PromptKind::Condition;
+    const int count = targetCount(prompt);
+    for (int i = 0; i < count; ++i) {
+        const bool scale = kind_ == PromptKind::Scale;
+        const auto* told = std::size_t(i) < prompt.targets.size() ? &prompt.targets[std::size_t(i)] : nullptr;
+        auto words = scale ? QString::number(prompt.least + i) : told != nullptr ? qtext(told->text) : QString();
+        if (condition && !words.isEmpty()) words[0] = words[0].toLower();
+        const auto icons = condition && told != nullptr ? iconsOf(told->key) : QStringList();
+        auto* target = new AnswerTarget(this);
+        target->setObjectName(told != nullptr ? qtext(told->key) : words);
+        const bool row = (condition && i >= 4) || count > 4;
+        target->setContent(words, icons, keys.text(i),
+                           scale || (row && !condition && icons.isEmpty() && count <= 6) ? AnswerTarget::Shape::Stacked
+                           : condition && i < 4                                          ? AnswerTarget::Shape::Stacked
+                           : row                                                         ? AnswerTarget::Shape::Row
+                                 : AnswerTarget::Shape::Stacked);
+        target->setType(words_px_, key_px_);
+        target->setCheckable(kind_ == PromptKind::Several);
+        connect(target, &AnswerTarget::wentDown, this, [this, i](SteadyTime at) { emit chosenAt(i, at); });
+        targets_.push_back(target);
+    }
+    arrange();
+    for (auto* target : targets_) target->show();
+    update();
+}
+
+void ParticipantField::setType(int words_px, int key_px, int gap_px) {
+    words_px_ = words_px;
+    key_px_ = key_px;
+    gap_px_ = gap_px;
+    for (auto* target : targets_) target->setType(words_px, key_px);
+    arrange();
+}
+
+void ParticipantField::setChosen(int target, bool chosen) { targets_.at(std::size_t(target))->setChecked(chosen); }
+
+bool ParticipantField::chosen(int target) const { return targets_.at(std::size_t(target))->isChecked(); }
+
+int ParticipantField::smallestSide() const {
+    int least = targets_.empty() ? 0 : std::min(width(), height());
+    for (const auto* target : targets_) least = std::min({least, target->width(), target->height()});
+    return least;
+}
+
+void ParticipantField::arrange() {
+    if (content_ != Content::Targets || targets_.empty()) return;
+    const int count = int(targets_.size());
+    const int columns = kind_ == PromptKind::Scale ? std::min(6, count) : fieldColumns(count);
+    std::vector<std::vector<int>> rows;
+    for (int i = 0; i < count; ++i) {
+        if (i % columns == 0) rows.emplace_back();
+        rows.back().push_back(i);
+    }
+    std::vector<double> weights(rows.size(), 1.0);
+    if (kind_ == PromptKind::Condition && rows.size() == 3) weights.back() = kLowRow;
+    arrangeRows(rows, weights);
+}
+
+void ParticipantField::arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights) {
+    const auto least = double(pixelsOf(kTarget_mm, *this));
+    const double tallest = std::max(least, double(pixelsOf(kTallestTarget_mm, *this)));
+    const double gaps = gap_px_ * double(rows.size() - 1);
+    const bool whole = kind_ == PromptKind::Condition;
+    double sum = 0;
+    for (const double weight : weights) sum += weight;
+    // The low row keeps its 20 mm where there is room for it: the others give way.
+    double unit = (height() - gaps) / sum;
+    double last = weights.back() * unit;
+    if (weights.back() < 1 && last < least) {
+        last = std::min(least, (height() - gaps) / double(rows.size()));
+        unit = (height() - gaps - last) / (sum - weights.back());
+    }
+    double y = 0;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        double high = r + 1 == rows.size() && weights[r] < 1 ? last : weights[r] * unit;
+        if (!whole) high = std::min(high, tallest);
+        const auto inRow = double(std::max(rows[r].size(), rows.front().size()));
+        const double wide = (width() - gap_px_ * (inRow - 1)) / inRow;
+        for (std::size_t i = 0; i < rows[r].size(); ++i)
+            targets_[std::size_t(rows[r][i])]->setGeometry(int(double(i) * (wide + gap_px_)), int(y), int(wide),
+                                                           int(high));
+        y += high + gap_px_;
+    }
+}
+
+void ParticipantField::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    arrange();
+}
+
+void ParticipantField::mousePressEvent(QMouseEvent* /*event*/) { emit missed(); }
+
+void ParticipantField::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto& c = colours();
+    const QPointF middle(width() / 2.0, height() / 2.0);
+    if (content_ == Content::Dot) {
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(c.text);
+        painter.drawEllipse(middle, gap_px_ / 1.5, gap_px_ / 1.5);
+    }
+    if (content_ != Content::Word) return;
+    auto font = textFont(TextSize::Display, QFont::Bold);
+    font.setPixelSize(int(words_px_ * 1.5));
+    const QFontMetrics metrics(font);
+    const int icon = words_px_ * 3, gap = words_px_;
+    const int high = metrics.height() + (wordIcons_.isEmpty() ? 0 : icon + gap);
+    int y = (height() - high) / 2;
+    int x = (width() - int(wordIcons_.size()) * (icon + gap) + gap) / 2;
+    for (const auto& name : wordIcons_) {
+        painter.drawPixmap(x, y, iconPixmap(name, c.text, icon, devicePixelRatioF()));
+        x += icon + gap;
+    }
+    if (!wordIcons_.isEmpty()) y += icon + gap;
+    painter.setFont(font);
+    painter.setPen(c.text);
+    painter.drawText(QRect(0, y, width(), metrics.height()), Qt::AlignCenter, word_);
+}
+
+}  // namespace tacto::gui

@@ -1,0 +1,74 @@
+// ParticipantField.h - the middle of the participant's screen: a dot, a name, or the targets of a question, always at
+// the same place.
+//
+// Targets of a question are at least kTarget_mm wide and high, unless the screen has no room for them.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/pilot/AnswerTarget.h"
+
+namespace tacto::gui {
+
+constexpr double kTarget_mm = 20;
+
+/// Logical pixels of a length on this screen; of 96 to an inch where the screen does not say its size.
+[[nodiscard]] int pixelsOf(double mm, const QWidget& on);
+
+/// What is drawn beside a condition's words; nothing for a condition of another name.
+[[nodiscard]] QStringList iconsOf(const std::string& key);
+/// The prompt with its targets in the order in which they stand: firm above light, smooth left of rough; as it is where
+/// its conditions have other names.
+[[nodiscard]] PilotPrompt asItStands(PilotPrompt prompt);
+/// "rough, firm" of "rough-high"; another name as it is.
+[[nodiscard]] QString conditionWords(const std::string& key);
+
+/// In how many columns so many targets stand, unless they are a scale.
+[[nodiscard]] int fieldColumns(int count);
+
+class ParticipantField final : public QWidget {
+    Q_OBJECT
+public:
+    explicit ParticipantField(QWidget* parent);
+    void clear();
+    void showDot();
+    void showWord(const QString& word, const QStringList& icons);
+    void showTargets(const PilotPrompt& prompt, const AnswerKeys& keys);
+    /// Pixels of words, keys, and between targets.
+    void setType(int words_px, int key_px, int gap_px);
+    /// Chosen of Several.
+    void setChosen(int target, bool chosen);
+    [[nodiscard]] bool chosen(int target) const;
+    /// Of the prompt shown; the one with that index, which may be the last of Several: done.
+    [[nodiscard]] const std::vector<AnswerTarget*>& targets() const { return targets_; }
+    /// The smallest side of the targets shown; 0 for none.
+    [[nodiscard]] int smallestSide() const;
+
+signals:
+    void chosenAt(int target, tacto::gui::SteadyTime at);
+    void missed();  ///< a press beside every target
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    enum class Content { Nothing, Dot, Word, Targets };
+    void arrange();
+    void arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights);
+    void drop();
+
+    Content content_ = Content::Nothing;
+    PromptKind kind_ = PromptKind::GoOn;
+    std::vector<AnswerTarget*> targets_;
+    QString word_;
+    QStringList wordIcons_;
+    int words_px_ = 28, key_px_ = 20, gap_px_ = 24;
+};
+
+}  // namespace tacto::gui

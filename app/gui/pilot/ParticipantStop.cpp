@@ -1,0 +1,87 @@
+#include "app/gui/pilot/ParticipantStop.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QTouchEvent>
+
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr double kStopRadius = 8;
+
+/// The largest size, up to `px`, at which `words` are no wider than `room`.
+QFont fitted(const QString& words, QFont font, int px, int room) {
+    font.setPixelSize(std::max(1, px));
+    while (font.pixelSize() > 8 && QFontMetrics(font).horizontalAdvance(words) > room)
+        font.setPixelSize(font.pixelSize() - 1);
+    return font;
+}
+
+}  // namespace
+
+ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
+    : QAbstractButton(parent), stop_(std::move(stop)) {
+    setObjectName("participantStop");
+    setText(tr("STOP"));
+    setAccessibleName(tr("STOP"));
+    setFocusPolicy(Qt::NoFocus);
+    setAttribute(Qt::WA_AcceptTouchEvents);
+}
+
+void ParticipantStop::setType(int word_px, int lines_px) {
+    word_px_ = word_px;
+    lines_px_ = lines_px;
+    update();
+}
+
+void ParticipantStop::press() {
+    stop_();
+    setDown(true);
+    update();
+}
+
+bool ParticipantStop::event(QEvent* event) {
+    if (event->type() == QEvent::TouchBegin) {
+        press();
+        event->accept();
+        return true;
+    }
+    if (event->type() == QEvent::TouchEnd || event->type() == QEvent::TouchCancel ||
+        event->type() == QEvent::MouseButtonRelease)
+        setDown(false);
+    return QAbstractButton::event(event);
+}
+
+void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // whichever button
+
+void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto style = stateStyle(InterlockState::Faulted);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(isDown() ? style.ground.darker(130) : style.ground);
+    painter.drawRoundedRect(rect(), kStopRadius, kStopRadius);
+    painter.setPen(style.ink);
+    const int room = width() * 9 / 10;
+    const auto keys = tr("Space · Esc · Pause");
+    const auto foot = tr("It stops at once. No one asks why.\nIt goes on only when you say so.");
+    const auto longest = tr("It stops at once. No one asks why.");
+    const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
+    const auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
+    const QFontMetrics above(word), below(lines);
+    const int footHigh = below.lineSpacing() * 2 + below.descent();
+    const bool hasFoot = height() > above.height() + below.height() + 2 * footHigh + lines.pixelSize() * 2;
+    const int top = int((height() - above.height() - below.height()) * 0.43);
+    painter.setFont(word);
+    painter.drawText(QRect(0, top, width(), above.height()), Qt::AlignCenter, text());
+    painter.setFont(lines);
+    painter.drawText(QRect(0, top + above.height(), width(), below.height()), Qt::AlignCenter, keys);
+    if (hasFoot)
+        painter.drawText(QRect(0, height() - footHigh - lines.pixelSize() * 3 / 2, width(), footHigh),
+                         Qt::AlignHCenter | Qt::AlignTop, foot);
+}
+
+}  // namespace tacto::gui

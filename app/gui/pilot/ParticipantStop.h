@@ -1,0 +1,30 @@
+// ParticipantStop.h - the participant's own STOP: calls `stop` the moment a press goes down on it, by mouse or finger.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QAbstractButton>
+#include <functional>
+
+namespace tacto::gui {
+
+class ParticipantStop final : public QAbstractButton {
+    Q_OBJECT
+public:
+    ParticipantStop(std::function<void()> stop, QWidget* parent);
+    /// Pixels of the word, which shrinks where there is no room, of the lines below it, and of those at the foot.
+    void setType(int word_px, int lines_px);
+
+protected:
+    bool event(QEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void press();
+    const std::function<void()> stop_;
+    int word_px_ = 92;
+    int lines_px_ = 20;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,344 @@
+#include "app/gui/pilot/ParticipantWindow.h"
+
+#include <QCloseEvent>
+#include <QScreen>
+#include <QWindow>
+#include <algorithm>
+
+#include "app/gui/pilot/ParticipantFace.h"
+#include "app/gui/pilot/ParticipantField.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kTick_ms = 100;
+constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
+constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
+constexpr const char* kDone = "done";               // the target that ends Several
+constexpr const char* kStopsAs = "stopsAs";         // StopKeys looks for it
+
+}  // namespace
+
+ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(const char*)> stop, QWidget* parent)
+    : QWidget(parent, Qt::Window),
+      desk_(desk),
+      stop_(std::move(stop)),
+      face_(new ParticipantFace(
+          [this] {
+              stop_("participant");
+              noteStop();
+          },
+          this)) {
+    setObjectName("participantWindow");
+    setWindowTitle(tr("Participant"));
+    setAccessibleName(tr("Participant’s screen"));
+    setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Window);
+    setFocusPolicy(Qt::StrongFocus);
+    setProperty(kStopsAs, "participant");
+    connect(&face_->field(), &ParticipantField::chosenAt, this, &ParticipantWindow::choose);
+    connect(&face_->field(), &ParticipantField::missed, this, [this] {
+        if (feels()) noteEarly({});
+    });
+    connect(&face_->hold(), &AnswerTarget::wentDown, this, &ParticipantWindow::pressHold);
+    connect(&face_->hold(), &AnswerTarget::cameUp, this, &ParticipantWindow::letGo);
+    connect(&face_->line(), &QLineEdit::returnPressed, this, [this] {
+        PilotAnswer answer;
+        answer.keys.push_back(face_->line().text().trimmed().toStdString());
+        give(std::move(answer), std::chrono::steady_clock::now());
+    });
+    connect(&desk_, &ParticipantDesk::screenChanged, this, &ParticipantWindow::showScreen);
+    connect(&desk_, &ParticipantDesk::asked, this, &ParticipantWindow::ask);
+    connect(&desk_, &ParticipantDesk::closed, this, &ParticipantWindow::closeQuestion);
+    ticking_.setInterval(kTick_ms);
+    connect(&ticking_, &QTimer::timeout, this, &ParticipantWindow::tick);
+    showState();
+    judge();
+}
+
+void ParticipantWindow::setNote(const QString& note) { face_->setNote(note); }
+
+const ParticipantField& ParticipantWindow::field() const { return face_->field(); }
+
+QString ParticipantWindow::title() const { return face_->title(); }
+
+void ParticipantWindow::showOn(QScreen& screen) {
+    setScreen(&screen);
+    setGeometry(screen.geometry());
+    showFullScreen();
+    takeKeys();
+}
+
+void ParticipantWindow::takeKeys() {
+    if (!isVisible()) return;
+    raise();
+    activateWindow();
+    if (!face_->line().isVisible()) setFocus(Qt::OtherFocusReason);
+}
+
+void ParticipantWindow::setStrip(QWidget* strip) { face_->setStrip(strip); }
+
+bool ParticipantWindow::stripOpen() const { return face_->stripOpen(); }
+
+void ParticipantWindow::openStrip(bool open) {
+    face_->openStrip(open);
+    if (!open) setFocus(Qt::OtherFocusReason);
+    judge();
+}
+
+void ParticipantWindow::noteStop() {
+    stopped_ = true;
+    asking_ = false;
+    heldKey_ = 0;
+    ticking_.stop();
+    showState();
+    repaint();
+}
+
+void ParticipantWindow::showBreak(bool on) {
+    break_ = on;
+    if (!asking_ && !stopped_) showState();
+}
+
+QString ParticipantWindow::says() const {
+    if (stopped_) return tr("Stopped");
+    if (asking_) return tr("Answer phase");
+    switch (screen_.state) {
+        case ScreenState::Rest:
+            return tr("Rest");
+        case ScreenState::Dot:
+        case ScreenState::Feel:
+        case ScreenState::Interval:
+            return tr("Presentation");
+        case ScreenState::Named:
+            return tr("A name");
+        case ScreenState::Break:
+            return tr("Break");
+        case ScreenState::Ended:
+            break;
+    }
+    return tr("Ended");
+}
+
+bool ParticipantWindow::feels() const {
+    return !asking_ && !stopped_ &&
+           (screen_.state == ScreenState::Dot || screen_.state == ScreenState::Feel ||
+            screen_.state == ScreenState::Interval);
+}
+
+void ParticipantWindow::showScreen(const PilotScreen& screen) {
+    screen_ = screen;
+    stopped_ = false;
+    asking_ = false;
+    if (screen.state == ScreenState::Rest) face_->hold().hide();
+    showState();
+    repaint();  // when it changes is the session's: not with the next frame
+    emit changed();
+}
+
+void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
+    if (prompt.to == PromptTo::Operator) {
+        asking_ = false;
+        face_->say(tr("One moment, please."), tr("The operator has something to do."));
+        emit changed();
+        return;
+    }
+    prompt_ = asItStands(prompt);
+    if (prompt.kind == PromptKind::Several) prompt_.targets.push_back({kDone, tr("Done").toStdString()});
+    keys_ = AnswerKeys(set_, prompt_);
+    id_ = id;
+    asking_ = true;
+    stopped_ = false;
+    showState();
+    painted_ = false;
+    repaint();
+    since_.start();
+    if (painted_) desk_.targetsShown(id_, std::chrono::steady_clock::now());
+    if (prompt.within) ticking_.start();
+    if (prompt.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // from the series before
+    emit changed();
+}
+
+void ParticipantWindow::closeQuestion(quint64 id) {
+    if (!asking_ || id != id_) return;
+    asking_ = false;
+    ticking_.stop();
+    showState();
+    emit changed();
+}
+
+void ParticipantWindow::showState() {
+    face_->show({.screen = screen_,
+                 .asked = asking_ ? std::optional(prompt_) : std::nullopt,
+                 .keys = keys_,
+                 .holdKey = QKeySequence(holdKey()).toString(),
+                 .stopped = stopped_,
+                 .pause = break_ && !feels()});
+}
+
+int ParticipantWindow::holdKey() const { return set_ == KeySet::LeftHand ? kHoldKeyLeft : kHoldKey; }
+
+/// Answered by STOP, and by nothing else.
+bool ParticipantWindow::isStopTest() const { return isStopTestPrompt(prompt_); }
+
+void ParticipantWindow::choose(int target, SteadyTime at) {
+    if (!asking_ || isStopTest()) return;
+    const auto index = std::size_t(target);
+    PilotAnswer answer;
+    if (prompt_.kind == PromptKind::Several && prompt_.targets.at(index).key != kDone) {
+        face_->field().setChosen(target, !face_->field().chosen(target));
+        return;
+    }
+    if (prompt_.kind == PromptKind::Scale) {
+        answer.value = prompt_.least + target;
+    } else if (prompt_.kind == PromptKind::Several) {
+        for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
+            if (i != index && face_->field().chosen(int(i))) answer.keys.push_back(prompt_.targets[i].key);
+        }
+    } else {
+        answer.keys.push_back(prompt_.targets.at(index).key);
+    }
+    give(std::move(answer), at);
+}
+
+void ParticipantWindow::give(PilotAnswer answer, SteadyTime at) {
+    if (!asking_) return;
+    asking_ = false;
+    ticking_.stop();
+    desk_.answerAsParticipant(id_, std::move(answer), at);
+    face_->say({}, {});
+    setFocus(Qt::OtherFocusReason);
+    emit changed();
+}
+
+void ParticipantWindow::pressHold() {
+    if (!asking_ || prompt_.kind != PromptKind::Hold) return;
+    desk_.setHolding(true);
+    PilotAnswer answer;
+    answer.keys.emplace_back("held");
+    give(std::move(answer), std::chrono::steady_clock::now());
+}
+
+void ParticipantWindow::letGo() {
+    heldKey_ = 0;
+    if (!desk_.holding()) return;
+    desk_.setHolding(false);
+    stop_("participant let go");
+    face_->hold().hide();
+    noteStop();
+}
+
+void ParticipantWindow::noteEarly(std::optional<int> target) {
+    const bool known = target && std::size_t(*target) < prompt_.targets.size();
+    desk_.noteEarly(known ? prompt_.targets[std::size_t(*target)].key : std::string());
+}
+
+void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
+    const int key = event->key();
+    const auto at = timeOf(*event);
+    if (key == holdKey() && !face_->hold().isHidden()) {
+        if (event->isAutoRepeat()) return;
+        heldKey_ = key;
+        return pressHold();
+    }
+    if (key == Qt::Key_F2 && face_->hasStrip() && !event->isAutoRepeat()) return openStrip(!stripOpen());
+    const auto before = pressed_.find(key);
+    const bool held = event->isAutoRepeat() || (before != pressed_.end() && at - before->second < kRepeats);
+    if (before != pressed_.end() && held) before->second = at;
+    if (!asking_) {
+        const auto would = AnswerKeys(set_, prompt_).targetOf(key);
+        if (!held && feels()) noteEarly(would);
+        pressed_[key] = at;
+        return;
+    }
+    if (held) return;
+    pressed_.erase(key);
+    if (prompt_.kind == PromptKind::Several && (key == Qt::Key_Return || key == Qt::Key_Enter)) {
+        PilotAnswer answer;
+        for (std::size_t i = 0; i < prompt_.targets.size(); ++i) {
+            if (face_->field().chosen(int(i)) && prompt_.targets[i].key != kDone)
+                answer.keys.push_back(prompt_.targets[i].key);
+        }
+        return give(std::move(answer), at);
+    }
+    if (const auto target = keys_.targetOf(key)) choose(*target, at);
+}
+
+void ParticipantWindow::keyReleaseEvent(QKeyEvent* event) {
+    if (event->isAutoRepeat()) return;
+    if (heldKey_ != 0 && event->key() == heldKey_) letGo();
+}
+
+void ParticipantWindow::mousePressEvent(QMouseEvent* /*event*/) {
+    if (feels()) noteEarly({});
+}
+
+void ParticipantWindow::paintEvent(QPaintEvent* event) {
+    QWidget::paintEvent(event);
+    painted_ = true;
+    if (!asking_) return;
+    // The first time that the window system lets this window be seen: the targets are on the screen once it returns.
+    QMetaObject::invokeMethod(
+        this,
+        [this, id = id_] {
+            if (asking_ && id == id_) desk_.targetsShown(id, std::chrono::steady_clock::now());
+        },
+        Qt::QueuedConnection);
+}
+
+/// What is in the way of a presentation.
+void ParticipantWindow::judge() {
+    QString why;
+    const int least = pixelsOf(kTarget_mm, *this);
+    if (!isVisible())
+        why = tr("the participant's window is not shown");
+    else if (stripOpen())
+        why = tr("the operator's strip is open on the participant's screen: F2 closes it");
+    else if (!isActiveWindow())
+        why = tr("the participant's window does not have the keys");
+    else if (const int need = 6 * least; height() < need || width() < 5 * least)
+        why = tr("the participant's screen has no room for targets of 20 mm");
+    desk_.setObstacle(why);
+    emit changed();
+}
+
+void ParticipantWindow::tick() {
+    if (!asking_ || !prompt_.within) return;
+    const double gone = double(since_.nsecsElapsed()) * 1e-9 / prompt_.within->count();
+    face_->setTimeLeft(std::clamp(1 - gone, 0.0, 1.0));
+}
+
+void ParticipantWindow::closeEvent(QCloseEvent* event) {
+    event->ignore();  // it closes with the session
+    stop_("participant");
+    noteStop();
+    emit closeWanted();
+}
+
+void ParticipantWindow::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() != QEvent::ActivationChange) return;
+    if (!isActiveWindow() && heldKey_ != 0) letGo();  // its release would go to another window
+    if (!isActiveWindow()) pressed_.clear();
+    judge();
+}
+
+void ParticipantWindow::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    if (windowHandle() != nullptr) windowHandle()->setProperty(kStopsAs, "participant");
+    judge();
+}
+
+void ParticipantWindow::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    judge();
+}
+
+void ParticipantWindow::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    face_->setGeometry(rect());
+    judge();
+}
+
+}  // namespace tacto::gui

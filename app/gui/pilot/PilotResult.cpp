@@ -1,0 +1,204 @@
+#include "app/gui/pilot/PilotResult.h"
+
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <cmath>
+
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/RecordTable.h"
+#include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kResultPad = 16, kMatrixWide = 760;
+
+double numberIn(const nlohmann::json& record, const std::string& path) {
+    const auto& at = memberAt(record, path);
+    return at.is_number() ? at.get<double>() : std::nan("");
+}
+
+QString textIn(const nlohmann::json& record, const std::string& path) {
+    const auto& at = memberAt(record, path);
+    return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
+}
+
+QString percent(double share) { return QString::number(std::lround(share * 100)); }
+
+QString decimals(double value, int digits) { return QString::number(value, 'f', digits); }
+
+QString rangeWords(const nlohmann::json& range) {
+    const double low_ma = numberIn(range, "min_ma"), high_ma = numberIn(range, "max_ma");
+    if (!std::isfinite(low_ma) || !std::isfinite(high_ma)) return {};
+    auto words = QObject::tr(" between %1 and %2 mA").arg(decimals(low_ma, 1), decimals(high_ma, 1));
+    const double low_v = numberIn(range, "min_v"), high_v = numberIn(range, "max_v");
+    const double ohm = numberIn(range, "impedance_ohm");
+    if (std::isfinite(low_v) && std::isfinite(high_v) && std::isfinite(ohm))
+        words +=
+            QObject::tr(", %1 to %2 V at %3").arg(decimals(low_v, 0), decimals(high_v, 0), quantityText(ohm, "ohm", 3));
+    return words;
+}
+
+}  // namespace
+
+QString resultSentence(const nlohmann::json& results) {
+    const double n = numberIn(results, "n"), hits = numberIn(results, "hits");
+    if (!std::isfinite(n) || !std::isfinite(hits)) return {};
+    auto who = textIn(results, "participant.code");
+    if (who.isEmpty()) who = QObject::tr("The participant");
+    if (n < 1) return QObject::tr("%1 answered no test trial.").arg(who);
+    const auto& accuracy = memberAt(results, "accuracy");
+    auto said = QObject::tr("%1 told the four apart in %2 of %3 trials").arg(who).arg(hits).arg(n);
+    if (accuracy.is_object())
+        said += QObject::tr(" (%1 %, 95 % interval %2 to %3 %, chance 25 %)")
+                    .arg(percent(numberIn(accuracy, "value")), percent(numberIn(accuracy, "low")),
+                         percent(numberIn(accuracy, "high")));
+    return said + rangeWords(memberAt(results, "range")) + '.';
+}
+
+PilotResult::PilotResult(QWidget* parent)
+    : QWidget(parent),
+      head_(new QLabel(this)),
+      why_(new QLabel(this)),
+      more_(new QLabel(this)),
+      matrixTitle_(new QLabel(tr("What was felt, in rows; what was answered, in columns"), this)),
+      matrix_(new QTableWidget(this)),
+      blocks_(new QLabel(this)),
+      note_(new QLabel(this)),
+      goOn_(new QPushButton(tr("Go on with the session"), this)),
+      another_(new QPushButton(tr("Another rehearsal"), this)),
+      place_(new QPushButton(tr("Open the study’s folder"), this)) {
+    setObjectName("pilotResult");
+    auto* all = new QVBoxLayout(this);
+    all->setContentsMargins(0, 0, 0, 0);
+    all->setSpacing(0);
+    auto* column = new QVBoxLayout;
+    column->setContentsMargins(kResultPad, kResultPad, kResultPad, kResultPad / 2);
+    column->setSpacing(8);
+    head_->setObjectName("pilotHeadline");
+    for (auto* label : {head_, why_, more_, blocks_, note_}) {
+        label->setWordWrap(true);
+        label->setTextFormat(Qt::PlainText);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    }
+    setTextSize(*head_, TextSize::Large);
+    setTone(*more_, Tone::Quiet);
+    setTone(*note_, Tone::Quiet);
+    setTextSize(*matrixTitle_, TextSize::Body, true);
+    column->addWidget(head_);
+    column->addWidget(why_);
+    column->addWidget(more_);
+    column->addSpacing(8);
+    column->addWidget(matrixTitle_);
+    matrix_->setObjectName("confusion");
+    matrix_->setAccessibleName(tr("Confusion matrix"));
+    matrix_->setMaximumWidth(scaledPx(kMatrixWide));
+    column->addWidget(matrix_);
+    column->addWidget(blocks_);
+    column->addWidget(note_);
+    column->addStretch();
+    all->addLayout(column, 1);
+    auto* edge = new QFrame(this);
+    edge->setFrameShape(QFrame::HLine);
+    edge->setForegroundRole(QPalette::Mid);
+    all->addWidget(edge);
+    auto* row = new QHBoxLayout;
+    row->setContentsMargins(kResultPad, 12, kResultPad, 12);
+    row->setSpacing(8);
+    goOn_->setIcon(icon("run", Ink::Primary));
+    makePrimary(*goOn_);
+    goOn_->setToolTip(tr("What was answered is not asked again; the order stays."));
+    another_->setObjectName("anotherRehearsal");
+    for (auto* button : {goOn_, another_, place_}) {
+        button->setAutoDefault(false);
+        row->addWidget(button);
+    }
+    row->addStretch();
+    all->addLayout(row);
+    connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
+    connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
+    connect(place_, &QPushButton::clicked, this, &PilotResult::folderWanted);
+}
+
+void PilotResult::show(const FinishedRun& run, const QString& folder) {
+    const auto& outcome = run.result.outcome;
+    const auto& results = outcome.results;
+    const auto said = resultSentence(results);
+    head_->setText(!said.isEmpty() ? said
+                   : outcome.error ? tr("The session ended before there was a result.")
+                                   : tr("The session has ended."));
+    QStringList why;
+    if (outcome.error) why << sentence(*outcome.error) + tr(" Output is off. What was answered is on disk.");
+    for (const auto& reason : outcome.reasons) why << sentence(qtext(reason));
+    for (const auto& trouble : run.result.troubles) why << sentence(trouble);
+    why_->setText(why.join('\n'));
+    why_->setVisible(!why.isEmpty());
+
+    QStringList more;
+    if (const double p = numberIn(results, "p_chance"); std::isfinite(p))
+        more << (p < 0.001 ? tr("Guessing would reach that in fewer than 1 of 1000 sessions (p < 0.001).")
+                           : tr("Guessing would reach that with p = %1.").arg(decimals(p, 3)));
+    if (const double bits = numberIn(results, "it_corrected_bits"); std::isfinite(bits))
+        more << tr("Information: %1 bit of 2, corrected by %2.")
+                    .arg(decimals(bits, 2), decimals(numberIn(results, "it_bias_bits"), 2));
+    if (const double empty = numberIn(results, "catch.n"); std::isfinite(empty) && empty > 0)
+        more << tr("Empty trials with a name for an answer: %1 of %2.")
+                    .arg(numberIn(results, "catch.false_alarms"))
+                    .arg(empty);
+    if (const double p = numberIn(results, "fit.p"); std::isfinite(p))
+        more << tr("Predicted against answered: G = %1, p = %2.")
+                    .arg(decimals(numberIn(results, "fit.g"), 1), decimals(p, 2));
+    more_->setText(more.join(' '));
+    more_->setVisible(!more.isEmpty());
+    showMatrix(results);
+
+    QStringList blocks;
+    const auto& each = memberAt(results, "blocks");
+    if (each.is_array()) {
+        for (const auto& block : each)
+            blocks << tr("block %1: %2 of %3")
+                          .arg(numberIn(block, "block"))
+                          .arg(numberIn(block, "hits"))
+                          .arg(numberIn(block, "n"));
+    }
+    blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
+    blocks_->setVisible(!blocks.isEmpty());
+    note_->setText((run.result.simulated ? tr("Simulated. ") : QString()) + tr("In the study at %1.").arg(folder));
+    goOn_->setVisible(outcome.error.has_value());
+    makePrimary(*another_, !outcome.error);
+}
+
+void PilotResult::showMatrix(const nlohmann::json& results) {
+    const auto& labels = memberAt(results, "labels");
+    const auto& columns = memberAt(results, "columns");
+    const auto& counts = memberAt(results, "confusion");
+    const bool there = labels.is_array() && columns.is_array() && counts.is_array() && counts.size() == labels.size();
+    matrix_->setVisible(there);
+    matrixTitle_->setVisible(there);
+    matrix_->clear();
+    if (!there) return;
+    matrix_->setRowCount(int(labels.size()));
+    matrix_->setColumnCount(int(columns.size()) + 1);
+    QStringList heads{tr("felt")};
+    for (const auto& column : columns) heads << (column.is_string() ? qtext(column.get<std::string>()) : QString());
+    matrix_->setHorizontalHeaderLabels(heads);
+    for (int r = 0; r < int(labels.size()); ++r) {
+        const auto& label = labels[std::size_t(r)];
+        putText(*matrix_, r, 0, label.is_string() ? qtext(label.get<std::string>()) : QString(), false);
+        const auto& row = counts[std::size_t(r)];
+        for (int i = 0; row.is_array() && i < int(columns.size()) && std::size_t(i) < row.size(); ++i) {
+            putText(*matrix_, r, i + 1,
+                    row[std::size_t(i)].is_number() ? QString::number(row[std::size_t(i)].get<int>()) : "–", true);
+            if (label != columns[std::size_t(i)]) continue;
+            auto font = matrix_->font();
+            font.setBold(true);
+            matrix_->item(r, i + 1)->setFont(font);
+        }
+    }
+    layOutRecordTable(*matrix_);
+}
+
+}  // namespace tacto::gui

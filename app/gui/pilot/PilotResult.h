@@ -1,0 +1,48 @@
+// PilotResult.h - what a pilot session came to: the sentence every result begins with, the confusion matrix, blocks,
+// what was predicted, and what comes next.
+//
+// Thread-safety: the GUI thread; resultSentence() is a pure function.
+#pragma once
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <QWidget>
+#include <nlohmann/json.hpp>
+
+#include "app/gui/controller/BenchController.h"
+
+namespace tacto::gui {
+
+/// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
+/// 14 to 22 V at 3.40 kΩ." of the results of pilot-identification; empty where they are of another kind.
+[[nodiscard]] QString resultSentence(const nlohmann::json& results);
+
+class PilotResult final : public QWidget {
+    Q_OBJECT
+public:
+    explicit PilotResult(QWidget* parent = nullptr);
+    /// `folder`: of the study.
+    void show(const FinishedRun& run, const QString& folder);
+
+signals:
+    void anotherWanted();
+    void goOnWanted();  ///< the unfinished session
+    void folderWanted();
+
+private:
+    void showMatrix(const nlohmann::json& results);
+    QLabel* head_;
+    QLabel* why_;
+    QLabel* more_;
+    QLabel* matrixTitle_;
+    QTableWidget* matrix_;
+    QLabel* blocks_;
+    QLabel* note_;
+    QPushButton* goOn_;
+    QPushButton* another_;
+    QPushButton* place_;
+};
+
+}  // namespace tacto::gui

@@ -1,0 +1,86 @@
+#include "app/gui/pilot/SessionNotes.h"
+
+#include <QHBoxLayout>
+#include <QTime>
+
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Theme.h"
+
+namespace tacto::gui {
+
+namespace {
+
+constexpr int kMostShown = 20;
+constexpr int kLongestNote = 500;  // characters
+
+}  // namespace
+
+SessionNotes::SessionNotes(QWidget* parent)
+    : QWidget(parent), line_(new QLineEdit(this)), mark_(new QPushButton(tr("Mar&k"), this)), list_(new QVBoxLayout) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(4);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(8);
+    auto* title = new QLabel(tr("Notes"), this);
+    setTextSize(*title, TextSize::Body, true);
+    row->addWidget(title);
+    line_->setObjectName("noteLine");
+    line_->setAccessibleName(tr("Note"));
+    line_->setMaxLength(kLongestNote);
+    line_->setPlaceholderText(tr("Write a note; Enter keeps it with its time. Never a name."));
+    connect(line_, &QLineEdit::returnPressed, this, &SessionNotes::enter);
+    row->addWidget(line_, 1);
+    mark_->setIcon(icon("mark"));
+    mark_->setAutoDefault(false);
+    mark_->setToolTip(tr("Marks this moment, with the words of the line if there are any."));
+    connect(mark_, &QPushButton::clicked, this, [this] {
+        emit noted(line_->text().trimmed());
+        line_->clear();
+        emit typingEnded();
+    });
+    row->addWidget(mark_);
+    column->addLayout(row);
+    list_->setSpacing(0);
+    column->addLayout(list_);
+}
+
+void SessionNotes::enter() {
+    const auto note = line_->text().trimmed();
+    if (note.isEmpty()) return;
+    emit noted(note);
+    line_->clear();
+    emit typingEnded();
+}
+
+void SessionNotes::clear() {
+    while (auto* item = list_->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    count_ = 0;
+}
+
+void SessionNotes::add(const QString& note) {
+    auto* row = new QWidget(this);
+    auto* line = new QHBoxLayout(row);
+    line->setContentsMargins(0, 4, 0, 4);
+    line->setSpacing(16);
+    auto* at = new QLabel(QTime::currentTime().toString("HH:mm:ss"), row);
+    setTextSize(*at, TextSize::Small);
+    setTone(*at, Tone::Quiet);
+    auto* words = new ElidedLabel(note.isEmpty() ? tr("mark") : note, row);
+    words->setTextFormat(Qt::PlainText);
+    words->setToolTip(note);
+    line->addWidget(at);
+    line->addWidget(words, 1);
+    list_->insertWidget(0, row);
+    ++count_;
+    if (list_->count() <= kMostShown) return;
+    auto* oldest = list_->takeAt(list_->count() - 1);
+    delete oldest->widget();
+    delete oldest;
+}
+
+}  // namespace tacto::gui

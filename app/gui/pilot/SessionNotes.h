@@ -1,0 +1,35 @@
+// SessionNotes.h - the operator's notes during a pilot session, each with its time; Enter keeps one. Newest first.
+//
+// Thread-safety: the GUI thread.
+#pragma once
+
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <QWidget>
+
+namespace tacto::gui {
+
+class SessionNotes final : public QWidget {
+    Q_OBJECT
+public:
+    explicit SessionNotes(QWidget* parent = nullptr);
+    void clear();
+    /// Shows a note that was kept.
+    void add(const QString& note);
+    [[nodiscard]] int count() const { return count_; }
+
+signals:
+    /// Keep it; empty for a mark without a word.
+    void noted(const QString& note);
+    void typingEnded();  ///< the keys may go back to the participant
+
+private:
+    void enter();
+    QLineEdit* line_;
+    QPushButton* mark_;
+    QVBoxLayout* list_;
+    int count_ = 0;
+};
+
+}  // namespace tacto::gui

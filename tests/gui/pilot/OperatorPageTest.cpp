@@ -1,0 +1,174 @@
+// The operator's page: what it says, what it hides while blind, and that nothing of it is cut.
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <gmock/gmock.h>
+
+#include "app/gui/pilot/OperatorPage.h"
+#include "app/gui/pilot/RehearsalPage.h"
+#include "app/gui/pilot/ShareBars.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
+#include "tests/gui/pilot/SeatedPeople.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class Operator8b : public testing::Test {
+protected:
+    Operator8b() {
+        page.resize(880, 720);
+        page.begin(true, true);
+        page.setVisible(true);
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&page));
+    }
+    ~Operator8b() override {
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    [[nodiscard]] std::string allText() {
+        QStringList all;
+        for (const auto* label : page.findChildren<QLabel*>()) {
+            if (label->isVisible()) all << label->text();
+        }
+        return all.join('\n').toStdString();
+    }
+    void runTo(int trial) {
+        Telemetry telemetry;
+        for (int i = 1; i <= trial; ++i) {
+            telemetry.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
+            page.show(testScreen(ScreenState::Feel, i));
+            page.refresh(telemetry);
+            auto prompt = conditionPrompt(kFour);
+            prompt.within = Seconds(10);
+            page.ask(prompt, quint64(i));
+            if (i < trial) page.closeQuestion(quint64(i));
+        }
+    }
+    gui::OperatorPage page;
+};
+
+TEST_F(Operator8b, SaysWhereTheSessionIs) {
+    runTo(27);
+    const auto says = allText();
+    EXPECT_THAT(says, HasSubstr("Test, block 2 of 5, trial 27 of 90"));
+    EXPECT_THAT(says, HasSubstr("26 answered · 0 repeated · next break after trial 36, in about 2 min"));
+    EXPECT_THAT(says, HasSubstr("26 answers are on disk and stay."));
+}
+
+TEST_F(Operator8b, WhileBlindNothingOfAConditionIsShown) {
+    RecordProperty("hazard", "H8");
+    auto screen = testScreen(ScreenState::Feel);
+    screen.operatorText = "rough-high, 6.5 mA, 0.5 s";
+    page.show(screen);
+    EXPECT_THAT(allText(), Not(HasSubstr("6.5 mA")));
+    EXPECT_THAT(allText(), HasSubstr("Hidden until the session ends"));
+    screen.operatorText = "electrodes: 3.4 kohm";
+    screen.operatorMayKnow = true;
+    page.show(screen);
+    EXPECT_THAT(allText(), HasSubstr("3.4 kohm"));
+    page.begin(false, true);
+    screen.operatorText = "rough-high, 6.5 mA, 0.5 s";
+    screen.operatorMayKnow = false;
+    page.show(screen);
+    EXPECT_THAT(allText(), HasSubstr("6.5 mA"));
+}
+
+TEST_F(Operator8b, ItsPixelsAreTheSameForEveryCondition) {
+    RecordProperty("hazard", "H8");
+    std::vector<QImage> seen;
+    for (const auto* condition : {"rough-high", "smooth-low"}) {
+        page.begin(true, true);
+        auto screen = testScreen(ScreenState::Feel, 1);
+        screen.operatorText = condition;
+        page.show(screen);
+        QTest::qWait(30);
+        seen.push_back(page.grab().toImage());
+    }
+    EXPECT_EQ(seen[0], seen[1]);
+}
+
+TEST_F(Operator8b, AQuestionOfTheOperatorsIsAnsweredThere) {
+    std::vector<std::string> given;
+    QObject::connect(&page.question(), &gui::OperatorAsk::answered, &page, [&](quint64 id, const PilotAnswer& answer) {
+        EXPECT_EQ(id, 7U);
+        given = answer.keys;
+    });
+    page.ask(yesNoPrompt("implant", "Does the participant have an active implant?", PromptTo::Operator), 7);
+    auto* no = find<QPushButton>(page, "No");
+    ASSERT_NE(no, nullptr);
+    click(*no);
+    EXPECT_THAT(given, ElementsAre("no"));
+    EXPECT_FALSE(page.question().open());
+    page.ask(yesNoPrompt("code", "Is this your code?"), 8);
+    EXPECT_FALSE(page.question().open()) << "the participant's";
+}
+
+TEST_F(Operator8b, EndingTheSessionTakesTwoSteps) {
+    int ended = 0;
+    QObject::connect(&page, &gui::OperatorPage::abortWanted, &page, [&] { ++ended; });
+    click(*page.findChild<QPushButton*>("abortSession"));
+    EXPECT_EQ(ended, 0);
+    click(*page.findChild<QPushButton*>("reallyAbort"));
+    EXPECT_EQ(ended, 1);
+}
+
+TEST_F(Operator8b, ANoteIsKeptByEnter) {
+    QStringList kept;
+    QObject::connect(&page.notes(), &gui::SessionNotes::noted, &page, [&](const QString& note) { kept << note; });
+    auto* line = page.findChild<QLineEdit*>("noteLine");
+    QTest::keyClicks(line, "Moved the elbow rest.");
+    QTest::keyClick(line, Qt::Key_Return);
+    EXPECT_EQ(kept, QStringList("Moved the elbow rest."));
+    EXPECT_TRUE(line->text().isEmpty());
+}
+
+TEST_F(Operator8b, LooksRightInBothThemesAndSizes) {
+    runTo(27);
+    page.notes().add("Comfortable, seat lowered.");
+    page.notes().add("Moved the elbow rest.");
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            page.resize(percent == 100 ? QSize(880, 720) : QSize(1200, 900));
+            QTest::qWait(60);
+            shot(page, QString("operator-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
+            EXPECT_EQ(faultsOf(page), "") << percent;
+        }
+    }
+}
+
+TEST(BlockShares, FillInOrder) {
+    EXPECT_THAT(gui::blockShares(2, 5, 27, 90), ElementsAre(1, testing::DoubleNear(8.0 / 18, 1e-9), 0, 0, 0));
+    EXPECT_THAT(gui::blockShares(1, 3, 1, 9), ElementsAre(0, 0, 0));
+    EXPECT_TRUE(gui::blockShares(0, 0, 0, 0).empty());
+}
+
+TEST(Rehearsal, PageSaysWhoAnswersAndBegins) {
+    gui::RehearsalPage page;
+    page.resize(900, 700);
+    page.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&page));
+    EXPECT_FALSE(page.rehearsal().person);
+    EXPECT_TRUE(page.rehearsal().blind);
+    auto* who = page.findChild<QComboBox*>("whoAnswers");
+    who->setCurrentIndex(1);
+    EXPECT_TRUE(page.rehearsal().person);
+    int begun = 0;
+    QObject::connect(&page, &gui::RehearsalPage::beginWanted, &page, [&] { ++begun; });
+    auto* button = page.findChild<QPushButton*>("beginRehearsal");
+    click(*button);
+    EXPECT_EQ(begun, 1);
+    page.findChild<QLineEdit*>("studyFolder")->clear();
+    EXPECT_FALSE(button->isEnabled());
+    EXPECT_EQ(faultsOf(page), "");
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,184 @@
+// Where the session's thread and the windows meet: it waits, they answer, a stop ends the wait.
+#include <future>
+#include <gtest/gtest.h>
+
+#include "app/gui/pilot/ParticipantDesk.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Desk : public testing::Test {
+protected:
+    Desk() {
+        desk.stop = [this](const char* by) { stops.emplace_back(by); };
+        desk.begin(nullptr);
+        desk.show({});
+        QObject::connect(&desk, &gui::ParticipantDesk::asked, &desk,
+                         [this](const PilotPrompt&, quint64 id) { asked = id; });
+    }
+    ~Desk() override {
+        desk.end();
+        if (answer.valid()) answer.wait();
+    }
+    void ask(const PilotPrompt& prompt) {
+        asked = 0;
+        answer = std::async(std::launch::async, [this, prompt] { return desk.ask(prompt); });
+        ASSERT_TRUE(comesTrue([this] { return asked != 0; }));
+    }
+    [[nodiscard]] bool waits() const { return answer.wait_for(30ms) != std::future_status::ready; }
+    static PilotAnswer with(const char* key) {
+        PilotAnswer made;
+        made.keys.emplace_back(key);
+        return made;
+    }
+    gui::ParticipantDesk desk;
+    std::vector<std::string> stops;
+    quint64 asked = 0;
+    std::future<Result<PilotAnswer>> answer;
+};
+
+TEST_F(Desk, TheTimeRunsFromTheTargetsToThePress) {
+    ask(yesNoPrompt("code", "Is this your code?"));
+    const auto shown = std::chrono::steady_clock::now();
+    desk.targetsShown(asked, shown);
+    desk.answerAsParticipant(asked, with("yes"), shown + 412ms);
+    const auto said = answer.get();
+    ASSERT_TRUE(said);
+    EXPECT_EQ(said->key(), "yes");
+    EXPECT_NEAR(said->after.count(), 0.412, 1e-9);
+}
+
+TEST_F(Desk, NoAnswerCountsBeforeTheTargetsAreShown) {
+    ask(yesNoPrompt("code", "Is this your code?"));
+    desk.answerAsParticipant(asked, with("yes"), std::chrono::steady_clock::now());
+    EXPECT_TRUE(waits());
+}
+
+TEST_F(Desk, AnAnswerToAnotherQuestionIsNone) {
+    ask(yesNoPrompt("code", "Is this your code?"));
+    desk.targetsShown(asked, std::chrono::steady_clock::now());
+    desk.answerAsParticipant(asked + 1, with("yes"), std::chrono::steady_clock::now());
+    EXPECT_TRUE(waits());
+}
+
+TEST_F(Desk, WhatBothAreAskedBothHaveToAnswer) {
+    ask(goOnPrompt("Go on?"));
+    desk.targetsShown(asked, std::chrono::steady_clock::now());
+    desk.answerAsOperator(asked, with("go-on"));
+    EXPECT_TRUE(waits()) << "the operator alone";
+    desk.answerAsParticipant(asked, with("go-on"), std::chrono::steady_clock::now());
+    EXPECT_TRUE(answer.get());
+}
+
+TEST_F(Desk, TheParticipantCannotAnswerForTheOperator) {
+    RecordProperty("hazard", "H6");
+    ask(goOnPrompt("See to the electrodes.", PromptTo::Operator));
+    desk.answerAsParticipant(asked, with("go-on"), std::chrono::steady_clock::now());
+    EXPECT_TRUE(waits());
+    desk.answerAsOperator(asked, with("go-on"));
+    EXPECT_TRUE(answer.get());
+}
+
+TEST_F(Desk, WithoutAnAnswerInTimeItIsEmpty) {
+    auto prompt = conditionPrompt({"rough-high", "rough-low", "smooth-high", "smooth-low"});
+    prompt.within = Seconds(0.15);
+    ask(prompt);
+    EXPECT_TRUE(waits()) << "the time begins with the targets";
+    const auto shown = std::chrono::steady_clock::now();
+    desk.targetsShown(asked, shown);
+    const auto said = answer.get();
+    EXPECT_GE(std::chrono::steady_clock::now() - shown, 140ms);
+    ASSERT_TRUE(said);
+    EXPECT_FALSE(said->given);
+    EXPECT_TRUE(said->keys.empty());
+}
+
+TEST_F(Desk, AStopEndsTheWaitAndGoesToTheOutputFirst) {
+    RecordProperty("hazard", "H2");
+    ask(goOnPrompt("Go on?"));
+    EXPECT_TRUE(desk.stopBy("participant"));
+    EXPECT_EQ(stops, std::vector<std::string>{"participant"});
+    const auto said = answer.get();
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().code, ErrorCode::Stopped);
+    ask(goOnPrompt("Go on?", PromptTo::Operator));
+    desk.answerAsOperator(asked, with("go-on"));
+    EXPECT_TRUE(answer.get()) << "one stop, one question";
+}
+
+TEST_F(Desk, AStopBetweenTwoQuestionsEndsTheNextOne) {
+    RecordProperty("hazard", "H2");
+    EXPECT_TRUE(desk.stopBy("participant"));
+    const auto said = desk.ask(goOnPrompt("Go on?"));
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().code, ErrorCode::Stopped);
+    EXPECT_TRUE(desk.stopBy("participant"));
+    desk.show({});  // the session knows of it, and has gone on
+    ask(goOnPrompt("Go on?", PromptTo::Operator));
+    desk.answerAsOperator(asked, with("go-on"));
+    EXPECT_TRUE(answer.get());
+}
+
+TEST_F(Desk, ACancelledSessionAsksNothingMore) {
+    ask(goOnPrompt("Go on?"));
+    desk.cancel();
+    EXPECT_FALSE(answer.get());
+    const auto again = desk.ask(goOnPrompt("Go on?"));
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().code, ErrorCode::Stopped);
+}
+
+TEST_F(Desk, AfterTheSessionAStopLeadsNowhere) {
+    desk.end();
+    EXPECT_FALSE(desk.stopBy("participant"));
+    EXPECT_TRUE(stops.empty());
+}
+
+TEST_F(Desk, AScreenThatGoesEndsTheQuestion) {
+    RecordProperty("hazard", "H6");
+    ask(yesNoPrompt("code", "Is this your code?"));
+    desk.setScreenThere(false);
+    const auto said = answer.get();
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().code, ErrorCode::Device);
+}
+
+TEST_F(Desk, NoPresentationStartsWhileSomethingIsInTheWay) {
+    desk.setObstacle("the participant's window does not have the keys");
+    auto ready = std::async(std::launch::async, [this] { return desk.ready(); });
+    EXPECT_NE(ready.wait_for(50ms), std::future_status::ready);
+    desk.setObstacle({});
+    EXPECT_TRUE(ready.get());
+    desk.setBreak(true);
+    ready = std::async(std::launch::async, [this] { return desk.ready(); });
+    EXPECT_NE(ready.wait_for(50ms), std::future_status::ready) << "the operator's break";
+    desk.cancel();
+    const auto stopped = ready.get();
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::Stopped);
+}
+
+TEST_F(Desk, TargetsDoNotAppearBeforeTheirMoment) {
+    const auto clock = std::make_shared<SteadyClock>();
+    desk.begin(clock);
+    desk.show({});
+    auto prompt = yesNoPrompt("code", "Is this your code?");
+    prompt.targetsAt = clock->now() + 200ms;
+    ask(prompt);
+    EXPECT_GE(clock->now(), prompt.targetsAt);
+}
+
+TEST(InputTime, IsTheEventsWhereItIsOfTheSameClock) {
+    const gui::SteadyTime arrival{5'000'000ms};
+    EXPECT_EQ(gui::timeOf(4'999'988, arrival), arrival - 12ms);
+    EXPECT_EQ(gui::timeOf(17, arrival), arrival) << "another clock";
+    EXPECT_EQ(gui::timeOf(5'000'400, arrival), arrival) << "a time to come";
+    const gui::SteadyTime late{(1LL << 32) * 1ms + 3ms};  // X counts 32 bits
+    EXPECT_EQ(gui::timeOf(0xFFFFFFFBULL, late), late - 8ms);
+}
+
+}  // namespace
+}  // namespace tacto::test

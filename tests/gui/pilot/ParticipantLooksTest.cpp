@@ -1,0 +1,191 @@
+// The participant's screen: the same pixels for every condition, targets of 20 mm, nothing cut, nothing red but STOP.
+#include <QLabel>
+
+#include "app/gui/pilot/ParticipantStop.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/pilot/SeatedPeople.h"
+
+namespace tacto::test {
+namespace {
+
+constexpr QSize kSizes[] = {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)};
+
+class ParticipantLooks : public Seated {
+protected:
+    ~ParticipantLooks() override {
+        gui::applyTextSize(100);
+        gui::applyTheme(gui::Theme::Light);
+    }
+    [[nodiscard]] QImage picture() {
+        QCoreApplication::processEvents();
+        return window.grab().toImage();
+    }
+    void answerBy(Qt::Key pressed) {
+        key(pressed);
+        static_cast<void>(answered());
+        QTest::qWait(160);  // no key counts as held
+    }
+};
+
+TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
+    RecordProperty("hazard", "H8");
+    auto prompt = conditionPrompt(kFour);
+    prompt.within = Seconds(30);
+    std::vector<std::vector<QImage>> phases;
+    const auto feel = [](double level, double interval_s) {
+        FeltPresentation felt;
+        felt.level = level;
+        felt.interval = Seconds(interval_s);
+        return felt;
+    };
+    const std::pair<const char*, FeltPresentation> conditions[] = {{"rough-high", feel(6.5, 0.5)},
+                                                                   {"rough-low", feel(4, 0.5)},
+                                                                   {"smooth-high", feel(6.5, 2)},
+                                                                   {"smooth-low", feel(4, 2)},
+                                                                   {"catch", {}}};
+    // Once before it counts: letters of 92 px are drawn anew the first time, and differ in their edges then.
+    desk.show(testScreen(ScreenState::Dot));
+    ASSERT_NO_FATAL_FAILURE(ask(prompt));
+    answerBy(Qt::Key_1);
+    for (const auto& [name, felt] : conditions) {
+        std::vector<QImage> shown;
+        desk.show(testScreen(ScreenState::Dot));
+        shown.push_back(picture());
+        desk.show(testScreen(ScreenState::Feel));
+        shown.push_back(picture());
+        EXPECT_TRUE(shown[0] == shown[1]) << "the dot tells nothing of when trains come";
+        desk.delivered(felt);
+        shown.push_back(picture());
+        ASSERT_NO_FATAL_FAILURE(ask(prompt));
+        shown.push_back(picture());
+        answerBy(Qt::Key_1);
+        shown.push_back(picture());
+        desk.show(testScreen(ScreenState::Rest));
+        shown.push_back(picture());
+        phases.push_back(std::move(shown));
+    }
+    for (std::size_t i = 1; i < phases.size(); ++i) {
+        for (std::size_t phase = 0; phase < phases[i].size(); ++phase)
+            EXPECT_TRUE(phases[i][phase] == phases[0][phase]) << conditions[i].first << ", picture " << phase;
+    }
+    EXPECT_FALSE(phases[0][1] == phases[0][3]) << "and the pictures are of the phases";
+}
+
+std::vector<PilotPrompt> allPrompts() {
+    auto condition = conditionPrompt(kFour);
+    condition.within = Seconds(10);
+    auto scale = scalePrompt("pain", "How painful was it?", 0, 10);
+    scale.leastText = "not at all";
+    scale.mostText = "as much as can be";
+    auto several = choicePrompt("qualities", "What was it like? Several may fit.",
+                                {{"touch", "Touch"},
+                                 {"pressure", "Pressure"},
+                                 {"tapping", "Tapping"},
+                                 {"vibration", "Vibration"},
+                                 {"tingling", "Tingling"},
+                                 {"pricking", "Pricking"},
+                                 {"burning", "Burning"},
+                                 {"twitching", "Twitching"},
+                                 {"phantom", "In the phantom hand"}});
+    several.kind = PromptKind::Several;
+    const auto natural = choicePrompt("naturalness", "How natural was it?",
+                                      {{"1", "Totally natural"},
+                                       {"2", "Almost natural"},
+                                       {"3", "Possibly natural"},
+                                       {"4", "Rather unnatural"},
+                                       {"5", "Totally unnatural"}});
+    return {condition,
+            strengthPrompt(),
+            intervalPrompt(),
+            yesNoPrompt("code", "Is P-7K3M your code?"),
+            goOnPrompt("Go on?", PromptTo::Participant),
+            scale,
+            several,
+            natural,
+            holdPrompt()};
+}
+
+TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {
+    const auto prompts = allPrompts();
+    const int least = gui::pixelsOf(gui::kTarget_mm, window);
+    RecordProperty("least_px", least);
+    for (const int percent : {100, 200}) {
+        gui::applyTextSize(percent);
+        for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+            gui::applyTheme(theme);
+            for (const auto& size : kSizes) {
+                window.resize(size);
+                window.setNote("rehearsal · simulated");
+                for (const auto& prompt : prompts) {
+                    desk.show(testScreen(ScreenState::Feel));
+                    ASSERT_NO_FATAL_FAILURE(ask(prompt));
+                    QCoreApplication::processEvents();
+                    const auto name = QString("participant-%1-%2-%3-%4")
+                                          .arg(QString::fromStdString(prompt.name))
+                                          .arg(theme == gui::Theme::Dark ? "dark" : "light")
+                                          .arg(size.width())
+                                          .arg(percent);
+                    const bool pictured = size.width() != 1440 || percent == 100;
+                    if (pictured) shot(window, name);
+                    EXPECT_EQ(faultsOf(window), "") << name.toStdString();
+                    for (const auto* target : window.findChildren<gui::AnswerTarget*>()) {
+                        if (!target->isVisible()) continue;
+                        EXPECT_GE(target->width(), least) << name.toStdString() << target->text().toStdString();
+                        EXPECT_GE(target->height(), least) << name.toStdString() << target->text().toStdString();
+                        EXPECT_TRUE(window.rect().contains(QRect(target->mapTo(&window, QPoint(0, 0)), target->size())))
+                            << name.toStdString();
+                        EXPECT_FALSE(window.findChild<gui::ParticipantStop*>()->geometry().intersects(
+                            QRect(target->mapTo(&window, QPoint(0, 0)), target->size())))
+                            << name.toStdString();
+                    }
+                    desk.cancel();
+                    static_cast<void>(answered());
+                    desk.show(testScreen(ScreenState::Rest));
+                }
+            }
+        }
+    }
+}
+
+TEST_F(ParticipantLooks, TheOtherPhasesInBothThemes) {
+    auto named = testScreen(ScreenState::Named);
+    named.phase = "familiarisation";
+    named.block = named.blocks = 0;
+    named.named = "rough-high";
+    auto pause = testScreen(ScreenState::Break);
+    pause.text = "At least one minute. Move your arm, if you like.";
+    auto interval = testScreen(ScreenState::Interval);
+    interval.phase = "detection";
+    interval.block = interval.blocks = 0;
+    interval.interval = 1;
+    const std::pair<const char*, PilotScreen> screens[] = {{"feel", testScreen(ScreenState::Feel)},
+                                                           {"named", named},
+                                                           {"interval", interval},
+                                                           {"break", pause},
+                                                           {"ended", testScreen(ScreenState::Ended)}};
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        for (const auto& [name, screen] : screens) {
+            desk.show(screen);
+            QCoreApplication::processEvents();
+            shot(window, QString("participant-%1-%2").arg(name, theme == gui::Theme::Dark ? "dark" : "light"));
+            EXPECT_EQ(faultsOf(window), "") << name;
+            const auto red = gui::stateStyle(InterlockState::Faulted).ground;
+            EXPECT_EQ(pixelsOf(window.grab().toImage(), red),
+                      pixelsOf(window.findChild<gui::ParticipantStop*>()->grab().toImage(), red))
+                << name;
+        }
+    }
+}
+
+TEST_F(ParticipantLooks, StopIsLargerThanAnyGroupOfAnswers) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    const auto area = [](const QSize& size) { return size.width() * size.height(); };
+    const auto stop = window.findChild<gui::ParticipantStop*>()->size();
+    for (const auto* target : window.field().targets()) EXPECT_GT(area(stop), 3 * area(target->size()));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,0 +1,272 @@
+// The participant answers by key, mouse and finger, once, after the targets; and stops, from everywhere.
+#include <QPointingDevice>
+#include <gmock/gmock.h>
+
+#include "app/gui/pilot/ParticipantStop.h"
+#include "tests/gui/pilot/SeatedPeople.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::ElementsAre;
+using namespace std::chrono_literals;
+
+TEST_F(Seated, EachKeyOfEachSetAnswersItsTarget) {
+    const std::vector<std::string> places{"smooth-high", "rough-high", "smooth-low", "rough-low", "none", "not-sure"};
+    const std::pair<gui::KeySet, std::vector<Qt::Key>> sets[] = {
+        {gui::KeySet::Figures, {Qt::Key_1, Qt::Key_2, Qt::Key_3, Qt::Key_4, Qt::Key_5, Qt::Key_6}},
+        {gui::KeySet::LeftHand, {Qt::Key_W, Qt::Key_E, Qt::Key_S, Qt::Key_D, Qt::Key_X, Qt::Key_C}},
+        {gui::KeySet::RightHand, {Qt::Key_U, Qt::Key_I, Qt::Key_J, Qt::Key_K, Qt::Key_M, Qt::Key_Comma}},
+    };
+    for (const auto& [set, pressed] : sets) {
+        window.setKeys(set);
+        for (std::size_t i = 0; i < pressed.size(); ++i) {
+            desk.show(testScreen(ScreenState::Feel));
+            ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+            key(pressed[i]);
+            const auto said = answered();
+            ASSERT_TRUE(said);
+            EXPECT_THAT(said->keys, ElementsAre(places[i]));
+        }
+    }
+}
+
+TEST_F(Seated, KeysStandWhereTheTargetsDo) {
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // in whatever order the study has them
+    const auto& firm = target("smooth-high");
+    const auto& light = target("smooth-low");
+    EXPECT_EQ(firm.x(), light.x());
+    EXPECT_LT(firm.y(), light.y());
+    EXPECT_LT(firm.x(), target("rough-high").x());
+    EXPECT_EQ(firm.y(), target("rough-high").y());
+    EXPECT_GT(target("none").y(), light.y());
+}
+
+TEST_F(Seated, ThePressOfAMouseAnswersNotItsRelease) {
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    QTest::qWait(120);
+    QTest::mousePress(&target("none"), Qt::LeftButton);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("none"));
+    EXPECT_GE(said->after.count(), 0.115);
+    EXPECT_LT(said->after.count(), 1);
+}
+
+TEST_F(Seated, AFingerAnswers) {
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    std::unique_ptr<QPointingDevice> screen(QTest::createTouchDevice());
+    auto& touched = target("rough-low");
+    const auto at = touched.mapTo(&window, touched.rect().center());
+    QTest::touchEvent(&window, screen.get()).press(0, at, &window).commit();
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("rough-low"));
+    QTest::touchEvent(&window, screen.get()).release(0, at, &window).commit();
+}
+
+TEST_F(Seated, OnePressIsTheAnswer) {
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    key(Qt::Key_1);
+    key(Qt::Key_2);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("smooth-high"));
+    EXPECT_TRUE(window.field().targets().empty()) << "the targets are gone";
+}
+
+TEST_F(Seated, WhatComesBeforeTheTargetsIsEarlyAndNoAnswer) {
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    key(Qt::Key_6);
+    ASSERT_TRUE(answered());
+    desk.show(testScreen(ScreenState::Feel));
+    QCoreApplication::processEvents();
+    key(Qt::Key_3);
+    QTest::mouseClick(const_cast<gui::ParticipantField*>(&window.field()), Qt::LeftButton);
+    key(Qt::Key_F7);  // no answer's key
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    QTest::qWait(50);
+    EXPECT_FALSE(isAnswered());
+    const auto early = desk.takeEarly();
+    ASSERT_EQ(early.size(), 3U);
+    EXPECT_EQ(early[0].key, "smooth-low");
+    EXPECT_EQ(early[1].key, "");
+    EXPECT_EQ(early[2].key, "");
+    EXPECT_TRUE(desk.takeEarly().empty());
+}
+
+TEST_F(Seated, AKeyHeldFromBeforeIsNoAnswer) {
+    desk.show(testScreen(ScreenState::Feel));
+    QCoreApplication::processEvents();
+    QTest::keyPress(window.windowHandle(), Qt::Key_2);
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+    QKeyEvent marked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", true);
+    QApplication::sendEvent(&window, &marked);
+    QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // as X sends some
+    QApplication::sendEvent(&window, &unmarked);
+    QTest::qWait(30);
+    EXPECT_FALSE(isAnswered());
+    QTest::keyRelease(window.windowHandle(), Qt::Key_2);
+    QTest::qWait(200);
+    key(Qt::Key_2);
+    ASSERT_TRUE(answered());
+}
+
+TEST_F(Seated, WithoutTheKeysNoPresentationStarts) {
+    QWidget other;
+    QStringList said;
+    QObject::connect(&desk, &gui::ParticipantDesk::obstacleChanged, &other, [&](const QString& why) { said << why; });
+    other.show();
+    other.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&other));
+    auto ready = std::async(std::launch::async, [this] { return desk.ready(); });
+    QTest::qWait(50);
+    EXPECT_NE(ready.wait_for(0s), std::future_status::ready);
+    ASSERT_FALSE(said.isEmpty());
+    EXPECT_EQ(said.last().toStdString(), "the participant's window does not have the keys");
+    QTest::keyClick(other.windowHandle(), Qt::Key_1);  // the operator types: it answers nothing
+    window.takeKeys();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    EXPECT_TRUE(ready.get());
+    EXPECT_TRUE(desk.takeEarly().empty());
+}
+
+TEST_F(Seated, EveryStopOfTheirsStopsAtOnceInRealTime) {
+    RecordProperty("hazard", "H2");
+    auto* target = window.findChild<gui::ParticipantStop*>();
+    const std::pair<const char*, std::function<void()>> hands[] = {
+        {"participant", [&] { QTest::mousePress(target, Qt::LeftButton); }},
+        {"participant (Esc)", [this] { key(Qt::Key_Escape); }},
+        {"participant (Pause)", [this] { key(Qt::Key_Pause); }},
+        {"participant (Space)", [this] { key(Qt::Key_Space); }},
+    };
+    double slowest_ms = 0;
+    for (const auto asking : {false, true}) {
+        for (const auto& [by, hand] : hands) {
+            stops.clear();
+            desk.show(testScreen(ScreenState::Feel));
+            QCoreApplication::processEvents();
+            if (asking) {
+                ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
+            }
+            const auto pressed = std::chrono::steady_clock::now();
+            hand();
+            ASSERT_FALSE(stops.empty()) << by << ": before the event returned";
+            EXPECT_EQ(stops.front(), by);
+            slowest_ms = std::max(slowest_ms, std::chrono::duration<double, std::milli>(stoppedAt - pressed).count());
+            EXPECT_FALSE(window.asking());
+            EXPECT_EQ(window.title().toStdString(), "Stopped. The output is off.");
+            if (!asking) continue;
+            const auto said = answered();
+            ASSERT_FALSE(said);
+            EXPECT_EQ(said.error().code, ErrorCode::Stopped);
+        }
+    }
+    RecordProperty("slowest_us", int(slowest_ms * 1000));
+    EXPECT_LE(slowest_ms, 10);
+}
+
+TEST_F(Seated, AHeldEscIsOneStop) {
+    key(Qt::Key_Escape);
+    const auto before = stops.size();
+    for (int i = 0; i < 5; ++i) {
+        QKeyEvent repeated(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier, {}, true);
+        QApplication::sendEvent(&window, &repeated);
+    }
+    EXPECT_EQ(stops.size(), before);
+}
+
+TEST_F(Seated, LettingGoWhileLevelsRiseStops) {
+    RecordProperty("hazard", "H6");
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    QTest::keyPress(window.windowHandle(), Qt::Key_H);
+    const auto said = answered();
+    ASSERT_TRUE(said);
+    EXPECT_THAT(said->keys, ElementsAre("held"));
+    EXPECT_TRUE(desk.holding());
+    ASSERT_NO_FATAL_FAILURE(ask(strengthPrompt()));
+    key(Qt::Key_2);
+    ASSERT_TRUE(answered());
+    EXPECT_TRUE(desk.holding()) << "an answer is given with the other hand";
+    EXPECT_TRUE(stops.empty());
+    QTest::keyRelease(window.windowHandle(), Qt::Key_H);
+    EXPECT_THAT(stops, ElementsAre("participant let go"));
+    EXPECT_FALSE(desk.holding());
+}
+
+TEST_F(Seated, LettingGoOfTheTargetStopsAndAtRestItDoesNot) {
+    RecordProperty("hazard", "H6");
+    auto* hold = window.findChild<gui::AnswerTarget*>("hold");
+    for (const bool rests : {false, true}) {
+        stops.clear();
+        desk.show(testScreen(ScreenState::Feel));
+        ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+        QTest::mousePress(hold, Qt::LeftButton);
+        ASSERT_TRUE(answered());
+        desk.show(testScreen(ScreenState::Feel));
+        QCoreApplication::processEvents();
+        EXPECT_TRUE(hold->isVisible()) << "it stays under the finger";
+        if (rests) {
+            desk.show(testScreen(ScreenState::Rest));
+            QCoreApplication::processEvents();
+        }
+        QTest::mouseRelease(hold, Qt::LeftButton);
+        EXPECT_EQ(stops.empty(), rests);
+    }
+}
+
+TEST_F(Seated, LosingTheKeysWhileHoldingIsLettingGo) {
+    RecordProperty("hazard", "H6");
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    QTest::keyPress(window.windowHandle(), Qt::Key_H);
+    ASSERT_TRUE(answered());
+    QWidget other;
+    other.show();
+    other.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&other));
+    EXPECT_THAT(stops, ElementsAre("participant let go"));
+}
+
+TEST_F(Seated, AScaleAndSeveralAnswers) {
+    ASSERT_NO_FATAL_FAILURE(ask(scalePrompt("pain", "How painful was it?", 0, 10)));
+    key(Qt::Key_0);
+    EXPECT_EQ(answered()->value, 0);
+    ASSERT_NO_FATAL_FAILURE(ask(scalePrompt("pain", "How painful was it?", 0, 10)));
+    key(Qt::Key_T);
+    EXPECT_EQ(answered()->value, 10);
+    auto prompt = choicePrompt("qualities", "What was it like?",
+                               {{"touch", "Touch"}, {"tapping", "Tapping"}, {"burning", "Burning"}});
+    prompt.kind = PromptKind::Several;
+    ASSERT_NO_FATAL_FAILURE(ask(prompt));
+    key(Qt::Key_1);
+    QTest::qWait(200);
+    key(Qt::Key_3);
+    key(Qt::Key_Return);
+    EXPECT_THAT(answered()->keys, ElementsAre("touch", "burning"));
+}
+
+TEST_F(Seated, TheStopTestIsAnsweredByStopAlone) {
+    RecordProperty("hazard", "H2");
+    auto prompt = goOnPrompt("Press STOP once.", PromptTo::Participant);
+    prompt.name = "stop-test";
+    ASSERT_NO_FATAL_FAILURE(ask(prompt));
+    key(Qt::Key_1);
+    QTest::qWait(30);
+    EXPECT_FALSE(isAnswered());
+    key(Qt::Key_Escape);
+    EXPECT_FALSE(answered());
+}
+
+TEST_F(Seated, TheOperatorsStripHoldsThePresentationsBack) {
+    auto* strip = new QWidget;
+    window.setStrip(strip);
+    key(Qt::Key_F2);
+    EXPECT_TRUE(window.stripOpen());
+    auto ready = std::async(std::launch::async, [this] { return desk.ready(); });
+    EXPECT_NE(ready.wait_for(50ms), std::future_status::ready);
+    key(Qt::Key_F2);
+    EXPECT_TRUE(ready.get());
+}
+
+}  // namespace
+}  // namespace tacto::test

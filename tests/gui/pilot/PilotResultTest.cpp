@@ -1,0 +1,79 @@
+// What a session came to, as the window says it.
+#include <QTableWidget>
+#include <QTest>
+#include <gtest/gtest.h>
+
+#include "app/gui/pilot/PilotResult.h"
+#include "app/gui/theme/Theme.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/Person.h"
+
+namespace tacto::test {
+namespace {
+
+nlohmann::json someResults() {
+    return {{"participant", {{"code", "P-7K3M"}, {"virtual", true}}},
+            {"labels", {"rough-high", "rough-low", "smooth-high", "smooth-low"}},
+            {"columns", {"rough-high", "rough-low", "smooth-high", "smooth-low", "none", "not-sure"}},
+            {"confusion", {{18, 2, 0, 0, 0, 0}, {3, 16, 0, 1, 0, 0}, {0, 0, 17, 3, 0, 0}, {0, 1, 2, 17, 0, 0}}},
+            {"n", 80},
+            {"hits", 68},
+            {"accuracy", {{"value", 0.85}, {"low", 0.756}, {"high", 0.912}}},
+            {"p_chance", 1e-12},
+            {"it_corrected_bits", 1.1},
+            {"it_bias_bits", 0.135},
+            {"catch", {{"n", 10}, {"false_alarms", 0}}},
+            {"blocks", {{{"block", 1}, {"n", 16}, {"hits", 13}}, {{"block", 2}, {"n", 16}, {"hits", 14}}}},
+            {"range", {{"min_ma", 4.0}, {"max_ma", 6.5}, {"min_v", 13.6}, {"max_v", 22.1}, {"impedance_ohm", 3400}}}};
+}
+
+TEST(PilotResult, SaysFirstWhatEveryResultSaysFirst) {
+    auto said = gui::resultSentence(someResults());
+    said.replace(QChar(0x202F), ' ');
+    EXPECT_EQ(said.toStdString(),
+              "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 "
+              "and 6.5 mA, 14 to 22 V at 3.40 kΩ.");
+    auto none = someResults();
+    none["n"] = 0;
+    none["hits"] = 0;
+    EXPECT_EQ(gui::resultSentence(none).toStdString(), "P-7K3M answered no test trial.");
+    EXPECT_TRUE(gui::resultSentence(nlohmann::json::object()).isEmpty());
+    EXPECT_TRUE(gui::resultSentence(nullptr).isEmpty());
+}
+
+TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
+    gui::FinishedRun run;
+    run.result.outcome.results = someResults();
+    run.result.simulated = true;
+    gui::PilotResult view;
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        view.resize(1000, 720);
+        view.show(run, "/home/lab/rehearsal-1");
+        static_cast<QWidget&>(view).show();
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+        QTest::qWait(30);
+        shot(view, QString("pilot-result-%1").arg(theme == gui::Theme::Dark ? "dark" : "light"));
+        EXPECT_EQ(faultsOf(view), "");
+    }
+    gui::applyTheme(gui::Theme::Light);
+    const auto* matrix = view.findChild<QTableWidget*>("confusion");
+    ASSERT_EQ(matrix->rowCount(), 4);
+    ASSERT_EQ(matrix->columnCount(), 7);
+    EXPECT_EQ(matrix->item(1, 1)->text(), "3");
+    EXPECT_EQ(matrix->item(1, 2)->text(), "16");
+}
+
+TEST(PilotResult, AnEarlyEndSaysWhyAndOffersToGoOn) {
+    gui::FinishedRun run;
+    run.result.outcome.error = Error{ErrorCode::Stopped, "the operator stopped"};
+    gui::PilotResult view;
+    view.show(run, "/home/lab/rehearsal-1");
+    static_cast<QWidget&>(view).show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+    EXPECT_NE(find<QPushButton>(view, "Go on with the session"), nullptr);
+    EXPECT_FALSE(view.findChild<QTableWidget*>("confusion")->isVisible());
+}
+
+}  // namespace
+}  // namespace tacto::test

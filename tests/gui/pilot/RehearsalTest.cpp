@@ -1,0 +1,102 @@
+// From "new rehearsal" to the result, in the whole window: with a virtual participant, and with the window's own.
+#include <QComboBox>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QToolButton>
+#include <filesystem>
+
+#include "app/gui/pilot/OperatorStrip.h"
+#include "app/gui/pilot/ParticipantStop.h"
+#include "app/gui/pilot/ParticipantWindow.h"
+#include "app/gui/pilot/PilotWorkspace.h"
+#include "tests/gui/Looks.h"
+#include "tests/gui/window/WindowFixture.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+class RehearsalInTheWindow : public Window {
+protected:
+    RehearsalInTheWindow() {
+        window.showWorkspace(4);
+        QTest::qWait(50);
+    }
+    void begin(bool person) {
+        pilot = window.findChild<gui::PilotWorkspace*>();
+        pilot->findChild<QLineEdit*>("studyFolder")
+            ->setText(QString::fromStdString((folder.path() / "study").string()));
+        pilot->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(person ? 1 : 0);
+        pilot->findChild<QSpinBox*>("rehearsalBlocks")->setValue(1);
+        click(*pilot->findChild<QPushButton*>("beginRehearsal"));
+        const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
+        ASSERT_TRUE(pilot->running()) << trouble->text().toStdString();
+    }
+    [[nodiscard]] std::string headline() const {
+        return pilot->findChild<QLabel*>("pilotHeadline")->text().toStdString();
+    }
+    const ScratchDir folder;
+    gui::PilotWorkspace* pilot = nullptr;
+};
+
+TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
+    shot(window, "pilot-new");
+    begin(false);
+    EXPECT_TRUE(pilot->blind());
+    window.showWorkspace(0);
+    EXPECT_EQ(window.workspace(), 4) << "other workspaces would show what is delivered";
+    QTest::qWait(500);
+    shot(window, "pilot-virtual-running");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
+    EXPECT_NE(headline().find("told the four apart in"), std::string::npos) << headline();
+    const auto* matrix = pilot->findChild<QTableWidget*>("confusion");
+    EXPECT_TRUE(matrix->isVisible());
+    EXPECT_EQ(matrix->rowCount(), 4);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "study" / "study.json"));
+    EXPECT_EQ(faultsOf(window), "");
+    shot(window, "pilot-virtual-result");
+    window.showWorkspace(0);
+    EXPECT_EQ(window.workspace(), 0) << "the session has ended";
+}
+
+TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    EXPECT_NE(theirs->title().indexOf("STOP"), -1) << theirs->title().toStdString();
+    shot(*theirs, "pilot-stop-test");
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    auto* strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_NE(strip, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
+    QTest::qWait(100);
+    shot(*theirs, "pilot-strip");
+    QTest::mousePress(strip->findChild<gui::ParticipantStop*>("operatorStop"), Qt::LeftButton);
+    ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
+    ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
+    click(*find<QPushButton>(*strip, "0"));
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_EQ(pilot->participantWindow(), nullptr);
+    EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr);
+    shot(window, "pilot-stopped");
+}
+
+TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowIsAStop) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    theirs->close();
+    EXPECT_TRUE(theirs->isVisible());
+    EXPECT_FALSE(theirs->asking());
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+}
+
+}  // namespace
+}  // namespace tacto::test
