@@ -196,7 +196,7 @@ TEST_F(PresentationTest, APulledOrShortedElectrodeEndsItBeforeTheNextTrain) {
         bench_->idle(Seconds(5));
         EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
         EXPECT_FALSE(bench_->present(wanted));
-        EXPECT_FALSE(bench_->accept(Milliamps(1))) << "a void presentation is accepted by nobody";
+        EXPECT_FALSE(bench_->accept(Milliamps(1))) << "a void presentation cannot be accepted";
     }
 }
 
