@@ -44,7 +44,7 @@ Json consentJson(const Participant& participant) {
 Json toJson(const Participant& participant) {
     return {{"code", participant.readable ? Json(participant.code) : Json()},
             {"virtual", participant.virtualSeed ? Json(*participant.virtualSeed) : Json()},
-            {"state", wordFor(Words<ParticipantState>(kParticipantStates), participant.state)},
+            {"state", wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state)},
             {"consent", consentJson(participant)},
             {"sessions", participant.sessions}};
 }
@@ -54,7 +54,7 @@ Json toJson(const StudySession& session) {
             {"code", session.code.empty() ? Json() : Json(session.code)},
             {"number", session.number},
             {"protocol", session.protocol},
-            {"state", wordFor(Words<StudySessionState>(kStudySessionStates), session.state)},
+            {"state", wordFor(tacto::Words<StudySessionState>(kStudySessionStates), session.state)},
             {"answered", session.answered}};
 }
 
@@ -86,15 +86,15 @@ Json toJson(const Study& study) {
 }
 
 int show(const Study& study, const QCommandLineParser& parser) {
-    const auto json = toJson(study);
+    const auto all = toJson(study);
     if (parser.isSet("json")) {
-        printJson(json);
+        printJson(all);
         return kDone;
     }
     const auto& settings = study.settings();
     say("{}{}\n", settings.title, study.isRehearsal() ? " (rehearsal)" : "");
     say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
-        dateText(settings.approval.expires), json["approval"]["valid"] == true ? "" : ": not valid today",
+        dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
         settings.consentVersion);
     for (const auto& participant : study.participants()) {
         if (participant.state == ParticipantState::Withdrawn) continue;
@@ -103,13 +103,13 @@ int show(const Study& study, const QCommandLineParser& parser) {
                                                             : participant.consents.back().version;
         say("  {}{}: {}, consent {}, sessions {}\n", name,
             participant.virtualSeed ? fmt::format(" (virtual:{})", *participant.virtualSeed) : "",
-            wordFor(Words<ParticipantState>(kParticipantStates), participant.state), consented, participant.sessions);
+            wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state), consented, participant.sessions);
     }
-    if (json["withdrawn"] != 0) say("  withdrawn: {}\n", json["withdrawn"].get<int>());
+    if (all["withdrawn"] != 0) say("  withdrawn: {}\n", all["withdrawn"].get<int>());
     for (const auto& session : study.sessions()) {
         say("  session {} of {}: {}, {}, answered {}\n", session.number,
             session.code.empty() ? std::string("(sealed)") : session.code, session.protocol,
-            wordFor(Words<StudySessionState>(kStudySessionStates), session.state), session.answered);
+            wordFor(tacto::Words<StudySessionState>(kStudySessionStates), session.state), session.answered);
     }
     say("  ledger head {}\n", study.ledgerHead());
     if (!study.hasKey()) say(stderr, "Codes, consents and who took part are sealed; --passphrase-file shows them.\n");
