@@ -139,11 +139,15 @@ std::string bulkKind(std::string_view kind) { return fmt::format("{} bytes", kin
 
 }  // namespace
 
+bool isSealedKind(std::string_view kind) noexcept {
+    return kind != kind::kStream && kind != kind::kEnd && kind != kind::kAnnotation;
+}
+
 Instant wholeSecond(Instant at) noexcept { return std::chrono::floor<std::chrono::seconds>(at); }
 
 OutsideRow sealedRow(const RowSeal& seal, std::int64_t seq, std::string_view kind, Instant at, std::string_view name,
                      std::string_view body) {
-    if (kind == kind::kStream || kind == kind::kEnd) return {wholeSecond(at), std::string(name), std::string(body)};
+    if (!isSealedKind(kind)) return {wholeSecond(at), std::string(name), std::string(body)};
     auto shown = shownOf(kind, name, body);
     const auto inside =
         fmt::format("{{\"t_ns\":{},\"name\":{},\"body\":{}}}", at.count(), dumpJson(nlohmann::json(name)), body);
@@ -153,8 +157,7 @@ OutsideRow sealedRow(const RowSeal& seal, std::int64_t seq, std::string_view kin
 
 Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_view kind, Instant at,
                             std::string_view name, nlohmann::json body) {
-    const bool isPlain = kind == kind::kStream || kind == kind::kEnd || kind == kind::kAnnotation;
-    if (isPlain) return InsideRow{at, std::string(name), std::move(body), false};
+    if (!isSealedKind(kind)) return InsideRow{at, std::string(name), std::move(body), false};
     if (seal == nullptr) {
         const bool nameIsShown = kind == kind::kEvent ? !name.empty() : shownOf(kind, name, "{}").name;
         if (body.is_object()) body[kSealedKey] = true;

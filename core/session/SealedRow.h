@@ -53,6 +53,8 @@ struct InsideRow {
 [[nodiscard]] Result<void> unpackOpenedChunk(const ChunkHead& head, std::size_t columns,
                                              std::span<const std::byte> opened, SampleBlock& into);
 
+/// Whether rows of this kind are sealed in a sealed session.
+[[nodiscard]] bool isSealedKind(std::string_view kind) noexcept;
 /// Cut to the whole second.
 [[nodiscard]] Instant wholeSecond(Instant at) noexcept;
 

@@ -9,6 +9,7 @@
 #include "core/session/Chain.h"
 #include "core/session/Chunk.h"
 #include "core/session/Schema.h"
+#include "core/session/SealedRow.h"
 #include "core/session/SessionSource.h"
 #include "core/session/WalScan.h"
 
@@ -132,9 +133,14 @@ private:
             previous = stored.value_or(hash);
             const auto body = parseJson(entry.body, fmt::format("row {} ({})", entry.seq, entry.kind), kRowLimits);
             if (!body) problem("{}", body.error().message);
+            if (sealed_ && isSealedKind(entry.kind)) {
+                if (body && !textOr(*body, "sealed").empty())
+                    ++sealedRows_;
+                else
+                    problem("row {} ({}) is not sealed, and the session is", entry.seq, entry.kind);
+            }
             if (sealed_ && entry.t_ns % 1'000'000'000 != 0)
                 problem("row {} ({}) tells its time finer than a second", entry.seq, entry.kind);
-            if (sealed_ && body && body->is_object() && body->contains("sealed")) ++sealedRows_;
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             if (annotates) {

@@ -189,12 +189,20 @@ TEST_F(SessionVerify, TellsWhatIsNotASession) {
 }
 
 TEST_F(SessionVerify, RefusesASessionOfANewerProgramWithASentence) {
-    test::runSql(path_, "PRAGMA user_version=3");
+    test::runSql(path_, "PRAGMA user_version=4");
     const auto report = verify();
     EXPECT_EQ(report.status, SessionStatus::NotASession);
-    EXPECT_NE(report.problems[0].find("session format 3, made by a newer Tactoscope"), std::string::npos);
+    EXPECT_NE(report.problems[0].find("session format 4, made by a newer Tactoscope"), std::string::npos);
     test::runSql(path_, "PRAGMA user_version=0");
     EXPECT_NE(verify().problems[0].find("no version of Tactoscope has written"), std::string::npos);
+}
+
+TEST_F(SessionVerify, FindsRowsThatAreNotSealedInAFileThatIsMarkedAsSealed) {
+    RecordProperty("hazard", "H11");
+    test::runSql(path_, "PRAGMA user_version=3");
+    const auto report = verify();
+    EXPECT_EQ(report.status, SessionStatus::Damaged);
+    EXPECT_NE(report.problems[0].find("row 1 (about) is not sealed"), std::string::npos) << report.problems[0];
 }
 
 TEST_F(SessionVerify, OrdinarySqlCannotAlterASession) {
