@@ -267,7 +267,7 @@ void PilotWorkspace::begin(const Rehearsal& asked, bool goOn) {
         seats.begun = [this](std::shared_ptr<const Clock> clock) { desk_.begin(std::move(clock)); };
         seats.takesStop = [this](const char* by) { return desk_.testsOperatorsStop() && desk_.stopBy(by); };
     }
-    controller_.runPilot(*made, seats, mark);
+    run_ = controller_.runPilot(*made, seats, mark);
     emit runningChanged();
 }
 
@@ -444,7 +444,7 @@ void PilotWorkspace::screenLost(const QString& name) {
 }
 
 void PilotWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
-    if (!running_) return;
+    if (!running_ || run->number != run_) return;  // another page's
     running_ = false;
     desk_.end();
     strip_ = nullptr;

@@ -80,6 +80,7 @@ private:
     std::unique_ptr<ParticipantWindow> window_;
     Rehearsal asked_;
     bool running_ = false;
+    std::uint64_t run_ = 0;
     bool seenFault_ = false;
     bool paused_ = false;  ///< by a break
     int step_ = 0;
