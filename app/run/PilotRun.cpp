@@ -107,6 +107,8 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
         if (!found) return failure(found);
         const Consent consent{study_->settings().consentVersion, study_->today(), "simulated"};
         if (auto given = study_->consent(found->code, consent); !given) return given;
+        found = study_->find(participant);
+        if (!found) return failure(found);
         remarks_.push_back(participant + " was enrolled as " + found->code +
                            " and consented by itself, as it does in rehearsals only.");
     }

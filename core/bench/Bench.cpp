@@ -273,6 +273,7 @@ Result<Presented> Bench::present(const Presentation& presentation) {
         return fail(ErrorCode::Timeout, "the presentation did not end within {:.3g} s", toSeconds(s.time.now() - now));
     }
     s.levels.presented(presentation.level, *ended);
+    if (const double ohm = telemetry().impedance_ohm; !ended->impedance && ohm > 0) ended->impedance = Ohms(ohm);
     if (!passed && passed.error().code == ErrorCode::Io) return failure(passed);
     return std::move(*ended);
 }

@@ -83,7 +83,7 @@ Result<void> BenchLevels::reportDiscomfort(Milliamps level) {
     limit = std::min(limit, level);
     const auto train = trainAt(step());
     if (!train) return failure(train);
-    // A gate that knows of nobody yet learns it from the limit when it is armed.
+    // A gate that was not configured for a person yet learns it from the limit when it is armed.
     const auto ceiling = tell({.what = LevelRequest::What::Discomfort, .train = *train, .uncomfortable = level});
     if (!ceiling && ceiling.error().code != ErrorCode::NotArmed) return failure(ceiling);
     return notes_.level("level-too-strong", level, ceiling ? *ceiling : limit);

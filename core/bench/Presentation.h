@@ -85,7 +85,7 @@ struct Presented {
     Instant began{0};    ///< its onsets count from then; never before `notBefore`. Of no meaning where it never began
     Instant ended{0};
     std::vector<PresentedTrain> trains;  ///< those that were delivered and read before its end, also of a void one
-    std::optional<Ohms> impedance;       ///< the last reading of |Z| at its end
+    std::optional<Ohms> impedance;       ///< the last reading of |Z|, also from before it; nothing where there is none
     [[nodiscard]] bool isVoid() const noexcept { return end != PresentationEnd::Complete; }
 };
 

@@ -26,13 +26,14 @@ void PresentationRun::begin(Presentation presentation, const TrainPlanner& plann
     made_.trains.reserve(timed.onsets.size());
     what_ = std::move(timed);
     began_.reset();
-    next_ = 0;
+    next_ = awaited_ = 0;
     lost_ = false;
 }
 
 PresentationRun::Due PresentationRun::next(const Sight& sight) noexcept {
     endIfHindered(sight);
-    if (!active() || !sight.idle) return Due::Nothing;  // an earlier train or the check pulse is still being read
+    // A train or the check pulse is still being read, or was read a moment ago and is not judged.
+    if (!active() || !sight.idle || awaited_ > 0) return Due::Nothing;
     if (!began_) {
         if (const Due due = beforeBegin(sight); due != Due::Nothing || !began_) return due;
     }
@@ -92,7 +93,9 @@ PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
 void PresentationRun::read(const TrainReport& report) noexcept {
     if (!active()) return;
     if (!std::isnan(report.impedance_ohm)) made_.impedance = Ohms(report.impedance_ohm);
-    if (report.isCheck) return;
+    // What an earlier presentation left under way is not of this one.
+    if (report.isCheck || report.outcome == TrainOutcome::LoopSilent || awaited_ == 0) return;
+    --awaited_;
     if (report.outcome == TrainOutcome::Voided) lost_ = true;
     if (report.outcome != TrainOutcome::Delivered) return;
     PresentedTrain train;

@@ -61,7 +61,10 @@ public:
     /// TrainPlanner::planLevel() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedStimulus> plan(TrainPlanner& planner, SafetyGate& gate, Instant now);
     /// It was handed over.
-    void posted() noexcept { ++next_; }
+    void posted() noexcept {
+        ++next_;
+        ++awaited_;
+    }
     /// What became of a train or of a check pulse.
     void read(const TrainReport& report) noexcept;
     /// Ends it. `reason`: one sentence. Does nothing when none is active.
@@ -81,7 +84,8 @@ private:
     std::optional<Timed> what_;
     std::optional<Instant> began_;
     std::size_t next_ = 0;
-    bool lost_ = false;  // a train was taken back before it was written
+    std::size_t awaited_ = 0;  // trains that were posted and whose report has not come
+    bool lost_ = false;        // a train was taken back before it was written
     Presented made_;
 
     std::mutex mutex_;

@@ -156,7 +156,7 @@ Result<void> PilotIdentification::familiarise() {
         auto trial = stageTrial(planned);
         trial.asks = false;
         trial.screen.state = ScreenState::Named;
-        trial.screen.named = nameOfCondition(planned);
+        trial.screen.named = planned.condition ? nameOfCondition(planned) : std::string(kNoneResponse);
         if (planned.condition) trial.felt.named = trial.screen.named;
         const auto felt = present(planned, trial);
         if (!felt) return failure(felt);

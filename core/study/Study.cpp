@@ -27,7 +27,7 @@ int answersIn(const fs::path& file) {
     if (!reader) return 0;
     const auto events = reader->events();
     if (!events) return 0;
-    return static_cast<int>(std::ranges::count(*events, "answer", &SessionRow::name));
+    return static_cast<int>(std::ranges::count(*events, std::string("answer"), &SessionRow::name));
 }
 
 fs::path withoutEnd(const fs::path& folder) {
@@ -200,8 +200,8 @@ Result<Participant> Study::enrol(Participant participant) {
                     *participant.virtualSeed);
     }
     const auto taken = [&](const std::string& code) {
-        return std::ranges::find(state_->keys->entries(), code, &StudyKeys::Entry::code) !=
-               state_->keys->entries().end();
+        return std::ranges::find(state_->known.participants, code, &Participant::code) !=
+               state_->known.participants.end();
     };
     if (participant.code.empty()) {
         do participant.code = newCode();

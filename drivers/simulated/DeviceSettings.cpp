@@ -18,6 +18,24 @@ FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepte
     return schedule;
 }
 
+/// What it delivers is what is programmed, as far as it states; nothing where it is out of order by what it was given.
+KnownLines statedBy(const SourceTraits& traits) {
+    constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // intervals
+    constexpr double kLeastOfMost = 1e-3;                   // of a source without a grid
+    const auto& stated = traits.accuracy;
+    const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kLeastOfMost * traits.amplitudeMax;
+    if (!stated.amplitude || !stated.phaseWidth || !stated.gap || !stated.interval) return std::nullopt;
+    if (!(stated.phaseWidth->relative <= kLargestMiscalibration) || !(least < traits.amplitudeMax)) return std::nullopt;
+    const auto line = [](double lowest, double highest, const Spread& spread) {
+        return CalibrationLine{.lowest = lowest, .highest = highest, .spread = spread};
+    };
+    const double widest_s = Seconds(traits.widthMax).count();
+    return StimulatorCalibration{line(least, traits.amplitudeMax, *stated.amplitude),
+                                 line(kShortest_s, kLongest_s, *stated.interval),
+                                 line(Seconds(traits.widthMin).count(), widest_s, *stated.phaseWidth),
+                                 line(Seconds(traits.widthStep).count(), widest_s, *stated.gap)};
+}
+
 }  // namespace
 
 Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed) {
@@ -107,6 +125,7 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
         .phaseWidth = Spread{std::abs(settings.widthGain - 1), std::max(timing, std::abs(settings.widthError.count()))},
         .gap = Spread{0, std::max(timing, std::abs(settings.gapError.count()))},
         .interval = Spread{}};
+    settings.calibration = statedBy(traits);
     settings.rise = Seconds(from.quantity("rise", "s", settings.rise.count(), 0, 1e-3));
     settings.latency = Seconds(from.quantity("latency", "s", settings.latency.count(), 0, 0.04));
     settings.jitter = Seconds(from.quantity("jitter", "s", settings.jitter.count(), 0, 0.01));

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <memory>
 
+#include "core/devices/StatesCalibration.h"
 #include "core/devices/Stimulator.h"
 #include "drivers/simulated/FastNoise.h"
 #include "drivers/simulated/FaultSchedule.h"
@@ -20,6 +21,7 @@ namespace tacto::sim {
 
 struct StimulatorSettings {
     SourceTraits traits;
+    KnownLines calibration;  ///< as it states it; nothing: it does not know
     double gain = 1;
     double offset = 0;             ///< V or A added to the magnitude of every phase
     double imbalance = 0;          ///< the second phase is weaker by this fraction
@@ -53,7 +55,7 @@ struct StimulatorStatement {
 /// `settings` with flaws drawn from its seed; their accuracy is stated in its traits.
 [[nodiscard]] StimulatorSettings drawnFlaws(const StimulatorSettings& settings);
 
-class SimulatedStimulator final : public Stimulator, public WorldMember {
+class SimulatedStimulator final : public Stimulator, public StatesCalibration, public WorldMember {
 public:
     static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
     static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMaxDrift
@@ -74,6 +76,7 @@ public:
     [[nodiscard]] Result<StimulatorStatus> status() override;
     [[nodiscard]] Result<void> keepAlive() override;
     void forceOff() noexcept override;
+    [[nodiscard]] const KnownLines& statedCalibration() const noexcept override { return settings_.calibration; }
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
     /// What this source makes of `train` at `now`, before any load: pure but for drift.

@@ -1,0 +1,342 @@
+// One presentation of a pilot session, from the command to the output.
+#include <ctime>
+#include <gmock/gmock.h>
+#include <limits>
+
+#include "tests/bench/FakeStimulator.h"
+#include "tests/bench/PersonFixture.h"
+
+namespace tacto {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> secondsOf(const std::vector<Seconds>& times) {
+    std::vector<double> out;
+    for (const Seconds time : times) out.push_back(time.count());
+    return out;
+}
+
+TEST(Presentation, TheThreeKindsHaveTheirOnsets) {
+    const auto test = testPresentation(Milliamps(2), Seconds(0.5));
+    EXPECT_EQ(test.onsets.size(), 9U) << "0, 0.5 ... 4 s";
+    EXPECT_DOUBLE_EQ(test.duration.count(), 4.2);
+    EXPECT_EQ(testPresentation(Milliamps(2), Seconds(2)).onsets.size(), 3U);
+    EXPECT_EQ(testPresentation(Milliamps(2), Seconds(0.8)).onsets.size(), 6U) << "the last at 4.0 s in decimals";
+    EXPECT_DOUBLE_EQ(testPresentation(Milliamps(2), Seconds(2)).duration.count(), 4.2)
+        << "as long whatever the interval";
+    EXPECT_THAT(secondsOf(ascendingPresentation(Milliamps(2), Seconds(0.5)).onsets), testing::ElementsAre(0, 0.5, 1));
+    const auto first = detectionPresentation(Milliamps(2), false, Seconds(0.1), Seconds(0.5));
+    const auto second = detectionPresentation(Milliamps(2), true, Seconds(0.1), Seconds(0.5));
+    EXPECT_THAT(secondsOf(first.onsets), testing::ElementsAre(testing::DoubleEq(0.35)));
+    EXPECT_THAT(secondsOf(second.onsets), testing::ElementsAre(testing::DoubleEq(1.75)));
+    EXPECT_DOUBLE_EQ(first.duration.count(), 2.2);
+    for (const auto& made : {test, first, second, ascendingPresentation(VibrationIntensity{1}, Seconds(0.5))}) {
+        const auto valid = validate(made);
+        EXPECT_TRUE(valid) << valid.error().message;
+    }
+}
+
+TEST(Presentation, WhatIsNoPresentationIsRefused) {
+    RecordProperty("hazard", "H1");
+    const auto sound = testPresentation(Milliamps(2), Seconds(0.5));
+    const auto refusal = [&](auto spoil) {
+        Presentation spoilt = sound;
+        spoil(spoilt);
+        const auto valid = validate(spoilt);
+        return valid ? std::string() : valid.error().message;
+    };
+    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(kNotANumber); }), HasSubstr("at nan mA"));
+    EXPECT_THAT(refusal([](auto& p) { p.level = Milliamps(-1); }), HasSubstr("at -1 mA"));
+    EXPECT_THAT(refusal([](auto& p) { p.level = VibrationIntensity{1.01}; }), HasSubstr("intensity 1.01"));
+    EXPECT_THAT(refusal([](auto& p) { p.level = VibrationIntensity{kNotANumber}; }), HasSubstr("intensity nan"));
+    EXPECT_THAT(refusal([](auto& p) { p.interval = Seconds(0); }), HasSubstr("an interval of 0 s"));
+    EXPECT_THAT(refusal([](auto& p) { p.interval = Seconds(kNotANumber); }), HasSubstr("an interval of nan s"));
+    EXPECT_THAT(refusal([](auto& p) { p.onsets.clear(); }), HasSubstr("0 onsets"));
+    EXPECT_THAT(refusal([](auto& p) { p.onsets.assign(65, Seconds(0)); }), HasSubstr("65 onsets"));
+    EXPECT_THAT(refusal([](auto& p) { p.onsets[0] = Seconds(-0.1); }), HasSubstr("a first onset at -0.1 s"));
+    EXPECT_THAT(refusal([](auto& p) { p.onsets[1] = Seconds(0.4); }), HasSubstr("onsets 0.4 s apart"));
+    EXPECT_THAT(refusal([](auto& p) { p.onsets[1] = Seconds(kNotANumber); }), HasSubstr("onsets nan s apart"));
+    EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(4); }), HasSubstr("a presentation of 4 s"));
+    EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(61); }), HasSubstr("a presentation of 61 s"));
+    EXPECT_THAT(refusal([](auto& p) { p.duration = Seconds(kNotANumber); }), HasSubstr("a presentation of nan s"));
+    EXPECT_EQ(refusal([](auto&) {}), "");
+    EXPECT_FALSE(validate(testPresentation(Milliamps(2), Seconds(0.01)))) << "more trains than a presentation has";
+}
+
+class PresentationTest : public test::PersonFixture {};
+
+TEST_F(PresentationTest, EveryTrainIsApprovedDeliveredAndReadBack) {
+    RecordProperty("hazard", "H1");
+    openArmed();
+    rampTo(4.5);
+    auto wanted = testPresentation(Milliamps(4.5), Seconds(0.5));
+    wanted.notBefore = clock_->now() + 1500ms;
+    const auto presented = bench_->present(wanted);
+    ASSERT_TRUE(presented) << presented.error().message;
+    EXPECT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
+    EXPECT_FALSE(presented->isVoid());
+    EXPECT_EQ(presented->began, wanted.notBefore);
+    ASSERT_EQ(presented->trains.size(), 9U);
+    for (std::size_t k = 0; k < presented->trains.size(); ++k) {
+        const auto& train = presented->trains[k];
+        EXPECT_EQ(train.onset, wanted.notBefore + static_cast<int>(k) * Instant(500ms))
+            << "on the virtual clock to the nanosecond";
+        EXPECT_EQ(train.approved, StimulusLevel(Milliamps(4.5)));
+        EXPECT_EQ(train.interval, Seconds(0.5));
+        ASSERT_TRUE(train.readBack);
+        EXPECT_NEAR(train.readBack->value(), 4.5, 0.05 * 4.5);
+        ASSERT_TRUE(train.impedance);
+        EXPECT_NEAR(train.impedance->value(), 3100, 100);
+    }
+    EXPECT_GE(presented->ended - presented->began, 4200ms);
+    EXPECT_LE(presented->ended - presented->began, 4200ms + 2 * ControlLoop::kPeriod);
+}
+
+TEST_F(PresentationTest, AnEmptyOneTakesTheSameTimeAndDeliversNothing) {
+    RecordProperty("hazard", "H1");
+    openArmed();
+    for (const auto& [interval, gap] : {std::pair(0.5, 0s), std::pair(2.0, 20s)}) {
+        const auto full = [&](double mA) {
+            bench_->idle(Seconds(gap));  // the reading of |Z| grows old
+            const Instant asked = clock_->now();
+            const auto before = bench_->telemetry();
+            const auto made = presentTest(mA, interval, 4);
+            EXPECT_EQ(made.end, PresentationEnd::Complete) << made.reason;
+            EXPECT_TRUE(made.impedance) << "known, if from before";
+            return std::tuple(made.began - asked, made.ended - made.began, bench_->telemetry().state,
+                              bench_->telemetry().trainsDelivered - before.trainsDelivered, made.trains.size());
+        };
+        const auto empty = full(0);
+        const auto delivered = full(0.5);
+        EXPECT_EQ(std::get<0>(empty), std::get<0>(delivered)) << "with a check pulse before both, or neither";
+        EXPECT_EQ(std::get<1>(empty), std::get<1>(delivered));
+        EXPECT_EQ(std::get<2>(empty), std::get<2>(delivered));
+        EXPECT_EQ(std::get<3>(empty), 0U);
+        EXPECT_EQ(std::get<4>(empty), 0U);
+        EXPECT_EQ(std::get<4>(delivered), static_cast<std::size_t>(4 / interval) + 1);
+    }
+}
+
+TEST_F(PresentationTest, AnOldReadingIsRenewedBeforeTheFirstTrain) {
+    RecordProperty("hazard", "H3");
+    openArmed("&fault=open@20s");
+    bench_->idle(Seconds(25));
+    auto wanted = testPresentation(Milliamps(0), Seconds(0.5));
+    const auto presented = bench_->present(wanted);
+    ASSERT_TRUE(presented) << presented.error().message;
+    EXPECT_EQ(presented->end, PresentationEnd::Faulted) << "an empty one finds the open electrode too";
+    EXPECT_TRUE(presented->trains.empty());
+}
+
+TEST_F(PresentationTest, WhatTheDeviceCannotSetIsRefusedAndNeverRounded) {
+    RecordProperty("hazard", "H1");
+    openArmed();
+    const auto delivered = bench_->telemetry().trainsDelivered;
+    const std::vector<std::pair<StimulusLevel, const char*>> wrong{
+        {Milliamps(0.7), "a level of 0.7 mA; multiples of the device's step, 0.5"},
+        {Milliamps(0.25), "multiples of the device's step"},
+        {Milliamps(0.5 + 1e-5), "multiples of the device's step"},
+        {Milliamps(200), "above 0 to 130 mA"},
+        {Milliamps(kNotANumber), "at nan mA"},
+        {VibrationIntensity{0.5}, "a current is accepted"}};
+    for (const auto& [level, words] : wrong) {
+        const auto refused = bench_->present(testPresentation(level, Seconds(0.5), Seconds(1)));
+        ASSERT_FALSE(refused) << textOf(level);
+        EXPECT_THAT(refused.error().message, HasSubstr(words));
+    }
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+    auto far = testPresentation(Milliamps(0.5), Seconds(0.5));
+    far.notBefore = clock_->now() + 61s;
+    EXPECT_FALSE(bench_->present(far));
+}
+
+TEST_F(PresentationTest, NeedsAnArmedBenchThatDrivesNothing) {
+    RecordProperty("hazard", "H2");
+    openPerson();
+    const auto wanted = testPresentation(Milliamps(0.5), Seconds(0.5), Seconds(1));
+    EXPECT_EQ(bench_->present(wanted).error().code, ErrorCode::NotArmed);
+    ASSERT_TRUE(arm());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+    EXPECT_THAT(bench_->present(wanted).error().message, HasSubstr("while the output is driven"));
+    ASSERT_TRUE(bench_->drive(DriveSource::Off));
+    EXPECT_TRUE(bench_->present(wanted));
+    bench_->stop("test");
+    EXPECT_EQ(bench_->present(wanted).error().code, ErrorCode::Stopped);
+    open({"sim:stimulator"}, {Role::Stimulator});
+    EXPECT_FALSE(arm()) << "a voltage source for a person";
+    person_.reset();
+    open({"sim:stimulator"}, {Role::Stimulator});
+    ASSERT_TRUE(arm());
+    EXPECT_EQ(bench_->present(wanted).error().code, ErrorCode::Unsupported);
+}
+
+TEST_F(PresentationTest, APulledOrShortedElectrodeEndsItBeforeTheNextTrain) {
+    RecordProperty("hazard", "H3");
+    for (const auto& [fault, cause] :
+         {std::pair("open", FaultCause::OpenElectrode), std::pair("short", FaultCause::ShortElectrode),
+          std::pair("unplug", FaultCause::DeviceFault)}) {
+        openArmed(fmt::format("&fault={}@3s", fault));
+        auto wanted = testPresentation(Milliamps(1), Seconds(0.5));
+        wanted.notBefore = Instant(1700ms);
+        const auto presented = bench_->present(wanted);
+        ASSERT_TRUE(presented) << presented.error().message;
+        EXPECT_EQ(presented->end, PresentationEnd::Faulted) << fault;
+        EXPECT_TRUE(presented->isVoid());
+        EXPECT_FALSE(presented->reason.empty());
+        EXPECT_LE(presented->trains.size(), 4U) << fault << ": at 1.7, 2.2, 2.7 and, found at it, 3.2 s";
+        EXPECT_GE(presented->trains.size(), 3U);
+        EXPECT_LT(presented->ended, Instant(3700ms)) << "before the next train";
+        EXPECT_EQ(state(), InterlockState::Faulted);
+        EXPECT_TRUE(bench_->faultPersists(cause)) << fault;
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        bench_->idle(Seconds(5));
+        EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
+        EXPECT_FALSE(bench_->present(wanted));
+        EXPECT_FALSE(bench_->accept(Milliamps(1))) << "a void presentation cannot be accepted";
+    }
+}
+
+TEST_F(PresentationTest, AStopAtAnyMomentMakesItVoidAndNothingFollows) {
+    RecordProperty("hazard", "H2");
+    for (int turn = 0; turn < 60; ++turn) {
+        openArmed();
+        struct Stopping {
+            Bench& bench;
+            int turns;
+        } stopping{*bench_, turn};
+        bench_->onProgress(
+            [](void* context) {
+                auto& [bench, turns] = *static_cast<Stopping*>(context);
+                if (turns-- == 0) bench.stop("the participant");
+            },
+            &stopping);
+        auto wanted = testPresentation(Milliamps(1), Seconds(0.5));
+        wanted.notBefore = clock_->now() + 100ms;
+        const auto presented = bench_->present(wanted);
+        bench_->onProgress(nullptr, nullptr);
+        if (stopping.turns >= 0) break;  // it was over before
+        ASSERT_TRUE(presented) << presented.error().message;
+        EXPECT_EQ(presented->end, PresentationEnd::Stopped) << turn;
+        EXPECT_FALSE(presented->reason.empty());
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+        const auto delivered = bench_->telemetry().trainsDelivered;
+        ASSERT_TRUE(bench_->begin(bench_->stops().mark()));
+        ASSERT_TRUE(arm());
+        bench_->idle(Seconds(5));
+        EXPECT_LE(bench_->telemetry().trainsDelivered, delivered + 1) << "the one that was under way";
+        EXPECT_EQ(presentTest(0.5).end, PresentationEnd::Complete) << "and another may follow";
+    }
+}
+
+TEST_F(PresentationTest, APauseMakesItVoid) {
+    RecordProperty("hazard", "H2");
+    openArmed();
+    int turns = 3;
+    struct Pausing {
+        Bench& bench;
+        int& turns;
+    } pausing{*bench_, turns};
+    bench_->onProgress(
+        [](void* context) {
+            auto& [bench, left] = *static_cast<Pausing*>(context);
+            if (left-- != 0) return;
+            bench.pause();
+            bench.resume();
+        },
+        &pausing);
+    const auto presented = presentTest(1, 0.5, 4);
+    bench_->onProgress(nullptr, nullptr);
+    EXPECT_EQ(presented.end, PresentationEnd::Paused);
+    EXPECT_EQ(presentTest(1).end, PresentationEnd::Complete);
+    bench_->pause();
+    EXPECT_EQ(bench_->present(testPresentation(Milliamps(1), Seconds(0.5))).error().code, ErrorCode::NotArmed);
+}
+
+TEST_F(PresentationTest, ALongPresentationCostsLittleTime) {
+    openArmed();
+    rampTo(4);
+    constexpr int kPresentations = 100;
+    const std::clock_t begun = std::clock();
+    for (int k = 0; k < kPresentations; ++k) {
+        ASSERT_EQ(presentTest(4, 0.5, 4).end, PresentationEnd::Complete);
+        ASSERT_TRUE(bench_->wait(Seconds(5)));  // an answer and a pause
+    }
+    const double each_ms = 1e3 * static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC / kPresentations;
+    RecordProperty("cpu_ms_per_presentation", std::to_string(each_ms));
+    std::printf("%.3f ms of CPU for each presentation of 4 s and 5 s of waiting\n", each_ms);
+    EXPECT_LT(each_ms, 40);
+}
+
+/// A current source that does what the test says, on a bench load.
+class FakedPresentationTest : public testing::Test {
+protected:
+    void open(bool realTime = false) {
+        bench_.reset();
+        if (realTime)
+            clock_ = std::make_shared<SteadyClock>();
+        else
+            clock_ = std::make_shared<VirtualClock>();
+        BenchConfig config;
+        auto device = std::make_unique<test::FakeStimulator>(*clock_);
+        device->traits_.drive = Drive::Current;
+        device->traits_.amplitudeStep = 0.5;
+        device_ = device.get();
+        config.devices.stimulator = std::move(device);
+        config.clock = clock_;
+        config.limits = {test::generousLimits()};
+        config.watched = [this] { return watched_.load(); };
+        bench_ = Bench::create(std::move(config)).value();
+        ASSERT_TRUE(bench_->arm(ArmRequest{"1 kohm", true, true}));
+    }
+    [[nodiscard]] Result<Presented> present(double interval_s = 0.5) {
+        return bench_->present(testPresentation(Milliamps(1), Seconds(interval_s)));
+    }
+
+    std::shared_ptr<Clock> clock_;
+    std::unique_ptr<Bench> bench_;
+    test::FakeStimulator* device_ = nullptr;
+    std::atomic<bool> watched_{true};
+};
+
+TEST_F(FakedPresentationTest, EndsWhenItsOwnerNoLongerLooksAfterIt) {
+    RecordProperty("hazard", "H2");
+    open();
+    watched_ = false;
+    const auto presented = present();
+    ASSERT_TRUE(presented) << presented.error().message;
+    EXPECT_EQ(presented->end, PresentationEnd::Stopped);
+    EXPECT_THAT(presented->reason, HasSubstr("did not look after it for 2 s"));
+    EXPECT_LE(presented->ended - presented->began, 2100ms);
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
+}
+
+TEST_F(FakedPresentationTest, ATrainThatWouldComeLateIsNotSent) {
+    RecordProperty("hazard", "H1");
+    open();
+    const int before = device_->delivered;
+    device_->onDeliver = [this] { device_->stillOnUntil = clock_->now() + 570ms; };
+    const auto presented = present();
+    ASSERT_TRUE(presented) << presented.error().message;
+    EXPECT_EQ(presented->end, PresentationEnd::Late) << presented->reason;
+    EXPECT_THAT(presented->reason, HasSubstr("train 2 would have begun"));
+    EXPECT_EQ(device_->delivered, before + 1);
+    EXPECT_EQ(bench_->telemetry().state, InterlockState::Delivering);
+}
+
+TEST_F(FakedPresentationTest, AStopDuringAWriteSwitchesOffAfterTheWrite) {
+    RecordProperty("hazard", "H2");
+    open();
+    device_->onDeliver = [this] { bench_->stop("test"); };
+    const auto presented = present();
+    device_->onDeliver = nullptr;
+    ASSERT_TRUE(presented) << presented.error().message;
+    EXPECT_EQ(presented->end, PresentationEnd::Stopped);
+    EXPECT_FALSE(device_->on);
+}
+
+}  // namespace
+}  // namespace tacto

@@ -1,0 +1,215 @@
+// What happens once, what a stop does, and what comes before a train.
+#include <algorithm>
+#include <gmock/gmock.h>
+
+#include "core/pilot/PilotStage.h"
+#include "core/session/SessionReader.h"
+#include "tests/bench/BenchFixture.h"
+
+namespace tacto {
+namespace {
+
+using testing::ElementsAre;
+
+/// Answers with the first target, and stops where it is told to.
+class Someone final : public PilotParticipant {
+public:
+    void show(const PilotScreen&) override {}
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        asked.push_back(prompt.name);
+        if (prompt.kind != PromptKind::GoOn && stops > 0) {
+            --stops;
+            stop(stoppedBy);
+            return fail(ErrorCode::Stopped, "stopped by the {}", stoppedBy);
+        }
+        PilotAnswer answer;
+        answer.keys.push_back(prompt.targets.front().key);
+        answer.after = Seconds(0.5);
+        return answer;
+    }
+    void delivered(const FeltPresentation& felt) override { drawn.push_back(felt.drawnFor); }
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
+    void cancel() noexcept override {}
+    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] Result<void> ready() const override { return {}; }
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
+
+    std::vector<std::string> asked;
+    std::vector<std::string> drawn;
+    int stops = 0;
+    const char* stoppedBy = "participant";
+};
+
+class PilotStageTest : public test::BenchFixture {
+protected:
+    void SetUp() override {
+        profile_.electrodeArea = SquareCentimetres(4);
+        person_ = PersonSetup{.participant = "P-7K3M",
+                              .consentRecorded = true,
+                              .discomfortLimit = Milliamps(30),
+                              .rampStep = Milliamps(1)};
+        clockOfFile_ = std::make_shared<VirtualClock>();
+        begin();
+    }
+    /// A part of the session with what the earlier ones wrote.
+    void begin(const std::vector<SessionRow>& earlier = {}) {
+        stage_.reset();
+        record_.reset();
+        bench_.reset();
+        ++part_;
+        writer_ = SessionWriter::create(file(), {}, *clockOfFile_).value();
+        session_ = writer_.get();
+        open({"sim:stimulator?mode=current&step=0.5mA"}, {Role::Stimulator});
+        ASSERT_TRUE(bench_);
+        record_ = std::make_unique<PilotRecord>(*writer_, *clock_, earlier);
+        PilotSettings settings;
+        settings.code = "P-7K3M";
+        settings.isVirtual = true;
+        stage_ = std::make_unique<PilotStage>(*bench_, someone_, *record_, settings);
+    }
+    [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
+    [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }
+    /// Those of the session's own kinds, in order.
+    [[nodiscard]] std::vector<std::string> kinds() const {
+        std::vector<std::string> all;
+        for (const auto& each : rows()) {
+            for (const char* kind : {row::kTrialBegin, row::kAnswer, row::kParticipantStop, row::kContinue,
+                                     row::kOperatorStop, row::kSessionEnd})
+                if (each.name == kind) all.push_back(each.name);
+        }
+        return all;
+    }
+    [[nodiscard]] StageTrial trial(const std::string& name = "test 1", double level = 0.5) const {
+        StageTrial made;
+        made.name = name;
+        made.about = {{"number", 1}, {"phase", "test"}, {"block", 1}, {"condition", "rough-high"}};
+        made.level = level;
+        made.presentation = ascendingPresentation(Milliamps(level), Seconds(0.5));
+        made.prompt = strengthPrompt();
+        made.screen.state = ScreenState::Feel;
+        return made;
+    }
+
+    test::ScratchDir dir_;
+    std::shared_ptr<VirtualClock> clockOfFile_;
+    int part_ = 0;
+    Someone someone_;
+    std::unique_ptr<SessionWriter> writer_;
+    std::unique_ptr<PilotRecord> record_;
+    std::unique_ptr<PilotStage> stage_;
+};
+
+TEST_F(PilotStageTest, EachAnswerIsOnDiskBeforeTheNextTrialBegins) {
+    RecordProperty("hazard", "H8");
+    for (const char* name : {"test 1", "test 2"}) {
+        const auto answer = stage_->trial(trial(name));
+        ASSERT_TRUE(answer) << answer.error().message;
+        EXPECT_EQ(answer->response, "nothing");
+        EXPECT_EQ(answer->attempt, 1U);
+    }
+    EXPECT_THAT(kinds(), ElementsAre("trial-begin", "answer", "trial-begin", "answer"));
+    const auto all = rows();
+    const auto answered = std::ranges::find(all, row::kAnswer, &SessionRow::name);
+    ASSERT_NE(answered, all.end());
+    EXPECT_EQ(answered->body["trains"], 3);
+    EXPECT_EQ(answered->body["delivered"].size(), 3U);
+}
+
+TEST_F(PilotStageTest, WhatHasAnAnswerIsNeitherPresentedNorAskedAgain) {
+    RecordProperty("hazard", "H8");
+    ASSERT_TRUE(stage_->trial(trial()));
+    const auto felt = someone_.drawn;
+    const auto earlier = rows();
+    begin(earlier);
+    someone_.asked.clear();
+    someone_.drawn.clear();
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_TRUE(answer->replayed);
+    EXPECT_EQ(answer->response, "nothing");
+    EXPECT_TRUE(someone_.asked.empty());
+    EXPECT_EQ(someone_.drawn, felt) << "told again, as it was";
+    EXPECT_TRUE(kinds().empty());
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+}
+
+TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {
+    RecordProperty("hazard", "H9");
+    ASSERT_TRUE(stage_->trial(trial()));
+    const auto earlier = rows();
+    begin(earlier);
+    const auto answer = stage_->trial(trial("test 1", 1));
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+}
+
+TEST_F(PilotStageTest, AParticipantsStopVoidsTheTrialWhichIsRepeatedAfterTheirGoOn) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    const auto answer = stage_->trial(trial());
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(answer->attempt, 2U);
+    EXPECT_THAT(someone_.asked, ElementsAre("strength", "go-on", "strength"));
+    EXPECT_THAT(kinds(), ElementsAre("trial-begin", "participant-stop", "continue", "trial-begin", "answer"));
+}
+
+TEST_F(PilotStageTest, TheirThirdStopEndsTheSession) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 3;
+    const auto answer = stage_->trial(trial());
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, ErrorCode::Stopped);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+    EXPECT_EQ(kinds().back(), "session-end");
+    EXPECT_NE(state(), InterlockState::Armed);
+}
+
+TEST_F(PilotStageTest, AnOperatorsStopBreaksTheSessionOff) {
+    RecordProperty("hazard", "H2");
+    someone_.stops = 1;
+    someone_.stoppedBy = "operator";
+    const auto answer = stage_->trial(trial());
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished);
+    EXPECT_THAT(kinds(), ElementsAre("trial-begin", "operator-stop"));
+    EXPECT_NE(state(), InterlockState::Armed);
+}
+
+TEST_F(PilotStageTest, ARowThatCannotBeWrittenComesBeforeTheTrain) {
+    RecordProperty("hazard", "H8");
+    ASSERT_TRUE(stage_->ready());
+    const auto before = bench_->telemetry().trainsDelivered;
+    ASSERT_TRUE(writer_->close());
+    const auto answer = stage_->trial(trial());
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, before);
+    EXPECT_TRUE(someone_.asked.empty());
+}
+
+TEST_F(PilotStageTest, AResumedSessionReachesItsLevelsAgainStepByStep) {
+    RecordProperty("hazard", "H6");
+    for (const double level : {0.5, 1.0, 1.5}) {
+        const auto name = fmt::format("ascending {}", level);
+        const auto answer = stage_->trial(trial(name, level));
+        ASSERT_TRUE(answer) << answer.error().message;
+        ASSERT_TRUE(stage_->judged(level, false, name, false));
+    }
+    const auto earlier = rows();
+    begin(earlier);
+    for (const double level : {0.5, 1.0, 1.5}) {
+        const auto name = fmt::format("ascending {}", level);
+        const auto answer = stage_->trial(trial(name, level));
+        ASSERT_TRUE(answer) << answer.error().message;
+        ASSERT_TRUE(stage_->judged(level, false, name, answer->replayed));
+    }
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
+    const auto answer = stage_->trial(trial("test 1", 2));
+    ASSERT_TRUE(answer) << answer.error().message;
+    std::vector<std::string> answered;
+    for (const auto& each : rows())
+        if (each.name == row::kAnswer) answered.push_back(each.body["name"]);
+    EXPECT_THAT(answered, ElementsAre("ramp 0 0.5", "ramp 0 1", "ramp 0 1.5", "test 1"));
+}
+
+}  // namespace
+}  // namespace tacto
