@@ -3,6 +3,7 @@
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QRegularExpression>
 #include <cmath>
 
 #include "app/gui/theme/Icons.h"
@@ -131,8 +132,13 @@ void PilotResult::show(const FinishedRun& run, const QString& folder) {
                    : outcome.error ? tr("The session ended before there was a result.")
                                    : tr("The session has ended."));
     QStringList why;
-    if (outcome.error) why << sentence(*outcome.error) + tr(" Output is off. What was answered is on disk.");
-    for (const auto& reason : outcome.reasons) why << sentence(qtext(reason));
+    static const QRegularExpression place(R"(^\S*\.js:\d+: )");  // where in the script: not the operator's concern
+    if (outcome.error)
+        why << sentence(qtext(outcome.error->message).remove(place)) +
+                   tr(" Output is off. What was answered is on disk.");
+    for (const auto& reason : outcome.reasons) {
+        if (!outcome.error) why << sentence(qtext(reason));
+    }
     for (const auto& trouble : run.result.troubles) why << sentence(trouble);
     why_->setText(why.join('\n'));
     why_->setVisible(!why.isEmpty());
