@@ -293,7 +293,11 @@ Result<void> PilotStage::judged(double level, bool tooStrong, const std::string&
     else
         accepted_.try_emplace(level, trial);
     if (settings_.unit == LevelUnit::Intensity) return {};
-    if (tooStrong) return bench_.reportDiscomfort(Milliamps(level));
+    if (tooStrong) {
+        auto told = bench_.reportDiscomfort(Milliamps(level));
+        rest();  // Armed anew under the lower limit before anything else is presented
+        return told;
+    }
     return replayed ? Result<void>() : bench_.accept(Milliamps(level));
 }
 

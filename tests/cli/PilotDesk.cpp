@@ -8,10 +8,7 @@
 
 namespace tacto::test {
 
-Words shortSession() {
-    return {"--set", "participant=virtual:7", "--set", "blocks=1",     "--set", "detection=1",
-            "--set", "attention=1.6",         "--set", "discomfort=3", "--set", "intolerance=5"};
-}
+Words shortSession() { return {"--set", "participant=virtual:7", "--set", "blocks=1"}; }
 
 Words PilotDesk::words(const std::string& protocol, const Words& more, const std::string& study) const {
     Words all{"run", protocol, "--device", "sim:", "--out", desk_.at(study), "--json"};

@@ -7,7 +7,7 @@
 
 namespace tacto::test {
 
-/// Few levels and one block: every path of a session in a fraction of its rows.
+/// One block of the test.
 [[nodiscard]] Words shortSession();
 
 class PilotDesk {
