@@ -66,6 +66,15 @@ PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
+/// Of the session's first part that came as far; null where none did.
+const nlohmann::json* PilotCare::firstImpedance() const {
+    const auto parts = stage_.record().count(row::kResumed) + 1;
+    for (std::size_t n = 1; n <= parts; ++n) {
+        if (const auto* found = stage_.record().find(row::kImpedance, fmt::format("part {} second", n))) return found;
+    }
+    return nullptr;
+}
+
 Result<void> PilotCare::gate(const std::string& name, bool holds, const std::string& sentence) {
     auto kept = stage_.record().write(row::kGate, name, {{"holds", holds}, {"said", holds ? "" : sentence}});
     if (!kept) return kept;
@@ -161,7 +170,7 @@ Result<void> PilotCare::electrodes() {
                                      *first, *second));
         !held)
         return held;
-    const auto* begun = stage_.record().find(row::kImpedance, "part 1 second");
+    const auto* begun = firstImpedance();
     if (!resumed || begun == nullptr) return {};
     const double before = numberOr(*begun, "impedance_ohm");
     return gate(
@@ -175,7 +184,7 @@ Result<void> PilotCare::beforeBlock(int block) {
     if (stage_.settings().unit == LevelUnit::Intensity) return {};
     const auto name = fmt::format("block {}", block);
     if (stage_.record().find(row::kImpedance, name) != nullptr) return {};
-    const auto* begun = stage_.record().find(row::kImpedance, "part 1 second");
+    const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
     const auto now = measureImpedance(name);
     if (!now) return failure(now);

@@ -37,6 +37,7 @@ private:
     /// Ends the session where the gate does not hold.
     [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
     [[nodiscard]] std::string part() const;
+    [[nodiscard]] const nlohmann::json* firstImpedance() const;
 
     PilotStage& stage_;
 };
