@@ -71,8 +71,9 @@ TEST_F(StudyExport, NothingIsPutIntoTheStudyFolder) {
     EXPECT_FALSE(fs::exists(study() + "/bids"));
     EXPECT_FALSE(fs::exists(study() + "/report.pdf"));
     expectRefused(desk_.run({"export", study(), "--format", "xml", "--out", at("x")}), 2, {"bids is accepted"});
-    expectRefused(desk_.run({"export", study(), "--out", at("x"), "--with", "name"}), 2, {"age, sex and handedness"});
-    expectRefused(desk_.run({"export", at("nowhere"), "--out", at("x")}), 3, {"no study"});
+    expectRefused(desk_.run({"export", study(), "--format", "bids", "--out", at("x"), "--with", "name"}), 2,
+                  {"age, sex and handedness"});
+    expectRefused(desk_.run({"export", at("nowhere"), "--format", "bids", "--out", at("x")}), 3, {"no study"});
 }
 
 TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {

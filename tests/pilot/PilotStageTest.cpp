@@ -42,6 +42,7 @@ public:
 
 class PilotStageTest : public test::BenchFixture {
 protected:
+    ~PilotStageTest() override { close(); }
     void SetUp() override {
         profile_.electrodeArea = SquareCentimetres(4);
         person_ = PersonSetup{.participant = "P-7K3M",
@@ -53,9 +54,7 @@ protected:
     }
     /// A part of the session with what the earlier ones wrote.
     void begin(const std::vector<SessionRow>& earlier = {}) {
-        stage_.reset();
-        record_.reset();
-        bench_.reset();
+        close();
         ++part_;
         writer_ = SessionWriter::create(file(), {}, *clockOfFile_).value();
         session_ = writer_.get();
@@ -66,6 +65,12 @@ protected:
         settings.code = "P-7K3M";
         settings.isVirtual = true;
         stage_ = std::make_unique<PilotStage>(*bench_, someone_, *record_, settings);
+    }
+    /// The bench writes to the session until it ends.
+    void close() {
+        stage_.reset();
+        record_.reset();
+        bench_.reset();
     }
     [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }

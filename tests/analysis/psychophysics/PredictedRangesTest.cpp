@@ -7,6 +7,7 @@
 #include "core/electrode/LoadResponse.h"
 #include "core/encoding/EncodingProfile.h"
 #include "tests/analysis/psychophysics/Procedures.h"
+#include "tests/support/Figures.h"
 #include "tests/support/Trials.h"
 
 namespace tacto {
@@ -93,22 +94,18 @@ std::optional<PersonalRangeResult> measuredRange(const LevelGrid& grid, const Vi
     return range.result();
 }
 
-TEST(PredictedRanges, AreThoseOfTheDesignWhereThresholdsAreKnown) {
-    const struct {
-        double tooStrong_ma, weber, usable, median, low, high;
-    } design[] = {{6.9, 0.10, 0.35, 0.89, 0.74, 0.98},
-                  {9.8, 0.10, 0.93, 0.96, 0.86, 0.99},
-                  {13.8, 0.10, 0.99, 0.97, 0.94, 0.99},
-                  {9.8, 0.20, 0.93, 0.84, std::nan(""), std::nan("")}};
-    for (const auto& row : design) {
-        const auto found = rangesOver(4000, populationWith(row.tooStrong_ma, row.weber), knownRange);
-        std::printf("known, too strong from %.1f mA, Weber %.2f: %.3f usable, %.3f (%.3f to %.3f)\n", row.tooStrong_ma,
-                    row.weber, found.usable, found.median, found.low, found.high);
-        EXPECT_NEAR(found.usable, row.usable, 0.04);
-        EXPECT_NEAR(found.median, row.median, 0.03);
-        if (std::isnan(row.low)) continue;
-        EXPECT_NEAR(found.low, row.low, 0.03);
-        EXPECT_NEAR(found.high, row.high, 0.03);
+TEST(PredictedRanges, AreThoseOfAnIndependentModelWhereThresholdsAreKnown) {
+    constexpr std::size_t kPeople = 4000;
+    for (const auto& row : test::figuresOf("predicted_ranges").at("known")) {
+        const double tooStrong = row.at("too_strong_ma"), weber = row.at("weber"), usable = row.at("usable");
+        const auto found = rangesOver(kPeople, populationWith(tooStrong, weber), knownRange);
+        std::printf("known, too strong from %.1f mA, Weber %.2f: %.3f usable, %.3f (%.3f to %.3f)\n", tooStrong, weber,
+                    found.usable, found.median, found.low, found.high);
+        // Four standard errors of so many people.
+        EXPECT_NEAR(found.usable, usable, 4 * std::sqrt(usable * (1 - usable) / kPeople));
+        EXPECT_NEAR(found.median, row.at("median").get<double>(), 0.01);
+        EXPECT_NEAR(found.low, row.at("low").get<double>(), 0.02);
+        EXPECT_NEAR(found.high, row.at("high").get<double>(), 0.01);
     }
 }
 
