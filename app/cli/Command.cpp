@@ -44,10 +44,9 @@ int usage(const std::string& sentence) {
 }
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness,   kEncode,
-                                          kMeasure, kConvert,     kAnalyze, kReport,      kVerify,
-                                          kHid,     kScienceMode, kSensor,  kCertificate, kStudy,
-                                          kExport};
+    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
+                                          kConvert, kAnalyze,     kReport,  kVerify,    kHid,    kScienceMode,
+                                          kSensor,  kCertificate, kStudy,   kExport};
     return all;
 }
 

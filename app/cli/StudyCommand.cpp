@@ -106,7 +106,8 @@ int show(const Study& study, const QCommandLineParser& parser) {
                                                             : participant.consents.back().version;
         say("  {}{}: {}, consent {}, sessions {}\n", name,
             participant.virtualSeed ? fmt::format(" (virtual:{})", *participant.virtualSeed) : "",
-            wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state), consented, participant.sessions);
+            wordFor(tacto::Words<ParticipantState>(kParticipantStates), participant.state), consented,
+            participant.sessions);
     }
     if (all["withdrawn"] != 0) say("  withdrawn: {}\n", all["withdrawn"].get<int>());
     for (const auto& session : study.sessions()) {

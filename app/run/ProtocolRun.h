@@ -18,7 +18,7 @@ struct RunOrder : BenchOrder {
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
     std::string ownLoad = {};  ///< in place of the load that the parameters declare: a virtual participant's skin
-    bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
+    bool resetFault = false;   ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
 };
 
 /// The load that a protocol's parameters declare: what the simulated bench starts with.

@@ -56,8 +56,10 @@ std::vector<std::string> PilotIdentification::labels() const {
 Result<void> PilotIdentification::plan(bool withTrials) {
     auto& settings = stage_.settings();
     const auto stored = stage_.record().once(row::kPlan, "plan", [&]() -> Result<nlohmann::json> {
-        nlohmann::json body{
-            {"seed", settings.seed}, {"encoding", settings.encoding}, {"blocks", static_cast<std::uint64_t>(settings.blocks)}, {"trials", nullptr}};
+        nlohmann::json body{{"seed", settings.seed},
+                            {"encoding", settings.encoding},
+                            {"blocks", static_cast<std::uint64_t>(settings.blocks)},
+                            {"trials", nullptr}};
         if (!withTrials) return body;
         TrialPlanSettings wanted;
         wanted.conditions = settings.conditions.size();

@@ -50,7 +50,7 @@ struct ExclusionAnswer {
 /// The last session lies far enough back; a rehearsal does not ask.
 [[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
                                    std::chrono::sys_seconds now);
-/// Consent to the version in force, dated no later than today, taken by somebody.
+/// Consent to the version in force, dated no later than today, with the initials of who took it.
 [[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
                                        CalibrationDate today);
 /// The clock is not more than 5 min behind the ledger's last row.

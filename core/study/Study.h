@@ -1,6 +1,6 @@
 // Study.h - a study: its folder (study.json, ledger.tacto, sessions/), its key file, its participants and sessions.
 //
-// Promise (hazards H8, H11): what returned a value is on disk. Whoever finds the folder reads no code, no answer and no
+// Promise (hazards H8, H11): what returned a value is on disk. Without the key one reads no code, no answer and no
 // level: those are sealed under keys that lie elsewhere, in the user's key folder. A withdrawn participant's key is
 // destroyed; the ledger and the chains stay whole.
 //

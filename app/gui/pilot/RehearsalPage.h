@@ -20,7 +20,7 @@ class ScreenChoice;
 
 struct Rehearsal {
     QString folder;
-    bool person = false;     ///< whoever sits at the participant's window answers; else a virtual participant
+    bool person = false;     ///< the one at the participant's window answers; else a virtual participant
     std::uint64_t seed = 1;  ///< of plan, order, and the virtual participant
     int blocks = 5;
     bool blind = true;
