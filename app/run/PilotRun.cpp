@@ -100,11 +100,15 @@ Result<void> PilotRun::openStudy(const RunOrder& order, const PilotOrder& pilot)
                         pilot.study.string());
     }
     auto found = study_->find(participant);
-    if (!found && *seed && study_->isRehearsal()) {
+    const bool byItself = *seed && study_->isRehearsal();
+    if (!found && byItself) {
         Participant enrolled;
         enrolled.virtualSeed = *seed;
         found = study_->enrol(std::move(enrolled));
         if (!found) return failure(found);
+    }
+    // Also one whose enrolment alone is on disk, because the program died before the consent was.
+    if (found && byItself && found->consents.empty()) {
         const Consent consent{study_->settings().consentVersion, study_->today(), "simulated"};
         if (auto given = study_->consent(found->code, consent); !given) return given;
         found = study_->find(participant);

@@ -39,8 +39,10 @@ TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
     const auto undisturbed = desk.run("pilot-identification", shortSession(), "whole");
     ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
     const auto expected = planAndAnswers(jsonOf(undisturbed));
-    auto resumed = shortSession();
-    resumed.insert(resumed.end(), {"--seed", "99", "--set", "unfinished=resume"});  // The stored plan holds
+    auto fromTheSeed = shortSession();
+    fromTheSeed.insert(fromTheSeed.end(), {"--set", "unfinished=resume"});
+    auto resumed = fromTheSeed;
+    resumed.insert(resumed.end(), {"--seed", "99"});  // The stored plan holds
     long killed = 0;
     const long stride = kShards * trials<long>({.local = 8, .ci = 1, .campaign = 1});
     for (long sync = 1 + GetParam();; sync += stride) {
@@ -54,9 +56,8 @@ TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
             std::filesystem::remove_all(desk.desk().at(study));
             continue;
         }
-        // Before anything of the session is durable there is nothing to go on with: a new one has its own seed.
-        auto words = resumed;
-        if (desk.desk().named(study + "/sessions", ".tacto").empty()) words = shortSession();
+        // Before the plan is durable there is none that could hold: it is drawn from the seed.
+        const auto& words = desk.desk().named(study + "/sessions", ".tacto").empty() ? fromTheSeed : resumed;
         const auto ran = desk.run("pilot-identification", words, study);
         ASSERT_EQ(ran.code, 0) << "sync " << sync << ": " << ran.err;
         EXPECT_EQ(planAndAnswers(jsonOf(ran)), expected) << "sync " << sync;
