@@ -10,7 +10,7 @@ protocol({
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     area: {
-      label: "Area of the smallest electrode (0: as in the profile)",
+      label: "Area of the electrode (0: profile)",
       unit: "cm2",
       min: 0,
       max: 1000,
@@ -21,8 +21,8 @@ protocol({
     steps: { label: "Commands per load", type: "integer", min: 2, max: 11, value: 4 },
     dmm: { label: "Enter multimeter readings", type: "boolean", step: "reference", value: false },
     load_tolerance: { label: "Tolerance of a load's value", unit: "%", min: 0.1, max: 15, value: 5 },
-    resistor_tolerance: { label: "Resistors, as marked (without multimeter)", unit: "%", min: 0.01, max: 10, step: "reference", value: 1 },
-    area_tolerance: { label: "Uncertainty of the electrode's area", unit: "%", min: 0.01, max: 50, value: 5 },
+    resistor_tolerance: { label: "Resistors as marked", unit: "%", min: 0.01, max: 10, step: "reference", value: 1 },
+    area_tolerance: { label: "Electrode area, uncertainty", unit: "%", min: 0.01, max: 50, value: 5 },
     amplitude_tolerance: { label: "Amplitude over the command", unit: "%", min: 0.1, max: 20, value: 2 },
     reference_v: { label: "Reference source on the oscilloscope (0: none)", unit: "V", min: 0, max: 500, step: "reference", value: 0 },
     reference_u_pct: { label: "Its uncertainty (k = 2)", unit: "%", min: 0, max: 10, step: "reference", value: 0 },

@@ -341,7 +341,7 @@ void PilotWorkspace::reach(int step) {
         if (now == State::ToDo) steps_->setNote(i, {});
         if (now == State::UnderWay && before != now) steps_->setNote(i, QTime::currentTime().toString("HH:mm"));
     }
-    steps_->setShown(step_);
+    steps_->setShown(std::min(step_, kSteps - 1));  // all are done once the session has ended
     const bool counts = step >= 0 && running_ && asked_.person;
     leftWord_->setVisible(counts);
     left_->setVisible(counts);

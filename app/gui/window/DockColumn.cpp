@@ -155,27 +155,21 @@ void DockColumn::apply() {
     }
     strip_->setVisible(collapsed_ && !hidden_);
     toggle_->setChecked(!collapsed_);
-    QTimer::singleShot(0, this, &DockColumn::giveClaimed);  // once they are laid out
+    QTimer::singleShot(0, this, &DockColumn::giveFirst);  // once they are laid out
 }
 
-/// A window shares a change of its height among its docks; some of them have a claim.
-void DockColumn::giveClaimed() {
-    QList<QDockWidget*> claiming;
-    QList<int> heights;
-    bool given = true;
+/// A window shares a change of its height among its docks; the first of them has a claim.
+void DockColumn::giveFirst() {
     for (auto* dock : docks_) {
         const bool open = dock->isVisible() && !dock->isFloating() && !dock->folded();
-        const int claimed = dock->claimedHeight();
-        if (!open || claimed == 0) continue;
-        given = given && dock->height() >= claimed;
-        claiming << dock;
-        heights << std::max(claimed, dock->height());
+        if (open && dock->room() == FoldingDock::Room::First && dock->height() < dock->maximumHeight() &&
+            dock->maximumHeight() < QWIDGETSIZE_MAX)
+            window_.resizeDocks({dock}, {dock->maximumHeight()}, Qt::Vertical);
     }
-    if (!given) window_.resizeDocks(claiming, heights, Qt::Vertical);
 }
 
 bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::giveClaimed);
+    if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::giveFirst);
     return QObject::eventFilter(watched, event);
 }
 

@@ -42,7 +42,7 @@ protected:
 
 private:
     void apply();
-    void giveClaimed();
+    void giveFirst();
 
     QMainWindow& window_;
     std::vector<FoldingDock*> docks_;

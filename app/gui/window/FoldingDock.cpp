@@ -75,19 +75,6 @@ void FoldingDock::setContent(QWidget* content, Room room) {
     if (inside_ != nullptr && room == Room::First) inside_->installEventFilter(this);
 }
 
-int FoldingDock::claimedHeight() const {
-    constexpr int kReadableLines = 9;
-    switch (room_) {
-        case Room::First:
-            return maximumHeight() < QWIDGETSIZE_MAX ? maximumHeight() : 0;
-        case Room::Readable:
-            return header_->height() + fontMetrics().lineSpacing() * kReadableLines;
-        case Room::Shared:
-            break;
-    }
-    return 0;
-}
-
 void FoldingDock::fold(bool folded) {
     if (folded_ == folded) return;
     folded_ = folded;

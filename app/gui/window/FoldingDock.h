@@ -18,14 +18,11 @@ public:
     /// In its column. On a low screen every dock scrolls: none makes the window larger than the screen.
     enum class Room {
         Shared,
-        First,    ///< as high as its content, as far as the others can give way; they take what is left
-        Readable  ///< in a low column at least as high as it takes to be read, before those that share
+        First  ///< as high as its content, as far as the others can give way; they take what is left
     };
     /// Takes `content`, with the docks' margin around it.
     void setContent(QWidget* content, Room room = Room::Shared);
     [[nodiscard]] Room room() const { return room_; }
-    /// What it claims of its column before the docks that share; 0: nothing.
-    [[nodiscard]] int claimedHeight() const;
     void fold(bool folded);
     [[nodiscard]] bool folded() const { return folded_; }
     [[nodiscard]] const QString& iconName() const { return icon_; }

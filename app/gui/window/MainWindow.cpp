@@ -187,7 +187,7 @@ void MainWindow::buildDocks() {
     measurements_ = new FoldingDock(tr("Measurements"), "measurements", "measurementDock", this);
     summary_ = new MeasurementSummary(measurements_);
     summary_->follow(scope_->readings());
-    measurements_->setContent(summary_, FoldingDock::Room::Readable);
+    measurements_->setContent(summary_);
     exposure_ = new ExposureDock(controller_, this);
     devices_ = new DeviceDock(controller_, calibrations_, this);
     docks_ = new DockColumn(*this, {drive_, exposure_, measurements_, devices_});

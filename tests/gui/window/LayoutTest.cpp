@@ -87,19 +87,6 @@ TEST_F(Layout, DocksCollapseToAStripThatKeepsTheirKeyFigures) {
     EXPECT_FALSE(bar("dockStrip").isVisible()) << "each workspace keeps its own";
 }
 
-TEST_F(Layout, MeasurementsCanBeReadInALowWindowWithAllDocksOpen) {
-    open();
-    window.resize(1280, 720);
-    auto& measurements = dock("measurementDock");
-    const int readable = QFontMetrics(measurements.font()).lineSpacing() * 9;
-    EXPECT_IN_TIME(comesTrue([&] { return measurements.height() >= readable; })) << measurements.height();
-    const auto* stop = window.findChild<QPushButton*>("stopButton");
-    EXPECT_TRUE(stop->isVisible());
-    EXPECT_EQ(window.height(), 720) << "no dock makes the window higher";
-    EXPECT_GE(dock("driveDock").height(), dock("driveDock").maximumHeight()) << "the drive is whole";
-    shot(window, "docks-1280");
-}
-
 TEST_F(Layout, ADockFoldsToItsHeader) {
     auto& exposure = dock("exposureDock");
     auto* fold = find<QToolButton>(exposure, "Fold Exposure");
