@@ -115,6 +115,10 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     if (auto armed = stage_.arm(); !armed) return armed;
     auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
     prompt.name = "stop-test";
+    PilotScreen screen;  // from here on a stop is theirs
+    screen.phase = "checklist";
+    screen.text = prompt.text;
+    stage_.participant().show(screen);
     const auto asked = stage_.participant().ask(prompt);
     constexpr auto kNever = std::chrono::nanoseconds::max();
     const auto took = asked ? kNever : stage_.takeStop().value_or(kNever);
@@ -124,6 +128,8 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     nlohmann::json body{{"by", nameOf(by)}, {"pressed", pressed}, {"off_ms", took_ms}};
     if (auto kept = stage_.record().write(row::kStopTest, name, std::move(body)); !kept) return kept;
     if (auto begun = stage_.bench().begin(stage_.bench().stops().mark()); !begun) return begun;
+    screen.text.clear();
+    stage_.participant().show(screen);  // the stop of the test is over
     return gate(name + " stop", took <= kStopIn,
                 pressed ? fmt::format("the {}'s STOP took {:.1f} ms to switch off; at most 10 ms are accepted",
                                       nameOf(by), took_ms)

@@ -80,6 +80,7 @@ PilotResult::PilotResult(QWidget* parent)
     column->setContentsMargins(kResultPad, kResultPad, kResultPad, kResultPad / 2);
     column->setSpacing(8);
     head_->setObjectName("pilotHeadline");
+    why_->setObjectName("pilotReason");
     for (auto* label : {head_, why_, more_, blocks_, note_}) {
         label->setWordWrap(true);
         label->setTextFormat(Qt::PlainText);
