@@ -25,7 +25,7 @@ std::string expectedOf(const Ran& ran) { return answersOf(jsonOf(ran)["results"]
 std::optional<std::string> completeIn(const PilotDesk& desk, const std::string& study) {
     const auto shown = desk.desk().run({"study", "show", desk.desk().at(study), "--json"});
     if (shown.code != 0) return std::nullopt;
-    const auto& sessions = jsonOf(shown)["sessions"];
+    const Json sessions = jsonOf(shown)["sessions"];
     if (sessions.empty() || sessions[0]["state"] != "complete") return std::nullopt;
     const auto listed =
         desk.desk().run({"study", "trials", desk.desk().at(study), sessions[0]["code"].get<std::string>(), "--json"});
