@@ -10,7 +10,7 @@ protocol({
   needs: ["stimulator", "oscilloscope"],
   parameters: {
     area: {
-      label: "Area of the electrode (0: profile)",
+      label: "Smallest electrode's area (0: profile)",
       unit: "cm2",
       min: 0,
       max: 1000,
