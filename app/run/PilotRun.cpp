@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/run/MachineGate.h"
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
 #include "core/session/SessionReader.h"
@@ -230,8 +231,11 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
         order.uris.push_back({"sim", "", {}});
         fitSource(order.uris.back());
     }
-    order.makeSession = [this](const SessionAbout& about, const Clock& clock, bool simulated) {
-        return makeSession(about, clock, simulated);
+    order.makeSession = [this, profile, limits = order.limits](const SessionAbout& about, const Clock& clock,
+                                                               const DeviceSet& devices) -> Result<RunSession> {
+        if (auto holds = machineGate(study_->settings(), profile, limits, devices, utcToday()); !holds)
+            return failure(holds);
+        return makeSession(about, clock, devices);
     };
 
     request_.code = who_.code;
@@ -243,8 +247,8 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     if (auto answers = simulatedAnswers(order)) request_.exclusions = std::move(*answers);
 }
 
-Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, bool simulated) {
-    request_.devicesSimulated = simulated;
+Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
+    request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
     auto begun = unfinished_ ? study_->continueSession(unfinished_->id, request_) : study_->beginSession(request_);
     if (!begun) return failure(begun);
     begun_ = std::move(*begun);

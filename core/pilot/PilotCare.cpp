@@ -64,6 +64,17 @@ PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
 
 }  // namespace
 
+std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit) {
+    if (unit == LevelUnit::Intensity) return devices.massager ? "" : "no massager is connected";
+    if (!devices.stimulator) return "no stimulator is connected; a current source is expected";
+    if (devices.stimulator->traits().drive != Drive::Current)
+        return "the stimulator is a voltage source; a current source is expected";
+    if (profile.encoding.train.shape == PulseShape::Monophasic)
+        return "the study's train is monophasic; a biphasic one is expected";
+    if (!profile.electrodeArea) return "the area of the electrodes is not stated; one in cm² is expected";
+    return {};
+}
+
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
 /// Of the session's first part that came as far; null where none did.
@@ -92,20 +103,10 @@ Result<void> PilotCare::checklist() {
 
 Result<void> PilotCare::machine() {
     auto& bench = stage_.bench();
-    std::string missing;
-    if (stage_.settings().unit == LevelUnit::Intensity) {
-        if (!bench.devices().massager) missing = "no massager is connected";
-    } else if (!bench.devices().stimulator) {
-        missing = "no stimulator is connected";
-    } else if (bench.devices().stimulator->traits().drive != Drive::Current) {
-        missing = "the stimulator is a voltage source; a current source is expected";
-    } else if (bench.profile().encoding.train.shape == PulseShape::Monophasic) {
-        missing = "the study's train is monophasic; a biphasic one is expected";
-    } else if (!bench.profile().electrodeArea) {
-        missing = "the area of the electrodes is not stated";
-    } else if (bench.mode() != OutputMode::Person) {
+    const auto unit = stage_.settings().unit;
+    auto missing = machineLacks(bench.devices(), bench.profile(), unit);
+    if (missing.empty() && unit == LevelUnit::Current && bench.mode() != OutputMode::Person)
         missing = "the bench was not opened for a participant";
-    }
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 

@@ -11,6 +11,10 @@
 
 namespace tacto {
 
+/// What a stimulator, or a massager, and a study's trains lack before they may be at a participant: one sentence without
+/// its end; empty where nothing is missing.
+[[nodiscard]] std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit);
+
 class PilotCare {
 public:
     /// `stage` outlives it.

@@ -84,7 +84,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.number("gap_min_h", &S::gapMin_h, {.low = 0, .high = 10'000, .unit = "h"});
     all.number("session_max_min", &S::sessionMax_min, {.low = 1, .high = 240, .unit = "min"});
     all.number("cap_ma", &S::cap_mA, {.low = 0, .high = 15, .openLow = true, .unit = "mA"});
-    all.list("limits", &S::limits, namedHashFields<StudyLimitSet>("id", &StudyLimitSet::id).kind(), 0, 20);
+    all.list("limits", &S::limits, namedHashFields<LimitSetHash>("id", &LimitSetHash::id).kind(), 0, 20);
     all.word("site", &S::site, kElectrodeSites);
     all.word("nerve", &S::nerve, kNerves);
     all.word("limb", &S::limb, kLimbs);

@@ -13,6 +13,7 @@
 #include "core/base/RecordFields.h"
 #include "core/base/Units.h"
 #include "core/calibration/CalibrationDate.h"
+#include "core/calibration/LoadSafetyStore.h"
 
 namespace tacto {
 
@@ -47,13 +48,6 @@ struct ScriptHash {
     bool operator==(const ScriptHash&) const = default;
 };
 
-/// A limit set of the approval.
-struct StudyLimitSet {
-    std::string id;
-    std::string sha256;
-    bool operator==(const StudyLimitSet&) const = default;
-};
-
 struct StudyElectrode {
     std::string type = "self-adhesive";
     SquareCentimetres area{4};
@@ -83,7 +77,7 @@ struct StudySettings {
     double gapMin_h = 20;
     double sessionMax_min = 60;
     double cap_mA = 15;
-    std::vector<StudyLimitSet> limits;
+    std::vector<LimitSetHash> limits;  ///< of the approval
     ElectrodeSite site = ElectrodeSite::UpperArm;
     Nerve nerve = Nerve::Median;
     Limb limb = Limb::Right;

@@ -153,6 +153,8 @@ TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {
     EXPECT_FALSE(simulationGate(settings, participant, false));
     participant.virtualSeed.reset();
     EXPECT_TRUE(simulationGate(settings, participant, true));
+    expectRefused(simulationGate(settings, participant, false),
+                  "P-7K3D is in a rehearsal, which no committee has approved; only simulated devices are accepted");
 }
 
 TEST(StudySettings, AreReadAsWritten) {
