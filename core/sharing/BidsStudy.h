@@ -86,8 +86,10 @@ struct BidsStudy {
     std::string license;     ///< under which the data may be used; empty: not decided
     std::string site;        ///< "upper arm"
     double electrodeArea_cm2 = kNaN;
-    std::size_t places = 0;       ///< participants that the approval allows: labels are drawn among as many
-    std::uint64_t labelSeed = 0;  ///< the same for the same study
+    /// Participants that the first approval allowed: labels are drawn among as many, and of later ones among as many
+    /// again.
+    std::size_t places = 0;
+    std::uint64_t labelSeed = 0;  ///< a secret of the study; the same at each export
     std::vector<BidsParticipant> participants;  ///< active and those who left; never one who withdrew
 };
 

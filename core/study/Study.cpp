@@ -213,6 +213,7 @@ Result<Participant> Study::enrol(Participant participant) {
             return fail(ErrorCode::Unsupported, "{} is enrolled already; another code is expected", *stored);
         participant.code = *stored;
     }
+    if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     participant.id = randomHex(kIdDigits);
     // The key first: a row whose key was lost would never open.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
@@ -252,6 +253,7 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
         return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
                     dateText(consent.date), dateText(today()));
     }
+    if (auto fits = checkForLedger(consent); !fits) return fits;
     if (participant->state != ParticipantState::Active)
         return fail(kGateRefused, "{} has left the study; only an active participant consents", participant->code);
     return state_->appendOf(*participant, ledger::kConsent, nlohmann::json::object(), toJson(consent));
@@ -287,8 +289,14 @@ Result<void> Study::withdraw(std::string_view code) {
 
 Result<void> Study::amend(StudySettings settings, std::string_view reference) {
     if (auto may = state_->changeable(); !may) return may;
-    if (reference.empty() || reference == state_->settings.approval.reference) {
+    const auto& known = state_->known;
+    if (reference.empty() || reference == state_->settings.approval.reference ||
+        std::ranges::find(known.amendments, reference, &StudyAmendment::reference) != known.amendments.end()) {
         return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
+    }
+    if (settings.participantsMax < static_cast<int>(known.participants.size())) {
+        return fail(ErrorCode::InvalidArgument, "participants_max is {}, and {} are enrolled; that or more is expected",
+                    settings.participantsMax, known.participants.size());
     }
     settings.id = state_->settings.id;
     settings.kind = state_->settings.kind;
@@ -304,6 +312,8 @@ Result<void> Study::amend(StudySettings settings, std::string_view reference) {
     state_->settings = std::move(settings);
     return {};
 }
+
+const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
 
 Result<BegunSession> Study::beginSession(const SessionRequest& request) {
     if (auto may = state_->changeable(); !may) return failure(may);
@@ -400,13 +410,27 @@ Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& e
             "\"{}\", {} and {}",
             event.what, event.severity, event.relation);
     }
+    if (auto fits = checkForLedger(event); !fits) return fits;
     return state_->append(ledger::kAdverseEvent, {{"session", session}}, &state_->keys->study(), toJson(event));
 }
+
+std::size_t Study::adverseEventCount() const noexcept { return state_->known.adverseEventRows; }
 
 Result<std::vector<std::pair<std::string, AdverseEvent>>> Study::adverseEvents() const {
     if (!state_->keys) return fail(ErrorCode::Unsupported, "adverse events are read with the study's passphrase");
     return state_->known.adverseEvents;
 }
+
+Result<std::uint64_t> Study::labelSeed() const {
+    constexpr std::uint64_t kLabels = 1;  // of the key's subkeys; the ledger is sealed under the key itself
+    if (!state_->keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");
+    const auto key = subkey(state_->keys->study(), kLabels);
+    std::uint64_t seed = 0;
+    for (const auto byte : key.bytes().first(sizeof seed)) seed = seed << 8 | std::to_integer<std::uint64_t>(byte);
+    return seed;
+}
+
+int Study::firstPlaces() const noexcept { return state_->known.firstPlaces; }
 
 Result<void> Study::exported(const fs::path& place, std::string_view what) {
     if (auto may = state_->changeable(); !may) return may;

@@ -97,6 +97,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.number("catch", &S::catchTrials, {.low = 0, .high = 20});
     all.flag("blind", &S::blind);
     all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
+    all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
     all.rule([](const S& settings) -> Result<void> {
         if (settings.conditions == kTexturePressure) return {};
@@ -183,7 +184,7 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
 
 std::string protocolHash(const StudySettings& settings) {
     auto json = studyFields().write(settings);
-    for (const char* key : {"id", "approval"}) json.erase(key);
+    for (const char* key : {"id", "approval", "license"}) json.erase(key);
     return sha256Hex(dumpJson(json));
 }
 

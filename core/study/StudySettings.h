@@ -91,6 +91,7 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
+    std::string license;  ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;  ///< approved; a session's script must be one of them
     bool operator==(const StudySettings&) const = default;
 };
@@ -103,7 +104,8 @@ struct StudySettings {
 /// options of their own.
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
-/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself, and the scripts.
+/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
+/// license of exports, and the scripts.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
 
 }  // namespace tacto

@@ -76,6 +76,21 @@ TEST_F(StudyExport, NothingIsPutIntoTheStudyFolder) {
     expectRefused(desk_.run({"export", at("nowhere"), "--format", "bids", "--out", at("x")}), 3, {"no study"});
 }
 
+TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
+    RecordProperty("hazard", "H12");
+    const auto session =
+        jsonOf(desk_.run({"study", "show", study(), "--json"})).at("sessions").at(0).at("id").get<std::string>();
+    const auto noted =
+        desk_.run({"study", "adverse-event", study(), session, "--what", "burning", "--severity", "3", "--relation", "4",
+                   "--serious", "--action", "cooled", "--outcome", "gone", "--reported", "--json"});
+    ASSERT_EQ(noted.code, 0) << noted.err;
+    EXPECT_EQ(jsonOf(noted), Json({{"session", session}, {"adverse_events", 1}}));
+    EXPECT_EQ(jsonOf(desk_.run({"study", "show", study(), "--json"})).at("adverse_events"), 1);
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("events.html"), "--for", "committee"}).code, 0);
+    const auto text = readTextFile(at("events.html")).value_or("");
+    for (const char* said : {"burning", "cooled", "gone"}) EXPECT_THAT(text, HasSubstr(said));
+}
+
 TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
     const auto code = run_.at("participant").at("code").get<std::string>();
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);

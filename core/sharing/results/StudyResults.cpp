@@ -1,7 +1,6 @@
 #include "core/sharing/results/StudyResults.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 
 #include "core/encoding/EncodingProfile.h"
@@ -49,13 +48,6 @@ double daysBetween(const StudySession& first, const StudySession& other) {
     return static_cast<double>((dayOf(other) - dayOf(first)).count());
 }
 
-/// The study's id as a number: the same study has the same labels at each export.
-std::uint64_t seedOf(const std::string& id) {
-    std::uint64_t seed = 0;
-    std::from_chars(id.data(), id.data() + id.size(), seed, 16);
-    return seed;
-}
-
 }  // namespace
 
 Result<StudyRecord> readStudyRecord(const Study& study) {
@@ -67,6 +59,11 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     out.settings = study.settings();
     out.rehearsal = study.isRehearsal();
     out.ledgerHead = study.ledgerHead();
+    const auto seed = study.labelSeed();
+    if (!seed) return failure(seed);
+    out.labelSeed = *seed;
+    out.places = study.firstPlaces();
+    out.amendments = study.amendments();
     const auto sessions = study.sessions();
     for (const auto& participant : study.participants()) {
         ParticipantRecord record{participant, {}};
@@ -98,12 +95,12 @@ BidsStudy sharedStudy(const StudyRecord& record) {
     const bool electrodes = settings.modality == Modality::Electrodes;
     out.site = std::string(nameOf(settings.site));
     if (electrodes) out.electrodeArea_cm2 = settings.electrode.area.value();
-    out.labelSeed = seedOf(settings.id);
-    out.places = static_cast<std::size_t>(std::max(0, settings.participantsMax));
+    out.license = settings.license;
+    out.labelSeed = record.labelSeed;
+    out.places = static_cast<std::size_t>(std::max(1, record.places > 0 ? record.places : settings.participantsMax));
     bool anyPerson = false;
     for (const auto& participant : record.participants) {
         const auto& about = participant.about;
-        out.places = std::max(out.places, static_cast<std::size_t>(std::max(0, about.enrolled)));
         if (about.state == ParticipantState::Withdrawn) continue;
         anyPerson = anyPerson || !about.virtualSeed;
         BidsParticipant shared;

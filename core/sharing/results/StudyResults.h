@@ -27,7 +27,10 @@ struct ParticipantRecord {
 struct StudyRecord {
     StudySettings settings;
     bool rehearsal = false;
+    std::uint64_t labelSeed = 0;  ///< Study::labelSeed()
+    int places = 0;               ///< Study::firstPlaces(); 0: as many as the settings say
     std::string ledgerHead;
+    std::vector<StudyAmendment> amendments;
     std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; of a withdrawn one no sessions
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
 };
