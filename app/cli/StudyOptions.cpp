@@ -52,7 +52,8 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"from", "First day of the approval, as 2026-11-21.", "DATE"});
     parser.addOption({"expires", "Its last day.", "DATE"});
     parser.addOption({"consent-version", "Version of the consent form in force.", "V"});
-    parser.addOption({"set", "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0.", "KEY=VALUE"});
+    parser.addOption(
+        {"set", "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0.", "KEY=VALUE"});
     parser.addOption({"reference", "Reference of the committee's amendment.", "REF"});
     parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
     parser.addOption({"version", "Version of the consent form that was signed.", "V"});

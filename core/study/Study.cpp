@@ -288,29 +288,7 @@ Result<void> Study::withdraw(std::string_view code) {
 }
 
 Result<void> Study::amend(StudySettings settings, std::string_view reference) {
-    if (auto may = state_->changeable(); !may) return may;
-    const auto& known = state_->known;
-    if (reference.empty() || reference == state_->settings.approval.reference ||
-        std::ranges::find(known.amendments, reference, &StudyAmendment::reference) != known.amendments.end()) {
-        return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
-    }
-    if (settings.participantsMax < static_cast<int>(known.participants.size())) {
-        return fail(ErrorCode::InvalidArgument, "participants_max is {}, and {} are enrolled; that or more is expected",
-                    settings.participantsMax, known.participants.size());
-    }
-    settings.id = state_->settings.id;
-    settings.kind = state_->settings.kind;
-    settings.approval.reference = reference;
-    settings.approval.protocolSha256 = protocolHash(settings);
-    if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return sound;
-    const auto text = studyText(settings);
-    if (auto drafted = draftStudy(state_->files, text); !drafted) return drafted;
-    auto row = settingsRow(settings, text);
-    row["reference"] = reference;
-    if (auto noted = state_->append(ledger::kAmendment, std::move(row)); !noted) return noted;
-    if (auto published = publishStudy(state_->files); !published) return published;
-    state_->settings = std::move(settings);
-    return {};
+    return state_->amend(std::move(settings), reference);
 }
 
 const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
@@ -400,18 +378,7 @@ Result<std::vector<SessionRow>> Study::events(const StudySession& session) const
 }
 
 Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& event) {
-    if (auto may = state_->changeable(); !may) return may;
-    if (state_->known.session(session) == nullptr)
-        return fail(ErrorCode::NotFound, "the study has no session {}", session);
-    if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
-        return fail(
-            ErrorCode::InvalidArgument,
-            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
-            "\"{}\", {} and {}",
-            event.what, event.severity, event.relation);
-    }
-    if (auto fits = checkForLedger(event); !fits) return fits;
-    return state_->append(ledger::kAdverseEvent, {{"session", session}}, &state_->keys->study(), toJson(event));
+    return state_->adverseEvent(session, event);
 }
 
 std::size_t Study::adverseEventCount() const noexcept { return state_->known.adverseEventRows; }
@@ -421,15 +388,7 @@ Result<std::vector<std::pair<std::string, AdverseEvent>>> Study::adverseEvents()
     return state_->known.adverseEvents;
 }
 
-Result<std::uint64_t> Study::labelSeed() const {
-    constexpr std::uint64_t kLabels = 1;  // of the key's subkeys; the ledger is sealed under the key itself
-    if (!state_->keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");
-    const auto key = subkey(state_->keys->study(), kLabels);
-    std::uint64_t seed = 0;
-    for (const auto byte : key.bytes().first(sizeof seed)) seed = seed << 8 | std::to_integer<std::uint64_t>(byte);
-    return seed;
-}
-
+Result<std::uint64_t> Study::labelSeed() const { return state_->labelSeed(); }
 int Study::firstPlaces() const noexcept { return state_->known.firstPlaces; }
 
 Result<void> Study::exported(const fs::path& place, std::string_view what) {
