@@ -64,6 +64,7 @@ private:
     [[nodiscard]] Result<void> mayResume() const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
+    void chooseEncoding();
     [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock,
                                                  const DeviceSet& devices);
 

@@ -252,6 +252,24 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
             if (!said) return failure(said);
         }
     }
+    return compareEncodings();
+}
+
+/// The targets say when the person had them; what they are called is the record's.
+Result<void> PilotCare::compareEncodings() {
+    const auto& settings = stage_.settings();
+    if (settings.earlierEncoding.empty()) return {};
+    const std::vector<PromptTarget> offered = {{settings.encoding, "Today's"},
+                                               {settings.earlierEncoding, "The earlier session's"},
+                                               {row::kNoDifference, "No difference"}};
+    for (const auto& [item, text] :
+         {std::pair{row::kEasier, "Which names were easier to tell: today's, or those of the earlier session?"},
+          std::pair{row::kMoreLikeTouch,
+                    "Which names fit better what touch is like: today's, or those of the earlier session?"}}) {
+        const auto name = fmt::format("{} {}", row::kEncodings, item);
+        const auto said = stage_.ask(row::kRating, name, choicePrompt(name, text, offered));
+        if (!said) return failure(said);
+    }
     return {};
 }
 

@@ -53,6 +53,13 @@ struct BidsSideEffect {
     std::optional<int> relation;  ///< 1 to 5
 };
 
+/// The detection threshold, found again before a block.
+struct BidsDrift {
+    std::size_t block = 0;
+    double detection_ma = kNaN;
+    bool adapted = false;
+};
+
 struct BidsSession {
     std::size_t number = 0;
     double days = kNaN;  ///< since the person's first, whole days
@@ -67,6 +74,7 @@ struct BidsSession {
     std::vector<std::string> labels;  ///< the answers offered, in the study's order
     std::vector<BidsTrial> trials;    ///< familiarisation, training and test, in the order presented
     std::vector<BidsThresholdTrial> thresholds;
+    std::vector<BidsDrift> drift;
     std::vector<BidsRating> ratings;
     std::vector<BidsSideEffect> sideEffects;
 };

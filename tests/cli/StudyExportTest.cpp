@@ -104,5 +104,46 @@ TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
     expectRefused(desk_.run({"report", study(), "--out", at("other.pdf"), "--participant", "P-ZZZZ"}), 3, {"P-ZZZZ"});
 }
 
+TEST(StudyOfTwoEncodings, EachPersonHasBothInAnOrderOfTheirOwnAndSaysWhichTheyPrefer) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto passphrase = desk.write("passphrase", "correct horse 4711\n");
+    const auto study = desk.at("study");
+    const auto with = [&](Words words) {
+        words.insert(words.end(), {"--passphrase-file", passphrase});
+        const auto ran = desk.run(words);
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return ran;
+    };
+    with({"study", "create", study, "--title", "Two encodings", "--approval", "EC-17", "--from", "2026-01-01",
+          "--expires", "2099-12-31", "--consent-version", "2", "--set", "encodings=standard,swapped", "--set",
+          "gap_min_h=0", "--set", "blocks=1"});
+    const auto enrolled = with({"study", "enrol", study, "--virtual", "7", "--json"});
+    const auto code = jsonOf(enrolled).at("code").get<std::string>();
+    with({"study", "consent", study, code, "--version", "2", "--date", "2026-11-20", "--by", "KL"});
+    std::vector<std::string> had;
+    for (int session = 1; session <= 2; ++session) {
+        const auto ran = with({"run", "pilot-identification", "--device", "sim:", "--out", study, "--set",
+                               "participant=" + code, "--seed", "3", "--json"});
+        had.push_back(jsonOf(ran).at("results").at("encoding"));
+    }
+    EXPECT_EQ(had, (std::vector<std::string>{"standard", "swapped"}));
+    const auto report = desk.at("study.html");
+    with({"report", study, "--out", report});
+    const auto text = readTextFile(report).value_or("");
+    EXPECT_THAT(text, HasSubstr("Easier to tell: no difference. More like touch: no difference."));
+    EXPECT_THAT(text, HasSubstr("1 participant(s) had standard, swapped. The orders are not balanced"));
+    with({"export", study, "--format", "bids", "--out", desk.at("bids")});
+    std::size_t asked = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(desk.at("bids"))) {
+        if (!entry.path().string().ends_with("task-ratings_beh.tsv")) continue;
+        const auto rows = readTextFile(entry.path()).value_or("");
+        if (rows.find("more-like-touch\tn/a\tno-difference") == std::string::npos) continue;
+        ++asked;
+        EXPECT_THAT(entry.path().string(), HasSubstr("ses-02"));
+    }
+    EXPECT_EQ(asked, 1U) << "after the second encoding alone";
+}
+
 }  // namespace
 }  // namespace tacto::test

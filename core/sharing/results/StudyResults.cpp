@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
+#include "core/base/JsonFields.h"
 #include "core/encoding/EncodingProfile.h"
 #include "core/session/SessionReader.h"
 #include "core/sharing/results/SessionResults.h"
@@ -20,6 +22,7 @@ std::vector<std::string> conditionNames() {
 Result<SessionRecord> readSession(const Study& study, const StudySession& about) {
     SessionRecord record;
     record.about = about;
+    std::vector<SessionRow> commands;
     for (const auto& part : about.parts) {
         const auto path = study.pathOf(part.file);
         std::error_code gone;
@@ -31,7 +34,11 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
         auto rows = file->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(record.rows));
+        auto given = file->commands();
+        if (!given) return failure(given);
+        std::ranges::move(*given, std::back_inserter(commands));
     }
+    record.exposure = exposureOf(commands);
     record.results = sessionResults(record.rows, conditionNames());
     record.results.number = static_cast<std::size_t>(about.number);
     record.results.complete = about.state == StudySessionState::Complete;
@@ -49,6 +56,20 @@ double daysBetween(const StudySession& first, const StudySession& other) {
 }
 
 }  // namespace
+
+SessionExposure exposureOf(const std::vector<SessionRow>& commands) {
+    SessionExposure out;
+    const auto known = [](double value) { return std::isfinite(value) ? value : 0; };
+    for (const auto& row : commands) {
+        if (row.name != "delivered") continue;
+        ++out.trains;
+        out.stimulated_s += known(numberOr(row.body, "interval_s"));
+        constexpr double kMilliampSecondsToMicrocoulombs = 1000;
+        out.charge_uC += known(numberOr(row.body, "amplitude_ma") * numberOr(row.body, "width_s") *
+                               numberOr(row.body, "pulses") * kMilliampSecondsToMicrocoulombs);
+    }
+    return out;
+}
 
 Result<StudyRecord> readStudyRecord(const Study& study) {
     if (!study.hasKey()) {
