@@ -45,7 +45,10 @@ protected:
         }
         if (stopped) {
             RunRequest hooks;
-            hooks.onProgress = [&](const ScriptProgress&) { (*made)->bench().stop("operator"); };
+            hooks.onProgress = [&](const ScriptProgress&) {
+                if (during_.empty()) during_ = kept();
+                (*made)->bench().stop("operator");
+            };
             EXPECT_TRUE((*made)->start(std::move(hooks)));
         } else {
             EXPECT_TRUE((*made)->start({}));
@@ -57,6 +60,7 @@ protected:
     }
 
     ScratchDir folder_;
+    std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
 };
 
 TEST_F(LoadSafetyRecord, APassIsKeptWithItsSessionsChainHeadAndAsSimulated) {
@@ -93,9 +97,11 @@ TEST_F(LoadSafetyRecord, WithoutAnElectrodeAreaItIsKeptAsIndeterminate) {
     EXPECT_FALSE(all[1].area);
 }
 
-TEST_F(LoadSafetyRecord, AStoppedOneIsKeptAsStopped) {
+TEST_F(LoadSafetyRecord, AStoppedOneIsKeptAsStoppedAndWouldHaveCountedAsBegunHadItBeenKilled) {
     RecordProperty("hazard", "H9");
     EXPECT_EQ(run(order({{"area", "3"}}), true).verdict(), "stopped");
+    ASSERT_EQ(during_.size(), 1U);
+    EXPECT_EQ(during_[0].verdict, CheckVerdict::Begun);
     const auto all = kept();
     ASSERT_EQ(all.size(), 2U);
     EXPECT_EQ(all[1].verdict, CheckVerdict::Stopped);
