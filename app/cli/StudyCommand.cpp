@@ -1,12 +1,12 @@
 // study: studies with people or virtual participants - made, enrolled in, consented to, shown, left, withdrawn from.
 #include <algorithm>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/cli/StudyOptions.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/PilotRows.h"
-#include "app/run/Shipped.h"
-#include "app/scripting/ShippedResources.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
@@ -16,19 +16,6 @@ namespace tacto::cli {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::string_view kPilotScripts = "pilot-";
-
-std::string given(const QCommandLineParser& parser, const char* name) {
-    return parser.value(name).trimmed().toStdString();
-}
-
-/// Errors: InvalidArgument naming the option and what is accepted.
-Result<CalibrationDate> dateGiven(const QCommandLineParser& parser, const char* name) {
-    const auto text = given(parser, name);
-    if (const auto date = parseDate(text)) return *date;
-    return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a day as 2026-11-21 is expected", name, text);
-}
 
 /// Errors: InvalidArgument for a text that is no seed.
 Result<std::uint64_t> seedGiven(const QCommandLineParser& parser) {
@@ -61,6 +48,18 @@ Json toJson(const StudySession& session) {
             {"answered", session.answered}};
 }
 
+std::string dayOf(const StudyAmendment& amendment) {
+    return dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at)));
+}
+
+Json toJson(const StudyAmendment& amendment) {
+    return {{"reference", amendment.reference}, {"date", dayOf(amendment)}, {"changed", amendment.changed}};
+}
+
+std::string changesText(const StudyAmendment& amendment) {
+    return amendment.changed.empty() ? "no setting" : fmt::format("{}", fmt::join(amendment.changed, ", "));
+}
+
 Json toJson(const Study& study) {
     const auto& settings = study.settings();
     const auto& approval = settings.approval;
@@ -74,6 +73,8 @@ Json toJson(const Study& study) {
     }
     auto sessions = Json::array();
     for (const auto& session : study.sessions()) sessions.push_back(toJson(session));
+    auto amendments = Json::array();
+    for (const auto& amendment : study.amendments()) amendments.push_back(toJson(amendment));
     return {{"title", settings.title},
             {"rehearsal", study.isRehearsal()},
             {"approval",
@@ -81,10 +82,12 @@ Json toJson(const Study& study) {
               {"from", dateText(approval.from)},
               {"expires", dateText(approval.expires)},
               {"valid", approvalGate(settings, study.today()).has_value()}}},
+            {"amendments", std::move(amendments)},
             {"consent_version", settings.consentVersion},
             {"participants", std::move(participants)},
             {"withdrawn", withdrawn},
             {"sessions", std::move(sessions)},
+            {"adverse_events", study.adverseEventCount()},
             {"ledger_head", study.ledgerHead()}};
 }
 
@@ -99,6 +102,8 @@ int show(const Study& study, const QCommandLineParser& parser) {
     say("  approval {}, {} to {}{}\n  consent form {}\n", settings.approval.reference, dateText(settings.approval.from),
         dateText(settings.approval.expires), all["approval"]["valid"] == true ? "" : ": not valid today",
         settings.consentVersion);
+    for (const auto& amendment : study.amendments())
+        say("  amendment {} of {}: changed {}\n", amendment.reference, dayOf(amendment), changesText(amendment));
     for (const auto& participant : study.participants()) {
         if (participant.state == ParticipantState::Withdrawn) continue;
         const auto name = participant.readable ? participant.code : std::string("(sealed)");
@@ -115,43 +120,10 @@ int show(const Study& study, const QCommandLineParser& parser) {
             session.code.empty() ? std::string("(sealed)") : session.code, session.protocol,
             wordFor(tacto::Words<StudySessionState>(kStudySessionStates), session.state), session.answered);
     }
+    if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
     say("  ledger head {}\n", study.ledgerHead());
     if (!study.hasKey()) say(stderr, "Codes, consents and who took part are sealed; --passphrase-file shows them.\n");
     return kDone;
-}
-
-/// Errors: InvalidArgument naming the option.
-Result<StudySettings> settingsGiven(const QCommandLineParser& parser) {
-    StudySettings settings;
-    settings.title = given(parser, "title");
-    settings.approval.reference = given(parser, "approval");
-    settings.consentVersion = given(parser, "consent-version");
-    for (const char* name : {"title", "approval", "consent-version"}) {
-        if (given(parser, name).empty()) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
-    }
-    const auto from = dateGiven(parser, "from");
-    if (!from) return failure(from);
-    const auto expires = dateGiven(parser, "expires");
-    if (!expires) return failure(expires);
-    settings.approval.from = *from;
-    settings.approval.expires = *expires;
-    for (const auto& set : parser.values("set")) {
-        const auto text = set.toStdString();
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0)
-            return fail(ErrorCode::InvalidArgument, "--set {}: KEY=VALUE is expected", text);
-        if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done)
-            return failure(done);
-    }
-    const auto limits = shippedLimits();
-    if (!limits) return failure(limits);
-    for (std::size_t i = 0; i < limits->sets.size(); ++i)
-        settings.limits.push_back({limits->sets[i].id, limits->sha256[i]});
-    for (const auto& script : shippedProtocols()) {
-        if (script.name.starts_with(kPilotScripts))
-            settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
-    }
-    return settings;
 }
 
 int create(const QCommandLineParser& parser, const std::string& folder) {
@@ -168,6 +140,33 @@ int create(const QCommandLineParser& parser, const std::string& folder) {
     if (const auto valid = approvalGate(study->settings(), study->today()); !valid)
         say(stderr, "No session can begin today: {}.\n", valid.error().message);
     if (parser.isSet("json")) printJson(toJson(*study));
+    return kDone;
+}
+
+int amend(Study& study, const QCommandLineParser& parser, const QStringList&) {
+    auto settings = settingsAmended(parser, study.settings());
+    if (!settings) return usage(fmt::format("study amend: {}", settings.error().message));
+    if (const auto done = study.amend(std::move(*settings), given(parser, "reference")); !done)
+        return failWith(done.error());
+    if (const auto valid = approvalGate(study.settings(), study.today()); !valid)
+        say(stderr, "No session can begin today: {}.\n", valid.error().message);
+    const auto& made = study.amendments().back();
+    if (parser.isSet("json"))
+        printJson(toJson(made));
+    else
+        say("{}: changed {}\n", made.reference, changesText(made));
+    return kDone;
+}
+
+int adverseEvent(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto event = adverseEventGiven(parser);
+    if (!event) return usage(fmt::format("study adverse-event: {}", event.error().message));
+    const auto session = words.at(2).toStdString();
+    if (const auto noted = study.adverseEvent(session, *event); !noted) return failWith(noted.error());
+    if (parser.isSet("json"))
+        printJson({{"session", session}, {"adverse_events", study.adverseEventCount()}});
+    else
+        say("noted; adverse events: {}\n", study.adverseEventCount());
     return kDone;
 }
 
@@ -269,7 +268,8 @@ int trials(Study& study, const QCommandLineParser& parser, const QStringList& wo
 
 struct StudyWord {
     const char* name;
-    int least, most;  ///< words, its own included
+    int least, most;    ///< words, its own included
+    const char* names;  ///< of the words after its own
     QStringList options;
     bool changes;
     int (*run)(Study& study, const QCommandLineParser& parser, const QStringList& words);
@@ -280,38 +280,37 @@ const std::vector<StudyWord>& studyWords() {
         {"create",
          2,
          2,
+         "STUDY",
          {"title", "approval", "from", "expires", "consent-version", "set", "passphrase-file", "json"},
          true,
          nullptr},
-        {"enrol", 2, 3, {"virtual", "passphrase-file", "json"}, true, enrol},
-        {"consent", 3, 3, {"version", "date", "by", "passphrase-file", "json"}, true, consent},
+        {"amend",
+         2,
+         2,
+         "STUDY",
+         {"reference", "from", "expires", "consent-version", "set", "passphrase-file", "json"},
+         true,
+         amend},
+        {"enrol", 2, 3, "STUDY and CODE", {"virtual", "passphrase-file", "json"}, true, enrol},
+        {"consent", 3, 3, "STUDY and CODE", {"version", "date", "by", "passphrase-file", "json"}, true, consent},
         {"show",
          2,
          2,
+         "STUDY",
          {"passphrase-file", "json"},
          false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
-        {"trials", 3, 3, {"session", "passphrase-file", "json"}, false, trials},
-        {"leave", 3, 3, {"passphrase-file", "json"}, true, leave},
-        {"withdraw", 3, 3, {"confirm", "passphrase-file", "json"}, true, withdraw}};
+        {"trials", 3, 3, "STUDY and CODE", {"session", "passphrase-file", "json"}, false, trials},
+        {"leave", 3, 3, "STUDY and CODE", {"passphrase-file", "json"}, true, leave},
+        {"withdraw", 3, 3, "STUDY and CODE", {"confirm", "passphrase-file", "json"}, true, withdraw},
+        {"adverse-event",
+         3,
+         3,
+         "STUDY and SESSION",
+         {"what", "severity", "relation", "serious", "action", "outcome", "reported", "passphrase-file", "json"},
+         true,
+         adverseEvent}};
     return all;
-}
-
-void declareStudy(QCommandLineParser& parser) {
-    parser.addOption({"title", "Title of the study.", "T"});
-    parser.addOption({"approval", "Reference of the committee's approval.", "REF"});
-    parser.addOption({"from", "First day of the approval, as 2026-11-21.", "DATE"});
-    parser.addOption({"expires", "Its last day.", "DATE"});
-    parser.addOption({"consent-version", "Version of the consent form in force.", "V"});
-    parser.addOption({"set", "A setting of the study: blocks=3, electrode.area_cm2=5.", "KEY=VALUE"});
-    parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
-    parser.addOption({"version", "Version of the consent form that was signed.", "V"});
-    parser.addOption({"date", "Day on which it was signed.", "DATE"});
-    parser.addOption({"by", "Initials of who took it.", "INITIALS"});
-    parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
-    parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
-    declarePassphrase(parser);
-    parser.addOption({"json", "Prints one JSON value."});
 }
 
 int runStudy(const QCommandLineParser& parser) {
@@ -331,7 +330,7 @@ int runStudy(const QCommandLineParser& parser) {
         return usage(fmt::format("study {}: {} words are given; {} are expected ({})", word->name, words.size() - 1,
                                  word->least == word->most ? fmt::format("{}", word->least - 1)
                                                            : fmt::format("{} or {}", word->least - 1, word->most - 1),
-                                 word->most == 3 ? "STUDY and CODE" : "STUDY"));
+                                 word->names));
     }
     for (const auto& option : parser.optionNames()) {
         if (!word->options.contains(option))
@@ -349,12 +348,14 @@ int runStudy(const QCommandLineParser& parser) {
 const Command kStudy{
     "study",
     "{create STUDY --title T --approval REF --from DATE --expires DATE --consent-version V [--set KEY=VALUE]... | "
-    "enrol "
-    "STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | trials "
-    "STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE} [--passphrase-file F] [--json]",
+    "amend STUDY --reference REF [--from DATE] [--expires DATE] [--consent-version V] [--set KEY=VALUE]... | "
+    "enrol STUDY [CODE] [--virtual SEED] | consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
+    "trials STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE | "
+    "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "
+    "[--reported]} [--passphrase-file F] [--json]",
     "Studies with people or virtual participants: approval, consent, sealed records",
     false,
-    declareStudy,
+    declareStudyOptions,
     runStudy};
 
 }  // namespace tacto::cli

@@ -59,6 +59,15 @@ FactsBlock approvalFacts(const StudyRecord& study) {
     QStringList given;
     for (const auto& [version, people] : consents)
         given << QString("version %1: %2 participant(s)").arg(shown(version)).arg(people);
+    QStringList amended;
+    for (const auto& amendment : study.amendments) {
+        QStringList changed;
+        for (const auto& key : amendment.changed) changed << shown(key);
+        const auto day = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at));
+        amended << QString("%1 of %2: %3")
+                       .arg(shown(amendment.reference), shown(dateText(day)),
+                            changed.isEmpty() ? QString("no setting") : changed.join(", "));
+    }
     FactsBlock block;
     block.oneColumn = true;
     block.facts = {
@@ -66,6 +75,7 @@ FactsBlock approvalFacts(const StudyRecord& study) {
         {"Committee", shown(approval.committee)},
         {"From", shown(dateText(approval.from))},
         {"Expires", shown(dateText(approval.expires))},
+        {"Amendments, with the settings changed", amended.isEmpty() ? QString("none") : amended.join("; ")},
         {"Protocol", shown(approval.protocolVersion)},
         {"Hash of scripts and settings", shown(approval.protocolSha256), true},
         {"Consent form in force", shown(study.settings.consentVersion)},
@@ -106,6 +116,37 @@ TableBlock flowTable(const StudyRecord& study, const QString& caption) {
                                        {"Left, data kept", left},
                                        {"Withdrew, data destroyed (not in the rows between)", withdrawn}})
         table.rows.push_back({step, QString::number(people)});
+    return table;
+}
+
+TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& caption) {
+    const auto shared = sharedStudy(study);
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Participant"},
+                     {"Session", true},
+                     {"Detection before a block over that before the test"},
+                     {"Trains", true},
+                     {"Stimulated (min)", true},
+                     {"Charge of leading phases (µC)", true}};
+    for (const auto& participant : study.participants) {
+        const auto& about = participant.about;
+        for (const auto& session : participant.sessions) {
+            QStringList drift;
+            for (const auto& each : session.results.drift) {
+                const double ratio = each.detection_ma / session.results.detection_ma;
+                drift << QString("block %1: %2%3")
+                             .arg(each.block)
+                             .arg(std::isfinite(ratio) ? QString::number(ratio, 'f', 2) : QString("–"),
+                                  each.adapted ? ", adapted" : "");
+            }
+            table.rows.push_back({shown(name == ShownName::Code ? about.code : labelOf(shared, about)),
+                                  QString::number(session.about.number), drift.isEmpty() ? "–" : drift.join("; "),
+                                  QString::number(session.exposure.trains),
+                                  QString::number(session.exposure.stimulated_s / 60, 'f', 1),
+                                  QString::number(session.exposure.charge_uC, 'f', 1)});
+        }
+    }
     return table;
 }
 

@@ -7,6 +7,7 @@
 #include "app/report/Captions.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/StudyFlow.h"
+#include "app/report/StudyPreferences.h"
 #include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationText.h"
@@ -337,8 +338,18 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
             addRatings(blocks, captions, results, name);
         }
         addEncodings(blocks, captions, name, sessions);
+        if (const auto* who = withCode(study, name); who != nullptr && !preferenceText(*who).isEmpty())
+            blocks.emplace_back(ParagraphBlock{preferenceText(*who)});
         if (auto added = addSessions(blocks, captions, name, sessions); !added) return failure(added);
     }
+    if (auto table = preferencesTable(study)) {
+        blocks.emplace_back(captions.heading("Preferred encodings"));
+        table->caption = captions.table("How many participants prefer which encoding");
+        blocks.emplace_back(std::move(*table));
+        blocks.emplace_back(ParagraphBlock{preferencesNote(study)});
+    }
+    blocks.emplace_back(captions.heading("Drift and exposure"));
+    blocks.emplace_back(courseTable(study, ShownName::Code, captions.table("Drift and exposure, a row a session")));
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     return content;
@@ -354,6 +365,7 @@ ReportContent committeeReport(const StudyRecord& study) {
     blocks.emplace_back(flowTable(study, captions.table("From enrolment to result")));
     blocks.emplace_back(captions.heading("Sessions"));
     blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
+    blocks.emplace_back(courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
     blocks.emplace_back(refusalsTable(study, captions.table("Gates that did not hold")));
     blocks.emplace_back(captions.heading("Adverse events"));
     if (study.events.empty()) {

@@ -91,10 +91,8 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     if (!devices) return failure(devices);
     const auto certificate = stateOscilloscope(*devices);
     opened->about = aboutSession(*devices, order);
-    const auto identities = devices->identities();
-    const bool simulated = std::ranges::all_of(identities, &DeviceIdentity::simulated);
     auto session = order.makeSession
-                       ? order.makeSession(opened->about, *opened->clock, simulated)
+                       ? order.makeSession(opened->about, *opened->clock, *devices)
                        : makeRunSession(order.out, order.about.protocol.empty() ? "live" : order.about.protocol,
                                         opened->about, *opened->clock);
     if (!session) return failure(session);

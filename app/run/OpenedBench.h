@@ -40,8 +40,9 @@ struct BenchOrder {
     std::optional<PersonSetup> person = {};  ///< of Person
     bool virtualParticipant = false;         ///< as BenchConfig says, both
     bool rehearsal = false;
-    /// Makes the session file in place of makeRunSession(); empty: that does. The flag: every device is simulated.
-    std::function<Result<RunSession>(const SessionAbout&, const Clock&, bool)> makeSession = {};
+    /// Makes the session file in place of makeRunSession(); empty: that does. It is given the open devices, and may
+    /// refuse them: then nothing was made.
+    std::function<Result<RunSession>(const SessionAbout&, const Clock&, const DeviceSet&)> makeSession = {};
     SessionAbout about = {};  ///< of a protocol: its script and parameters; aboutSession() adds the rest
 };
 

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/run/MachineGate.h"
+#include "core/analysis/identification/Encodings.h"
 #include "core/base/JsonFields.h"
 #include "core/base/SystemTime.h"
 #include "core/session/SessionReader.h"
@@ -15,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kVirtual = "virtual:";
+constexpr std::string_view kIdentification = "pilot-identification";
 constexpr std::chrono::hours kResumedWithin{2};
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
@@ -61,10 +64,18 @@ Result<std::vector<ExclusionAnswer>> simulatedAnswers(const RunOrder& order) {
     return answers;
 }
 
+/// One without a usable range is complete, and has no such trial.
+bool wasTested(const Study& study, const StudySession& session) {
+    const auto rows = pilotRows(study, session);
+    if (!rows) return false;
+    return std::ranges::any_of(pilotTrials(rows->events).trials,
+                               [](const IdentificationTrial& trial) { return trial.phase == TrialPhase::Test; });
+}
+
 }  // namespace
 
 bool isPilotProtocol(const std::string& name) noexcept {
-    return name == "pilot-thresholds" || name == "pilot-identification";
+    return name == "pilot-thresholds" || name == kIdentification;
 }
 
 PilotRun::~PilotRun() {
@@ -183,6 +194,25 @@ Result<VirtualObserver> PilotRun::observerFor(const RunOrder& order) const {
     return VirtualObserver::create(settings);
 }
 
+/// Each person has a study's encodings in an order of their own (Encodings.h), one a session; one whose session was not
+/// completed comes again.
+void PilotRun::chooseEncoding() {
+    const auto& offered = study_->settings().encodings;
+    settings_.encoding = offered.empty() ? "standard" : offered.front();
+    if (offered.size() < 2) return;
+    std::vector<std::string> had;
+    for (const auto& session : study_->sessions()) {
+        if (session.participant != who_.id || session.protocol != kIdentification) continue;
+        if (session.state == StudySessionState::Complete && wasTested(*study_, session))
+            had.push_back(session.encoding);
+    }
+    const auto order = williamsOrder(offered.size(), static_cast<std::size_t>(std::max(1, who_.enrolled) - 1));
+    settings_.encoding = unfinished_ ? unfinished_->encoding : offered[order[had.size() % order.size()]];
+    for (const auto& each : had) {
+        if (each != settings_.encoding) settings_.earlierEncoding = each;
+    }
+}
+
 void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     const auto& study = study_->settings();
     auto& profile = order.profile;
@@ -199,7 +229,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.session = unfinished_ ? unfinished_->number : who_.sessions + 1;
     if (earlier_.seed) order.seed = *earlier_.seed;  // The session's, whatever the command says now
     settings_.seed = order.seed;
-    settings_.encoding = study.encodings.empty() ? "standard" : study.encodings.front();
+    chooseEncoding();
     settings_.unit = study.modality == Modality::Massager ? LevelUnit::Intensity : LevelUnit::Current;
     settings_.cap = settings_.unit == LevelUnit::Intensity ? 1 : study.cap_mA;
     settings_.shortest = profile.encoding.intervalMin;
@@ -230,8 +260,11 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
         order.uris.push_back({"sim", "", {}});
         fitSource(order.uris.back());
     }
-    order.makeSession = [this](const SessionAbout& about, const Clock& clock, bool simulated) {
-        return makeSession(about, clock, simulated);
+    order.makeSession = [this, profile, limits = order.limits](const SessionAbout& about, const Clock& clock,
+                                                               const DeviceSet& devices) -> Result<RunSession> {
+        if (auto holds = machineGate(study_->settings(), profile, limits, devices, utcToday()); !holds)
+            return failure(holds);
+        return makeSession(about, clock, devices);
     };
 
     request_.code = who_.code;
@@ -243,8 +276,8 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     if (auto answers = simulatedAnswers(order)) request_.exclusions = std::move(*answers);
 }
 
-Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, bool simulated) {
-    request_.devicesSimulated = simulated;
+Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
+    request_.devicesSimulated = std::ranges::all_of(devices.identities(), &DeviceIdentity::simulated);
     auto begun = unfinished_ ? study_->continueSession(unfinished_->id, request_) : study_->beginSession(request_);
     if (!begun) return failure(begun);
     begun_ = std::move(*begun);

@@ -1,7 +1,7 @@
 // PilotRun.h - a run of a pilot protocol: the study it belongs to, the session that is begun or gone on with, and the
 // protocol's run on a bench for that participant. Command line and window run sessions through this.
 //
-// Every gate is asked before anything is made or presented (core/study/Gates.h, core/pilot/PilotCare.h).
+// Every gate is asked before anything is made or presented (core/study/Gates.h, MachineGate.h, core/pilot/PilotCare.h).
 //
 // Thread-safety: as ProtocolRun.
 #pragma once
@@ -64,7 +64,9 @@ private:
     [[nodiscard]] Result<void> mayResume() const;
     [[nodiscard]] Result<VirtualObserver> observerFor(const RunOrder& order) const;
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
-    [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock, bool simulated);
+    void chooseEncoding();
+    [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock,
+                                                 const DeviceSet& devices);
 
     std::optional<Study> study_;
     Participant who_;

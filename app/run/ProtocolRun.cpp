@@ -84,13 +84,33 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     hooks.owner = opened_;
     hooks.asked = order_.asked;
     hooks.captureFolder = opened_->files.captures;
-    auto started = ScriptRun::start(std::move(hooks));
+    auto begun = beginCheck();
+    auto started = begun ? ScriptRun::start(std::move(hooks)) : failure(begun);
     if (!started) {
         notStarted_ = started.error();
         return failure(started);
     }
     script_ = std::move(*started);
     return {};
+}
+
+/// Kept before the first train: a check that is killed takes the place of an earlier pass as one that fails does.
+Result<void> ProtocolRun::beginCheck() {
+    auto check = loadSafetyCheckOf(order_.script, opened_->about, bench().profile(),
+                                   opened_->files.session.filename().string());
+    if (!check) return {};
+    if (auto kept = keepCheck(*check); !kept) return kept;
+    check_ = std::move(check);
+    return {};
+}
+
+void ProtocolRun::endCheck(RunResult& result) {
+    if (!check_) return;
+    check_->verdict = result.troubles.empty() ? checkVerdictFrom(result.verdict()) : CheckVerdict::None;
+    check_->made = utcToday();
+    if (const auto reader = SessionReader::open(result.session)) check_->sessionHead = reader->chainHead();
+    if (auto kept = keepCheck(*check_); !kept) result.troubles.push_back(kept.error());
+    check_.reset();
 }
 
 RunResult ProtocolRun::finish() {
@@ -110,7 +130,10 @@ RunResult ProtocolRun::finish() {
     }
     const bool abandoned = result.outcome.abandoned;
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    if (!abandoned) opened_->bench.reset();  // else its thread may still look at it
+    if (!abandoned) {  // else its thread may still look at it
+        if (check_) check_->area = bench().profile().electrodeArea;  // as the run had it
+        opened_->bench.reset();
+    }
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)
         result.troubles.push_back(closed.error());
     if (!abandoned) {
@@ -124,6 +147,7 @@ RunResult ProtocolRun::finish() {
                 {ErrorCode::Io, fmt::format("the session {} is {}: {}", result.session.string(), nameOf(kept->status),
                                             kept->problems.empty() ? "" : kept->problems.front())});
     }
+    endCheck(result);
     if (!result.troubles.empty() && !result.outcome.error) {
         result.outcome.verdict = ScriptVerdict::None;
         result.outcome.error = result.troubles.front();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/run/LoadSafetyRecord.h"
 #include "app/run/OpenedBench.h"
 #include "app/scripting/engine/ScriptRun.h"
 
@@ -67,10 +68,13 @@ public:
 
 private:
     [[nodiscard]] Result<void> leaveFault();
+    [[nodiscard]] Result<void> beginCheck();
+    void endCheck(RunResult& result);
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}
     RunOrder order_;
     std::shared_ptr<OpenedBench> opened_;  // and the script's
     std::optional<Error> notStarted_;
+    std::optional<LoadSafetyCheck> check_;  // of a load-safety run, as it is kept
     std::unique_ptr<ScriptRun> script_;  // Last: ends first
 };
 

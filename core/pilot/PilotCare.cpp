@@ -64,6 +64,17 @@ PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
 
 }  // namespace
 
+std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit) {
+    if (unit == LevelUnit::Intensity) return devices.massager ? "" : "no massager is connected";
+    if (!devices.stimulator) return "no stimulator is connected; a current source is expected";
+    if (devices.stimulator->traits().drive != Drive::Current)
+        return "the stimulator is a voltage source; a current source is expected";
+    if (profile.encoding.train.shape == PulseShape::Monophasic)
+        return "the study's train is monophasic; a biphasic one is expected";
+    if (!profile.electrodeArea) return "the area of the electrodes is not stated; one in cm² is expected";
+    return {};
+}
+
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
 /// Of the session's first part that came as far; null where none did.
@@ -92,20 +103,10 @@ Result<void> PilotCare::checklist() {
 
 Result<void> PilotCare::machine() {
     auto& bench = stage_.bench();
-    std::string missing;
-    if (stage_.settings().unit == LevelUnit::Intensity) {
-        if (!bench.devices().massager) missing = "no massager is connected";
-    } else if (!bench.devices().stimulator) {
-        missing = "no stimulator is connected";
-    } else if (bench.devices().stimulator->traits().drive != Drive::Current) {
-        missing = "the stimulator is a voltage source; a current source is expected";
-    } else if (bench.profile().encoding.train.shape == PulseShape::Monophasic) {
-        missing = "the study's train is monophasic; a biphasic one is expected";
-    } else if (!bench.profile().electrodeArea) {
-        missing = "the area of the electrodes is not stated";
-    } else if (bench.mode() != OutputMode::Person) {
+    const auto unit = stage_.settings().unit;
+    auto missing = machineLacks(bench.devices(), bench.profile(), unit);
+    if (missing.empty() && unit == LevelUnit::Current && bench.mode() != OutputMode::Person)
         missing = "the bench was not opened for a participant";
-    }
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 
@@ -250,6 +251,24 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
             const auto said = stage_.ask(row::kRating, condition.name + " " + prompt.name, prompt);
             if (!said) return failure(said);
         }
+    }
+    return compareEncodings();
+}
+
+/// The targets say when the person had them; what they are called is the record's.
+Result<void> PilotCare::compareEncodings() {
+    const auto& settings = stage_.settings();
+    if (settings.earlierEncoding.empty()) return {};
+    const std::vector<PromptTarget> offered = {{settings.encoding, "Today's"},
+                                               {settings.earlierEncoding, "The earlier session's"},
+                                               {row::kNoDifference, "No difference"}};
+    for (const auto& [item, text] :
+         {std::pair{row::kEasier, "Which names were easier to tell: today's, or those of the earlier session?"},
+          std::pair{row::kMoreLikeTouch,
+                    "Which names fit better what touch is like: today's, or those of the earlier session?"}}) {
+        const auto name = fmt::format("{} {}", row::kEncodings, item);
+        const auto said = stage_.ask(row::kRating, name, choicePrompt(name, text, offered));
+        if (!said) return failure(said);
     }
     return {};
 }

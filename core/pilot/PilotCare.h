@@ -11,6 +11,10 @@
 
 namespace tacto {
 
+/// What a stimulator, or a massager, and a study's trains lack before they may be at a participant: one sentence without
+/// its end; empty where nothing is missing.
+[[nodiscard]] std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit);
+
 class PilotCare {
 public:
     /// `stage` outlives it.
@@ -24,7 +28,8 @@ public:
     [[nodiscard]] Result<void> beforeBlock(int block);
     /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
     [[nodiscard]] Result<void> skin(const std::string& moment);
-    /// Each condition felt once more without its name, and rated.
+    /// Each condition felt once more without its name, and rated. After a second encoding also which of the two was
+    /// easier, and which is more like touch.
     [[nodiscard]] Result<void> ratings(const std::vector<PresentedCondition>& conditions);
     /// `moment`: "before", "after".
     [[nodiscard]] Result<void> sideEffects(const std::string& moment);
@@ -32,6 +37,7 @@ public:
 private:
     [[nodiscard]] Result<void> machine();
     [[nodiscard]] Result<void> stopTest(PromptTo by);
+    [[nodiscard]] Result<void> compareEncodings();
     [[nodiscard]] Result<void> electrodes();
     [[nodiscard]] Result<double> measureImpedance(const std::string& name);
     /// Ends the session where the gate does not hold.

@@ -56,6 +56,13 @@ inline constexpr const char* kRating = "rating";
 inline constexpr const char* kSideEffect = "side-effect";
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
+
+// Ratings that compare the session's encoding with an earlier one are named by the first of these and one of the next
+// two. What is said is an encoding, or the last.
+inline constexpr const char* kEncodings = "encodings";
+inline constexpr const char* kEasier = "easier";
+inline constexpr const char* kMoreLikeTouch = "more-like-touch";
+inline constexpr const char* kNoDifference = "no-difference";
 }  // namespace row
 
 class PilotRecord {

@@ -19,6 +19,7 @@ struct PilotSettings {
     int session = 1;         ///< number of the participant's session
     std::uint64_t seed = 1;  ///< of order, plan and pauses; a session that is resumed has that of its plan
     std::string encoding = "standard";
+    std::string earlierEncoding;  ///< another, that the participant had in a complete session; empty: none
     LevelUnit unit = LevelUnit::Current;
     double cap = 15;        ///< highest level of the study, in `unit`
     Seconds shortest{0.5};  ///< T_min

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/Random.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 
@@ -77,6 +78,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
         case PromptKind::Choice:
             if (prompt.name == "naturalness")
                 return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));
+            if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // Names are nothing to it
             return prompt.targets.empty() ? "" : prompt.targets.front().key;
         case PromptKind::Hold:
             return "held";

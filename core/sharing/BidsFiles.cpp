@@ -155,15 +155,17 @@ Result<BidsWith> bidsWithFrom(std::string_view list) {
 }
 
 Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled) {
-    if (enrolled < 1 || enrolled > study.places) {
-        return fail(ErrorCode::InvalidArgument, "participant {} of a study of {}; 1 to {} is accepted", enrolled,
-                    study.places, study.places);
+    if (enrolled < 1 || study.places < 1) {
+        return fail(ErrorCode::InvalidArgument, "participant {} of a study of {}; both from 1 are accepted", enrolled,
+                    study.places);
     }
+    // An amendment that allows more people must not change the labels of those who are there.
+    const auto round = (enrolled - 1) / study.places, first = round * study.places;
     std::vector<std::size_t> places(study.places);
-    std::iota(places.begin(), places.end(), 1);
-    Random random(study.labelSeed, "labels of participants");
+    std::iota(places.begin(), places.end(), first + 1);
+    Random random(study.labelSeed, fmt::format("labels of participants {}", round));
     for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
-    return fmt::format("{:02}", places[enrolled - 1]);
+    return fmt::format("{:02}", places[enrolled - 1 - first]);
 }
 
 Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with, std::string_view version) {

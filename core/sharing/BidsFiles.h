@@ -29,11 +29,11 @@ struct BidsFile {
     std::string text;
 };
 
-/// The label of the `enrolled`-th participant (from 1): "03". Errors: InvalidArgument beyond the study's places.
+/// The label of the `enrolled`-th participant (from 1): "03". Errors: InvalidArgument for 0, of which or of places.
 [[nodiscard]] Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled);
 
 /// All files, in the order of their paths. `version` is the program's.
-/// Errors: InvalidArgument for a participant or a session that is numbered twice or beyond the study's places.
+/// Errors: InvalidArgument for a participant or a session that is numbered twice or 0.
 [[nodiscard]] Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with,
                                                       std::string_view version);
 

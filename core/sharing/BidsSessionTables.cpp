@@ -113,7 +113,9 @@ BidsTable ratingsTable(const BidsSession& session) {
                        {"unpleasantness", "how unpleasant, 0 to 10"},
                        {"pain", "how painful, 0 to 10"},
                        {"naturalness", "totally natural to totally unnatural, five words"},
-                       {"qualities", "what it felt like, any number of words"}}},
+                       {"qualities", "what it felt like, any number of words"},
+                       {"easier", "after a second encoding: which was easier to tell"},
+                       {"more-like-touch", "after a second encoding: which fits better what touch is like"}}},
                      {"trial_type", "What was presented", "", conditionLevels(session, false)},
                      {"value", "The answer: a number, or words"}});
     for (const auto& row : session.ratings) table.add({row.item, row.condition, row.value});

@@ -53,6 +53,13 @@ struct BidsSideEffect {
     std::optional<int> relation;  ///< 1 to 5
 };
 
+/// The detection threshold, found again before a block.
+struct BidsDrift {
+    std::size_t block = 0;
+    double detection_ma = kNaN;
+    bool adapted = false;
+};
+
 struct BidsSession {
     std::size_t number = 0;
     double days = kNaN;  ///< since the person's first, whole days
@@ -67,6 +74,7 @@ struct BidsSession {
     std::vector<std::string> labels;  ///< the answers offered, in the study's order
     std::vector<BidsTrial> trials;    ///< familiarisation, training and test, in the order presented
     std::vector<BidsThresholdTrial> thresholds;
+    std::vector<BidsDrift> drift;
     std::vector<BidsRating> ratings;
     std::vector<BidsSideEffect> sideEffects;
 };
@@ -86,8 +94,10 @@ struct BidsStudy {
     std::string license;     ///< under which the data may be used; empty: not decided
     std::string site;        ///< "upper arm"
     double electrodeArea_cm2 = kNaN;
-    std::size_t places = 0;       ///< participants that the approval allows: labels are drawn among as many
-    std::uint64_t labelSeed = 0;  ///< the same for the same study
+    /// Participants that the first approval allowed: labels are drawn among as many, and of later ones among as many
+    /// again.
+    std::size_t places = 0;
+    std::uint64_t labelSeed = 0;  ///< a secret of the study; the same at each export
     std::vector<BidsParticipant> participants;  ///< active and those who left; never one who withdrew
 };
 

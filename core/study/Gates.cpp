@@ -153,6 +153,11 @@ Result<void> simulationGate(const StudySettings& settings, const Participant& pa
         return fail(kGateRefused, "{} is a virtual participant; only simulated devices are accepted",
                     shownName(participant));
     }
+    if (settings.kind == StudyKind::Rehearsal && settings.modality == Modality::Electrodes && !devicesSimulated) {
+        return fail(kGateRefused,
+                    "{} is in a rehearsal, which no committee has approved; only simulated devices are accepted",
+                    shownName(participant));
+    }
     if (!participant.virtualSeed && devicesSimulated && settings.kind == StudyKind::Study) {
         return fail(kGateRefused, "{} is a person and the devices are simulated; that is accepted in a rehearsal only",
                     shownName(participant));

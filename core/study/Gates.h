@@ -55,7 +55,8 @@ struct ExclusionAnswer {
                                        CalibrationDate today);
 /// The clock is not more than 5 min behind the ledger's last row.
 [[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds ledgerLast, std::chrono::sys_seconds now);
-/// A virtual participant on simulated devices only; a person on a simulated one in a rehearsal only.
+/// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a
+/// rehearsal only.
 [[nodiscard]] Result<void> simulationGate(const StudySettings& settings, const Participant& participant,
                                           bool devicesSimulated);
 

@@ -53,6 +53,26 @@ const RecordFields<AdverseEvent>& adverseEventFields() {
     return fields;
 }
 
+/// "cap_ma", "approval.expires": settings that are others `now`. What every amendment changes is not among them.
+std::vector<std::string> changedKeys(const nlohmann::json& before, const nlohmann::json& now) {
+    constexpr std::string_view kOwn[] = {"approval.reference", "approval.protocol_sha256"};
+    std::vector<std::string> changed;
+    for (const auto& [key, value] : now.items()) {
+        const auto old = valueOr(before, key.c_str());
+        if (old == value) continue;
+        if (!value.is_object()) {
+            changed.push_back(key);
+            continue;
+        }
+        for (const auto& [inner, held] : value.items()) {
+            const auto name = fmt::format("{}.{}", key, inner);
+            if (valueOr(old, inner.c_str()) != held && std::ranges::find(kOwn, name) == std::end(kOwn))
+                changed.push_back(name);
+        }
+    }
+    return changed;
+}
+
 /// One pass over the ledger.
 class Replay {
 public:
@@ -61,7 +81,7 @@ public:
     [[nodiscard]] Result<void> take(const SessionRow& row) {
         state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
         if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
-            state.settingsSha256 = textOr(row.body, "sha256");
+            settings(row);
             return {};
         }
         if (row.name == ledger::kEnrolled) return enrolled(row);
@@ -105,6 +125,18 @@ private:
         auto content = openedInLedger(study_, subkey(entry->key, 0), row.seq, row.name, row.body);
         if (!content) return failure(content);
         return std::optional(std::move(*content));
+    }
+
+    void settings(const SessionRow& row) {
+        state.settingsSha256 = textOr(row.body, "sha256");
+        auto now = valueOr(row.body, "settings");
+        if (row.name == ledger::kAmendment) {
+            state.amendments.push_back({textOr(row.body, "reference"), std::chrono::sys_seconds(wholeSeconds(row.at)),
+                                        changedKeys(state.settings, now)});
+        } else {
+            state.firstPlaces = static_cast<int>(countOr(now, "participants_max"));
+        }
+        state.settings = std::move(now);
     }
 
     [[nodiscard]] Result<void> enrolled(const SessionRow& row) {
@@ -176,6 +208,7 @@ private:
     }
 
     [[nodiscard]] Result<void> adverseEvent(const SessionRow& row) {
+        ++state.adverseEventRows;
         if (keys_ == nullptr) return {};
         const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
         if (!content) return failure(content);
@@ -223,6 +256,12 @@ Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& ke
 nlohmann::json toJson(const Participant& participant) { return participantFields().write(participant); }
 nlohmann::json toJson(const Consent& consent) { return consentFields().write(consent); }
 nlohmann::json toJson(const AdverseEvent& event) { return adverseEventFields().write(event); }
+
+Result<void> checkForLedger(const Participant& participant) {
+    return participantFields().check(participant, RecordPlace{});
+}
+Result<void> checkForLedger(const Consent& consent) { return consentFields().check(consent, RecordPlace{}); }
+Result<void> checkForLedger(const AdverseEvent& event) { return adverseEventFields().check(event, RecordPlace{}); }
 
 Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys) {
     const auto rows = ledger.events();

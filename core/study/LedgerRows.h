@@ -39,7 +39,11 @@ inline constexpr const char* kExported = "exported";
 }  // namespace ledger
 
 struct LedgerState {
-    std::string settingsSha256;  ///< of study.json, as last written
+    std::string settingsSha256;                ///< of study.json, as last written
+    nlohmann::json settings;                   ///< the same, as JSON
+    int firstPlaces = 0;                       ///< participants that the first approval allowed
+    std::vector<StudyAmendment> amendments;    ///< in order
+    std::size_t adverseEventRows = 0;          ///< also without the key
     std::vector<Participant> participants;
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
@@ -62,6 +66,12 @@ struct LedgerState {
 [[nodiscard]] nlohmann::json toJson(const Participant& participant);
 [[nodiscard]] nlohmann::json toJson(const Consent& consent);
 [[nodiscard]] nlohmann::json toJson(const AdverseEvent& event);
+
+/// What a row could not be read back with is not written. Errors: InvalidArgument naming the field, its value and what
+/// is accepted.
+[[nodiscard]] Result<void> checkForLedger(const Participant& participant);
+[[nodiscard]] Result<void> checkForLedger(const Consent& consent);
+[[nodiscard]] Result<void> checkForLedger(const AdverseEvent& event);
 
 /// `keys` may be null. Errors: ParseError naming a row that does not fit the ones before it or does not open.
 [[nodiscard]] Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys);

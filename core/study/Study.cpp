@@ -213,6 +213,7 @@ Result<Participant> Study::enrol(Participant participant) {
             return fail(ErrorCode::Unsupported, "{} is enrolled already; another code is expected", *stored);
         participant.code = *stored;
     }
+    if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     participant.id = randomHex(kIdDigits);
     // The key first: a row whose key was lost would never open.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
@@ -252,6 +253,7 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
         return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
                     dateText(consent.date), dateText(today()));
     }
+    if (auto fits = checkForLedger(consent); !fits) return fits;
     if (participant->state != ParticipantState::Active)
         return fail(kGateRefused, "{} has left the study; only an active participant consents", participant->code);
     return state_->appendOf(*participant, ledger::kConsent, nlohmann::json::object(), toJson(consent));
@@ -286,24 +288,10 @@ Result<void> Study::withdraw(std::string_view code) {
 }
 
 Result<void> Study::amend(StudySettings settings, std::string_view reference) {
-    if (auto may = state_->changeable(); !may) return may;
-    if (reference.empty() || reference == state_->settings.approval.reference) {
-        return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
-    }
-    settings.id = state_->settings.id;
-    settings.kind = state_->settings.kind;
-    settings.approval.reference = reference;
-    settings.approval.protocolSha256 = protocolHash(settings);
-    if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return sound;
-    const auto text = studyText(settings);
-    if (auto drafted = draftStudy(state_->files, text); !drafted) return drafted;
-    auto row = settingsRow(settings, text);
-    row["reference"] = reference;
-    if (auto noted = state_->append(ledger::kAmendment, std::move(row)); !noted) return noted;
-    if (auto published = publishStudy(state_->files); !published) return published;
-    state_->settings = std::move(settings);
-    return {};
+    return state_->amend(std::move(settings), reference);
 }
+
+const std::vector<StudyAmendment>& Study::amendments() const noexcept { return state_->known.amendments; }
 
 Result<BegunSession> Study::beginSession(const SessionRequest& request) {
     if (auto may = state_->changeable(); !may) return failure(may);
@@ -390,23 +378,18 @@ Result<std::vector<SessionRow>> Study::events(const StudySession& session) const
 }
 
 Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& event) {
-    if (auto may = state_->changeable(); !may) return may;
-    if (state_->known.session(session) == nullptr)
-        return fail(ErrorCode::NotFound, "the study has no session {}", session);
-    if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
-        return fail(
-            ErrorCode::InvalidArgument,
-            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
-            "\"{}\", {} and {}",
-            event.what, event.severity, event.relation);
-    }
-    return state_->append(ledger::kAdverseEvent, {{"session", session}}, &state_->keys->study(), toJson(event));
+    return state_->adverseEvent(session, event);
 }
+
+std::size_t Study::adverseEventCount() const noexcept { return state_->known.adverseEventRows; }
 
 Result<std::vector<std::pair<std::string, AdverseEvent>>> Study::adverseEvents() const {
     if (!state_->keys) return fail(ErrorCode::Unsupported, "adverse events are read with the study's passphrase");
     return state_->known.adverseEvents;
 }
+
+Result<std::uint64_t> Study::labelSeed() const { return state_->labelSeed(); }
+int Study::firstPlaces() const noexcept { return state_->known.firstPlaces; }
 
 Result<void> Study::exported(const fs::path& place, std::string_view what) {
     if (auto may = state_->changeable(); !may) return may;

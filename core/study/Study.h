@@ -75,6 +75,13 @@ struct BegunSession {
     std::shared_ptr<const RowSeal> seal;
 };
 
+/// A change of the settings under a committee's amendment.
+struct StudyAmendment {
+    std::string reference;
+    std::chrono::sys_seconds at{};
+    std::vector<std::string> changed;  ///< keys of study.json: "cap_ma", "approval.expires"
+};
+
 struct AdverseEvent {
     std::string what;
     int severity = 1;  ///< 1 to 4
@@ -160,8 +167,11 @@ public:
     /// Destroys the participant's key: nothing of theirs opens any more. Errors: kGateRefused where the study keeps
     /// data (data_on_request).
     [[nodiscard]] Result<void> withdraw(std::string_view code);
-    /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own.
+    /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own, for one
+    /// that an earlier amendment had, and for fewer participants than are enrolled.
     [[nodiscard]] Result<void> amend(StudySettings settings, std::string_view reference);
+    /// In their order; also without the key.
+    [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
 
     /// Asks every gate, then books the session. Nothing is made when one refuses.
     [[nodiscard]] Result<BegunSession> beginSession(const SessionRequest& request);
@@ -180,6 +190,13 @@ public:
     /// Under the study's key: survives a withdrawal.
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
     [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
+    /// How many; also without the key.
+    [[nodiscard]] std::size_t adverseEventCount() const noexcept;
+    /// Of the order in which exports label participants: from the study's key, so that who has the study's folder alone
+    /// cannot tell a label's place in the enrolment. The same each time. Errors: Unsupported without the key.
+    [[nodiscard]] Result<std::uint64_t> labelSeed() const;
+    /// Participants that the first approval allowed, whatever was amended since.
+    [[nodiscard]] int firstPlaces() const noexcept;
     /// Notes that data were exported to `place`, which is sealed. Errors: InvalidArgument for a place inside the study
     /// folder.
     [[nodiscard]] Result<void> exported(const std::filesystem::path& place, std::string_view what);

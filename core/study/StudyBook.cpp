@@ -6,6 +6,7 @@
 #include "core/base/JsonFields.h"
 #include "core/seal/SealedText.h"
 #include "core/session/SessionReader.h"
+#include "core/study/NewStudy.h"
 #include "core/study/SessionSeal.h"
 
 namespace tacto {
@@ -92,6 +93,55 @@ Result<Participant> StudyBook::find(std::string_view code) const {
         if (usable(one) && one.code == *stored) return one;
     }
     return fail(ErrorCode::NotFound, "the study has no participant {}; a code that is enrolled is expected", *stored);
+}
+
+Result<void> StudyBook::amend(StudySettings amended, std::string_view reference) {
+    if (auto may = changeable(); !may) return may;
+    if (reference.empty() || reference == settings.approval.reference ||
+        std::ranges::find(known.amendments, reference, &StudyAmendment::reference) != known.amendments.end()) {
+        return fail(ErrorCode::InvalidArgument, "an amendment needs a reference of its own, not \"{}\"", reference);
+    }
+    if (amended.participantsMax < static_cast<int>(known.participants.size())) {
+        return fail(ErrorCode::InvalidArgument, "participants_max is {}, and {} are enrolled; that or more is expected",
+                    amended.participantsMax, known.participants.size());
+    }
+    amended.id = settings.id;
+    amended.kind = settings.kind;
+    amended.approval.reference = reference;
+    amended.approval.protocolSha256 = protocolHash(amended);
+    if (auto sound = studyFields().check(amended, RecordPlace{}); !sound) return sound;
+    const auto text = studyText(amended);
+    if (auto drafted = draftStudy(files, text); !drafted) return drafted;
+    auto row = settingsRow(amended, text);
+    row["reference"] = reference;
+    if (auto noted = append(ledger::kAmendment, std::move(row)); !noted) return noted;
+    if (auto published = publishStudy(files); !published) return published;
+    settings = std::move(amended);
+    return {};
+}
+
+Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEvent& event) {
+    if (auto may = changeable(); !may) return may;
+    if (known.session(session) == nullptr)
+        return fail(ErrorCode::NotFound, "the study has no session {}", session);
+    if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
+        return fail(
+            ErrorCode::InvalidArgument,
+            "an adverse event needs what happened, a severity from 1 to 4 and a relation from 1 to 5; these are "
+            "\"{}\", {} and {}",
+            event.what, event.severity, event.relation);
+    }
+    if (auto fits = checkForLedger(event); !fits) return fits;
+    return append(ledger::kAdverseEvent, {{"session", session}}, &keys->study(), toJson(event));
+}
+
+Result<std::uint64_t> StudyBook::labelSeed() const {
+    constexpr std::uint64_t kLabels = 1;  // of the key's subkeys; the ledger is sealed under the key itself
+    if (!keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");
+    const auto key = subkey(keys->study(), kLabels);
+    std::uint64_t seed = 0;
+    for (const auto byte : key.bytes().first(sizeof seed)) seed = seed << 8 | std::to_integer<std::uint64_t>(byte);
+    return seed;
 }
 
 Result<void> StudyBook::recordGate() const {

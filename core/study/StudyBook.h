@@ -50,6 +50,11 @@ struct StudyBook {
     /// By code or "virtual:SEED". Errors: as Study::find().
     [[nodiscard]] Result<Participant> find(std::string_view code) const;
 
+    // As those of Study.
+    [[nodiscard]] Result<void> amend(StudySettings amended, std::string_view reference);
+    [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
+    [[nodiscard]] Result<std::uint64_t> labelSeed() const;
+
     /// The chains of the sessions that ended are those that the ledger noted, and the clock was not set back.
     [[nodiscard]] Result<void> recordGate() const;
     [[nodiscard]] Result<void> stillApproved() const;

@@ -84,7 +84,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.number("gap_min_h", &S::gapMin_h, {.low = 0, .high = 10'000, .unit = "h"});
     all.number("session_max_min", &S::sessionMax_min, {.low = 1, .high = 240, .unit = "min"});
     all.number("cap_ma", &S::cap_mA, {.low = 0, .high = 15, .openLow = true, .unit = "mA"});
-    all.list("limits", &S::limits, namedHashFields<StudyLimitSet>("id", &StudyLimitSet::id).kind(), 0, 20);
+    all.list("limits", &S::limits, namedHashFields<LimitSetHash>("id", &LimitSetHash::id).kind(), 0, 20);
     all.word("site", &S::site, kElectrodeSites);
     all.word("nerve", &S::nerve, kNerves);
     all.word("limb", &S::limb, kLimbs);
@@ -97,6 +97,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.number("catch", &S::catchTrials, {.low = 0, .high = 20});
     all.flag("blind", &S::blind);
     all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
+    all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
     all.rule([](const S& settings) -> Result<void> {
         if (settings.conditions == kTexturePressure) return {};
@@ -183,7 +184,7 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
 
 std::string protocolHash(const StudySettings& settings) {
     auto json = studyFields().write(settings);
-    for (const char* key : {"id", "approval"}) json.erase(key);
+    for (const char* key : {"id", "approval", "license"}) json.erase(key);
     return sha256Hex(dumpJson(json));
 }
 

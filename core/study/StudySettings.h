@@ -13,6 +13,7 @@
 #include "core/base/RecordFields.h"
 #include "core/base/Units.h"
 #include "core/calibration/CalibrationDate.h"
+#include "core/calibration/LoadSafetyStore.h"
 
 namespace tacto {
 
@@ -47,13 +48,6 @@ struct ScriptHash {
     bool operator==(const ScriptHash&) const = default;
 };
 
-/// A limit set of the approval.
-struct StudyLimitSet {
-    std::string id;
-    std::string sha256;
-    bool operator==(const StudyLimitSet&) const = default;
-};
-
 struct StudyElectrode {
     std::string type = "self-adhesive";
     SquareCentimetres area{4};
@@ -83,7 +77,7 @@ struct StudySettings {
     double gapMin_h = 20;
     double sessionMax_min = 60;
     double cap_mA = 15;
-    std::vector<StudyLimitSet> limits;
+    std::vector<LimitSetHash> limits;  ///< of the approval
     ElectrodeSite site = ElectrodeSite::UpperArm;
     Nerve nerve = Nerve::Median;
     Limb limb = Limb::Right;
@@ -97,6 +91,7 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
+    std::string license;  ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;  ///< approved; a session's script must be one of them
     bool operator==(const StudySettings&) const = default;
 };
@@ -109,7 +104,8 @@ struct StudySettings {
 /// options of their own.
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
-/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself, and the scripts.
+/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
+/// license of exports, and the scripts.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
 
 }  // namespace tacto

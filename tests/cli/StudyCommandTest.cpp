@@ -53,6 +53,8 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
              {{"code", "P-7K3D"}, {"virtual", nullptr}, {"state", "active"}, {"consent", nullptr}, {"sessions", 0}}}));
     EXPECT_EQ(shown["withdrawn"], 0);
     EXPECT_EQ(shown["sessions"], Json::array());
+    EXPECT_EQ(shown["amendments"], Json::array());
+    EXPECT_EQ(shown["adverse_events"], 0);
     EXPECT_EQ(shown["ledger_head"].get<std::string>().size(), 64U);
 
     const auto sealed = desk.run({"study", "show", at(), "--json"});
@@ -74,6 +76,31 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     EXPECT_EQ(verified.code, 0) << verified.out;
     EXPECT_EQ(jsonOf(verified)["status"], "intact");
     EXPECT_EQ(jsonOf(verified)["ledger"]["head"], shown["ledger_head"]);
+}
+
+TEST_F(StudyCli, AnAmendmentRenewsTheApprovalAndIsListed) {
+    RecordProperty("hazard", "H11");
+    ASSERT_EQ(create("2026-02-01", {"--set", "license=CC-BY-4.0"}).code, 0);
+    const auto amended =
+        study({"amend", at(), "--reference", "EC-17 A1", "--expires", "2099-12-31", "--set", "blocks=4"});
+    ASSERT_EQ(amended.code, 0) << amended.err;
+    const auto made = jsonOf(amended);
+    EXPECT_EQ(made["reference"], "EC-17 A1");
+    EXPECT_EQ(made["changed"], Json({"approval.expires", "blocks"}));
+    EXPECT_EQ(made["date"].get<std::string>().size(), 10U);
+    const auto sealed = desk.run({"study", "show", at(), "--json"});
+    const auto shown = jsonOf(sealed);
+    EXPECT_EQ(shown["amendments"], Json::array({made}));
+    EXPECT_EQ(shown["approval"], Json({{"reference", "EC-17 A1"},
+                                       {"from", "2026-01-01"},
+                                       {"expires", "2099-12-31"},
+                                       {"valid", true}}));
+    EXPECT_THAT(desk.run({"study", "show", at()}).out, HasSubstr("changed approval.expires, blocks"));
+    // The license is the study's, and no amendment is needed for what is not the protocol.
+    ASSERT_EQ(desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase})
+                  .code,
+              0);
+    EXPECT_THAT(contentOf(desk.at("bids/dataset_description.json")), HasSubstr("\"License\": \"CC-BY-4.0\""));
 }
 
 TEST_F(StudyCli, BadInputIsOneSentenceAndChangesNothing) {
@@ -99,6 +126,15 @@ TEST_F(StudyCli, BadInputIsOneSentenceAndChangesNothing) {
     expect(study({"enrol", at(), "--virtual", "-1"}), 2, "virtual");
     expect(study({"dance", at()}), 2, "there is no \"dance\"");
     expect(study({"leave", at()}), 2, "STUDY and CODE");
+    expect(study({"amend", at(), "--set", "blocks=4"}), 2, "--reference is missing");
+    expect(study({"amend", at(), "--reference", "EC-17"}), 2,
+           "an amendment needs a reference of its own, not \"EC-17\"");
+    expect(study({"amend", at(), "--reference", "A1", "--set", "cap_ma=16"}), 2, "\"cap_ma\" is 16");
+    expect(study({"adverse-event", at()}), 2, "STUDY and SESSION");
+    expect(study({"adverse-event", at(), "00", "--what", "pain", "--severity", "5", "--relation", "1"}), 2,
+           "--severity is \"5\"; a whole number from 1 to 4 is expected");
+    expect(study({"adverse-event", at(), "00", "--what", "pain", "--severity", "2", "--relation", "3"}), 3,
+           "the study has no session 00");
     expect(study({"leave", at(), "P-7K3D", "--virtual", "3"}), 2, "takes no --virtual");
     Words other{"create", desk.at("second"), "--title",   "T",          "--approval",        "A",
                 "--from", "2026-02-01",      "--expires", "2026-01-01", "--consent-version", "1"};

@@ -76,6 +76,21 @@ TEST_F(StudyExport, NothingIsPutIntoTheStudyFolder) {
     expectRefused(desk_.run({"export", at("nowhere"), "--format", "bids", "--out", at("x")}), 3, {"no study"});
 }
 
+TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
+    RecordProperty("hazard", "H12");
+    const auto session =
+        jsonOf(desk_.run({"study", "show", study(), "--json"})).at("sessions").at(0).at("id").get<std::string>();
+    const auto noted =
+        desk_.run({"study", "adverse-event", study(), session, "--what", "burning", "--severity", "3", "--relation", "4",
+                   "--serious", "--action", "cooled", "--outcome", "gone", "--reported", "--json"});
+    ASSERT_EQ(noted.code, 0) << noted.err;
+    EXPECT_EQ(jsonOf(noted), Json({{"session", session}, {"adverse_events", 1}}));
+    EXPECT_EQ(jsonOf(desk_.run({"study", "show", study(), "--json"})).at("adverse_events"), 1);
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("events.html"), "--for", "committee"}).code, 0);
+    const auto text = readTextFile(at("events.html")).value_or("");
+    for (const char* said : {"burning", "cooled", "gone"}) EXPECT_THAT(text, HasSubstr(said));
+}
+
 TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
     const auto code = run_.at("participant").at("code").get<std::string>();
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("study.html")}).code, 0);
@@ -87,6 +102,47 @@ TEST_F(StudyExport, ReportsAreForTheStudyTheCommitteeAndTheParticipant) {
     ASSERT_EQ(desk_.run({"report", study(), "--out", at("page.pdf"), "--participant", code}).code, 0);
     EXPECT_GT(fs::file_size(at("page.pdf")), 2000U);
     expectRefused(desk_.run({"report", study(), "--out", at("other.pdf"), "--participant", "P-ZZZZ"}), 3, {"P-ZZZZ"});
+}
+
+TEST(StudyOfTwoEncodings, EachPersonHasBothInAnOrderOfTheirOwnAndSaysWhichTheyPrefer) {
+    RecordProperty("hazard", "H9");
+    const Desk desk;
+    const auto passphrase = desk.write("passphrase", "correct horse 4711\n");
+    const auto study = desk.at("study");
+    const auto with = [&](Words words) {
+        words.insert(words.end(), {"--passphrase-file", passphrase});
+        const auto ran = desk.run(words);
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return ran;
+    };
+    with({"study", "create", study, "--title", "Two encodings", "--approval", "EC-17", "--from", "2026-01-01",
+          "--expires", "2099-12-31", "--consent-version", "2", "--set", "encodings=standard,swapped", "--set",
+          "gap_min_h=0", "--set", "blocks=1"});
+    const auto enrolled = with({"study", "enrol", study, "--virtual", "7", "--json"});
+    const auto code = jsonOf(enrolled).at("code").get<std::string>();
+    with({"study", "consent", study, code, "--version", "2", "--date", "2026-11-20", "--by", "KL"});
+    std::vector<std::string> had;
+    for (int session = 1; session <= 2; ++session) {
+        const auto ran = with({"run", "pilot-identification", "--device", "sim:", "--out", study, "--set",
+                               "participant=" + code, "--seed", "3", "--json"});
+        had.push_back(jsonOf(ran).at("results").at("encoding"));
+    }
+    EXPECT_EQ(had, (std::vector<std::string>{"standard", "swapped"}));
+    const auto report = desk.at("study.html");
+    with({"report", study, "--out", report});
+    const auto text = readTextFile(report).value_or("");
+    EXPECT_THAT(text, HasSubstr("Easier to tell: no difference. More like touch: no difference."));
+    EXPECT_THAT(text, HasSubstr("1 participant(s) had standard, swapped. The orders are not balanced"));
+    with({"export", study, "--format", "bids", "--out", desk.at("bids")});
+    std::size_t asked = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(desk.at("bids"))) {
+        if (!entry.path().string().ends_with("task-ratings_beh.tsv")) continue;
+        const auto rows = readTextFile(entry.path()).value_or("");
+        if (rows.find("more-like-touch\tn/a\tno-difference") == std::string::npos) continue;
+        ++asked;
+        EXPECT_THAT(entry.path().string(), HasSubstr("ses-02"));
+    }
+    EXPECT_EQ(asked, 1U) << "after the second encoding alone";
 }
 
 }  // namespace

@@ -67,6 +67,13 @@ StudyRecord studyOfThree() {
     gate.name = row::kGate;
     gate.body = {{"name", "skin break 3"}, {"holds", false}, {"said", "the skin scores 2"}};
     study.participants[1].sessions[0].rows = {stop, gate};
+    study.settings.encodings = {"standard", "swapped"};
+    study.amendments = {{"EK 2026/117 A1", std::chrono::sys_days(std::chrono::year(2026) / 11 / 24), {"cap_ma"}}};
+    auto& first = study.participants[0].sessions[0];
+    first.results.drift = {{2, 3.41, true}, {3, 3.1, false}};
+    first.exposure = {.trains = 900, .stimulated_s = 450, .charge_uC = 12.5};
+    study.participants[0].sessions[1].results.ratings = {{"easier", "", "swapped"},
+                                                         {"more-like-touch", "", "no-difference"}};
     AdverseEvent event;
     event.what = "redness";
     event.severity = 2;
@@ -111,6 +118,33 @@ TEST(StudyReport, EachPersonsResultComesFirst) {
     EXPECT_THAT(said, HasSubstr("Enrolled | 3"));
     EXPECT_THAT(said, HasSubstr("Answered test trials | 2"));
     EXPECT_THAT(said, Not(HasSubstr("nan")));
+}
+
+TEST(StudyReport, DriftAndExposureStandInBothReports) {
+    RecordProperty("hazard", "H11");
+    const auto content = studyReport(studyOfThree());
+    ASSERT_TRUE(content) << content.error().message;
+    const auto course = "block 2: 1.10, adapted; block 3: 1.00 | 900 | 7.5 | 12.5";
+    EXPECT_THAT(textOf(*content), HasSubstr(std::string("P-7K3M | 1 | ") + course));
+    const auto committees = textOf(committeeReport(studyOfThree()));
+    EXPECT_THAT(committees, HasSubstr(std::string(" | 1 | ") + course));
+    EXPECT_THAT(committees, HasSubstr("EK 2026/117 A1 of 2026-11-24: cap_ma"));
+}
+
+TEST(StudyReport, PreferencesAreShownWithTheirOrderAndNotTested) {
+    RecordProperty("hazard", "H9");
+    const auto content = studyReport(studyOfThree());
+    ASSERT_TRUE(content) << content.error().message;
+    const auto said = textOf(*content);
+    EXPECT_THAT(said, HasSubstr("Easier to tell: swapped. More like touch: no difference."));
+    for (const char* row : {"standard | 0 | 0", "swapped | 1 | 0", "no difference | 0 | 1"})
+        EXPECT_THAT(said, HasSubstr(row));
+    EXPECT_THAT(said, HasSubstr("five alike of five people have p = 0.06 (two-sided). In the order in which they had "
+                                "the encodings: 1 participant(s) had standard, swapped. The orders are not balanced"));
+    EXPECT_THAT(textOf(committeeReport(studyOfThree())), Not(HasSubstr("Easier")));
+    auto nobody = studyOfThree();
+    nobody.participants[0].sessions[1].results.ratings.clear();
+    EXPECT_THAT(textOf(*studyReport(nobody)), Not(HasSubstr("Preferences are shown")));
 }
 
 TEST(StudyReport, TheCommitteesNamesNoCodeAndNoAnswer) {

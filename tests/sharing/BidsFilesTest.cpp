@@ -193,6 +193,16 @@ TEST(BidsFiles, LabelsAreShuffledAndStayWhenMoreAreEnrolled) {
     EXPECT_FALSE(inOrder);
 }
 
+TEST(BidsFiles, MoreParticipantsThanTheFirstApprovalAllowedChangeNoLabel) {
+    RecordProperty("hazard", "H8");
+    auto study = studyOfThree();
+    study.places = 2;
+    const auto label = [&](std::size_t enrolled) { return bidsLabel(study, enrolled).value_or(""); };
+    EXPECT_THAT((std::vector{label(1), label(2)}), testing::UnorderedElementsAre("01", "02"));
+    EXPECT_THAT((std::vector{label(3), label(4)}), testing::UnorderedElementsAre("03", "04"));
+    EXPECT_THAT((std::vector{label(5), label(6)}), testing::UnorderedElementsAre("05", "06"));
+}
+
 TEST(BidsFiles, SimulatedParticipantsAreCalledSo) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();
@@ -214,7 +224,10 @@ TEST(BidsFiles, DescriptionHasTheFieldsOfTheDesign) {
     EXPECT_EQ(about->at("DatasetType"), "raw");
     EXPECT_EQ(about->at("EthicsApprovals"), json::array({"EK 2026/117, Ethics Committee"}));
     EXPECT_EQ(about->at("GeneratedBy"), json::parse(R"([{"Name": "Tactoscope", "Version": "1.2.3"}])"));
-    EXPECT_TRUE(about->contains("License"));
+    EXPECT_EQ(about->at("License"), "n/a");
+    auto licensed = studyOfThree();
+    licensed.license = "CC-BY-4.0";
+    EXPECT_EQ(parseJson(filesOf(licensed).at("dataset_description.json"), "description")->at("License"), "CC-BY-4.0");
 }
 
 TEST(BidsFiles, ATextNeverBeginsAnotherCell) {
@@ -227,8 +240,8 @@ TEST(BidsFiles, ATextNeverBeginsAnotherCell) {
 
 TEST(BidsFiles, RefusesWhatCannotBeNumbered) {
     auto study = studyOfThree();
-    study.places = 2;
-    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 3 of a study of 2; 1 to 2 is accepted");
+    study.places = 0;
+    EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 of a study of 0; both from 1 are accepted");
     study = studyOfThree();
     study.participants[1].enrolled = 1;
     EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "participant 1 stands in the study twice; once was expected");

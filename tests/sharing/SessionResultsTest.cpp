@@ -3,6 +3,7 @@
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/results/SessionResults.h"
+#include "core/sharing/results/StudyResults.h"
 
 namespace tacto {
 namespace {
@@ -57,6 +58,10 @@ TEST(SessionResults, WhatWasMeasuredLastStandsBesideEachTrial) {
     EXPECT_EQ(found.trials[2].impedance.value(), 3400);
     EXPECT_TRUE(found.trials[2].adapted);
     EXPECT_EQ(found.trials[2].trial.response, "not-sure");
+    ASSERT_EQ(found.drift.size(), 1U);
+    EXPECT_EQ(found.drift[0].block, 2U);
+    EXPECT_EQ(found.drift[0].detection_ma, 2.9);
+    EXPECT_TRUE(found.drift[0].adapted);
 }
 
 TEST(SessionResults, ATrialAskedTwiceIsOneTrial) {
@@ -103,13 +108,17 @@ TEST(SessionResults, QuestionsBecomeRatingsSideEffectsAndSkin) {
          rowOf(row::kRating, "rough-high intensity", {{"value", 7}}),
          rowOf(row::kRating, "rough-high naturalness", {{"key", "rather-unnatural"}}),
          rowOf(row::kRating, "rough-high qualities", {{"keys", {"tapping", "touch"}}}),
+         rowOf(row::kRating, "encodings easier", {{"key", "swapped"}}),
          rowOf(row::kSideEffect, "after", {{"keys", {"tingling", "mood"}}}),
          rowOf(row::kSideEffect, "after tingling severity", {{"value", 2}}),
          rowOf(row::kSideEffect, "after tingling relation", {{"value", 5}})},
         kLabels);
     EXPECT_EQ(found.skinBefore, 1);
     EXPECT_EQ(found.skinAfter, 2);
-    ASSERT_EQ(found.ratings.size(), 3U);
+    ASSERT_EQ(found.ratings.size(), 4U);
+    EXPECT_EQ(found.ratings[3].condition, "");
+    EXPECT_EQ(found.ratings[3].item, "easier");
+    EXPECT_EQ(found.ratings[3].value, "swapped");
     EXPECT_EQ(found.ratings[0].condition, "rough-high");
     EXPECT_EQ(found.ratings[0].item, "intensity");
     EXPECT_EQ(found.ratings[0].value, "7");
@@ -119,6 +128,32 @@ TEST(SessionResults, QuestionsBecomeRatingsSideEffectsAndSkin) {
     EXPECT_EQ(found.sideEffects[0].severity, 2);
     EXPECT_EQ(found.sideEffects[0].relation, 5);
     EXPECT_EQ(found.sideEffects[1].severity, std::nullopt);
+}
+
+TEST(SessionResults, ExposureIsOfEveryTrainThatWasDelivered) {
+    const json train{{"amplitude_ma", 5}, {"width_s", 200e-6}, {"pulses", 2}, {"interval_s", 0.5}};
+    auto unknown = train;
+    unknown["amplitude_ma"] = nullptr;
+    const auto found = exposureOf({rowOf("delivered", "", train), rowOf("delivered", "", train),
+                                   rowOf("impedance check", "", train), rowOf("failed", "", train),
+                                   rowOf("delivered", "", unknown)});
+    EXPECT_EQ(found.trains, 3U);
+    EXPECT_NEAR(found.stimulated_s, 1.5, 1e-12);
+    EXPECT_NEAR(found.charge_uC, 2 * 5 * 0.2 * 2, 1e-9);
+}
+
+TEST(SessionResults, WhatLeavesAStudyHasItsLicenseAndItsSecretLabels) {
+    RecordProperty("hazard", "H11");
+    StudyRecord study;
+    study.settings.id = "0123456789abcdef";
+    study.settings.license = "CC-BY-4.0";
+    study.settings.participantsMax = 9;
+    study.labelSeed = 4711;
+    study.places = 5;
+    const auto shared = sharedStudy(study);
+    EXPECT_EQ(shared.license, "CC-BY-4.0");
+    EXPECT_EQ(shared.labelSeed, 4711U);
+    EXPECT_EQ(shared.places, 5U);
 }
 
 TEST(SessionResults, NoRowsSayNothing) {

@@ -52,7 +52,8 @@ TEST(Gates, AnApprovalIsForTheSettingsAndScriptsThatItWasGivenFor) {
     settings.scripts.front().sha256[0] = 'b';
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
     settings = approved();
-    settings.approval.committee = "EC";  // not a part of the protocol
+    settings.approval.committee = "EC";  // neither is a part of the protocol
+    settings.license = "CC-BY-4.0";
     EXPECT_TRUE(approvalGate(settings, kToday));
 }
 
@@ -153,6 +154,8 @@ TEST(Gates, VirtualParticipantsAndPeopleKeepToTheirDevices) {
     EXPECT_FALSE(simulationGate(settings, participant, false));
     participant.virtualSeed.reset();
     EXPECT_TRUE(simulationGate(settings, participant, true));
+    expectRefused(simulationGate(settings, participant, false),
+                  "P-7K3D is in a rehearsal, which no committee has approved; only simulated devices are accepted");
 }
 
 TEST(StudySettings, AreReadAsWritten) {
@@ -170,6 +173,8 @@ TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
     ASSERT_TRUE(setStudyField(settings, "encodings", "standard,swapped"));
     ASSERT_TRUE(setStudyField(settings, "site", "forearm"));
     ASSERT_TRUE(setStudyField(settings, "blind", "false"));
+    ASSERT_TRUE(setStudyField(settings, "license", "CC-BY-4.0"));
+    EXPECT_EQ(settings.license, "CC-BY-4.0");
     EXPECT_EQ(settings.blocks, 3);
     EXPECT_EQ(settings.electrode.area, SquareCentimetres(5.5));
     EXPECT_EQ(settings.encodings, (std::vector<std::string>{"standard", "swapped"}));

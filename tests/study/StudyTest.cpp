@@ -273,12 +273,24 @@ TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
     auto changed = study.settings();
     changed.blocks = 4;
     EXPECT_EQ(study.amend(changed, "EC-2026-17").error().code, ErrorCode::InvalidArgument);
+    changed.approval.expires = std::chrono::year(2028) / 10 / 31;
     ASSERT_TRUE(study.amend(changed, "EC-2026-17 A1"));
+    EXPECT_EQ(study.amend(changed, "EC-2026-17 A1").error().code, ErrorCode::InvalidArgument);
     EXPECT_TRUE(study.stillApproved());
+    enrolled(study, 1);
+    enrolled(study, 2);
+    auto fewer = study.settings();
+    fewer.participantsMax = 1;
+    EXPECT_EQ(study.amend(fewer, "EC-2026-17 A2").error().message,
+              "participants_max is 1, and 2 are enrolled; that or more is expected");
     const auto again = openWithoutKey();
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->settings().blocks, 4);
     EXPECT_EQ(again->settings().approval.reference, "EC-2026-17 A1");
+    ASSERT_EQ(again->amendments().size(), 1U);
+    EXPECT_EQ(again->amendments()[0].reference, "EC-2026-17 A1");
+    EXPECT_EQ(again->amendments()[0].at, time.now);
+    EXPECT_EQ(again->amendments()[0].changed, (std::vector<std::string>{"approval.expires", "blocks"}));
 }
 
 TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
@@ -290,11 +302,49 @@ TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
     ASSERT_TRUE(study.adverseEvent(begun.session.id, {.what = "redness", .severity = 2, .relation = 4}));
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
     ASSERT_TRUE(study.withdraw(code));
+    EXPECT_EQ(openWithoutKey()->adverseEventCount(), 1U);
     const auto events = study.adverseEvents().value();
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].first, begun.session.id);
     EXPECT_EQ(events[0].second.what, "redness");
     EXPECT_EQ(everythingBelow(folder()).find("redness"), std::string::npos);
+}
+
+TEST_F(Desk, WhatCouldNotBeReadBackIsNotWritten) {
+    RecordProperty("hazard", "H8");
+    auto study = make();
+    const auto code = enrolled(study);
+    const auto begun = study.beginSession(test::someRequest(code)).value();
+    const auto head = study.ledgerHead();
+    const std::string tooLong(2001, 'x');
+    EXPECT_EQ(study.adverseEvent(begun.session.id, {.what = tooLong}).error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.consent(code, {"2", study.today(), tooLong}).error().code, ErrorCode::InvalidArgument);
+    Participant wordy;
+    wordy.age = tooLong;
+    EXPECT_EQ(study.enrol(wordy).error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(study.ledgerHead(), head);
+    EXPECT_EQ(study.participants().size(), 1U);
+}
+
+TEST_F(Desk, LabelsOfExportsComeFromTheKeyAndStay) {
+    RecordProperty("hazard", "H11");
+    std::uint64_t seed = 0;
+    {
+        auto study = make();
+        seed = study.labelSeed().value();
+        EXPECT_NE(seed, std::stoull(study.settings().id, nullptr, 16));
+        EXPECT_EQ(study.firstPlaces(), 5);
+        auto more = study.settings();
+        more.participantsMax = 9;
+        ASSERT_TRUE(study.amend(more, "EC-2026-17 A1"));
+    }
+    const auto again = open(Study::Access::Read);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->labelSeed().value(), seed);
+    EXPECT_EQ(again->firstPlaces(), 5);
+    EXPECT_EQ(openWithoutKey()->labelSeed().error().code, ErrorCode::Unsupported);
+    const auto other = Study::create(scratch.path() / "other", test::someStudy(), test::somePassphrase(), around());
+    EXPECT_NE(other->labelSeed().value(), seed);
 }
 
 TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {

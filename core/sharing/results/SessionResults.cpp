@@ -55,6 +55,7 @@ public:
         } else if (each.name == row::kDrift) {
             detection_ma_ = numberOr(valueOr(body, "detection_ma"), "value");
             if (flagOr(body, "adapted")) adapted_.insert(countOr(body, "block"));
+            out_.drift.push_back({countOr(body, "block"), detection_ma_, flagOr(body, "adapted")});
         } else if (each.name == row::kRange) {
             out_.low = Milliamps(numberOr(body, "min_ma"));
             out_.high = Milliamps(numberOr(body, "max_ma"));
@@ -64,7 +65,7 @@ public:
             takeSkin(name, body);
         } else if (each.name == row::kRating) {
             const auto [condition, item] = lastWordOf(name);
-            out_.ratings.push_back({item, condition, saidIn(body)});
+            out_.ratings.push_back({item, condition == row::kEncodings ? "" : condition, saidIn(body)});
         } else if (each.name == row::kSideEffect) {
             takeSideEffect(name, body);
         } else if (each.name == row::kAnswer) {

@@ -1,9 +1,10 @@
 #include "core/sharing/results/StudyResults.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <cmath>
 
+#include "core/base/JsonFields.h"
 #include "core/encoding/EncodingProfile.h"
 #include "core/session/SessionReader.h"
 #include "core/sharing/results/SessionResults.h"
@@ -21,6 +22,7 @@ std::vector<std::string> conditionNames() {
 Result<SessionRecord> readSession(const Study& study, const StudySession& about) {
     SessionRecord record;
     record.about = about;
+    std::vector<SessionRow> commands;
     for (const auto& part : about.parts) {
         const auto path = study.pathOf(part.file);
         std::error_code gone;
@@ -32,7 +34,11 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
         auto rows = file->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(record.rows));
+        auto given = file->commands();
+        if (!given) return failure(given);
+        std::ranges::move(*given, std::back_inserter(commands));
     }
+    record.exposure = exposureOf(commands);
     record.results = sessionResults(record.rows, conditionNames());
     record.results.number = static_cast<std::size_t>(about.number);
     record.results.complete = about.state == StudySessionState::Complete;
@@ -49,14 +55,21 @@ double daysBetween(const StudySession& first, const StudySession& other) {
     return static_cast<double>((dayOf(other) - dayOf(first)).count());
 }
 
-/// The study's id as a number: the same study has the same labels at each export.
-std::uint64_t seedOf(const std::string& id) {
-    std::uint64_t seed = 0;
-    std::from_chars(id.data(), id.data() + id.size(), seed, 16);
-    return seed;
-}
-
 }  // namespace
+
+SessionExposure exposureOf(const std::vector<SessionRow>& commands) {
+    SessionExposure out;
+    const auto known = [](double value) { return std::isfinite(value) ? value : 0; };
+    for (const auto& row : commands) {
+        if (row.name != "delivered") continue;
+        ++out.trains;
+        out.stimulated_s += known(numberOr(row.body, "interval_s"));
+        constexpr double kMilliampSecondsToMicrocoulombs = 1000;
+        out.charge_uC += known(numberOr(row.body, "amplitude_ma") * numberOr(row.body, "width_s") *
+                               numberOr(row.body, "pulses") * kMilliampSecondsToMicrocoulombs);
+    }
+    return out;
+}
 
 Result<StudyRecord> readStudyRecord(const Study& study) {
     if (!study.hasKey()) {
@@ -67,6 +80,11 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     out.settings = study.settings();
     out.rehearsal = study.isRehearsal();
     out.ledgerHead = study.ledgerHead();
+    const auto seed = study.labelSeed();
+    if (!seed) return failure(seed);
+    out.labelSeed = *seed;
+    out.places = study.firstPlaces();
+    out.amendments = study.amendments();
     const auto sessions = study.sessions();
     for (const auto& participant : study.participants()) {
         ParticipantRecord record{participant, {}};
@@ -98,12 +116,12 @@ BidsStudy sharedStudy(const StudyRecord& record) {
     const bool electrodes = settings.modality == Modality::Electrodes;
     out.site = std::string(nameOf(settings.site));
     if (electrodes) out.electrodeArea_cm2 = settings.electrode.area.value();
-    out.labelSeed = seedOf(settings.id);
-    out.places = static_cast<std::size_t>(std::max(0, settings.participantsMax));
+    out.license = settings.license;
+    out.labelSeed = record.labelSeed;
+    out.places = static_cast<std::size_t>(std::max(1, record.places > 0 ? record.places : settings.participantsMax));
     bool anyPerson = false;
     for (const auto& participant : record.participants) {
         const auto& about = participant.about;
-        out.places = std::max(out.places, static_cast<std::size_t>(std::max(0, about.enrolled)));
         if (about.state == ParticipantState::Withdrawn) continue;
         anyPerson = anyPerson || !about.virtualSeed;
         BidsParticipant shared;

@@ -12,10 +12,20 @@
 
 namespace tacto {
 
+/// What the stimulator put out in a session, in trials that were answered and in those that were not.
+struct SessionExposure {
+    std::size_t trains = 0;   ///< impedance checks apart
+    double stimulated_s = 0;  ///< each train counts for the interval that it was approved for
+    double charge_uC = 0;     ///< of the leading phases: current times width, all pulses together
+};
+/// `commands` are those of all parts. A train whose row does not say a number adds none.
+[[nodiscard]] SessionExposure exposureOf(const std::vector<SessionRow>& commands);
+
 /// One session with what only the study may see of it.
 struct SessionRecord {
     StudySession about;
     std::vector<SessionRow> rows;  ///< events of all parts, in order
+    SessionExposure exposure;
     BidsSession results;
 };
 
@@ -27,7 +37,10 @@ struct ParticipantRecord {
 struct StudyRecord {
     StudySettings settings;
     bool rehearsal = false;
+    std::uint64_t labelSeed = 0;  ///< Study::labelSeed()
+    int places = 0;               ///< Study::firstPlaces(); 0: as many as the settings say
     std::string ledgerHead;
+    std::vector<StudyAmendment> amendments;
     std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; of a withdrawn one no sessions
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
 };

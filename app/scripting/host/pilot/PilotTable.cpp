@@ -99,7 +99,9 @@ std::vector<HostFunction> pilotFunctions() {
          .failsDisarmed = true,
          .call = host::pilot::takeBreak},
         {.name = "ratings",
-         .text = "Each condition once more without its name: intensity, unpleasantness, pain, naturalness, qualities.",
+         .text = "Each condition once more without its name: intensity, unpleasantness, pain, naturalness, qualities. "
+                 "In a session with the participant's second encoding also which was easier, and which is more like "
+                 "touch.",
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::ratings},

@@ -1,0 +1,136 @@
+#include "app/cli/StudyOptions.h"
+
+#include "app/cli/StudyPassphrase.h"
+#include "app/run/Shipped.h"
+#include "app/scripting/ShippedResources.h"
+
+namespace tacto::cli {
+
+namespace {
+
+constexpr std::string_view kPilotScripts = "pilot-";
+
+Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings) {
+    for (const auto& set : parser.values("set")) {
+        const auto text = set.toStdString();
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            return fail(ErrorCode::InvalidArgument, "--set {}: KEY=VALUE is expected", text);
+        if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done) return done;
+    }
+    return {};
+}
+
+Result<void> nameWhatIsShipped(StudySettings& settings) {
+    const auto limits = shippedLimits();
+    if (!limits) return failure(limits);
+    settings.limits.clear();
+    for (std::size_t i = 0; i < limits->sets.size(); ++i)
+        settings.limits.push_back({limits->sets[i].id, limits->sha256[i]});
+    settings.scripts.clear();
+    for (const auto& script : shippedProtocols()) {
+        if (script.name.starts_with(kPilotScripts))
+            settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
+    }
+    return {};
+}
+
+Result<int> scoreGiven(const QCommandLineParser& parser, const char* name, int most) {
+    bool isNumber = false;
+    const int score = parser.value(name).toInt(&isNumber);
+    if (isNumber && score >= 1 && score <= most) return score;
+    if (!parser.isSet(name)) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
+    return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a whole number from 1 to {} is expected", name,
+                parser.value(name).toStdString(), most);
+}
+
+}  // namespace
+
+void declareStudyOptions(QCommandLineParser& parser) {
+    parser.addOption({"title", "Title of the study.", "T"});
+    parser.addOption({"approval", "Reference of the committee's approval.", "REF"});
+    parser.addOption({"from", "First day of the approval, as 2026-11-21.", "DATE"});
+    parser.addOption({"expires", "Its last day.", "DATE"});
+    parser.addOption({"consent-version", "Version of the consent form in force.", "V"});
+    parser.addOption(
+        {"set", "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0.", "KEY=VALUE"});
+    parser.addOption({"reference", "Reference of the committee's amendment.", "REF"});
+    parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
+    parser.addOption({"version", "Version of the consent form that was signed.", "V"});
+    parser.addOption({"date", "Day on which it was signed.", "DATE"});
+    parser.addOption({"by", "Initials of who took it.", "INITIALS"});
+    parser.addOption({"confirm", "The code once more: the participant's records are lost for good.", "CODE"});
+    parser.addOption({"session", "Number of the participant's session; the last where left out.", "N"});
+    parser.addOption({"what", "What happened; never a name.", "TEXT"});
+    parser.addOption({"severity", "How severe it was, 1 to 4.", "1..4"});
+    parser.addOption({"relation", "How it is related to the stimulation, 1 (not) to 5 (certainly).", "1..5"});
+    parser.addOption({"serious", "It was a serious adverse event."});
+    parser.addOption({"action", "What was done.", "TEXT"});
+    parser.addOption({"outcome", "What became of it.", "TEXT"});
+    parser.addOption({"reported", "It was reported to the committee."});
+    declarePassphrase(parser);
+    parser.addOption({"json", "Prints one JSON value."});
+}
+
+std::string given(const QCommandLineParser& parser, const char* name) {
+    return parser.value(name).trimmed().toStdString();
+}
+
+Result<CalibrationDate> dateGiven(const QCommandLineParser& parser, const char* name) {
+    const auto text = given(parser, name);
+    if (const auto date = parseDate(text)) return *date;
+    return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a day as 2026-11-21 is expected", name, text);
+}
+
+Result<StudySettings> settingsGiven(const QCommandLineParser& parser) {
+    StudySettings settings;
+    settings.title = given(parser, "title");
+    settings.approval.reference = given(parser, "approval");
+    settings.consentVersion = given(parser, "consent-version");
+    for (const char* name : {"title", "approval", "consent-version"}) {
+        if (given(parser, name).empty()) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
+    }
+    const auto from = dateGiven(parser, "from");
+    if (!from) return failure(from);
+    const auto expires = dateGiven(parser, "expires");
+    if (!expires) return failure(expires);
+    settings.approval.from = *from;
+    settings.approval.expires = *expires;
+    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
+    if (auto named = nameWhatIsShipped(settings); !named) return failure(named);
+    return settings;
+}
+
+Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings) {
+    if (given(parser, "reference").empty()) return fail(ErrorCode::InvalidArgument, "--reference is missing");
+    for (const auto& [name, day] :
+         {std::pair{"from", &settings.approval.from}, std::pair{"expires", &settings.approval.expires}}) {
+        if (!parser.isSet(name)) continue;
+        const auto date = dateGiven(parser, name);
+        if (!date) return failure(date);
+        *day = *date;
+    }
+    if (parser.isSet("consent-version")) settings.consentVersion = given(parser, "consent-version");
+    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
+    if (auto named = nameWhatIsShipped(settings); !named) return failure(named);
+    return settings;
+}
+
+Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser) {
+    AdverseEvent event;
+    event.what = given(parser, "what");
+    if (event.what.empty()) return fail(ErrorCode::InvalidArgument, "--what is missing");
+    const auto severity = scoreGiven(parser, "severity", 4);
+    if (!severity) return failure(severity);
+    const auto relation = scoreGiven(parser, "relation", 5);
+    if (!relation) return failure(relation);
+    event.severity = *severity;
+    event.relation = *relation;
+    event.serious = parser.isSet("serious");
+    event.reported = parser.isSet("reported");
+    event.action = given(parser, "action");
+    event.outcome = given(parser, "outcome");
+    return event;
+}
+
+}  // namespace tacto::cli

@@ -1,0 +1,27 @@
+// StudyOptions.h - what the options of `study` say: a new study, an amendment, an adverse event.
+//
+// Errors of all: InvalidArgument naming the option, its value and what is accepted.
+//
+// Thread-safety: the main thread only.
+#pragma once
+
+#include <string>
+
+#include "app/cli/Command.h"
+#include "core/study/Study.h"
+
+namespace tacto::cli {
+
+void declareStudyOptions(QCommandLineParser& parser);
+
+/// Trimmed; empty where it was not given.
+[[nodiscard]] std::string given(const QCommandLineParser& parser, const char* name);
+[[nodiscard]] Result<CalibrationDate> dateGiven(const QCommandLineParser& parser, const char* name);
+
+/// With the limit sets and pilot scripts of this program.
+[[nodiscard]] Result<StudySettings> settingsGiven(const QCommandLineParser& parser);
+/// `settings` with what the options change, and this program's limit sets and pilot scripts.
+[[nodiscard]] Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings);
+[[nodiscard]] Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser);
+
+}  // namespace tacto::cli

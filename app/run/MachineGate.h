@@ -1,0 +1,21 @@
+// MachineGate.h - whether the stimulator that is open may be at a person today (pilot.md section 3): a biphasic current
+// source with a valid calibration, whose load-safety check passed at most 30 days ago, under limits no wider than those
+// of the study's approval.
+//
+// Thread-safety: pure but for reading the stores.
+#pragma once
+
+#include "app/run/Shipped.h"
+#include "core/bench/Profile.h"
+#include "core/calibration/CalibrationDate.h"
+#include "core/devices/Driver.h"
+#include "core/study/Gates.h"
+
+namespace tacto {
+
+/// A simulated stimulator states its own calibration and needs no check; a massager has no electrical gates.
+/// `profile` is the session's, with the study's electrode and train. Errors: kGateRefused, one sentence.
+[[nodiscard]] Result<void> machineGate(const StudySettings& study, const Profile& profile, const ShippedLimits& limits,
+                                       const DeviceSet& devices, CalibrationDate today);
+
+}  // namespace tacto

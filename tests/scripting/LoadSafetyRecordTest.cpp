@@ -1,0 +1,158 @@
+// What runs of the load-safety protocol leave of the stimulator that they checked.
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/run/LoadSafetyRecord.h"
+#include "app/run/ProtocolRun.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/session/Digest.h"
+#include "core/session/Origin.h"
+#include "core/session/SessionReader.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+class LoadSafetyRecord : public testing::Test {
+protected:
+    LoadSafetyRecord() { ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1); }
+    ~LoadSafetyRecord() override { ::unsetenv("XDG_DATA_HOME"); }
+    LoadSafetyRecord(const LoadSafetyRecord&) = delete;
+    LoadSafetyRecord& operator=(const LoadSafetyRecord&) = delete;
+
+    [[nodiscard]] RunOrder order(const std::map<std::string, std::string>& settings) const {
+        RunOrder made;
+        made.script = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find("load-safety").value();
+        made.declaration = readDeclaration(made.script).value();
+        made.settings = applySettings(made.declaration, settings).value();
+        made.uris = {DeviceUri::parse("sim:").value()};
+        made.limits = shippedLimits().value();
+        made.out = (folder_.path() / "out").string();
+        return made;
+    }
+    RunResult run(RunOrder wanted, bool stopped = false) {
+        std::vector<std::unique_ptr<Driver>> drivers;
+        drivers.push_back(makeSimulatedDriver());
+        Registry registry(std::move(drivers));
+        auto made = ProtocolRun::prepare(std::move(wanted), registry);
+        if (!made) {
+            ADD_FAILURE() << made.error().message;
+            return {};
+        }
+        if (stopped) {
+            RunRequest hooks;
+            hooks.onProgress = [&](const ScriptProgress&) {
+                if (during_.empty()) during_ = kept();
+                (*made)->bench().stop("operator");
+            };
+            EXPECT_TRUE((*made)->start(std::move(hooks)));
+        } else {
+            EXPECT_TRUE((*made)->start({}));
+        }
+        return (*made)->finish();
+    }
+    [[nodiscard]] static std::vector<LoadSafetyCheck> kept() {
+        return LoadSafetyStore::open(loadSafetyFile()).value().all();
+    }
+
+    ScratchDir folder_;
+    std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
+};
+
+TEST_F(LoadSafetyRecord, APassIsKeptWithItsSessionsChainHeadAndAsSimulated) {
+    RecordProperty("hazard", "H9");
+    const auto wanted = order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}});
+    const auto limits = wanted.limits;
+    const auto result = run(wanted);
+    EXPECT_EQ(result.verdict(), "pass");
+    const auto all = kept();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].verdict, CheckVerdict::Begun);
+    EXPECT_EQ(all[0].sessionHead, "");
+    const auto& pass = all[1];
+    EXPECT_EQ(pass.verdict, CheckVerdict::Pass);
+    EXPECT_EQ(pass.serial, "SIM-1");
+    EXPECT_TRUE(pass.simulated);
+    EXPECT_EQ(pass.made, utcToday());
+    EXPECT_EQ(pass.area, SquareCentimetres(3));
+    EXPECT_EQ(pass.reach, (TrainReach{40, 0.5, 200}));
+    EXPECT_EQ(pass.scriptSha256, shippedLoadSafetySha256());
+    EXPECT_EQ(pass.session, result.session.filename().string());
+    EXPECT_EQ(pass.sessionHead, SessionReader::open(result.session).value().chainHead());
+    ASSERT_EQ(pass.limits.size(), limits.sets.size());
+    for (std::size_t i = 0; i < limits.sets.size(); ++i)
+        EXPECT_EQ(pass.limits[i], (LimitSetHash{limits.sets[i].id, limits.sha256[i]}));
+}
+
+TEST_F(LoadSafetyRecord, WithoutAnElectrodeAreaItIsKeptAsIndeterminate) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(run(order({{"steps", "2"}, {"trains", "2"}})).verdict(), "indeterminate");
+    const auto all = kept();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[1].verdict, CheckVerdict::Indeterminate);
+    EXPECT_FALSE(all[1].area);
+}
+
+TEST_F(LoadSafetyRecord, AStoppedOneIsKeptAsStoppedAndWouldHaveCountedAsBegunHadItBeenKilled) {
+    RecordProperty("hazard", "H9");
+    EXPECT_EQ(run(order({{"area", "3"}}), true).verdict(), "stopped");
+    ASSERT_EQ(during_.size(), 1U);
+    EXPECT_EQ(during_[0].verdict, CheckVerdict::Begun);
+    const auto all = kept();
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[1].verdict, CheckVerdict::Stopped);
+}
+
+TEST_F(LoadSafetyRecord, AScriptThatIsNotTheShippedOneLeavesNone) {
+    RecordProperty("hazard", "H9");
+    auto altered = order({});
+    altered.script.text = R"(protocol({ title: "Passes", kind: "load-safety", needs: ["stimulator"] });
+function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons: [] }); })";
+    altered.declaration = {};
+    altered.settings = {};
+    altered.script.shipped = true;  // What its caller says is not believed
+    static_cast<void>(run(altered));
+    EXPECT_TRUE(kept().empty());
+    SessionAbout about;
+    about.devices = {{"sciencemode:/dev/ttyUSB0", "stimulator", "P24", "0815", "", false, origin::kHardware}};
+    EXPECT_FALSE(loadSafetyCheckOf(altered.script, about, Profile(), "a.tacto"));
+}
+
+TEST_F(LoadSafetyRecord, OnlyHardwareThroughoutIsReal) {
+    RecordProperty("hazard", "H9");
+    const auto script = order({}).script;
+    SessionAbout about;
+    about.devices = {{"sciencemode:/dev/ttyUSB0?channel=2", "stimulator", "P24", "0815", "", false, origin::kHardware},
+                     {"rigol:", "oscilloscope", "DS1054Z", "DS1", "", false, origin::kHardware}};
+    const auto real = loadSafetyCheckOf(script, about, Profile(), "a.tacto");
+    ASSERT_TRUE(real);
+    EXPECT_FALSE(real->simulated);
+    EXPECT_EQ(real->serial, "0815 channel=2");
+    about.devices[1].origin = origin::kReplayedMeasured;
+    EXPECT_TRUE(loadSafetyCheckOf(script, about, Profile(), "a.tacto")->simulated);
+    about.devices[1].origin = origin::kSimulated;
+    EXPECT_TRUE(loadSafetyCheckOf(script, about, Profile(), "a.tacto")->simulated);
+    about.devices[0].serial.clear();
+    EXPECT_FALSE(loadSafetyCheckOf(script, about, Profile(), "a.tacto"));
+}
+
+TEST_F(LoadSafetyRecord, WhatCannotBeKeptOfARealStimulatorIsSaid) {
+    RecordProperty("hazard", "H9");
+    std::filesystem::create_directories(loadSafetyFile());  // no file can be written there
+    SessionAbout about;
+    about.devices = {{"sciencemode:/dev/ttyUSB0", "stimulator", "P24", "0815", "", false, origin::kHardware}};
+    auto check = loadSafetyCheckOf(order({}).script, about, Profile(), "a.tacto");
+    ASSERT_TRUE(check);
+    const auto refused = keepCheck(*check);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("the load-safety check of stimulator 0815 cannot be kept"));
+    check->simulated = true;
+    EXPECT_TRUE(keepCheck(*check));
+}
+
+}  // namespace
+}  // namespace tacto::test

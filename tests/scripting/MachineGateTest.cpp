@@ -1,0 +1,251 @@
+// Which stimulator may be at a person today.
+#include <cstdlib>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/run/LoadSafetyRecord.h"
+#include "app/run/MachineGate.h"
+#include "app/run/PilotRun.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/calibration/CalibrationStore.h"
+#include "core/devices/DeviceUri.h"
+#include "drivers/simulated/SimulatedDriver.h"
+#include "tests/scripting/Technician.h"
+#include "tests/support/Support.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kSource = "mode=current&step=0.5mA";
+
+/// Opens simulated stimulators that say they are real.
+class LabDriver final : public Driver {
+public:
+    [[nodiscard]] std::string_view scheme() const noexcept override { return "lab"; }
+    [[nodiscard]] std::vector<DeviceIdentity> list() const override { return {}; }
+    [[nodiscard]] bool runsOnVirtualClock() const noexcept override { return true; }
+    [[nodiscard]] Result<void> open(const DeviceUri& uri, const std::set<Role>&, const OpenContext& context,
+                                    DeviceSet& into) override {
+        auto simulated = uri;
+        simulated.scheme = "sim";
+        if (auto opened = twin_->open(simulated, {Role::Stimulator}, context, into); !opened) return opened;
+        into.stimulator = std::make_unique<RealLookingStimulator>(std::move(into.stimulator));
+        into.load.reset();
+        return {};
+    }
+
+private:
+    std::unique_ptr<Driver> twin_ = makeSimulatedDriver();
+};
+
+Registry labRegistry() {
+    std::vector<std::unique_ptr<Driver>> drivers;
+    drivers.push_back(makeSimulatedDriver());
+    drivers.push_back(std::make_unique<LabDriver>());
+    return Registry(std::move(drivers));
+}
+
+class MachineGate : public testing::Test {
+protected:
+    MachineGate() {
+        ::setenv("XDG_DATA_HOME", folder_.path().c_str(), 1);
+        limits_ = shippedLimits().value();
+        study_.title = "Four conditions";
+        study_.approval.reference = "EC-2026-17";
+        study_.approval.from = std::chrono::year(2026) / 1 / 1;
+        study_.approval.expires = std::chrono::year(2099) / 12 / 31;
+        study_.consentVersion = "2";
+        for (std::size_t i = 0; i < limits_.sets.size(); ++i)
+            study_.limits.push_back({limits_.sets[i].id, limits_.sha256[i]});
+        profile_.electrodeArea = study_.electrode.area;
+    }
+    ~MachineGate() override { ::unsetenv("XDG_DATA_HOME"); }
+    MachineGate(const MachineGate&) = delete;
+    MachineGate& operator=(const MachineGate&) = delete;
+
+    [[nodiscard]] DeviceSet open(const std::string& uri) {
+        auto registry = labRegistry();
+        const std::vector<DeviceUri> uris{DeviceUri::parse(uri).value()};
+        return registry.open(uris, {Role::Stimulator}, OpenContext{clock_, 1, "1 kohm"}).value();
+    }
+    /// What the gate says; empty where it holds.
+    [[nodiscard]] std::string said(const std::string& uri = std::string("lab:stimulator?") + kSource) {
+        const auto devices = open(uri);
+        const auto holds = machineGate(study_, profile_, limits_, devices, today_);
+        if (holds) return "";
+        EXPECT_EQ(holds.error().code, kGateRefused);
+        return holds.error().message;
+    }
+    void calibrate() const {
+        StoredCalibration c;
+        c.serial = "SIM-1";
+        c.device = "stimulator";
+        c.unit = "mA";
+        c.amplitude = {{1, 0, 0.5, 130}, 0.5, 0.02};
+        c.interval = {{1, 0, 0.05, 5}, 0.01, 1e-6};
+        c.phaseWidth = {{1, 0, 50e-6, 500e-6}, 0.2, 1e-7};
+        c.gap = {{1, 0, 10e-6, 400e-6}, 0.3, 1e-7};
+        c.made = today_;
+        c.validUntil = std::chrono::sys_days(today_) + std::chrono::days(30);
+        c.session = "run.tacto";
+        c.sessionHead = std::string(64, '0');
+        c.readings = 440;
+        c.instruments = {{"oscilloscope", "S1", std::nullopt, 0.01, "the instrument"}};
+        const auto added = CalibrationStore::open(calibrationFile()).value().add(c);
+        ASSERT_TRUE(added) << added.error().message;
+    }
+    void keep(CheckVerdict verdict, int daysAgo = 0, bool simulated = false) const {
+        LoadSafetyCheck check;
+        check.serial = "SIM-1";
+        check.device = "stimulator";
+        check.made = std::chrono::sys_days(today_) - std::chrono::days(daysAgo);
+        check.verdict = verdict;
+        check.simulated = simulated;
+        check.area = study_.electrode.area;
+        check.reach = reachOf(profile_);
+        check.limits = study_.limits;
+        check.scriptSha256 = shippedLoadSafetySha256();
+        check.session = "check.tacto";
+        check.sessionHead = std::string(64, '1');
+        const auto kept = keepCheck(check);
+        ASSERT_TRUE(kept) << kept.error().message;
+    }
+
+    ScratchDir folder_;
+    VirtualClock clock_;
+    const CalibrationDate today_ = utcToday();
+    ShippedLimits limits_;
+    StudySettings study_;
+    Profile profile_;
+};
+
+TEST_F(MachineGate, HoldsForACalibratedCurrentSourceWhoseCheckPassed) {
+    RecordProperty("hazard", "H9");
+    EXPECT_THAT(said(), HasSubstr("the stimulator is not calibrated"));
+    calibrate();
+    EXPECT_THAT(said(), HasSubstr("stimulator SIM-1 has no load-safety check; one that passed at most 30 days ago on "
+                                  "the real bench is expected"));
+    keep(CheckVerdict::Pass, 30);
+    EXPECT_EQ(said(), "");
+    keep(CheckVerdict::Fail);
+    EXPECT_THAT(said(), HasSubstr("ended with the verdict \"fail\""));
+    keep(CheckVerdict::Pass);
+    EXPECT_EQ(said(), "");
+}
+
+TEST_F(MachineGate, ASimulatedCheckIsNone) {
+    RecordProperty("hazard", "H9");
+    calibrate();
+    keep(CheckVerdict::Pass, 0, true);
+    EXPECT_THAT(said(), HasSubstr("has no load-safety check but a simulated one"));
+}
+
+TEST_F(MachineGate, AnOldCheckIsNone) {
+    RecordProperty("hazard", "H9");
+    calibrate();
+    keep(CheckVerdict::Pass, 31);
+    EXPECT_THAT(said(), HasSubstr("passed 31 days ago"));
+}
+
+TEST_F(MachineGate, ATamperedStoreCountsAsNone) {
+    RecordProperty("hazard", "H9");
+    calibrate();
+    keep(CheckVerdict::Pass);
+    std::ofstream(loadSafetyFile(), std::ios::app) << "{}\n";
+    EXPECT_THAT(said(), HasSubstr("no load-safety check counts, because their records are damaged: "));
+}
+
+TEST_F(MachineGate, OnlyACurrentSourceWithBiphasicTrainsIsAccepted) {
+    RecordProperty("hazard", "H11");
+    calibrate();
+    keep(CheckVerdict::Pass);
+    EXPECT_THAT(said("lab:stimulator?mode=voltage"), HasSubstr("a current source is expected"));
+    profile_.encoding.train.shape = PulseShape::Monophasic;
+    EXPECT_THAT(said(), HasSubstr("a biphasic one is expected"));
+    profile_.encoding.train.shape = PulseShape::SymmetricBiphasic;
+    profile_.electrodeArea.reset();
+    EXPECT_THAT(said(), HasSubstr("the area of the electrodes is not stated"));
+}
+
+TEST_F(MachineGate, LimitsAreTheApprovals) {
+    RecordProperty("hazard", "H1");
+    calibrate();
+    keep(CheckVerdict::Pass);
+    auto& set = study_.limits.front();
+    set.sha256[0] = set.sha256[0] == 'a' ? 'b' : 'a';
+    EXPECT_THAT(said(), HasSubstr("changed limits need an amendment"));
+    set.id = "lab-x";
+    EXPECT_THAT(said(), HasSubstr("the limit set lab-x of approval EC-2026-17 is not in force in this program"));
+    study_.limits.clear();
+    EXPECT_THAT(said(), HasSubstr("the study names no limit sets"));
+}
+
+TEST_F(MachineGate, ASimulatedStimulatorNeedsNoCheck) {
+    EXPECT_EQ(said(std::string("sim:stimulator?") + kSource), "");
+}
+
+/// A person who is there and does nothing.
+class Somebody final : public PilotParticipant {
+public:
+    void show(const PilotScreen&) override {}
+    [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
+        return fail(ErrorCode::NotFound, "nobody answers {}", prompt.name);
+    }
+    void delivered(const FeltPresentation&) override {}
+    [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
+    void cancel() noexcept override {}
+    [[nodiscard]] bool holding() const noexcept override { return true; }
+    [[nodiscard]] Result<void> ready() const override { return {}; }
+    [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
+};
+
+TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
+    RecordProperty("hazard", "H11");
+    const auto passphrase = Passphrase::from("correct horse 4711").value();
+    const auto script = ProtocolLibrary(sourceDir() / "resources" / "protocols", {}).find("pilot-thresholds").value();
+    study_.scripts = {{script.name, script.sha256}};
+    const auto at = folder_.path() / "study";
+    std::string code;
+    {
+        auto study = Study::create(at, study_, passphrase).value();
+        code = study.enrol({}).value().code;
+        ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    }
+    Somebody person;
+    auto registry = labRegistry();
+    const auto prepare = [&] {
+        RunOrder order;
+        order.script = script;
+        order.declaration = readDeclaration(script).value();
+        order.settings = applySettings(order.declaration, {{"participant", code}}).value();
+        order.uris = {DeviceUri::parse(std::string("lab:stimulator?") + kSource).value()};
+        order.limits = limits_;
+        PilotOrder pilot;
+        pilot.study = at;
+        pilot.passphrase = Passphrase::from("correct horse 4711").value();
+        pilot.people = &person;
+        pilot.codeConfirmed = true;
+        pilot.exclusions = nothingExcludes();
+        return PilotRun::prepare(std::move(order), std::move(pilot), registry);
+    };
+    const auto sessions = [&] { return Study::open(at, nullptr, Study::Access::Read).value().sessions().size(); };
+    calibrate();
+    auto refused = prepare();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, kGateRefused);
+    EXPECT_THAT(refused.error().message, HasSubstr("has no load-safety check"));
+    EXPECT_EQ(sessions(), 0U);
+    EXPECT_TRUE(std::filesystem::is_empty(at / "sessions"));
+    keep(CheckVerdict::Pass);
+    auto accepted = prepare();
+    ASSERT_TRUE(accepted) << accepted.error().message;
+    EXPECT_EQ((*accepted)->run().bench().mode(), OutputMode::Person);
+    accepted->reset();
+    EXPECT_EQ(sessions(), 1U);
+}
+
+}  // namespace
+}  // namespace tacto::test
