@@ -1,5 +1,4 @@
 // One presentation of a pilot session, from the command to the output.
-#include <ctime>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -254,21 +253,6 @@ TEST_F(PresentationTest, APauseMakesItVoid) {
     EXPECT_EQ(presentTest(1).end, PresentationEnd::Complete);
     bench_->pause();
     EXPECT_EQ(bench_->present(testPresentation(Milliamps(1), Seconds(0.5))).error().code, ErrorCode::NotArmed);
-}
-
-TEST_F(PresentationTest, ALongPresentationCostsLittleTime) {
-    openArmed();
-    rampTo(4);
-    constexpr int kPresentations = 100;
-    const std::clock_t begun = std::clock();
-    for (int k = 0; k < kPresentations; ++k) {
-        ASSERT_EQ(presentTest(4, 0.5, 4).end, PresentationEnd::Complete);
-        ASSERT_TRUE(bench_->wait(Seconds(5)));  // an answer and a pause
-    }
-    const double each_ms = 1e3 * static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC / kPresentations;
-    RecordProperty("cpu_ms_per_presentation", std::to_string(each_ms));
-    std::printf("%.3f ms of CPU for each presentation of 4 s and 5 s of waiting\n", each_ms);
-    EXPECT_LT(each_ms, 40);
 }
 
 /// A current source that does what the test says, on a bench load.
