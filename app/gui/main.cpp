@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     QApplication::setApplicationDisplayName("Tactoscope");
     QApplication::setApplicationVersion(TACTOSCOPE_VERSION);
     QApplication::setDesktopFileName("io.github.tactoscope.Tactoscope");
-    tacto::gui::MainWindow window(tacto::allDrivers());
+    using tacto::gui::MainWindow;
+    MainWindow window(tacto::allDrivers(), MainWindow::Pages::AfterTheFirstPicture);
     const tacto::gui::SignalClose closesAtSignals(stops, window);
     window.show();
     if (QSettings().value("tourDone").toBool())

@@ -28,6 +28,10 @@ double StripTicker::getTickStep(const QCPRange& range) {
     return stepAbove(range.size() / std::max(1, std::min(room_, most_ + 1)));
 }
 
+QString StripTicker::getTickLabel(double tick, const QLocale& locale, QChar format, int precision) {
+    return QCPAxisTicker::getTickLabel(tick, locale, format, precision).replace('-', QChar(0x2212));
+}
+
 QCPRange steadyRange(const QCPRange& before, const QCPRange& wanted) {
     const double step = stepAbove(wanted.size() / 4);
     const QCPRange whole(std::floor(wanted.lower / step) * step, std::ceil(wanted.upper / step) * step);

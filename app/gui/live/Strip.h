@@ -31,6 +31,7 @@ public:
 
 protected:
     double getTickStep(const QCPRange& range) override;
+    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override;
 
 private:
     const int most_;

@@ -1,6 +1,7 @@
 #include "app/gui/runner/ProcedurePath.h"
 
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/ProtocolHead.h"
@@ -13,6 +14,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPathWidth = 240, kPathPad = 16;
+constexpr int kMostOfTheRoom = 3;  // a column takes no more than one part of so many
 
 }  // namespace
 
@@ -23,7 +25,13 @@ ProcedurePath::ProcedurePath(bool chooses, QWidget* parent)
                           this)),
       panel_(new RunPanel(this)) {
     setObjectName("path");
+    layDown();
+}
+
+void ProcedurePath::layDown() {
+    setMinimumHeight(0);
     setFixedWidth(scaledPx(kPathWidth));
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, kPathPad / 2, 0, kPathPad / 2);
     const auto addPadded = [&](QWidget* part) {
@@ -36,6 +44,48 @@ ProcedurePath::ProcedurePath(bool chooses, QWidget* parent)
     column->addWidget(steps_);
     column->addStretch();
     addPadded(panel_);
+}
+
+/// Head, steps and controls in a line; a head with a chooser has a line of its own. Below them what is in the way.
+void ProcedurePath::layAcross() {
+    setMinimumWidth(0);
+    setMaximumWidth(QWIDGETSIZE_MAX);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(0, 0, kPathPad, 0);
+    rows->setSpacing(0);
+    auto* line = new QHBoxLayout;
+    line->setSpacing(kPathPad);
+    const auto padded = [&](QWidget* part) {
+        auto* inset = new QHBoxLayout;
+        inset->setContentsMargins(kPathPad, 0, 0, 0);
+        inset->addWidget(part);
+        rows->addLayout(inset);
+    };
+    line->addWidget(steps_);
+    if (head_->chooses()) {
+        padded(head_);
+        line->addStretch(1);
+    } else {
+        line->addWidget(head_, 1);
+    }
+    line->addWidget(panel_);
+    rows->addLayout(line);
+    padded(&panel_->words());
+}
+
+bool ProcedurePath::fit(int room) {
+    const bool across = scaledPx(kPathWidth) * kMostOfTheRoom > room;
+    if (std::exchange(across_, across) != across) {
+        delete layout();
+        head_->setAcross(across);
+        steps_->setAcross(across);
+        panel_->setAcross(across);
+        across ? layAcross() : layDown();
+    } else if (!across) {
+        setFixedWidth(scaledPx(kPathWidth));
+    }
+    return across;
 }
 
 void ProcedurePath::showNoRun(bool hasReference) {
@@ -66,6 +116,15 @@ void ProcedurePath::showEnd(bool early) {
     steps_->setState(kRun, early ? StepList::State::Troubled : StepList::State::Done);
     steps_->setState(kResult, StepList::State::Done);
     steps_->setOutOfReach(kResult, {});
+}
+
+/// Words that wrap make a row higher than its layout's least height: the page scrolls then, and nothing is cut.
+bool ProcedurePath::event(QEvent* event) {
+    const bool done = QWidget::event(event);
+    if (across_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
+        setMinimumHeight(layout()->hasHeightForWidth() ? layout()->totalHeightForWidth(width())
+                                                       : layout()->totalSizeHint().height());
+    return done;
 }
 
 void ProcedurePath::resizeEvent(QResizeEvent* event) {

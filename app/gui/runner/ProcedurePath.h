@@ -1,4 +1,5 @@
 // ProcedurePath.h - the column at the left of a procedure: what it is, its steps and how each stands, and what runs it.
+// Where a column would take too much of the room (large text, a small window) it is a row on top.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -20,6 +21,8 @@ public:
     [[nodiscard]] StepList& steps() noexcept { return *steps_; }
     [[nodiscard]] RunPanel& panel() noexcept { return *panel_; }
 
+    /// A row where a column would take more than a third of `room`, its owner's width. Returns whether it is one.
+    bool fit(int room);
     /// Another procedure was read: nothing of it has run.
     void showNoRun(bool hasReference);
     void showRun();
@@ -27,12 +30,16 @@ public:
     void showEnd(bool early);
 
 protected:
+    bool event(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void layDown();
+    void layAcross();
     ProtocolHead* head_;
     StepList* steps_;
     RunPanel* panel_;
+    bool across_ = false;
 };
 
 }  // namespace tacto::gui

@@ -1,23 +1,27 @@
 #include "app/gui/runner/ProtocolHead.h"
 
 #include <QPushButton>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
-ProtocolHead::ProtocolHead(bool chooses, QWidget* parent) : QWidget(parent), buttons_(new QHBoxLayout) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
-    const auto words = [this, column](const char* name) {
+namespace {
+constexpr int kBelow = 2, kBeside = 12;  // between its parts
+}
+
+ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
+    : QWidget(parent), layout_(new QBoxLayout(QBoxLayout::TopToBottom, this)), buttons_(new QHBoxLayout) {
+    layout_->setContentsMargins(0, 0, 0, 0);
+    layout_->setSpacing(kBelow);
+    const auto words = [this](const char* name) {
         auto* label = new QLabel(this);
         label->setTextFormat(Qt::PlainText);
         label->setObjectName(name);
         label->setWordWrap(true);
-        column->addWidget(label);
+        layout_->addWidget(label);
         return label;
     };
     if (chooses) {
@@ -28,13 +32,18 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent) : QWidget(parent), but
         chooser_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         connect(chooser_, &QComboBox::currentIndexChanged, this,
                 [this] { emit chosen(chooser_->currentData().toString()); });
-        column->addWidget(chooser_);
+        layout_->addWidget(chooser_);
     }
     title_ = words("protocolTitle");
     setTextSize(*title_, TextSize::Body, true);
     purpose_ = words("purpose");
     setTextSize(*purpose_, TextSize::Small);
     setTone(*purpose_, Tone::Quiet);
+    line_ = new ElidedLabel(this);
+    line_->setTextFormat(Qt::PlainText);
+    setTextSize(*line_, TextSize::Body, true);
+    layout_->addWidget(line_);
+    line_->hide();
     if (chooses) {
         addButton(tr("Ed&it…"), tr("Opens the script. Shipped ones are read-only: save a copy."),
                   &ProtocolHead::editWanted);
@@ -44,7 +53,23 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent) : QWidget(parent), but
                   &ProtocolHead::editWanted);
     }
     buttons_->addStretch();
-    column->addLayout(buttons_);
+    layout_->addLayout(buttons_);
+}
+
+void ProtocolHead::setAcross(bool across) {
+    across_ = across;
+    layout_->setDirection(across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    layout_->setSpacing(across ? kBeside : kBelow);
+    layout_->setStretchFactor(line_, across ? 1 : 0);
+    showWords();
+}
+
+void ProtocolHead::showWords() {
+    title_->setVisible(!across_);
+    purpose_->setVisible(!across_ && !purpose_->text().isEmpty());
+    line_->setVisible(across_);
+    line_->setText(title_->text());
+    line_->setToolTip(purpose_->text().toHtmlEscaped());
 }
 
 void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {
@@ -84,7 +109,7 @@ void ProtocolHead::setChangeable(bool changeable) {
 void ProtocolHead::show(const QString& title, const QString& purpose) {
     title_->setText(title);
     purpose_->setText(purpose);
-    purpose_->setVisible(!purpose.isEmpty());
+    showWords();
 }
 
 }  // namespace tacto::gui

@@ -1,5 +1,5 @@
 // ProtocolHead.h - which protocol this is: its title and purpose, the way to its script, and a chooser where the
-// operator chooses among all of them.
+// operator chooses among all of them. In a row it has one line, without the purpose.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -21,6 +21,7 @@ public:
     [[nodiscard]] bool chooses() const { return chooser_ != nullptr; }
     void setChangeable(bool changeable);
     void show(const QString& title, const QString& purpose);
+    void setAcross(bool across);
 
 signals:
     void chosen(const QString& nameOrPath);
@@ -30,9 +31,13 @@ signals:
 private:
     void addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)());
     QComboBox* chooser_ = nullptr;
+    void showWords();
+    QBoxLayout* layout_;
     QLabel* title_;
     QLabel* purpose_;
+    QLabel* line_;  ///< the title, where there is one line for it
     QHBoxLayout* buttons_;
+    bool across_ = false;
 };
 
 }  // namespace tacto::gui

@@ -47,25 +47,25 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     : QWidget(parent),
       controller_(controller),
       fixed_(protocol),
+      layout_(new QBoxLayout(QBoxLayout::LeftToRight, this)),
       reading_([this](const auto& source, const auto& declaration) { declared(source, declaration); }) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(0);
+    layout_->setContentsMargins(0, 0, 0, 0);
+    layout_->setSpacing(0);
     path_ = new ProcedurePath(fixed_.isEmpty(), this);
     head_ = &path_->head();
     steps_ = &path_->steps();
     panel_ = &path_->panel();
-    row->addWidget(path_);
-    auto* edge = new QFrame(this);
-    edge->setFrameShape(QFrame::VLine);
-    edge->setForegroundRole(QPalette::Mid);
-    row->addWidget(edge);
+    layout_->addWidget(path_);
+    edge_ = new QFrame(this);
+    edge_->setForegroundRole(QPalette::Mid);
+    layout_->addWidget(edge_);
     auto* column = new QVBoxLayout;
     prompt_ = new PromptPanel(controller_.windowOperator(), this);
     column->addWidget(prompt_);
     pages_ = new ProcedurePages(controller_.day(), this);
     column->addWidget(pages_, 1);
-    row->addLayout(column, 1);
+    layout_->addLayout(column, 1);
+    arrange();
     connectPath();
     connectPages();
     // Wherever the focus is: of the workspaces in a window one is visible.
@@ -89,6 +89,22 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     previewLater_.setInterval(kPreviewAfter_ms);
     connect(&previewLater_, &QTimer::timeout, this, &ProtocolWorkspace::preview);
     fillChooser({});
+}
+
+void ProtocolWorkspace::arrange() {
+    const bool across = path_->fit(width());
+    layout_->setDirection(across ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    edge_->setFrameShape(across ? QFrame::HLine : QFrame::VLine);
+}
+
+void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    arrange();
+}
+
+void ProtocolWorkspace::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) arrange();
 }
 
 void ProtocolWorkspace::connectPath() {

@@ -6,7 +6,9 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QElapsedTimer>
+#include <QFrame>
 #include <QTimer>
 
 #include "app/gui/controller/BenchController.h"
@@ -56,7 +58,12 @@ signals:
     void safetyCheckWanted();
     void liveWanted();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
 private:
+    void arrange();
     void connectPath();
     void connectPages();
 
@@ -93,6 +100,8 @@ private:
     bool paused_ = false;    // asked for here, or seen
     bool seenPaused_ = false;
 
+    QBoxLayout* layout_;
+    QFrame* edge_ = nullptr;  // between the path and the page
     ProcedurePath* path_ = nullptr;
     ProtocolHead* head_ = nullptr;  // head, steps and panel are the path's
     StepList* steps_ = nullptr;

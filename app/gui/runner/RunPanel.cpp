@@ -1,8 +1,6 @@
 #include "app/gui/runner/RunPanel.h"
 
 #include <QApplication>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/theme/ConfirmButton.h"
@@ -45,41 +43,11 @@ std::optional<double> TimeLeft::seconds() const {
     return std::max(0.0, perStep * double(total_ - done_) - (worked_s_ - workedAtStep_s_));
 }
 
-RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    obstacle_ = new QLabel(this);
-    obstacle_->setTextFormat(Qt::PlainText);
-    obstacle_->setObjectName("runObstacle");
-    obstacle_->setWordWrap(true);
-    obstacle_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    setTone(*obstacle_, Tone::Warning);
-    obstacle_->hide();
-    layout->addWidget(obstacle_);
-    changeProfile_ = new QPushButton(tr("Change profile…"), this);
-    changeProfile_->setObjectName("changeProfile");
-    changeProfile_->setAutoDefault(false);
-    changeProfile_->setToolTip(
-        tr("Opens the encoding profile: a smaller amplitude or a longer interval keeps the limit."));
-    connect(changeProfile_, &QPushButton::clicked, this, &RunPanel::profileChangeWanted);
-    changeProfile_->hide();
-    layout->addWidget(changeProfile_);
-    trouble_ = new QLabel(this);
-    trouble_->setTextFormat(Qt::PlainText);
-    trouble_->setObjectName("runTrouble");
-    trouble_->setWordWrap(true);
-    trouble_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    trouble_->hide();
-    layout->addWidget(trouble_);
-    toLine_ = new QPushButton(tr("Show the &line in the script"), this);
-    toLine_->setObjectName("toLine");
-    toLine_->setAutoDefault(false);
-    toLine_->setToolTip(tr("Opens the script with that line marked."));
-    connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
-    toLine_->hide();
-    layout->addWidget(toLine_, 0, Qt::AlignLeft);
-    question_ = buildQuestion();
-    layout->addWidget(question_);
+RunPanel::RunPanel(QWidget* parent)
+    : QWidget(parent), layout_(new QBoxLayout(QBoxLayout::TopToBottom, this)), words_(new QWidget(this)) {
+    layout_->setContentsMargins(0, 0, 0, 0);
+    buildWords();
+    layout_->addWidget(words_);
     auto* row = new QHBoxLayout;
     run_ = new QPushButton(tr("R&un"), this);
     run_->setObjectName("runButton");
@@ -100,23 +68,58 @@ RunPanel::RunPanel(QWidget* parent) : QWidget(parent) {
         button->setAutoDefault(false);
         row->addWidget(button, 1);
     }
-    layout->addLayout(row);
+    layout_->addLayout(row);
     bar_ = new QProgressBar(this);
     bar_->setAccessibleName(tr("Progress"));
     bar_->setRange(0, 1);
     bar_->setValue(0);
-    layout->addWidget(bar_);
+    layout_->addWidget(bar_);
     bar_->hide();
     left_ = new QLabel(tr("F5 runs; Esc stops."), this);
     left_->setTextFormat(Qt::PlainText);
     left_->setObjectName("timeLeft");
     setTone(*left_, Tone::Quiet);
-    layout->addWidget(left_);
+    layout_->addWidget(left_);
     showButtons();
 }
 
+void RunPanel::buildWords() {
+    auto* column = new QVBoxLayout(words_);
+    column->setContentsMargins(0, 0, 0, 0);
+    const auto addWords = [&](const char* name) {
+        auto* label = new QLabel(words_);
+        label->setTextFormat(Qt::PlainText);
+        label->setObjectName(name);
+        label->setWordWrap(true);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        label->hide();
+        column->addWidget(label);
+        return label;
+    };
+    const auto addButton = [&](const QString& text, const char* name, const QString& tip) {
+        auto* button = new QPushButton(text, words_);
+        button->setObjectName(name);
+        button->setAutoDefault(false);
+        button->setToolTip(tip);
+        button->hide();
+        column->addWidget(button, 0, Qt::AlignLeft);
+        return button;
+    };
+    obstacle_ = addWords("runObstacle");
+    setTone(*obstacle_, Tone::Warning);
+    changeProfile_ =
+        addButton(tr("Change profile…"), "changeProfile",
+                  tr("Opens the encoding profile: a smaller amplitude or a longer interval keeps the limit."));
+    connect(changeProfile_, &QPushButton::clicked, this, &RunPanel::profileChangeWanted);
+    trouble_ = addWords("runTrouble");
+    toLine_ = addButton(tr("Show the &line in the script"), "toLine", tr("Opens the script with that line marked."));
+    connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
+    question_ = buildQuestion();
+    column->addWidget(question_);
+}
+
 QWidget* RunPanel::buildQuestion() {
-    auto* holder = new QWidget(this);
+    auto* holder = new QWidget(words_);
     auto* column = new QVBoxLayout(holder);
     column->setContentsMargins(0, 0, 0, 0);
     questionText_ = new QLabel(holder);
@@ -144,6 +147,21 @@ QWidget* RunPanel::buildQuestion() {
     column->addLayout(row);
     holder->hide();
     return holder;
+}
+
+void RunPanel::setAcross(bool across) {
+    across_ = across;
+    layout_->setDirection(across ? QBoxLayout::RightToLeft : QBoxLayout::TopToBottom);
+    if (!across) layout_->insertWidget(0, words_);
+    showButtons();
+}
+
+/// In a line there is room for one of them.
+void RunPanel::sayHowFar(const QString& format, const QString& left) {
+    left_->setText(left);
+    bar_->setFormat(across_ && running_ ? tr("%1 · %2").arg(format, left) : format);
+    const int needed = bar_->fontMetrics().horizontalAdvance(bar_->format() + "00");
+    bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // it does not jump
 }
 
 void RunPanel::setLeading(bool leading) {
@@ -194,8 +212,7 @@ void RunPanel::begin() {
     timeLeft_.begin();
     bar_->show();
     bar_->setRange(0, 0);
-    bar_->setFormat(tr("starting"));
-    left_->setText(tr("opening the devices"));
+    sayHowFar(tr("starting"), tr("opening the devices"));
     showButtons();
     stop_->setFocus();
 }
@@ -206,21 +223,20 @@ void RunPanel::show(const ScriptProgress* progress, bool paused, bool waiting) {
     const double now_s = double(since_.elapsed()) / 1000;
     if (progress != nullptr) progress_ = *progress;
     if (progress_.total == 0) {
-        left_->setText(waiting  ? tr("waits for your answer")
-                       : paused ? tr("paused")
-                                : tr("running for %1").arg(timeText(now_s)));
+        sayHowFar(tr("running"), waiting  ? tr("waits for your answer")
+                                 : paused ? tr("paused")
+                                          : tr("running for %1").arg(timeText(now_s)));
         return;
     }
     timeLeft_.note(progress_, paused || waiting, now_s);
     bar_->setRange(0, int(progress_.total));
     bar_->setValue(int(progress_.done));
-    bar_->setFormat(
-        tr("%1: %2 of %3").arg(QString::fromStdString(progress_.label)).arg(progress_.done).arg(progress_.total));
     const auto left = timeLeft_.seconds();
-    left_->setText(waiting  ? tr("waits for your answer")
-                   : paused ? tr("paused")
-                   : left   ? tr("about %1 left").arg(timeText(*left))
-                            : tr("time left: not known yet"));
+    sayHowFar(tr("%1: %2 of %3").arg(QString::fromStdString(progress_.label)).arg(progress_.done).arg(progress_.total),
+              waiting  ? tr("waits for your answer")
+              : paused ? tr("paused")
+              : left   ? tr("about %1 left").arg(timeText(*left))
+                       : tr("time left: not known yet"));
 }
 
 void RunPanel::end(bool early) {
@@ -229,9 +245,9 @@ void RunPanel::end(bool early) {
     const auto steps = progress_.total > 0 ? tr(" after %1 of %2").arg(progress_.done).arg(progress_.total) : QString();
     bar_->setRange(0, std::max(1, int(progress_.total)));
     bar_->setValue(early ? int(progress_.done) : bar_->maximum());
-    bar_->setFormat(early ? tr("ended early%1").arg(steps) : tr("done"));
     bar_->setVisible(early);
-    left_->setText(tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
+    sayHowFar(early ? tr("ended early%1").arg(steps) : tr("done"),
+              tr("took %1").arg(timeText(double(since_.elapsed()) / 1000)));
     showButtons();
 }
 
@@ -240,6 +256,8 @@ void RunPanel::showButtons() {
     pause_->setVisible(running_);
     pause_->setMeaning(paused_ ? tr("&Resume") : tr("&Pause"), paused_);
     stop_->setVisible(running_);
+    run_->setVisible(!across_ || !running_);
+    left_->setVisible(!across_);
 }
 
 }  // namespace tacto::gui

@@ -3,6 +3,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QProgressBar>
@@ -50,6 +51,10 @@ public:
     /// At each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
     void show(const ScriptProgress* progress, bool paused, bool waiting);
     void end(bool early);
+    /// Its controls in one line, for a path that is a row; words() then stands wherever its owner puts it.
+    void setAcross(bool across);
+    /// What is in the way, what is asked, and the buttons that belong to it.
+    [[nodiscard]] QWidget& words() noexcept { return *words_; }
 
 signals:
     void runWanted();
@@ -60,8 +65,12 @@ signals:
     void profileChangeWanted();
 
 private:
+    void buildWords();
     [[nodiscard]] QWidget* buildQuestion();
     void showButtons();
+    void sayHowFar(const QString& format, const QString& left);
+    QBoxLayout* layout_;
+    QWidget* words_;
     QLabel* obstacle_;
     QLabel* trouble_;
     QPushButton* toLine_;
@@ -83,6 +92,7 @@ private:
     bool ready_ = false;
     bool running_ = false;
     bool paused_ = false;
+    bool across_ = false;
 };
 
 }  // namespace tacto::gui

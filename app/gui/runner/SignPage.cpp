@@ -2,12 +2,14 @@
 
 #include <QDesktopServices>
 #include <QHBoxLayout>
+#include <QMenu>
 #include <QScreen>
 #include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "app/gui/runner/NotesPanel.h"
+#include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Theme.h"
 
@@ -18,7 +20,7 @@ constexpr int kNotesWidth = 260;
 constexpr double kZoomStep = 1.25, kZoomLeast = 0.25, kZoomMost = 5;
 }  // namespace
 
-SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(this) {
+SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(this), printer_(new ReportPrinter(this)) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(16);
@@ -51,14 +53,14 @@ SignPage::SignPage(DayNotes& day, QWidget* parent) : QWidget(parent), maker_(thi
     right->addWidget(buildReportRow());
     row->addLayout(right, 1);
     connect(&maker_, &ReportMaker::done, this, [this](const QString& out) {
-        if (out.endsWith(".pdf")) {
-            report_ = out;
-            if (isVisible()) showPdf();
-        }
-        showState();
+        out.endsWith(".pdf") ? showReport(out) : showState();
     });
     connect(&maker_, &ReportMaker::failed, this, [this](const QString& why) {
         if (fault_.isEmpty()) fault_ = why;
+        showState();
+    });
+    connect(printer_, &ReportPrinter::said, this, [this](const QString& what) {
+        printed_ = what;
         showState();
     });
     clear();
@@ -68,9 +70,16 @@ QWidget* SignPage::buildReportRow() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
     row->setContentsMargins(0, 0, 0, 0);
-    elsewhere_ = new QPushButton(tr("Print or sign in the PDF viewer"), holder);
-    elsewhere_->setObjectName("printReport");
-    elsewhere_->setToolTip(tr("Opens the PDF with the desktop's program for it."));
+    print_ = new QPushButton(tr("Print"), holder);
+    print_->setObjectName("printReport");
+    print_->setToolTip(tr("Prints all pages on the printer that you choose. For some of them, or several copies, open the "
+                          "report in the PDF viewer."));
+    auto* printers = new QMenu(print_);
+    connect(printers, &QMenu::aboutToShow, this, [this, printers] { printer_->offer(*printers, report_); });
+    print_->setMenu(printers);
+    elsewhere_ = new QPushButton(tr("Open in the PDF viewer"), holder);
+    elsewhere_->setObjectName("openReport");
+    elsewhere_->setToolTip(tr("Opens the PDF with the desktop's program for it, to sign it there."));
     connect(elsewhere_, &QPushButton::clicked, this,
             [this] { QDesktopServices::openUrl(QUrl::fromLocalFile(report_)); });
     drawing_ = new QProgressBar(holder);
@@ -103,7 +112,8 @@ QWidget* SignPage::buildReportRow() {
     addZoom("+", "reportLarger", tr("Larger"), [this] { zoom(kZoomStep); });
     says_ = new ElidedLabel(holder);
     says_->setObjectName("reportState");
-    for (auto* button : {elsewhere_, cancel_}) button->setAutoDefault(false);
+    for (auto* button : {print_, elsewhere_, cancel_}) button->setAutoDefault(false);
+    row->addWidget(print_);
     row->addWidget(elsewhere_);
     row->addWidget(zoom_);
     row->addWidget(drawing_);
@@ -115,13 +125,16 @@ QWidget* SignPage::buildReportRow() {
 QString SignPage::state() const {
     if (!fault_.isEmpty()) return fault_;
     if (maker_.busy()) return tr("Drawing the report…");
+    if (!printed_.isEmpty()) return printed_;
     return report_.isEmpty() ? QString() : tr("The report is written, as PDF and HTML.");
 }
 
 void SignPage::showState() {
     const bool busy = maker_.busy();
-    elsewhere_->setEnabled(!report_.isEmpty());
-    elsewhere_->setVisible(!report_.isEmpty());
+    for (auto* button : {print_, elsewhere_}) {
+        button->setEnabled(!report_.isEmpty());
+        button->setVisible(!report_.isEmpty());
+    }
     zoom_->setVisible(document_->pageCount() > 0);
     drawing_->setVisible(busy);
     cancel_->setVisible(busy);
@@ -154,6 +167,12 @@ void SignPage::zoom(double factor) {
     view_->setZoomFactor(std::clamp(now * factor, kZoomLeast, kZoomMost));
 }
 
+void SignPage::showReport(const QString& pdf) {
+    report_ = pdf;
+    if (isVisible()) showPdf();
+    showState();
+}
+
 void SignPage::showPdf() {
     document_->load(report_);
     if (document_->pageCount() == 0 && fault_.isEmpty())
@@ -164,6 +183,7 @@ void SignPage::clear() {
     maker_.cancel();
     report_.clear();
     fault_.clear();
+    printed_.clear();
     document_->close();
     showState();
 }

@@ -18,6 +18,7 @@
 namespace tacto::gui {
 
 class NotesPanel;
+class ReportPrinter;
 
 class SignPage final : public QWidget {
     Q_OBJECT
@@ -31,6 +32,8 @@ public:
     void show(const FinishedRun& run);
     /// "written", "being drawn…", or why there is none; for the step.
     [[nodiscard]] QString state() const;
+    /// A report that is written already.
+    void showReport(const QString& pdf);
 
 signals:
     void stateChanged();
@@ -48,13 +51,16 @@ private:
     QPdfDocument* document_;
     QPdfView* view_;
     QWidget* zoom_ = nullptr;  ///< its buttons
+    QPushButton* print_ = nullptr;
     QPushButton* elsewhere_ = nullptr;
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
     ReportMaker maker_;
+    ReportPrinter* printer_;
     QString report_;  // the PDF, once it is written
     QString fault_;   // of the first report that failed
+    QString printed_;  // how far the printer is; empty: nothing was printed
 };
 
 }  // namespace tacto::gui

@@ -12,10 +12,12 @@ namespace {
 
 constexpr int kStepWidth = 224, kStepHeight = 56, kStepLow = 36;
 constexpr int kShapeLeft = 24, kShape = 16, kWordsLeft = 48, kChosenBar = 4, kDot = 12;
+constexpr int kAcrossHeight = 40, kAcrossSide = 12, kAcrossDot = 20, kAcrossGap = 8;
 
 }  // namespace
 
-StepButton::StepButton(const QString& name, Place place, QWidget* parent) : QAbstractButton(parent), place_(place) {
+StepButton::StepButton(const QString& name, int number, Place place, QWidget* parent)
+    : QAbstractButton(parent), number_(number), place_(place) {
     setText(name);
     setAccessibleName(name);
     setCheckable(true);
@@ -43,6 +45,17 @@ void StepButton::setLow(bool low) {
     if (std::exchange(low_, low) != low) updateGeometry();
 }
 
+void StepButton::setAcross(bool across, bool named) {
+    if (std::exchange(across_, across) != across) updateGeometry();
+    if (std::exchange(named_, named) != named) update();
+}
+
+int StepButton::widthAcross(bool named) const {
+    const int shape = 2 * scaledPx(kAcrossSide) + scaledPx(kAcrossDot);
+    const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // as wide as when it is the one shown
+    return named ? shape + scaledPx(kAcrossGap) + name.horizontalAdvance(text()) + 1 : shape;
+}
+
 void StepButton::say() {
     const auto word = [&] {
         switch (state_) {
@@ -64,6 +77,10 @@ void StepButton::say() {
 }
 
 QSize StepButton::sizeHint() const {
+    if (across_) {
+        const int name = QFontMetrics(textFont(TextSize::Body)).height();
+        return {widthAcross(named_ || isChecked()), std::max(scaledPx(kAcrossHeight), name + 8)};
+    }
     const int words =
         QFontMetrics(textFont(TextSize::Body)).height() + (low_ ? 0 : QFontMetrics(textFont(TextSize::Small)).height());
     return {scaledPx(kStepWidth), std::max(scaledPx(low_ ? kStepLow : kStepHeight), words + 8)};
@@ -74,7 +91,7 @@ void StepButton::changeEvent(QEvent* event) {
     QAbstractButton::changeEvent(event);
 }
 
-/// ✔ done, a disc under way, ⚠ to be mended, a ring to do.
+/// ✔ done, a disc under way, ⚠ to be mended, a ring to do. In a row disc and ring have the step's number.
 void StepButton::paintShape(QPainter& painter, const QPoint& centre) const {
     const auto& c = colours();
     const int size = scaledPx(kShape);
@@ -83,23 +100,53 @@ void StepButton::paintShape(QPainter& painter, const QPoint& centre) const {
     };
     if (state_ == StepList::State::Done) return place("verdict-pass", c.text);
     if (state_ == StepList::State::Troubled) return place("verdict-attention", c.amberText);
-    const double radius = scaledPx(kDot) / 2.0;
+    const double radius = scaledPx(across_ ? kAcrossDot : kDot) / 2.0;
     const bool filled = state_ == StepList::State::UnderWay;
     painter.setPen(QPen(filled ? c.text : c.edge, 2));
     painter.setBrush(filled ? QBrush(c.text) : Qt::NoBrush);
     painter.drawEllipse(QPointF(centre), radius - 1, radius - 1);
+    if (!across_) return;
+    painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+    painter.setPen(filled ? c.base : isEnabled() ? c.text : c.quiet);
+    painter.drawText(QRectF(centre.x() - radius, centre.y() - radius, 2 * radius, 2 * radius), Qt::AlignCenter,
+                     QString::number(number_));
 }
 
 void StepButton::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
+    paintGround(painter);
+    across_ ? paintAcross(painter) : paintDown(painter);
+    if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+    painter.setPen(QPen(colours().text, 2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+void StepButton::paintGround(QPainter& painter) const {
     const auto& c = colours();
     if (isChecked()) {
         painter.fillRect(rect(), c.selection);
-        painter.fillRect(0, 0, kChosenBar, height(), c.primary);
+        const QRect below(0, height() - kChosenBar, width(), kChosenBar), left(0, 0, kChosenBar, height());
+        painter.fillRect(across_ ? below : left, c.primary);
     } else if (underMouse() && isEnabled()) {
         painter.fillRect(rect(), c.sunken);
     }
+}
+
+void StepButton::paintAcross(QPainter& painter) const {
+    const auto& c = colours();
+    const int dot = scaledPx(kAcrossDot), side = scaledPx(kAcrossSide);
+    paintShape(painter, {side + dot / 2, height() / 2});
+    if (!named_ && !isChecked()) return;
+    painter.setFont(textFont(TextSize::Body, isChecked() ? QFont::DemiBold : QFont::Normal));
+    painter.setPen(isEnabled() ? c.text : c.quiet);
+    const int left = side + dot + scaledPx(kAcrossGap);
+    painter.drawText(QRect(left, 0, width() - left, height()), Qt::AlignLeft | Qt::AlignVCenter, text());
+}
+
+void StepButton::paintDown(QPainter& painter) const {
+    const auto& c = colours();
     const auto name = textFont(TextSize::Body, isChecked() ? QFont::DemiBold : QFont::Normal);
     const auto small = textFont(TextSize::Small);
     const QFontMetrics above(name), below(small);
@@ -116,16 +163,11 @@ void StepButton::paintEvent(QPaintEvent* /*event*/) {
     painter.setFont(name);
     painter.setPen(isEnabled() ? c.text : c.quiet);
     painter.drawText(words, Qt::AlignLeft | Qt::AlignVCenter, above.elidedText(text(), Qt::ElideRight, words.width()));
-    if (two) {
-        painter.setFont(small);
-        painter.setPen(state_ == StepList::State::Troubled ? c.amberText : c.quiet);
-        painter.drawText(words.translated(0, above.height()), Qt::AlignLeft | Qt::AlignTop,
-                         below.elidedText(note_, Qt::ElideRight, words.width()));
-    }
-    if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
-    painter.setPen(QPen(c.text, 2));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawRect(rect().adjusted(1, 1, -1, -1));
+    if (!two) return;
+    painter.setFont(small);
+    painter.setPen(state_ == StepList::State::Troubled ? c.amberText : c.quiet);
+    painter.drawText(words.translated(0, above.height()), Qt::AlignLeft | Qt::AlignTop,
+                     below.elidedText(note_, Qt::ElideRight, words.width()));
 }
 
 }  // namespace tacto::gui

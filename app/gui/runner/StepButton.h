@@ -1,4 +1,5 @@
-// StepButton.h - one step of a procedure: the shape of its state, its name, and a word on how it stands.
+// StepButton.h - one step of a procedure: the shape of its state, its name, and a word on how it stands. In a row it
+// has a number, and its name where there is room.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,13 +14,18 @@ class StepButton final : public QAbstractButton {
     Q_OBJECT
 public:
     enum class Place { First, Between, Last };
-    StepButton(const QString& name, Place place, QWidget* parent);
+    /// `number`: counted from 1.
+    StepButton(const QString& name, int number, Place place, QWidget* parent);
     void setState(StepList::State state);
     [[nodiscard]] StepList::State state() const { return state_; }
     void setNote(const QString& note);
     void setOutOfReach(const QString& why);
     /// Without the note, where the window is low.
     void setLow(bool low);
+    /// Beside the others in place of below them; `named`: with its name. The step that is shown always has it.
+    void setAcross(bool across, bool named);
+    /// In a row, with its name or with its shape alone.
+    [[nodiscard]] int widthAcross(bool named) const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 
@@ -29,12 +35,18 @@ protected:
 
 private:
     void say();
+    void paintGround(QPainter& painter) const;
+    void paintDown(QPainter& painter) const;
+    void paintAcross(QPainter& painter) const;
     void paintShape(QPainter& painter, const QPoint& centre) const;
     StepList::State state_ = StepList::State::ToDo;
     QString note_;
     QString outOfReach_;
+    const int number_;
     const Place place_;
     bool low_ = false;
+    bool across_ = false;
+    bool named_ = true;
 };
 
 }  // namespace tacto::gui

@@ -1,7 +1,7 @@
 #include "app/gui/runner/StepList.h"
 
 #include <QEvent>
-#include <QVBoxLayout>
+#include <utility>
 
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/theme/Theme.h"
@@ -12,18 +12,18 @@ namespace {
 constexpr int kRoomyWindow = 760;  // below this height steps have no notes
 }
 
-StepList::StepList(const QStringList& steps, QWidget* parent) : QWidget(parent) {
+StepList::StepList(const QStringList& steps, QWidget* parent)
+    : QWidget(parent), layout_(new QBoxLayout(QBoxLayout::TopToBottom, this)) {
     setAccessibleName(tr("Steps"));
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    layout_->setContentsMargins(0, 0, 0, 0);
+    layout_->setSpacing(0);
     for (const auto& step : steps) {
         const auto place = buttons_.empty()            ? StepButton::Place::First
                            : step == steps.constLast() ? StepButton::Place::Last
                                                        : StepButton::Place::Between;
-        auto* button = new StepButton(step, place, this);
+        auto* button = new StepButton(step, int(buttons_.size()) + 1, place, this);
         connect(button, &StepButton::clicked, this, [this, index = int(buttons_.size())] { emit chosen(index); });
-        column->addWidget(button);
+        layout_->addWidget(button);
         buttons_.push_back(button);
     }
     setShown(0);
@@ -37,17 +37,72 @@ void StepList::setNote(int step, const QString& note) { buttons_.at(std::size_t(
 
 void StepList::setOutOfReach(int step, const QString& why) { buttons_.at(std::size_t(step))->setOutOfReach(why); }
 
-void StepList::setStepVisible(int step, bool visible) { buttons_.at(std::size_t(step))->setVisible(visible); }
+void StepList::setStepVisible(int step, bool visible) {
+    buttons_.at(std::size_t(step))->setVisible(visible);
+    placeAcross();
+}
 
 void StepList::setShown(int step) {
     shown_ = step;
     buttons_.at(std::size_t(step))->setChecked(true);
+    placeAcross();
 }
 
 void StepList::focusShown() { buttons_.at(std::size_t(shown_))->setFocus(); }
 
 void StepList::fit() {
     for (auto* button : buttons_) button->setLow(window()->height() < scaledPx(kRoomyWindow));
+    placeAcross();
+}
+
+void StepList::setAcross(bool across) {
+    if (std::exchange(across_, across) == across) return;
+    layout_->setDirection(across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    if (across) {
+        layout_->addStretch();
+    } else {
+        delete layout_->takeAt(layout_->count() - 1);
+        for (auto* button : buttons_) {
+            button->setAcross(false, true);
+            button->setMinimumWidth(0);
+            button->setMaximumWidth(QWIDGETSIZE_MAX);
+        }
+    }
+    setSizePolicy(QSizePolicy::Preferred, across ? QSizePolicy::Fixed : QSizePolicy::Preferred);
+    placeAcross();
+    updateGeometry();
+}
+
+int StepList::widthAcross(bool named) const {
+    int width = 0;
+    for (std::size_t i = 0; i < buttons_.size(); ++i) {
+        if (!buttons_[i]->isHidden()) width += buttons_[i]->widthAcross(named || int(i) == shown_);
+    }
+    return width;
+}
+
+void StepList::placeAcross() {
+    if (!across_) return;
+    const bool named = width() >= widthAcross(true);
+    for (std::size_t i = 0; i < buttons_.size(); ++i) {
+        buttons_[i]->setAcross(true, named);
+        buttons_[i]->setFixedWidth(buttons_[i]->widthAcross(named || int(i) == shown_));
+    }
+    layout_->activate();
+    updateGeometry();
+}
+
+QSize StepList::sizeHint() const {
+    return across_ ? QSize(widthAcross(true), QWidget::sizeHint().height()) : QWidget::sizeHint();
+}
+
+QSize StepList::minimumSizeHint() const {
+    return across_ ? QSize(widthAcross(false), QWidget::minimumSizeHint().height()) : QWidget::minimumSizeHint();
+}
+
+void StepList::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    placeAcross();
 }
 
 void StepList::changeEvent(QEvent* event) {

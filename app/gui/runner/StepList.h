@@ -1,9 +1,11 @@
 // StepList.h - a procedure is a path: its steps below each other, each to do, under way, done or ended early by its
-// shape, with a word on how it stands. A click goes to a step that was reached.
+// shape, with a word on how it stands. A click goes to a step that was reached. Where there is little room they stand
+// in a row, numbered; in a narrow one only the step that is shown has its name.
 //
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QStringList>
 #include <QWidget>
 #include <vector>
@@ -31,14 +33,23 @@ public:
     void focusShown();
     /// Again when the window's height is another one: in a low one steps have no notes.
     void fit();
+    void setAcross(bool across);
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
     void chosen(int step);
 
 protected:
     void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
+    /// All steps in a row, with every name or with the one of the step that is shown.
+    [[nodiscard]] int widthAcross(bool named) const;
+    void placeAcross();
+    QBoxLayout* layout_;
+    bool across_ = false;
     std::vector<StepButton*> buttons_;
     int shown_ = 0;
 };

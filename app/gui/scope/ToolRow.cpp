@@ -3,6 +3,8 @@
 #include <QSpacerItem>
 #include <QWidget>
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace tacto::gui {
 
@@ -54,19 +56,26 @@ void ToolRow::setGeometry(const QRect& area) {
 
 int ToolRow::lay(const QRect& area, bool really) const {
     int x = area.left(), y = area.top(), line = 0;
+    std::vector<std::pair<QLayoutItem*, QRect>> inLine;
+    const auto setLine = [&] {  // on one middle line, however high each is
+        for (const auto& [item, at] : inLine) item->setGeometry(at.translated(0, (line - at.height()) / 2));
+        inLine.clear();
+    };
     for (const auto& item : items_) {
         const auto size = item->sizeHint();
         const bool gap = item->spacerItem() != nullptr;
         if (x > area.left() && x + size.width() > area.right() + 1) {
+            setLine();
             x = area.left();
             y += line + spacing();
             line = 0;
             if (gap) continue;  // a new line is gap enough
         }
-        if (really) item->setGeometry(QRect(QPoint(x, y), size));
+        if (really) inLine.emplace_back(item.get(), QRect(QPoint(x, y), size));
         x += size.width() + spacing();
         line = std::max(line, size.height());
     }
+    setLine();
     return y + line - area.top();
 }
 

@@ -23,7 +23,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kListMargin = 16;
+constexpr int kListMargin = 16, kAroundActions = 8;
 
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
@@ -108,6 +108,7 @@ QPushButton* SessionsWorkspace::addAction(QBoxLayout& row, const char* iconName,
 QWidget* SessionsWorkspace::buildListActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
     compare_ = addAction(*row, "compare", tr("Co&mpare two"), tr("What differs between two sessions, over each other."),
                          [this] { compare(); });
     addAction(*row, "verify", tr("Verif&y"),
@@ -116,7 +117,7 @@ QWidget* SessionsWorkspace::buildListActions() {
               tr("A file per stream, trials, events with their marks, commands and captures."),
               [this] { askExport(); });
     row->addStretch();
-    auto* hint = new ElidedLabel(tr("↑ ↓ choose · Ctrl+click a second · Ctrl+F searches"), holder);
+    auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
     hint->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*hint, Tone::Quiet);
@@ -128,6 +129,7 @@ QWidget* SessionsWorkspace::buildListActions() {
 QWidget* SessionsWorkspace::buildSessionActions() {
     auto* holder = new QWidget(this);
     auto* row = new QHBoxLayout(holder);
+    row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
     auto* report = addAction(*row, "report", tr("Re&port"), tr("The report as PDF, from the session alone."),
                              [this] { makeReport(); });
     report->setIcon(icon("report", Ink::Primary));

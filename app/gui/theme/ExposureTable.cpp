@@ -90,6 +90,9 @@ QString limitText(const ExposureRow& row, bool compact) {
 
 ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     setHorizontalHeaderLabels({tr("Quantity"), tr("Value"), tr("Limit"), tr("Used")});
+    horizontalHeaderItem(kQuantity)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    for (const int column : {kValue, kLimit})
+        horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     verticalHeader()->hide();
     setEditTriggers(QAbstractItemView::NoEditTriggers);
     setSelectionBehavior(QAbstractItemView::SelectRows);

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QPixmapCache>
 #include <QSvgRenderer>
+#include <algorithm>
 
 #include "app/gui/theme/Theme.h"
 
@@ -18,7 +19,9 @@ void paintIcon(QPainter& painter, const QString& name, const QColor& colour, con
     QFile file(fileOf(name));
     if (!file.open(QIODevice::ReadOnly)) return;
     QSvgRenderer drawing(file.readAll().replace("currentColor", colour.name().toLatin1()));
-    drawing.render(&painter, place);
+    // What is wider has its room at the right.
+    const double side = std::min(place.width(), place.height());
+    drawing.render(&painter, {place.left(), place.center().y() - side / 2, side, side});
 }
 
 class ThemeIcon final : public QIconEngine {

@@ -2,11 +2,28 @@
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QWidget>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
+namespace {
+constexpr int kButtonIcon = 16, kBeforeTheWord = 4;
+}
+
 MnemonicStyle::MnemonicStyle() : QProxyStyle("Fusion") { qApp->installEventFilter(this); }
+
+/// Fusion leaves 4 px between an icon and its word; the design has 8. The rest is room at the right of the icon, which
+/// is drawn square at the left of what it gets (Icons.cpp).
+void MnemonicStyle::polish(QWidget* widget) {
+    QProxyStyle::polish(widget);
+    const auto* tool = qobject_cast<QToolButton*>(widget);
+    const bool beside = tool != nullptr && tool->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
+    if (qobject_cast<QPushButton*>(widget) == nullptr && !beside) return;
+    static_cast<QAbstractButton*>(widget)->setIconSize({scaledPx(kButtonIcon + kBeforeTheWord), scaledPx(kButtonIcon)});
+}
 
 int MnemonicStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                              QStyleHintReturn* returned) const {

@@ -1,4 +1,5 @@
-// MnemonicStyle.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held.
+// MnemonicStyle.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
+// icons grow with the text and stand a little before it.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -11,6 +12,8 @@ class MnemonicStyle final : public QProxyStyle {
     Q_OBJECT
 public:
     MnemonicStyle();
+    using QProxyStyle::polish;
+    void polish(QWidget* widget) override;
     [[nodiscard]] int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                                 QStyleHintReturn* returned) const override;
 

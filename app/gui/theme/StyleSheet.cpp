@@ -48,7 +48,8 @@ QPushButton[role="segment"]:checked:disabled { background: @sunken; color: @edge
 QPushButton::menu-indicator { image: url(:/icons/controls/down.svg); width: ~10; height: ~10; right: ~6;
     subcontrol-origin: padding; subcontrol-position: center right; }
 
-QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px; background: transparent; }
+QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px; background: transparent;
+    icon-size: ~16; }
 QToolButton:hover { background: @sunken; }
 QToolButton:pressed, QToolButton:checked { background: @selection; border-color: @line; }
 QToolButton:focus { border: 2px solid @text; padding: 3px; }

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <map>
+#include <typeinfo>
 
 #include "app/gui/theme/MnemonicStyle.h"
 #include "app/gui/theme/StyleSheet.h"
@@ -39,7 +40,9 @@ void applyTheme(Theme wanted) {
 void applyTextSize(int percent) {
     static const double desktops_pt = QApplication::font().pointSizeF();
     auto font = QApplication::font();
-    font.setFamilies({"Noto Sans", "DejaVu Sans"});
+    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths. A report keeps DejaVu
+    // Sans: SVG splits a text where the face changes, and a number must not come apart from its minus.
+    font.setFamilies({"Noto Sans", "Noto Sans Math", "DejaVu Sans"});
     font.setPointSizeF(std::max(desktops_pt, kSmallestText_pt) * (percent < 100 || percent > 200 ? 100 : percent) /
                        100);
     // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
@@ -124,8 +127,28 @@ QFont digits(QFont font, double scale) {
     return font;
 }
 
+namespace {
+
+/// Its negative numbers have a minus, no hyphen.
+class MinusTicker final : public QCPAxisTicker {
+protected:
+    QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
+        return QCPAxisTicker::getTickLabel(tick, locale, format, precision).replace('-', QChar(0x2212));
+    }
+};
+
+}  // namespace
+
 void styleAxis(QCPAxis& axis) {
     const auto& c = colours();
+    const auto own = axis.ticker();
+    if (const auto& kind = *own; typeid(kind) == typeid(QCPAxisTicker)) {
+        const auto ticker = QSharedPointer<MinusTicker>::create();
+        ticker->setTickCount(own->tickCount());
+        ticker->setTickOrigin(own->tickOrigin());
+        ticker->setTickStepStrategy(own->tickStepStrategy());
+        axis.setTicker(ticker);
+    }
     const auto small = textFont(TextSize::Small);
     axis.setBasePen(QPen(c.frame, 1));
     axis.setTickPen(QPen(c.frame, 1));

@@ -12,6 +12,8 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr int kMenuPadding = 4;  // above and below a menu's title
+
 QString wordsOf(const RunNotes& notes) {
     QStringList words;
     if (!notes.operatorName.empty()) words << QString::fromStdString(notes.operatorName);
@@ -54,7 +56,10 @@ DayButton::DayButton(DayNotes& day, QWidget* parent) : QToolButton(parent), day_
     say();
 }
 
-QSize DayButton::sizeHint() const { return {QToolButton::sizeHint().width(), parentWidget()->fontMetrics().height()}; }
+/// As high as the menus beside it, so that their words stand on one line.
+QSize DayButton::sizeHint() const {
+    return {QToolButton::sizeHint().width(), parentWidget()->fontMetrics().height() + 2 * kMenuPadding};
+}
 
 void DayButton::say() {
     const auto words = day_.words();

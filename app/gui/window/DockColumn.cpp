@@ -13,12 +13,17 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDocks = 224;
 constexpr int kStripWidth = 32;
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
+constexpr int kFewLines = 80;  ///< of a dock that gives way to those above it
+
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
+
+QString settingOf(const QString& view, const FoldingDock& dock) {
+    return QString("docks/folded-%1-%2").arg(view, dock.objectName());
+}
 
 }  // namespace
 
@@ -93,21 +98,37 @@ DockColumn::DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks)
         connect(button, &QToolButton::clicked, this, [this, dock] { show(*dock); });
         strip_->addWidget(button);
         buttons_.push_back(button);
+        connect(dock, &FoldingDock::foldChanged, this, [this, dock] {
+            if (entering_) return;
+            QSettings().setValue(settingOf(view_.name, *dock), dock->folded());
+            QTimer::singleShot(0, this, &DockColumn::share);
+        });
+        connect(dock, &FoldingDock::contentChanged, this, [this] { QTimer::singleShot(0, this, &DockColumn::share); });
     }
     window_.addToolBar(Qt::RightToolBarArea, strip_);
     window_.installEventFilter(this);
     apply();
 }
 
-void DockColumn::enter(int workspace, bool openByDefault) {
-    workspace_ = workspace;
-    collapsed_ = QSettings().value(settingOf(workspace), !openByDefault).toBool();
+void DockColumn::enter(const View& view) {
+    view_ = view;
+    collapsed_ = QSettings().value(settingOf(view.workspace), !view.open).toBool();
+    foldAsLeft();
     apply();
+}
+
+void DockColumn::foldAsLeft() {
+    entering_ = true;
+    for (auto* dock : docks_) {
+        const bool folded = std::ranges::find(view_.folded, dock) != view_.folded.end();
+        dock->fold(QSettings().value(settingOf(view_.name, *dock), folded).toBool());
+    }
+    entering_ = false;
 }
 
 void DockColumn::setCollapsed(bool collapsed) {
     collapsed_ = collapsed;
-    QSettings().setValue(settingOf(workspace_), collapsed);
+    QSettings().setValue(settingOf(view_.workspace), collapsed);
     apply();
 }
 
@@ -122,21 +143,12 @@ void DockColumn::reset() {
     QSettings().remove("docks");
     for (auto* dock : docks_) {
         dock->setFloating(false);
-        dock->fold(false);
         window_.addDockWidget(Qt::RightDockWidgetArea, dock);
     }
+    foldAsLeft();
     const QList<QDockWidget*> all{docks_.begin(), docks_.end()};
-    window_.resizeDocks(all, QList<int>(all.size(), scaledPx(kDocks)), Qt::Horizontal);
-    // What a dock wants, as far as there is room: those further down give way first.
-    int left = 0;
-    for (const auto* dock : docks_) left += dock->height();
-    QList<int> heights;
-    for (const auto* dock : docks_) {
-        heights << std::clamp(dock->sizeHint().height(), dock->minimumSizeHint().height(),
-                              std::max(left, dock->minimumSizeHint().height()));
-        left -= heights.back();
-    }
-    window_.resizeDocks(all, heights, Qt::Vertical);
+    window_.resizeDocks(all, QList<int>(all.size(), scaledPx(FoldingDock::kWidth)), Qt::Horizontal);
+    share();
 }
 
 void DockColumn::setHidden(bool hidden) {
@@ -155,21 +167,43 @@ void DockColumn::apply() {
     }
     strip_->setVisible(collapsed_ && !hidden_);
     toggle_->setChecked(!collapsed_);
-    QTimer::singleShot(0, this, &DockColumn::giveFirst);  // once they are laid out
+    QTimer::singleShot(0, this, &DockColumn::share);  // once they are laid out
 }
 
-/// A window shares a change of its height among its docks; the first of them has a claim.
-void DockColumn::giveFirst() {
+/// A window shares a change of its height among its docks. Here the first has a claim, and where there is not room for
+/// all of each, those further down give way, down to a few lines.
+void DockColumn::share() {
+    QList<QDockWidget*> open;
+    QList<int> wanted;
+    int room = 0, all = 0;
     for (auto* dock : docks_) {
-        const bool open = dock->isVisible() && !dock->isFloating() && !dock->folded();
-        if (open && dock->room() == FoldingDock::Room::First && dock->height() < dock->maximumHeight() &&
-            dock->maximumHeight() < QWIDGETSIZE_MAX)
-            window_.resizeDocks({dock}, {dock->maximumHeight()}, Qt::Vertical);
+        if (!dock->isVisible() || dock->isFloating() || dock->folded()) continue;
+        open << dock;
+        wanted << dock->wantedHeight();
+        room += dock->height();
+        all += wanted.back();
     }
+    if (open.isEmpty()) return;
+    if (all <= room) {
+        for (auto* dock : docks_) {
+            if (open.contains(dock) && dock->room() == FoldingDock::Room::First && dock->height() < wanted.front())
+                window_.resizeDocks({dock}, {dock->wantedHeight()}, Qt::Vertical);
+        }
+        return;
+    }
+    QList<int> heights;
+    int left = room;
+    for (qsizetype i = 0; i < open.size(); ++i) {
+        int below = 0;
+        for (qsizetype j = i + 1; j < open.size(); ++j) below += std::min(wanted[j], scaledPx(kFewLines));
+        heights << std::clamp(left - below, std::min(wanted[i], scaledPx(kFewLines)), wanted[i]);
+        left -= heights.back();
+    }
+    window_.resizeDocks(open, heights, Qt::Vertical);
 }
 
 bool DockColumn::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::giveFirst);
+    if (watched == &window_ && event->type() == QEvent::Resize) QTimer::singleShot(0, this, &DockColumn::share);
     return QObject::eventFilter(watched, event);
 }
 

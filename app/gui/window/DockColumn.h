@@ -21,8 +21,15 @@ class DockColumn final : public QObject {
 public:
     /// The docks belong to the window, and are listed from top to bottom.
     DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks);
-    /// As this workspace was left, else open where it is live.
-    void enter(int workspace, bool openByDefault);
+    /// What is shown beside the docks, and how they stand there at first.
+    struct View {
+        int workspace = 0;
+        QString name;  ///< a workspace may have several
+        bool open = false;
+        std::vector<FoldingDock*> folded;
+    };
+    /// As this view was left, else as it says.
+    void enter(const View& view);
     void setCollapsed(bool collapsed);
     [[nodiscard]] bool collapsed() const { return collapsed_; }
     [[nodiscard]] const std::vector<FoldingDock*>& docks() const { return docks_; }
@@ -42,14 +49,16 @@ protected:
 
 private:
     void apply();
-    void giveFirst();
+    void foldAsLeft();
+    void share();
 
     QMainWindow& window_;
     std::vector<FoldingDock*> docks_;
     std::vector<StripButton*> buttons_;
     QToolBar* strip_;
     QAction* toggle_;
-    int workspace_ = 0;
+    View view_;
+    bool entering_ = false;  // folds are the view's, nobody's choice
     bool collapsed_ = false;
     bool hidden_ = false;
 };

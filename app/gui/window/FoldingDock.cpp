@@ -4,6 +4,8 @@
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
@@ -16,13 +18,14 @@ constexpr int kDockHeader = 32;
 constexpr int kDockPadding = 12;
 constexpr int kDockIcon = 16;
 
-/// As high as the designed header: a dock gives its title bar the height that it hints.
+/// As high and as wide as the designed header: a dock gives its title bar the height that it hints, and is no narrower,
+/// folded or not.
 class DockHeader final : public QWidget {
 public:
     using QWidget::QWidget;
     [[nodiscard]] QSize sizeHint() const override { return {QWidget::sizeHint().width(), scaledPx(kDockHeader)}; }
     [[nodiscard]] QSize minimumSizeHint() const override {
-        return {QWidget::minimumSizeHint().width(), scaledPx(kDockHeader)};
+        return {std::max(QWidget::minimumSizeHint().width(), scaledPx(FoldingDock::kWidth)), scaledPx(kDockHeader)};
     }
 };
 
@@ -69,10 +72,12 @@ void FoldingDock::setContent(QWidget* content, Room room) {
         rows->addStretch();
         area->setWidget(inside_);
         content = area;
+    } else if (auto* area = qobject_cast<QScrollArea*>(content)) {
+        inside_ = area->widget();
     }
     column->addWidget(content);
     setWidget(body);
-    if (inside_ != nullptr && room == Room::First) inside_->installEventFilter(this);
+    if (inside_ != nullptr) inside_->installEventFilter(this);
 }
 
 void FoldingDock::fold(bool folded) {
@@ -89,16 +94,27 @@ void FoldingDock::limitHeight() {
     if (folded_) {
         most = header_->height() + 1;
     } else if (room_ == Room::First && inside_ != nullptr && !isFloating()) {
-        const auto margins = widget()->layout()->contentsMargins();
-        most = header_->height() + 1 + margins.top() + margins.bottom() +
-               inside_->layout()->totalHeightForWidth(inside_->width());
+        most = wantedHeight();
     }
     if (most != maximumHeight()) setMaximumHeight(most);
 }
 
+int FoldingDock::wantedHeight() const {
+    if (inside_ == nullptr || inside_->layout() == nullptr) return sizeHint().height();
+    const auto margins = widget()->layout()->contentsMargins();
+    const auto* rows = inside_->layout();
+    return header_->height() + 1 + margins.top() + margins.bottom() +
+           (rows->hasHeightForWidth() ? rows->totalHeightForWidth(inside_->width()) : rows->totalSizeHint().height());
+}
+
+void FoldingDock::noteContent() {
+    limitHeight();
+    if (!folded_ && std::exchange(wanted_, wantedHeight()) != wantedHeight()) emit contentChanged();
+}
+
 bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
     if (watched == inside_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
-        limitHeight();
+        noteContent();
     return QDockWidget::eventFilter(watched, event);
 }
 

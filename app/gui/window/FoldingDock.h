@@ -13,6 +13,7 @@ namespace tacto::gui {
 class FoldingDock : public QDockWidget {
     Q_OBJECT
 public:
+    static constexpr int kWidth = 228;  ///< at least, at the usual size of text
     /// `name` is the object's, by which its place is remembered.
     FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent);
     /// In its column. On a low screen every dock scrolls: none makes the window larger than the screen.
@@ -23,6 +24,8 @@ public:
     /// Takes `content`, with the docks' margin around it.
     void setContent(QWidget* content, Room room = Room::Shared);
     [[nodiscard]] Room room() const { return room_; }
+    /// With all of its content in sight.
+    [[nodiscard]] int wantedHeight() const;
     void fold(bool folded);
     [[nodiscard]] bool folded() const { return folded_; }
     [[nodiscard]] const QString& iconName() const { return icon_; }
@@ -31,6 +34,8 @@ public:
 
 signals:
     void foldChanged();
+    /// The wanted height is another one.
+    void contentChanged();
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
@@ -39,6 +44,7 @@ protected:
 private:
     void dress();
     void limitHeight();
+    void noteContent();
 
     QString icon_;
     QWidget* header_;
@@ -47,7 +53,8 @@ private:
     QToolButton* toggle_;
     bool folded_ = false;
     Room room_ = Room::Shared;
-    QWidget* inside_ = nullptr;  ///< of the scroll area around the content; null where that scrolls by itself
+    QWidget* inside_ = nullptr;  ///< of the scroll area around the content, or of the content that scrolls by itself
+    int wanted_ = 0;
 };
 
 }  // namespace tacto::gui

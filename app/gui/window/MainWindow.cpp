@@ -53,19 +53,23 @@ namespace {
 
 constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
+constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
 
 enum LiveTab { kTouch, kScope };
 enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
 
-bool opensDocks(int page) { return page == kLive; }
 
 }  // namespace
 
-MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_(std::move(makeRegistry)) {
+MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages)
+    : controller_(std::move(makeRegistry)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
-    applyTextSize(QSettings().value("textSize", 100).toInt());  // before anything measures its text
+    // Before there is a widget: a theme that comes later dresses each of them anew, and takes longer than all the rest.
+    const QSettings settings;
+    applyTextSize(settings.value("textSize", 100).toInt());
+    applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     new StopKeys(
         [this](const char* by) {
             const bool theirs = pilot_ != nullptr && std::string_view(by).starts_with("participant");
@@ -104,7 +108,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
         statusBar()->addPermanentWidget(limits);
     }
 
-    buildPages();
+    buildLive();
     rail_ = new WorkspaceRail(this);
     addToolBar(Qt::LeftToolBarArea, rail_);
     connect(rail_, &WorkspaceRail::chosen, this, [this](int index) {
@@ -117,13 +121,12 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry) : controller_
     connect(day, &QToolButton::clicked, this, [this] { askForDay(false); });
     menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     tour_ = new WelcomeTour(*this);
-    const auto all = runners();
-    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [this] { return pilot_->running(); });
     arming_ = new ArmQuestion(controller_, *this);
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::noteChange);
+    if (pages == Pages::AtOnce) buildOthers();
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
@@ -136,7 +139,7 @@ MainWindow::~MainWindow() {
     hide();
 }
 
-void MainWindow::buildPages() {
+void MainWindow::buildLive() {
     livePage_ = new TabbedPage(pages_);
     livePage_->setObjectName("livePage");
     live_ = new LiveWorkspace(controller_, livePage_);
@@ -144,6 +147,12 @@ void MainWindow::buildPages() {
     livePage_->addTab(new ScrollingPage(live_, livePage_), tr("&Touch"), live_->tools());
     livePage_->addTab(new ScrollingPage(scope_, livePage_), tr("&Oscilloscope"), scope_->tools());
     pages_->addWidget(livePage_);
+    connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
+    connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
+}
+
+void MainWindow::buildOthers() {
+    if (closing_ != nullptr) return;
     calibrate_ = new CalibrateWorkspace(controller_, calibrations_, pages_);
     pages_->addWidget(new ScrollingPage(calibrate_, pages_));
     safetyCheck_ = new ProtocolWorkspace(controller_, "load-safety", pages_);
@@ -168,9 +177,8 @@ void MainWindow::buildPages() {
         connect(runner, &ProtocolWorkspace::sessionWanted, this, &MainWindow::openFile);
         connect(runner, &ProtocolWorkspace::safetyCheckWanted, this, [this] { showWorkspace(kSafetyCheck); });
         connect(runner, &ProtocolWorkspace::liveWanted, this, [this] { showWorkspace(kLive); });
+        connect(runner, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     }
-    connect(live_, &LiveWorkspace::refusedRecording, banner_, &NoticeBanner::complain);
-    connect(scope_, &ScopeWorkspace::openBenchWanted, this, &MainWindow::openSimulatedBench);
     connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
         scope_->show(std::move(capture));
         showScope();
@@ -180,6 +188,8 @@ void MainWindow::buildPages() {
         showWorkspace(kLive);
         livePage_->setCurrentIndex(kTouch);
     });
+    const auto all = runners();
+    closing_ = new CloseQuestion(controller_, *this, {all.begin(), all.end()}, [this] { return pilot_->running(); });
 }
 
 void MainWindow::buildDocks() {
@@ -190,15 +200,14 @@ void MainWindow::buildDocks() {
     measurements_->setContent(summary_);
     exposure_ = new ExposureDock(controller_, this);
     devices_ = new DeviceDock(controller_, calibrations_, this);
-    docks_ = new DockColumn(*this, {drive_, exposure_, measurements_, devices_});
+    docks_ = new DockColumn(*this, {drive_, measurements_, exposure_, devices_});
     connect(scope_, &ScopeWorkspace::captureShown, summary_, &MeasurementSummary::take);
     connect(scope_, &ScopeWorkspace::driveWanted, this, [this] {
         docks_->show(*drive_);
         drive_->takeFocus();
     });
+    connect(livePage_, &TabbedPage::currentChanged, this, &MainWindow::enterDocks);
     connect(measurements_, &QDockWidget::visibilityChanged, scope_, &ScopeWorkspace::setWatched);
-    for (auto* protocol : runners())
-        connect(protocol, &ProtocolWorkspace::captured, summary_, &MeasurementSummary::measure);
     connect(devices_, &DeviceDock::simulatedBenchRequested, this, &MainWindow::askForSimulatedBench);
     connect(devices_, &DeviceDock::recordingRequested, this, &MainWindow::chooseRecording);
     connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
@@ -212,7 +221,7 @@ std::array<ProtocolWorkspace*, 5> MainWindow::runners() const {
 void MainWindow::tick() {
     const auto telemetry = controller_.telemetry();
     safety_->refresh(telemetry);
-    if (pilot_->blind()) safety_->setParticipantsStop(pilot_->stopWords());
+    if (pilot_ != nullptr && pilot_->blind()) safety_->setParticipantsStop(pilot_->stopWords());
     banner_->refresh(telemetry);
     devices_->refresh(telemetry);
     drive_->refresh(telemetry);
@@ -224,16 +233,29 @@ void MainWindow::tick() {
     const bool measured = measurements_->isVisible();
     if (measured || (live && livePage_->currentIndex() == kScope)) scope_->refresh(telemetry);
     if (measured) summary_->refresh(telemetry);
+    if (closing_ == nullptr) return;  // nothing runs where there is no page for it
     // One of them takes what a run says: the one it was started from, told apart by themselves.
     for (auto* protocol : runners()) protocol->refresh(telemetry);
     pilot_->refresh(telemetry);
 }
 
 void MainWindow::showWorkspace(int index) {
-    if (index < 0 || index >= pages_->count() || (pilot_->blind() && index != kPilot)) return;
+    if (index != kLive) buildOthers();
+    if (index < 0 || index >= pages_->count() || (pilot_ != nullptr && pilot_->blind() && index != kPilot)) return;
     pages_->setCurrentIndex(index);
     rail_->setCurrent(index);
-    docks_->enter(index, opensDocks(index));
+    enterDocks();
+}
+
+/// Live work has the docks open, those of what is looked at unfolded; everything else gives the room to its plot.
+void MainWindow::enterDocks() {
+    const int page = workspace();
+    const bool scope = page == kLive && livePage_->currentIndex() == kScope;
+    const auto name = scope ? QString("oscilloscope") : QString::number(page);
+    std::vector<FoldingDock*> folded;
+    if (page == kLive) folded.push_back(scope ? static_cast<FoldingDock*>(devices_) : measurements_);
+    hasRoomForDocks_ = width() >= scaledPx(kDocksFrom);
+    docks_->enter({page, name, page == kLive && hasRoomForDocks_, folded});
 }
 
 /// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
@@ -255,7 +277,7 @@ void MainWindow::showPlotOnly(bool only) {
 
 void MainWindow::resetLayout() {
     docks_->reset();
-    docks_->enter(workspace(), opensDocks(workspace()));
+    enterDocks();
     line_->say(tr("Docks and columns are where they were at first."));
 }
 
@@ -296,6 +318,7 @@ void MainWindow::openSimulatedBench() {
 }
 
 void MainWindow::openFile(const QString& path) {
+    buildOthers();
     const QFileInfo file(path);
     bool opened = false;
     if (file.isDir() || file.suffix() == "json") {
@@ -332,7 +355,10 @@ void MainWindow::chooseRecording() {
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
-void MainWindow::closeUnasked() { closing_->closeUnasked(); }
+void MainWindow::closeUnasked() {
+    buildOthers();
+    closing_->closeUnasked();
+}
 
 void MainWindow::beginTour() { tour_->begin(); }
 
@@ -357,7 +383,6 @@ void MainWindow::setTheme(Theme theme) {
 
 void MainWindow::restore() {
     QSettings settings;
-    setTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(kWanted);
     keepOnScreen(*this);
     if (!restoreState(settings.value("state").toByteArray())) {
@@ -380,6 +405,14 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
     rail_->fit();
+    if (docks_ != nullptr && hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom))) enterDocks();
+}
+
+/// What comes after the first picture does not keep anybody waiting for it.
+bool MainWindow::event(QEvent* event) {
+    if (event->type() == QEvent::Paint && closing_ == nullptr)
+        QTimer::singleShot(0, this, &MainWindow::buildOthers);
+    return QMainWindow::event(event);
 }
 
 void MainWindow::changeEvent(QEvent* event) {
@@ -392,6 +425,7 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+    buildOthers();
     const bool ran = closing_->runs();
     controller_.stop("the window closes");  // before anything is asked
     if (!closing_->mayClose(ran)) return event->ignore();

@@ -43,7 +43,9 @@ class WorkspaceRail;
 class MainWindow final : public QMainWindow {
     Q_OBJECT
 public:
-    explicit MainWindow(BenchController::MakeRegistry makeRegistry);
+    /// When all workspaces but Live are made: they take as long as all the rest of the start.
+    enum class Pages { AtOnce, AfterTheFirstPicture };
+    explicit MainWindow(BenchController::MakeRegistry makeRegistry, Pages pages = Pages::AtOnce);
     ~MainWindow() override;
 
     [[nodiscard]] BenchController& controller() noexcept { return controller_; }
@@ -77,6 +79,7 @@ public:
     void resetLayout();
 
 protected:
+    bool event(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
@@ -85,7 +88,8 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    void buildPages();
+    void buildLive();
+    void buildOthers();
     void buildDocks();
     void restore();
     void tick();
@@ -96,6 +100,7 @@ private:
     void noteBlind();
     void showScope();
     void focusWorkspace();
+    void enterDocks();
 
     BenchController controller_;
     CalibrationBook calibrations_{controller_};
@@ -123,6 +128,7 @@ private:
     CloseQuestion* closing_ = nullptr;
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
+    bool hasRoomForDocks_ = true;
     QTimer frame_;
 };
 

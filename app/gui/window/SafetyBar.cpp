@@ -220,7 +220,7 @@ void SafetyBar::giveRoom() {
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
     block_->fit(width() - always);
     const int left = width() - always - block_->width();
-    facts_->setFixedWidth(std::clamp(left, 0, facts));
+    facts_->setFixedWidth(left < facts / 2 ? 0 : std::min(left, facts));  // three ellipses say nothing
 }
 
 QSize SafetyBar::minimumSizeHint() const {

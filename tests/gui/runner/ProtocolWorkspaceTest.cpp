@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <gmock/gmock.h>
 
+#include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/theme/Theme.h"
 #include "tests/gui/Looks.h"
@@ -63,6 +64,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     EXPECT_TRUE(step("Sign").isChecked());
     ASSERT_IN_TIME(comesTrue([this] { return find<QPdfView>(*workspace, "reportView") != nullptr; }, 60'000));
     EXPECT_TRUE(the<QPushButton>("printReport").isEnabled());
+    EXPECT_TRUE(the<QPushButton>("openReport").isEnabled());
     EXPECT_GT(std::filesystem::file_size(ended->pdf), 10'000U);
     auto& view = the<QPdfView>("reportView");
     EXPECT_GE(view.document()->pageCount(), 1);
@@ -114,6 +116,51 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     EXPECT_TRUE(ready());
     EXPECT_EQ(says("runObstacle"), "");
     EXPECT_EQ(find<QPushButton>(*workspace, "changeProfile"), nullptr);
+}
+
+struct WorkspaceInLargeText : Workspace {
+    WorkspaceInLargeText() { gui::applyTextSize(200); }
+    ~WorkspaceInLargeText() override { gui::applyTextSize(100); }
+};
+
+TEST_F(WorkspaceInLargeText, ThePathIsARowAndThePlotKeepsItsRoom) {
+    for (const char* protocol : {"load-safety", ""}) {
+        open(protocol, {1190, 640});
+        if (*protocol == '\0') choose("separability");
+        ASSERT_TRUE(comesTrue([this] { return find<QWidget>(*workspace, "path") != nullptr; }));
+        auto& path = the<QWidget>("path");
+        ASSERT_IN_TIME(comesTrue([&] { return path.width() >= workspace->width() - 2; })) << path.width();
+        EXPECT_LE(path.height(), workspace->height() / 3) << protocol;
+        workspace->goTo(gui::kSettings);
+        EXPECT_TRUE(step("Sign").isVisible());
+        EXPECT_GE(workspace->findChild<gui::ProcedurePages*>()->width(), workspace->width() - 2);
+        EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
+        shot(*workspace, QString("row_%1").arg(*protocol == '\0' ? "chosen" : protocol));
+    }
+    gui::applyTextSize(100);
+    EXPECT_IN_TIME(comesTrue([this] { return the<QWidget>("path").width() < workspace->width() / 4 + 1; }));
+    EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
+}
+
+TEST_F(WorkspaceInLargeText, ARunInARowSaysHowFarItIsAndCanBeStopped) {
+    RecordProperty("hazard", "H2");
+    write("loop", kLoop);
+    open("", {1190, 640});
+    choose("loop");
+    ASSERT_TRUE(ready());
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "stopButton") != nullptr; }));
+    EXPECT_EQ(find<QPushButton>(*workspace, "runButton"), nullptr) << "two of three buttons have room";
+    EXPECT_IN_TIME(comesTrue([this] {
+        const auto* bar = find<QProgressBar>(*workspace, "Progress");
+        return bar != nullptr && bar->format().contains(" · ");
+    }));
+    EXPECT_IN_TIME(comesTrue([this] { return faultsOf(*workspace).empty(); })) << faultsOf(*workspace);
+    shot(*workspace, "row_running");
+    click(the<QPushButton>("stopButton"));
+    ASSERT_IN_TIME(ends());
+    EXPECT_NE(find<QPushButton>(*workspace, "runButton"), nullptr);
+    EXPECT_EQ(find<QPushButton>(*workspace, "stopButton"), nullptr);
 }
 
 TEST_F(Workspace, EveryShippedProtocolRunsAsItComes) {

@@ -6,8 +6,10 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QToolButton>
 #include <gmock/gmock.h>
 
+#include "app/gui/scope/MeasurementSummary.h"
 #include "app/gui/scope/ScopeScreen.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/FoldingDock.h"
@@ -97,6 +99,36 @@ TEST_F(Layout, ADockFoldsToItsHeader) {
     EXPECT_FALSE(exposure.widget()->isVisible());
     click(*find<QToolButton>(exposure, "Unfold Exposure"));
     EXPECT_TRUE(exposure.widget()->isVisible());
+}
+
+TEST_F(Layout, BesideTheOscilloscopeMeasurementsHaveRoomInASmallWindowToo) {
+    open();
+    arm();
+    deliver();
+    window.resize(1280, 720);
+    window.showWorkspace(0);
+    EXPECT_TRUE(dock("measurementDock").folded()) << "beside Touch";
+    EXPECT_FALSE(dock("deviceDock").folded());
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    EXPECT_TRUE(dock("deviceDock").folded());
+    auto* summary = window.findChild<gui::MeasurementSummary*>();
+    // Six readings in sight and the whole of the drive, whose sliders must never hide.
+    const auto inSight = [&] {
+        int rows = 0;
+        for (const auto* row : summary->findChildren<QToolButton*>())
+            rows += row->isVisible() && row->visibleRegion().boundingRect().height() >= row->height() - 1;
+        return rows;
+    };
+    EXPECT_IN_TIME(comesTrue([&] { return inSight() >= 6; })) << inSight();
+    const auto* says = window.findChild<QLabel*>("driveSays");
+    EXPECT_EQ(says->visibleRegion().boundingRect().height(), says->height());
+    EXPECT_GE(dock("exposureDock").height(), 70);
+    const auto* drive = window.findChild<QPushButton*>("driveFingertip");
+    EXPECT_EQ(drive->visibleRegion().boundingRect().width(), drive->width()) << "whole, whichever dock is folded";
+    click(*find<QToolButton>(dock("measurementDock"), "Fold Measurements"));
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
+    window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
+    EXPECT_TRUE(dock("measurementDock").folded()) << "a person's choice is kept";
 }
 
 TEST_F(Layout, AKeyThatShowsAWorkspaceTakesTheFocusThereAndNotIntoAText) {

@@ -5,6 +5,7 @@
 #include <QMenuBar>
 #include <QPointer>
 #include <QPushButton>
+#include <QSettings>
 #include <QStatusBar>
 #include <QTabWidget>
 #include <QTest>
@@ -15,6 +16,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
@@ -204,6 +206,24 @@ TEST_F(Window, SpaceStopsInEveryWorkspace) {
         key(Qt::Key_Space);
         EXPECT_EQ(state(), InterlockState::Disarmed) << page;
     }
+}
+
+TEST(WindowsStart, WorkspacesThatAreNotShownComeAfterTheFirstPicture) {
+    QSettings().clear();
+    gui::MainWindow window(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
+    EXPECT_EQ(window.findChild<gui::ProtocolWorkspace*>(), nullptr);
+    window.show();
+    EXPECT_IN_TIME(comesTrue([&] { return window.findChildren<gui::ProtocolWorkspace*>().size() == 5; }));
+    window.showWorkspace(6);
+    EXPECT_EQ(window.workspace(), 6);
+    window.close();
+    // As it was left; and a window that closes before it was ever shown has its questions too.
+    gui::MainWindow again(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
+    EXPECT_EQ(again.workspace(), 6);
+    QSettings().clear();
+    gui::MainWindow unseen(simulatedRegistry, gui::MainWindow::Pages::AfterTheFirstPicture);
+    unseen.closeUnasked();
+    EXPECT_FALSE(unseen.isVisible());
 }
 
 TEST_F(Window, KeysReachEveryWorkspace) {

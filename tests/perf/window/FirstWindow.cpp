@@ -67,11 +67,12 @@ public:
                          "tcp", "-noreset"},
                         ready[1]);
         close(ready[1]);
-        char digits[16] = {};
-        const auto got = read(ready[0], digits, sizeof digits - 1);
+        // To the end of the line: a server whose number nobody takes any more ends.
+        std::string digits;
+        for (char digit = 0; read(ready[0], &digit, 1) == 1 && digit != '\n';) digits += digit;
         close(ready[0]);
-        if (got <= 0) return;
-        setenv("DISPLAY", (":" + std::to_string(std::atoi(digits))).c_str(), 1);
+        if (digits.empty()) return;
+        setenv("DISPLAY", (":" + digits).c_str(), 1);
         const auto file = folder / "Xvfb_screen0";
         const int descriptor = open(file.c_str(), O_RDONLY);
         if (descriptor < 0) return;
