@@ -58,7 +58,7 @@ private:
     QToolBar* strip_;
     QAction* toggle_;
     View view_;
-    bool entering_ = false;  // folds are the view's, nobody's choice
+    bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered
     bool collapsed_ = false;
     bool hidden_ = false;
 };
