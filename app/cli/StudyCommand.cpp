@@ -5,8 +5,7 @@
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/PilotRows.h"
-#include "app/run/Shipped.h"
-#include "app/scripting/ShippedResources.h"
+#include "app/run/StudyProgram.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
@@ -16,8 +15,6 @@ namespace tacto::cli {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::string_view kPilotScripts = "pilot-";
 
 std::string given(const QCommandLineParser& parser, const char* name) {
     return parser.value(name).trimmed().toStdString();
@@ -143,14 +140,7 @@ Result<StudySettings> settingsGiven(const QCommandLineParser& parser) {
         if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done)
             return failure(done);
     }
-    const auto limits = shippedLimits();
-    if (!limits) return failure(limits);
-    for (std::size_t i = 0; i < limits->sets.size(); ++i)
-        settings.limits.push_back({limits->sets[i].id, limits->sha256[i]});
-    for (const auto& script : shippedProtocols()) {
-        if (script.name.starts_with(kPilotScripts))
-            settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
-    }
+    if (auto stated = stateProgram(settings); !stated) return failure(stated);
     return settings;
 }
 
