@@ -15,7 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kVirtual = "virtual:";
-constexpr std::chrono::hours kResumedWithin{2};
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 

@@ -1,7 +1,6 @@
 #include "app/gui/study/StudyForm.h"
 
 #include <QApplication>
-#include <QGridLayout>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Text.h"
@@ -15,6 +14,8 @@ namespace {
 #define WORDS(text) QT_TRANSLATE_NOOP("Study", text)
 
 using Group = StudyGroup;
+
+constexpr int kTwoFormColumns = 700;
 
 QString translated(const char* text) { return QCoreApplication::translate("Study", text); }
 
@@ -148,11 +149,11 @@ const std::vector<std::string_view>& studyFieldsOfTheProgram() {
 }
 
 StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
-    auto* grid = new QHBoxLayout(this);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setSpacing(scaledPx(32));
+    columns_ = new QBoxLayout(QBoxLayout::LeftToRight, this);
+    columns_->setContentsMargins(0, 0, 0, 0);
+    columns_->setSpacing(scaledPx(32));
     QVBoxLayout* columns[] = {new QVBoxLayout, new QVBoxLayout};
-    for (auto* column : columns) grid->addLayout(column, 1);
+    for (auto* column : columns) columns_->addLayout(column, 1);
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];
         auto* title = new QLabel(translated(kGroupTitles[g]), this);
@@ -167,6 +168,12 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
     }
     for (auto* column : columns) column->addStretch();
     clear();
+}
+
+/// One column where two have no room for their words.
+void StudyForm::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    columns_->setDirection(width() > scaledPx(kTwoFormColumns) ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 
 void StudyForm::clear() {

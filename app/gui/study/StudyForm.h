@@ -7,6 +7,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QBoxLayout>
 #include <QWidget>
 #include <vector>
 
@@ -44,7 +45,11 @@ public:
 signals:
     void edited();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
+    QBoxLayout* columns_;
     std::vector<ParameterForm*> groups_;
 };
 
